@@ -1,0 +1,1 @@
+//! Doors of jostle: model files, ground motions, result files.

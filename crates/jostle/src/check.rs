@@ -1,0 +1,398 @@
+//! Every fault of a model, in one go.
+
+use crate::contact::{CLIPPED_KELVIN_LEAST_RESTITUTION, LawKind, RestitutionIs};
+use crate::model::{
+    Building, Damping, FloorPairs, Frame, Gap, Model, ModelFault, Shear, Structure,
+};
+
+/// Floors closer in height than this can touch \[m\].
+pub(crate) const LEVEL_TOLERANCE: f64 = 1e-3;
+
+/// Collects faults under the path of the part being checked.
+struct Faults(Vec<ModelFault>);
+
+impl Faults {
+    fn add(&mut self, path: impl Into<String>, problem: impl Into<String>) {
+        self.0.push(ModelFault {
+            path: path.into(),
+            problem: problem.into(),
+        });
+    }
+
+    fn require(&mut self, good: bool, path: impl Into<String>, problem: impl FnOnce() -> String) {
+        if !good {
+            self.add(path, problem());
+        }
+    }
+
+    fn positive(&mut self, value: f64, path: impl Into<String>, unit: &str) {
+        self.require(value.is_finite() && value > 0.0, path, || {
+            format!("must be greater than zero, found {value} {unit}")
+        });
+    }
+
+    fn not_negative(&mut self, value: f64, path: impl Into<String>, unit: &str) {
+        self.require(value.is_finite() && value >= 0.0, path, || {
+            format!("must not be negative, found {value} {unit}")
+        });
+    }
+}
+
+/// Index of the one field of a list that a scalar in the file fills: lists are shown by entry.
+fn each<'a, T>(list: &'a [T], path: &'a str) -> impl Iterator<Item = (String, &'a T)> + 'a {
+    list.iter()
+        .enumerate()
+        .map(move |(i, value)| (format!("{path}[{i}]"), value))
+}
+
+pub(crate) fn check(model: &Model) -> Result<(), Vec<ModelFault>> {
+    let mut faults = Faults(Vec::new());
+    faults.require(!model.buildings.is_empty(), "building", || {
+        "a model needs at least one building".into()
+    });
+    for (path, building) in each(&model.buildings, "building") {
+        check_building(&mut faults, &path, building);
+        let namesake = model
+            .buildings
+            .iter()
+            .filter(|other| other.name == building.name)
+            .count()
+            > 1;
+        faults.require(!namesake, format!("{path}.name"), || {
+            format!(
+                "another building is called \"{}\" too; give every building its own name",
+                building.name
+            )
+        });
+    }
+    for (path, gap) in each(&model.gaps, "gap") {
+        check_gap(&mut faults, &path, gap, model);
+        faults.require(
+            model
+                .gaps
+                .iter()
+                .filter(|other| other.left == gap.left)
+                .count()
+                == 1,
+            format!("{path}.between"),
+            || "these two neighbours have more than one gap; keep one".into(),
+        );
+    }
+    check_analysis(&mut faults, model);
+    if faults.0.is_empty() {
+        Ok(())
+    } else {
+        Err(faults.0)
+    }
+}
+
+fn check_building(faults: &mut Faults, path: &str, building: &Building) {
+    faults.require(
+        !building.name.trim().is_empty(),
+        format!("{path}.name"),
+        || "must not be empty".into(),
+    );
+    for (field, height) in each(building.storey_heights(), &format!("{path}.storey_height")) {
+        faults.positive(*height, field, "m");
+    }
+    match &building.structure {
+        Structure::Frame(frame) => check_frame(faults, path, frame),
+        Structure::Shear(shear) => check_shear(faults, path, shear),
+    }
+    match &building.damping {
+        Damping::Ratio { ratio, modes } => {
+            let field = format!("{path}.damping");
+            faults.require((0.0..1.0).contains(ratio), format!("{field}.ratio"), || {
+                format!("must lie between 0 and 1 (0.05 is 5 % of critical), found {ratio}")
+            });
+            let usable = matches!(modes[..], [a] if a >= 1)
+                || matches!(modes[..], [a, b] if a >= 1 && b > a);
+            faults.require(usable, format!("{field}.modes"), || {
+                format!("takes one lateral mode, or two different ones in rising order, counted from 1; found {modes:?}")
+            });
+        }
+        Damping::Rayleigh { alpha, beta } => {
+            faults.not_negative(*alpha, format!("{path}.damping.alpha"), "1/s");
+            faults.not_negative(*beta, format!("{path}.damping.beta"), "s");
+        }
+    }
+}
+
+fn check_frame(faults: &mut Faults, path: &str, frame: &Frame) {
+    let storeys = frame.storey_heights.len();
+    faults.require(storeys >= 1, format!("{path}.storeys"), || {
+        "a frame needs at least one storey".into()
+    });
+    faults.require(!frame.spans.is_empty(), format!("{path}.spans"), || {
+        "a frame needs at least one span".into()
+    });
+    for (field, span) in each(&frame.spans, &format!("{path}.spans")) {
+        faults.positive(*span, field, "m");
+    }
+    let per_storey = [
+        ("column", frame.columns.len()),
+        ("beam", frame.beams.len()),
+        ("beam_mass", frame.beam_mass.len()),
+        ("floor_mass", frame.floor_mass.len()),
+    ];
+    for (name, count) in per_storey {
+        faults.require(count == storeys, format!("{path}.{name}"), || {
+            format!("has {count} entries for {storeys} storeys; give one value, or one per storey from the ground up")
+        });
+    }
+    for (name, sections, flexible) in [
+        ("column", &frame.columns, frame.axial.columns_flexible),
+        ("beam", &frame.beams, frame.axial.beams_flexible),
+    ] {
+        for (field, section) in each(sections, &format!("{path}.{name}")) {
+            faults.positive(section.flexural_rigidity, format!("{field}.EI"), "N.m2");
+            faults.not_negative(section.line_mass, format!("{field}.mass"), "kg/m");
+            match section.axial_rigidity {
+                Some(rigidity) => faults.positive(rigidity, format!("{field}.EA"), "N"),
+                None if flexible => {
+                    faults.add(format!("{field}.EA"), "is needed because the member is axially flexible; add EA, or width and depth");
+                }
+                None => {}
+            }
+        }
+    }
+    for (field, mass) in each(&frame.beam_mass, &format!("{path}.beam_mass")) {
+        faults.not_negative(*mass, field, "kg/m");
+    }
+    for (field, mass) in each(&frame.floor_mass, &format!("{path}.floor_mass")) {
+        faults.not_negative(*mass, field, "kg");
+    }
+    let floors_have_mass = (0..storeys).all(|floor| {
+        let above = frame
+            .columns
+            .get(floor + 1)
+            .map_or(0.0, |section| section.line_mass);
+        let here = [frame.beam_mass.get(floor), frame.floor_mass.get(floor)];
+        let column = frame
+            .columns
+            .get(floor)
+            .map_or(0.0, |section| section.line_mass);
+        here.into_iter().flatten().sum::<f64>() + above + column > 0.0
+    });
+    faults.require(floors_have_mass, format!("{path}.floor_mass"), || {
+        "every floor needs some mass: set beam_mass, floor_mass or a column density".into()
+    });
+    faults.require(
+        (1..=64).contains(&frame.column_segments),
+        format!("{path}.column_segments"),
+        || format!("must lie between 1 and 64, found {}", frame.column_segments),
+    );
+    faults.require(
+        frame.beam_segments.len() == frame.spans.len(),
+        format!("{path}.beam_segments"),
+        || {
+            format!(
+                "has {} entries for {} spans; give one value, or one per span",
+                frame.beam_segments.len(),
+                frame.spans.len()
+            )
+        },
+    );
+    for (field, segments) in each(&frame.beam_segments, &format!("{path}.beam_segments")) {
+        faults.require((1..=64).contains(segments), field, || {
+            format!("must lie between 1 and 64, found {segments}")
+        });
+    }
+    if let Some(stiffness) = frame.joint.rotational_stiffness {
+        faults.positive(
+            stiffness,
+            format!("{path}.joint.rotational_stiffness"),
+            "N.m/rad",
+        );
+    }
+}
+
+fn check_shear(faults: &mut Faults, path: &str, shear: &Shear) {
+    let floors = shear.mass.len();
+    faults.require(floors >= 1, format!("{path}.mass"), || {
+        "a shear building needs at least one floor".into()
+    });
+    for (name, count) in [
+        ("stiffness", shear.stiffness.len()),
+        ("storey_height", shear.storey_heights.len()),
+    ] {
+        faults.require(count == floors, format!("{path}.{name}"), || {
+            format!("has {count} entries for {floors} floors; give one value, or one per storey from the ground up")
+        });
+    }
+    for (field, mass) in each(&shear.mass, &format!("{path}.mass")) {
+        faults.positive(*mass, field, "kg");
+    }
+    for (field, stiffness) in each(&shear.stiffness, &format!("{path}.stiffness")) {
+        faults.positive(*stiffness, field, "N/m");
+    }
+}
+
+fn check_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
+    faults.require(
+        gap.width.is_finite() && gap.width >= 0.0,
+        format!("{path}.width"),
+        || {
+            format!(
+                "must not be negative, found {} m; touching buildings have a gap of zero",
+                gap.width
+            )
+        },
+    );
+    let (Some(left), Some(right)) = (
+        model.buildings.get(gap.left),
+        model.buildings.get(gap.left + 1),
+    ) else {
+        faults.add(
+            format!("{path}.between"),
+            "must name two neighbouring buildings",
+        );
+        return;
+    };
+    faults.positive(
+        gap.law.stiffness,
+        format!("{path}.stiffness"),
+        if gap.law.kind.is_hertzian() {
+            "N/m^1.5"
+        } else {
+            "N/m"
+        },
+    );
+    let e = gap.law.restitution;
+    if gap.law.kind.is_dissipative() {
+        faults.require(e > 0.0 && e <= 1.0, format!("{path}.restitution"), || {
+            format!("must be greater than 0 and at most 1, found {e}")
+        });
+        let out_of_reach = gap.law.kind == LawKind::KelvinNoTension
+            && gap.law.restitution_is == RestitutionIs::Realised
+            && e <= CLIPPED_KELVIN_LEAST_RESTITUTION + 1e-6;
+        faults.require(!out_of_reach, format!("{path}.restitution"), || {
+            format!("cannot be realised by kelvin-no-tension below {CLIPPED_KELVIN_LEAST_RESTITUTION:.4}; use hertz-damp, or a larger value")
+        });
+    }
+    check_floors(faults, &format!("{path}.floors"), gap, left, right);
+}
+
+fn check_floors(faults: &mut Faults, path: &str, gap: &Gap, left: &Building, right: &Building) {
+    let (left_heights, right_heights) = (left.floor_heights(), right.floor_heights());
+    let level = |height: f64, heights: &[f64]| {
+        heights
+            .iter()
+            .any(|h| (h - height).abs() <= LEVEL_TOLERANCE)
+    };
+    match &gap.floors {
+        FloorPairs::Common => {
+            let any = left_heights
+                .iter()
+                .any(|height| level(*height, &right_heights));
+            faults.require(any, path, || {
+                format!(
+                    "no floors of \"{}\" and \"{}\" lie at equal height; list the pairs that can touch, as floors = [[1, 1]], or the heights",
+                    left.name, right.name
+                )
+            });
+        }
+        FloorPairs::Listed(pairs) => {
+            faults.require(!pairs.is_empty(), path, || {
+                "is empty; list the pairs that can touch, as [[5, 5], [4, 4]]".into()
+            });
+            for (i, (l, r)) in pairs.iter().enumerate() {
+                for (building, heights, floor) in
+                    [(left, &left_heights, *l), (right, &right_heights, *r)]
+                {
+                    faults.require(
+                        (1..=heights.len()).contains(&floor),
+                        format!("{path}[{i}]"),
+                        || {
+                            format!(
+                                "floor {floor} does not exist: \"{}\" has floors 1 to {}",
+                                building.name,
+                                heights.len()
+                            )
+                        },
+                    );
+                }
+                if let (Some(a), Some(b)) = (
+                    left_heights.get(l.wrapping_sub(1)),
+                    right_heights.get(r.wrapping_sub(1)),
+                ) {
+                    faults.require((a - b).abs() <= LEVEL_TOLERANCE, format!("{path}[{i}]"), || {
+                        format!("floor {l} of \"{}\" is at {a:.3} m and floor {r} of \"{}\" at {b:.3} m; only floors at equal height can touch", left.name, right.name)
+                    });
+                }
+                faults.require(
+                    !pairs[..i].contains(&(*l, *r)),
+                    format!("{path}[{i}]"),
+                    || format!("the pair [{l}, {r}] is listed twice"),
+                );
+            }
+        }
+        FloorPairs::Heights(heights) => {
+            faults.require(!heights.is_empty(), path, || {
+                "is empty; list the heights where the buildings can touch".into()
+            });
+            for (i, height) in heights.iter().enumerate() {
+                for building in [left, right] {
+                    let points = building.contact_heights();
+                    faults.require(level(*height, &points), format!("{path}[{i}]"), || {
+                        let nearest = points.iter().copied().min_by(|a, b| (a - height).abs().total_cmp(&(b - height).abs()));
+                        format!(
+                            "\"{}\" has no floor or lumped mass at {height:.3} m (nearest: {:.3} m); move the contact, or change column_segments",
+                            building.name,
+                            nearest.unwrap_or(0.0)
+                        )
+                    });
+                }
+            }
+        }
+    }
+}
+
+fn check_analysis(faults: &mut Faults, model: &Model) {
+    let analysis = &model.analysis;
+    for (name, step) in [
+        ("step", analysis.step),
+        ("contact_step", analysis.contact_step),
+    ] {
+        if let Some(step) = step {
+            faults.require(step.is_finite() && (1e-7..=0.1).contains(&step), format!("analysis.{name}"), || {
+                format!("must lie between 1e-7 s and 0.1 s, found {step} s; \"auto\" chooses it from the tolerance")
+            });
+        }
+    }
+    if let (Some(step), Some(contact_step)) = (analysis.step, analysis.contact_step) {
+        faults.require(contact_step <= step, "analysis.contact_step", || {
+            format!("must not exceed step, found {contact_step} s for a step of {step} s")
+        });
+    }
+    for (name, value, range) in [
+        ("tolerance", analysis.tolerance, 1e-6..=0.1),
+        ("energy_tolerance", analysis.energy_tolerance, 1e-15..=1.0),
+    ] {
+        faults.require(range.contains(&value), format!("analysis.{name}"), || {
+            format!(
+                "must lie between {:e} and {}, found {value:e}",
+                range.start(),
+                range.end()
+            )
+        });
+    }
+}
+
+impl Building {
+    /// Heights of the points of a face that can touch a neighbour: floors, and lumped masses of columns \[m\].
+    #[must_use]
+    pub fn contact_heights(&self) -> Vec<f64> {
+        let segments = match &self.structure {
+            Structure::Frame(frame) => frame.column_segments.max(1),
+            Structure::Shear(_) => 1,
+        };
+        let mut base = 0.0;
+        let mut heights = Vec::new();
+        for storey in self.storey_heights() {
+            heights.extend((1..=segments).map(|k| base + storey * k as f64 / segments as f64));
+            base += storey;
+        }
+        heights
+    }
+}

@@ -1,0 +1,258 @@
+//! What a run leaves behind: time histories, impacts, peaks, energies and the work it took.
+
+/// Time histories at the recorded instants: one row per instant, one column per quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct History {
+    columns: Vec<Column>,
+    values: Vec<f64>,
+}
+
+/// A recorded quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Column {
+    /// Time \[s\].
+    Time,
+    /// Ground acceleration \[m/s²\].
+    GroundAcceleration,
+    /// Displacement of a floor relative to the ground \[m\]; floors count from 1.
+    Displacement {
+        /// Building index.
+        building: usize,
+        /// Floor, from 1.
+        floor: usize,
+    },
+    /// Velocity of a floor relative to the ground \[m/s\].
+    Velocity {
+        /// Building index.
+        building: usize,
+        /// Floor, from 1.
+        floor: usize,
+    },
+    /// Acceleration of a floor, ground included \[m/s²\].
+    TotalAcceleration {
+        /// Building index.
+        building: usize,
+        /// Floor, from 1.
+        floor: usize,
+    },
+    /// Force of a contact (index into the contacts of the system) \[N\].
+    ContactForce {
+        /// Contact index.
+        contact: usize,
+    },
+    /// A term of the energy balance \[J\].
+    Energy(EnergyTerm),
+}
+
+/// Terms of the energy balance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EnergyTerm {
+    /// Work of the inertia forces of the ground motion.
+    Input,
+    /// Kinetic energy relative to the ground.
+    Kinetic,
+    /// Strain energy of members.
+    Strain,
+    /// Dissipated by viscous damping.
+    Damped,
+    /// Taken by hinges.
+    Hysteretic,
+    /// Taken by contacts: dissipated plus, during an impact, stored.
+    Contact,
+}
+
+impl EnergyTerm {
+    /// All terms, in the order of the balance.
+    pub const ALL: [Self; 6] = [
+        Self::Input,
+        Self::Kinetic,
+        Self::Strain,
+        Self::Damped,
+        Self::Hysteretic,
+        Self::Contact,
+    ];
+}
+
+impl History {
+    /// An empty history of the given columns.
+    #[must_use]
+    pub fn new(columns: Vec<Column>) -> Self {
+        Self {
+            columns,
+            values: Vec::new(),
+        }
+    }
+
+    /// A history from values already at hand, row after row.
+    ///
+    /// # Panics
+    /// If the number of values is not a multiple of the number of columns.
+    #[must_use]
+    pub fn from_rows(columns: Vec<Column>, values: Vec<f64>) -> Self {
+        assert!(
+            values.len() % columns.len().max(1) == 0,
+            "every row has one value per column"
+        );
+        Self { columns, values }
+    }
+
+    /// The recorded quantities, in the order of the values of a row.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Number of recorded instants.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.values.len() / self.columns.len().max(1)
+    }
+
+    /// Whether nothing was recorded.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// The values of one column over time; `None` if it was not recorded.
+    #[must_use]
+    pub fn column(&self, column: Column) -> Option<Vec<f64>> {
+        let index = self.columns.iter().position(|c| *c == column)?;
+        Some(
+            self.values
+                .iter()
+                .skip(index)
+                .step_by(self.columns.len())
+                .copied()
+                .collect(),
+        )
+    }
+
+    /// The values of one instant, in the order of the columns.
+    #[must_use]
+    pub fn row(&self, index: usize) -> &[f64] {
+        &self.values[index * self.columns.len()..(index + 1) * self.columns.len()]
+    }
+
+    /// Room for the values of one more instant.
+    pub(crate) fn push_row(&mut self) -> &mut [f64] {
+        let start = self.values.len();
+        self.values.resize(start + self.columns.len(), 0.0);
+        &mut self.values[start..]
+    }
+
+    /// Makes room for `rows` further instants at once.
+    pub(crate) fn reserve(&mut self, rows: usize) {
+        self.values.reserve(rows * self.columns.len());
+    }
+}
+
+/// One closed episode of a contact in which it pushed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// Index of the contact in the system.
+    pub contact: usize,
+    /// Instant of touch \[s\].
+    pub start: f64,
+    /// Last instant of force before the gap opens again, or the end of the run \[s\].
+    pub end: f64,
+    /// Greatest force \[N\].
+    pub peak_force: f64,
+    /// Instant of the greatest force \[s\].
+    pub peak_force_at: f64,
+    /// Greatest indentation \[m\].
+    pub peak_indentation: f64,
+    /// Closing rate at touch \[m/s\].
+    pub impact_speed: f64,
+    /// Opening rate at the end \[m/s\].
+    pub separation_speed: f64,
+    /// Time integral of the force \[N·s\].
+    pub impulse: f64,
+    /// Work taken by the contact \[J\].
+    pub dissipated: f64,
+}
+
+impl Impact {
+    /// Separation speed ÷ impact speed \[–\]. Other forces act during an impact of buildings, so that this
+    /// may differ from the restitution of free masses, and even exceed one.
+    #[must_use]
+    pub fn realised_restitution(&self) -> f64 {
+        self.separation_speed / self.impact_speed
+    }
+}
+
+/// An extreme value and its instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Extreme {
+    /// The value.
+    pub value: f64,
+    /// Its instant \[s\].
+    pub at: f64,
+}
+
+/// Peak response of one floor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FloorPeaks {
+    /// Greatest displacement to the right \[m\].
+    pub displacement_max: Extreme,
+    /// Greatest displacement to the left, ≤ 0 \[m\].
+    pub displacement_min: Extreme,
+    /// Greatest total acceleration, either sign \[m/s²\].
+    pub total_acceleration: f64,
+    /// Greatest drift ratio of the storey below, either sign \[–\].
+    pub storey_drift: f64,
+}
+
+/// Energies \[J\] and the greatest error of their balance so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Work of the ground motion.
+    pub input: f64,
+    /// Kinetic energy relative to the ground.
+    pub kinetic: f64,
+    /// Strain energy of members.
+    pub strain: f64,
+    /// Dissipated by viscous damping.
+    pub damped: f64,
+    /// Taken by hinges.
+    pub hysteretic: f64,
+    /// Taken by contacts.
+    pub contact: f64,
+    /// Greatest |imbalance| met at any recorded instant, relative to the greatest energy until then \[–\].
+    pub worst_imbalance: f64,
+}
+
+impl Energy {
+    /// Input − (kinetic + strain + damped + hysteretic + contact) \[J\].
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.input - (self.kinetic + self.strain + self.damped + self.hysteretic + self.contact)
+    }
+
+    /// |residual| / input at this instant \[–\]; zero when nothing was put in.
+    #[must_use]
+    pub fn imbalance(&self) -> f64 {
+        if self.input == 0.0 {
+            0.0
+        } else {
+            (self.residual() / self.input).abs()
+        }
+    }
+}
+
+/// Work done by a run: the machine-independent measure of speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Accepted steps with a closed contact.
+    pub contact_steps: u64,
+    /// Steps tried and repeated because a contact closed or opened inside them.
+    pub repeated_steps: u64,
+    /// Factorisations of one building's equations.
+    pub factorizations: u64,
+    /// Solutions of one building's equations.
+    pub solves: u64,
+    /// Newton iterations on the contact forces.
+    pub iterations: u64,
+}

@@ -1,0 +1,231 @@
+//! What the user describes: buildings from left to right, the gaps between them, and how to compute.
+//!
+//! Everything here is plain data in SI units. [`Model::check`] reports every fault at once, each with the
+//! path of the field it concerns, so that a reader can point at the line of the file.
+
+use crate::contact::ContactLaw;
+
+/// Buildings in a row, the gaps between neighbours, and the settings of the analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Title printed on summaries and reports.
+    pub title: String,
+    /// Buildings from left to right; at least one.
+    pub buildings: Vec<Building>,
+    /// Gaps between neighbouring buildings; at most one per neighbouring pair.
+    pub gaps: Vec<Gap>,
+    /// Step sizes, tolerance and solver.
+    pub analysis: Analysis,
+}
+
+/// One building: its structure and its damping.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Building {
+    /// Name, unique in the model.
+    pub name: String,
+    /// Frame of beams and columns, or storeys as springs.
+    pub structure: Structure,
+    /// Viscous damping.
+    pub damping: Damping,
+}
+
+/// How a building resists lateral motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Structure {
+    /// Plane frame of lumped masses, massless beams and hinges.
+    Frame(Frame),
+    /// One mass per floor, one spring per storey.
+    Shear(Shear),
+}
+
+/// Plane frame: `storey_heights.len()` storeys, `spans.len() + 1` column lines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Storey heights from the ground up, > 0 \[m\].
+    pub storey_heights: Vec<f64>,
+    /// Bay widths from left to right, > 0; at least one \[m\].
+    pub spans: Vec<f64>,
+    /// Column section of every storey, from the ground up.
+    pub columns: Vec<Section>,
+    /// Beam section of every floor, from the ground up. Its own line mass is not used; see `beam_mass`.
+    pub beams: Vec<Section>,
+    /// Mass carried by the beams of every floor, self weight included, ≥ 0 \[kg/m\].
+    pub beam_mass: Vec<f64>,
+    /// Further mass of every floor, shared equally by its joints, ≥ 0 \[kg\].
+    pub floor_mass: Vec<f64>,
+    /// Segments of a column line in one storey, ≥ 1 \[–\]; k segments have k − 1 interior masses.
+    pub column_segments: usize,
+    /// Segments of the beams of every bay, ≥ 1 \[–\].
+    pub beam_segments: Vec<usize>,
+    /// Whether members shorten under axial force.
+    pub axial: Axial,
+    /// Elastic hinge between beam ends and columns.
+    pub joint: Joint,
+}
+
+/// Cross-section of a member.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section {
+    /// Flexural rigidity EI, cracking factor included, > 0 \[N·m²\].
+    pub flexural_rigidity: f64,
+    /// Axial rigidity EA, > 0; used when the member is axially flexible \[N\].
+    pub axial_rigidity: Option<f64>,
+    /// Self mass of columns, ≥ 0 \[kg/m\].
+    pub line_mass: f64,
+}
+
+/// Axial behaviour of the members of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Axial {
+    /// Columns shorten (`true`) or keep their length (`false`, the default, as in Zhang et al. 2019).
+    pub columns_flexible: bool,
+    /// Beams shorten (`true`) or carry the whole floor along (`false`, the default).
+    pub beams_flexible: bool,
+}
+
+/// Planar elastic hinge at both ends of every beam.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Joint {
+    /// Rotational stiffness, > 0; `None` is rigid \[N·m/rad\].
+    pub rotational_stiffness: Option<f64>,
+}
+
+/// Shear building: floor masses joined by storey springs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shear {
+    /// Floor masses from the ground up, > 0 \[kg\].
+    pub mass: Vec<f64>,
+    /// Storey stiffnesses from the ground up, > 0 \[N/m\].
+    pub stiffness: Vec<f64>,
+    /// Storey heights from the ground up, > 0 \[m\].
+    pub storey_heights: Vec<f64>,
+}
+
+/// Rayleigh damping C = α M + β K, or what defines it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Damping {
+    /// The same ratio in one or two lateral modes (counted from 1). One mode: mass-proportional.
+    Ratio {
+        /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
+        ratio: f64,
+        /// Lateral modes that have it.
+        modes: Vec<usize>,
+    },
+    /// The coefficients themselves.
+    Rayleigh {
+        /// Mass-proportional coefficient, ≥ 0 \[1/s\].
+        alpha: f64,
+        /// Stiffness-proportional coefficient, ≥ 0 \[s\].
+        beta: f64,
+    },
+}
+
+/// The space between two neighbouring buildings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gap {
+    /// Index of the left building; the right one is the next.
+    pub left: usize,
+    /// Width at rest, ≥ 0 \[m\].
+    pub width: f64,
+    /// Where the buildings can touch.
+    pub floors: FloorPairs,
+    /// Contact law of every contact of this gap.
+    pub law: ContactLaw,
+}
+
+/// Which points of two neighbours can touch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FloorPairs {
+    /// Every pair of floors at equal height (within 1 mm).
+    Common,
+    /// Pairs (left floor, right floor), floors counted from 1.
+    Listed(Vec<(usize, usize)>),
+    /// Heights above the base where both faces have a floor or a lumped mass \[m\].
+    Heights(Vec<f64>),
+}
+
+/// How to compute.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Analysis {
+    /// Step in free flight; `None` chooses it from `tolerance` \[s\].
+    pub step: Option<f64>,
+    /// Step while a contact is closed; `None` chooses it from `tolerance` \[s\].
+    pub contact_step: Option<f64>,
+    /// Relative tolerance on peak contact force and displacement with automatic steps, 1e-6…0.1 \[–\].
+    pub tolerance: f64,
+    /// Relative energy imbalance above which a run warns, > 0 \[–\].
+    pub energy_tolerance: f64,
+    /// Which equations advance a step.
+    pub solver: Solver,
+}
+
+impl Default for Analysis {
+    fn default() -> Self {
+        Self {
+            step: None,
+            contact_step: None,
+            tolerance: 1e-3,
+            energy_tolerance: 1e-6,
+            solver: Solver::Riccati,
+        }
+    }
+}
+
+/// Which equations advance a step; both give the same answer to rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Solver {
+    /// Riccati transfer recursion along beams, column lines and storeys.
+    #[default]
+    Riccati,
+    /// Direct stiffness assembled and factorised by a general sparse library: the independent check.
+    Stiffness,
+}
+
+/// One fault of a model.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{path}: {problem}")]
+pub struct ModelFault {
+    /// Field, spelt as in a model file: `building[1].spans[0]`, `gap[0].width`.
+    pub path: String,
+    /// What is wrong and what would be right.
+    pub problem: String,
+}
+
+impl Model {
+    /// Checks every value and the geometry; returns all faults.
+    ///
+    /// # Errors
+    /// The list of faults, in the order of the fields, never empty.
+    pub fn check(&self) -> Result<(), Vec<ModelFault>> {
+        crate::check::check(self)
+    }
+}
+
+impl Building {
+    /// Number of floors (= storeys).
+    #[must_use]
+    pub fn floors(&self) -> usize {
+        self.storey_heights().len()
+    }
+
+    /// Storey heights from the ground up \[m\].
+    #[must_use]
+    pub fn storey_heights(&self) -> &[f64] {
+        match &self.structure {
+            Structure::Frame(frame) => &frame.storey_heights,
+            Structure::Shear(shear) => &shear.storey_heights,
+        }
+    }
+
+    /// Height of every floor above the base, from the ground up \[m\].
+    #[must_use]
+    pub fn floor_heights(&self) -> Vec<f64> {
+        self.storey_heights()
+            .iter()
+            .scan(0.0, |height, storey| {
+                *height += storey;
+                Some(*height)
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,212 @@
+//! The numbers of a run in the shape of `summary.json`: names carry their units.
+
+use serde::Serialize;
+
+/// Everything a reader wants to know about a run without its histories.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct Summary {
+    /// Title of the model.
+    pub title: String,
+    /// Version of jostle.
+    pub jostle: String,
+    /// Ground motion.
+    pub motion: MotionSummary,
+    /// Buildings from left to right.
+    pub buildings: Vec<BuildingSummary>,
+    /// Gaps from left to right.
+    pub gaps: Vec<GapSummary>,
+    /// Energies at the end.
+    pub energy: EnergySummary,
+    /// Work done.
+    pub work: WorkSummary,
+    /// Whether the run reached the end of the motion, and why not.
+    pub ended_early: Option<String>,
+    /// Things the user should know before trusting the numbers.
+    pub warnings: Vec<String>,
+}
+
+/// Ground motion as used.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct MotionSummary {
+    /// Name.
+    pub name: String,
+    /// Points of the record; 0 for analytic waves.
+    pub points: usize,
+    /// Sampling step; 0 for analytic waves \[s\].
+    pub step_s: f64,
+    /// Peak as used \[m/s²\].
+    pub pga_m_s2: f64,
+    /// Factor on the record, negative when reversed \[–\].
+    pub scale: f64,
+    /// Length of the analysis \[s\].
+    pub duration_s: f64,
+}
+
+/// One building.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct BuildingSummary {
+    /// Name.
+    pub name: String,
+    /// Vibrating mass \[kg\].
+    pub mass_kg: f64,
+    /// Periods of the lateral modes (at least 1 % of the horizontal effective mass), longest first \[s\].
+    pub periods_s: Vec<f64>,
+    /// Rayleigh damping in use: mass coefficient \[1/s\].
+    pub rayleigh_alpha_per_s: f64,
+    /// Rayleigh damping in use: stiffness coefficient \[s\].
+    pub rayleigh_beta_s: f64,
+    /// Floors from the ground up.
+    pub floors: Vec<FloorSummary>,
+    /// Greatest elastic base shear, either sign \[N\].
+    pub base_shear_peak_n: f64,
+    /// Roof displacement at the end \[m\].
+    pub residual_roof_displacement_m: f64,
+    /// Hinge counts.
+    pub hinges: HingeSummary,
+}
+
+/// How many hinges left the elastic range.
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq, Eq)]
+pub struct HingeSummary {
+    /// Cracked or beyond.
+    pub cracked: usize,
+    /// Yielded.
+    pub yielded: usize,
+}
+
+/// Peaks of one floor.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct FloorSummary {
+    /// Floor, from 1.
+    pub floor: usize,
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Greatest displacement to the right \[m\].
+    pub displacement_max_m: f64,
+    /// Its instant \[s\].
+    pub displacement_max_at_s: f64,
+    /// Greatest displacement to the left \[m\].
+    pub displacement_min_m: f64,
+    /// Its instant \[s\].
+    pub displacement_min_at_s: f64,
+    /// Greatest total acceleration, either sign \[m/s²\].
+    pub total_acceleration_peak_m_s2: f64,
+    /// Greatest drift ratio of the storey below, either sign \[–\].
+    pub storey_drift_peak: f64,
+}
+
+/// One gap and its contacts.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct GapSummary {
+    /// Names of the left and the right building.
+    pub between: [String; 2],
+    /// Width at rest \[m\].
+    pub width_m: f64,
+    /// Contact law.
+    pub law: String,
+    /// Restitution of free masses under this law \[–\].
+    pub free_restitution: f64,
+    /// Contacts from the lowest up.
+    pub contacts: Vec<ContactSummary>,
+    /// Impacts of all contacts.
+    pub impact_count: usize,
+    /// Greatest force of any contact \[N\].
+    pub peak_force_n: f64,
+    /// Instant of the first impact \[s\].
+    pub first_impact_s: Option<f64>,
+    /// Greatest closing of any contact when the buildings pass through each other: the smallest gap
+    /// without pounding; `null` when that run was not made \[m\].
+    pub closing_without_contact_m: Option<f64>,
+}
+
+/// One contact.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct ContactSummary {
+    /// Left and right floor, from 1; `null` for a point between floors.
+    pub floors: [Option<usize>; 2],
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Greatest closing u_left − u_right \[m\].
+    pub closing_peak_m: f64,
+    /// Its instant \[s\].
+    pub closing_peak_at_s: f64,
+    /// Number of impacts.
+    pub impact_count: usize,
+    /// Greatest force \[N\].
+    pub peak_force_n: f64,
+    /// Its instant; `null` without an impact \[s\].
+    pub peak_force_at_s: Option<f64>,
+    /// Time integral of the force \[N·s\].
+    pub impulse_n_s: f64,
+    /// Impacts in order of time.
+    pub impacts: Vec<ImpactSummary>,
+}
+
+/// One impact.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct ImpactSummary {
+    /// Instant of touch \[s\].
+    pub start_s: f64,
+    /// Last instant of force \[s\].
+    pub end_s: f64,
+    /// Greatest force \[N\].
+    pub peak_force_n: f64,
+    /// Its instant \[s\].
+    pub peak_force_at_s: f64,
+    /// Greatest indentation \[m\].
+    pub peak_indentation_m: f64,
+    /// Closing rate at touch \[m/s\].
+    pub impact_speed_m_s: f64,
+    /// Opening rate at the end \[m/s\].
+    pub separation_speed_m_s: f64,
+    /// Separation ÷ impact speed \[–\].
+    pub realised_restitution: f64,
+    /// Time integral of the force \[N·s\].
+    pub impulse_n_s: f64,
+    /// Energy taken by the contact \[J\].
+    pub dissipated_j: f64,
+}
+
+/// Energies at the end of the run \[J\].
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
+pub struct EnergySummary {
+    /// Work of the ground motion.
+    pub input_j: f64,
+    /// Kinetic energy.
+    pub kinetic_j: f64,
+    /// Strain energy.
+    pub strain_j: f64,
+    /// Dissipated by viscous damping.
+    pub damped_j: f64,
+    /// Taken by hinges.
+    pub hysteretic_j: f64,
+    /// Taken by contacts.
+    pub contact_j: f64,
+    /// |input − sum of the others| / input at the end \[–\].
+    pub imbalance: f64,
+    /// Greatest imbalance over time, relative to the greatest energy until then \[–\].
+    pub worst_imbalance: f64,
+}
+
+/// Work done, and the time it took.
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
+pub struct WorkSummary {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Accepted steps with a closed contact.
+    pub contact_steps: u64,
+    /// Steps tried and repeated at an event.
+    pub repeated_steps: u64,
+    /// Factorisations.
+    pub factorizations: u64,
+    /// Solutions.
+    pub solves: u64,
+    /// Newton iterations.
+    pub iterations: u64,
+    /// Step in free flight \[s\].
+    pub step_s: f64,
+    /// Smallest regular step in contact; `null` when nothing touched \[s\].
+    pub contact_step_s: Option<f64>,
+    /// Wall time of the stepping \[s\].
+    pub wall_s: f64,
+}
