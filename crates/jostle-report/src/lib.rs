@@ -3,6 +3,15 @@
 //! [`render`] turns a [`Page`] into the whole text of `report.html`. Pictures and numbers stay apart: the
 //! numbers come from the core crate as they are, this crate only chooses, thins, encodes and draws them.
 
+mod describe;
+mod encode;
+mod envelope;
+mod format;
+mod page;
+mod payload;
+mod tables;
+mod verdict;
+
 use jostle::{GroundMotion, History, Model, Summary};
 
 /// Everything a report shows.
@@ -26,6 +35,5 @@ pub struct Page<'a> {
 /// The contacts of `summary.gaps`, counted through all gaps, are the contact indices of the histories.
 #[must_use]
 pub fn render(page: &Page) -> String {
-    maud::html! { (maud::DOCTYPE) html { head { title { (page.summary.title) } } body { h1 { (page.summary.title) } } } }
-        .into_string()
+    page::page(page).into_string()
 }

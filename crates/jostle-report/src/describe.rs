@@ -1,0 +1,372 @@
+//! The model, the analysis and the balance of the run in words and small tables.
+
+use jostle::contact::RestitutionIs;
+use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Shear, Solver, Structure};
+use jostle::motion::Wave;
+use jostle::summary::BuildingSummary;
+use maud::{Markup, html};
+
+use crate::{Page, format};
+
+/// Periods listed for each building.
+const PERIODS: usize = 6;
+
+/// Names and values of a description list.
+type Facts = Vec<(&'static str, String)>;
+
+fn list(facts: &Facts) -> Markup {
+    html! { dl { @for (name, value) in facts { div { dt { (name) } dd { (value) } } } } }
+}
+
+/// The whole section.
+pub(crate) fn model(page: &Page) -> Markup {
+    html! {
+        div.cards {
+            @for (i, building) in page.model.buildings.iter().enumerate() {
+                (self::building(i, building, page.summary.buildings.get(i)))
+            }
+            @for (gap, summary) in page.model.gaps.iter().zip(&page.summary.gaps) {
+                div.card {
+                    h3 { "Gap " (summary.between[0]) "–" (summary.between[1]) }
+                    (list(&contact(gap, summary.free_restitution)))
+                }
+            }
+            div.card { h3 { "Ground motion" } (list(&motion(page))) }
+            div.card { h3 { "Analysis" } (list(&analysis(page))) }
+            div.card { h3 { "Energy at the end" } (list(&energy(page))) }
+        }
+    }
+}
+
+fn building(index: usize, building: &Building, summary: Option<&BuildingSummary>) -> Markup {
+    let heights = building.floor_heights();
+    let mut facts: Facts = vec![(
+        "storeys",
+        format!(
+            "{}, {} m high ({} m)",
+            building.floors(),
+            format::significant(heights.last().copied().unwrap_or(0.0), 4),
+            grouped(building.storey_heights(), |h| format::significant(h, 3))
+        ),
+    )];
+    match &building.structure {
+        Structure::Frame(frame) => frame_facts(frame, &mut facts),
+        Structure::Shear(shear) => shear_facts(shear, &mut facts),
+    }
+    let rayleigh = summary.map(|s| (s.rayleigh_alpha_per_s, s.rayleigh_beta_s));
+    facts.push(("damping", damping(&building.damping, rayleigh)));
+    if let Some(summary) = summary {
+        facts.push(("vibrating mass", format::tonnes(summary.mass_kg)));
+        facts.push(("peak base shear", format::force(summary.base_shear_peak_n)));
+        facts.push((
+            "roof displacement at the end",
+            format::millimetres(summary.residual_roof_displacement_m),
+        ));
+        if summary.hinges.cracked + summary.hinges.yielded > 0 {
+            facts.push((
+                "hinges",
+                format!(
+                    "{} cracked, {} yielded",
+                    summary.hinges.cracked, summary.hinges.yielded
+                ),
+            ));
+        }
+    }
+    html! {
+        div.card {
+            h3 { span.swatch style=(crate::page::colour(index)) {} (building.name) }
+            (list(&facts))
+            @if let Some(summary) = summary {
+                @if !summary.periods_s.is_empty() {
+                    table.periods {
+                        caption { "Lateral modes" }
+                        thead { tr { th scope="row" { "mode" } @for mode in 1..=summary.periods_s.len().min(PERIODS) { th.number { (mode) } } } }
+                        tbody { tr { th scope="row" { "T [s]" } @for period in summary.periods_s.iter().take(PERIODS) { td.number { (format::significant(*period, 4)) } } } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn frame_facts(frame: &Frame, facts: &mut Facts) {
+    let spans: Vec<String> = frame
+        .spans
+        .iter()
+        .map(|span| format::significant(*span, 3))
+        .collect();
+    facts.push(("spans", format!("{} m", spans.join(" + "))));
+    let rigidities = |sections: &[jostle::Section]| {
+        let values: Vec<f64> = sections.iter().map(|s| s.flexural_rigidity).collect();
+        grouped(&values, format::rigidity)
+    };
+    facts.push(("columns, EI", rigidities(&frame.columns)));
+    facts.push(("beams, EI", rigidities(&frame.beams)));
+    let columns: Vec<f64> = frame.columns.iter().map(|s| s.line_mass).collect();
+    facts.push((
+        "line mass",
+        format!(
+            "columns {}, beams {} kg/m",
+            grouped(&columns, |m| format::significant(m, 4)),
+            grouped(&frame.beam_mass, |m| format::significant(m, 4))
+        ),
+    ));
+    if frame.floor_mass.iter().any(|mass| *mass > 0.0) {
+        facts.push(("floor mass", grouped(&frame.floor_mass, format::tonnes)));
+    }
+    let segments: Vec<String> = frame.beam_segments.iter().map(usize::to_string).collect();
+    facts.push((
+        "segments",
+        format!(
+            "{} per column storey, {} per span",
+            frame.column_segments,
+            segments.join(" + ")
+        ),
+    ));
+    let lengthwise = |flexible| if flexible { "flexible" } else { "rigid" };
+    facts.push((
+        "axially",
+        format!(
+            "columns {}, beams {}",
+            lengthwise(frame.axial.columns_flexible),
+            lengthwise(frame.axial.beams_flexible)
+        ),
+    ));
+    let joint = match frame.joint.rotational_stiffness {
+        None => "rigid".into(),
+        Some(stiffness) => format!("{} N·m/rad", format::significant(stiffness, 3)),
+    };
+    facts.push(("joints", joint));
+}
+
+fn shear_facts(shear: &Shear, facts: &mut Facts) {
+    facts.push(("floor mass", grouped(&shear.mass, format::tonnes)));
+    facts.push((
+        "storey stiffness",
+        grouped(&shear.stiffness, format::stiffness),
+    ));
+}
+
+/// Values from the ground up, equal neighbours said once: "3.2", "1–3: 60, 4: 40".
+fn grouped(values: &[f64], text: impl Fn(f64) -> String) -> String {
+    let mut groups: Vec<(usize, usize, f64)> = Vec::new();
+    for (i, value) in values.iter().enumerate() {
+        match groups.last_mut() {
+            Some((_, last, same)) if same == value => *last = i + 1,
+            _ => groups.push((i + 1, i + 1, *value)),
+        }
+    }
+    match &groups[..] {
+        [(_, _, value)] => text(*value),
+        groups if groups.len() > 8 => {
+            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            format!("{} to {}", text(low), text(high))
+        }
+        groups => {
+            let texts: Vec<String> = groups
+                .iter()
+                .map(|(first, last, value)| match first == last {
+                    true => format!("{first}: {}", text(*value)),
+                    false => format!("{first}–{last}: {}", text(*value)),
+                })
+                .collect();
+            texts.join(", ")
+        }
+    }
+}
+
+fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
+    let coefficients = |alpha: f64, beta: f64| {
+        format!(
+            "α = {}\u{a0}1/s, β = {}\u{a0}s",
+            format::significant(alpha, 4),
+            format::significant(beta, 4)
+        )
+    };
+    match damping {
+        Damping::Rayleigh { alpha, beta } => format!("Rayleigh, {}", coefficients(*alpha, *beta)),
+        Damping::Ratio { ratio, modes } => {
+            let modes: Vec<String> = modes.iter().map(usize::to_string).collect();
+            let used = rayleigh.map_or_else(String::new, |(a, b)| {
+                format!(" ({})", coefficients(a, b))
+            });
+            format!(
+                "{}\u{a0}% at lateral mode{} {}{used}",
+                format::significant(ratio * 100.0, 3),
+                if modes.len() > 1 { "s" } else { "" },
+                modes.join(" and ")
+            )
+        }
+    }
+}
+
+fn contact(gap: &Gap, free_restitution: f64) -> Facts {
+    let law = &gap.law;
+    let unit = if law.kind.is_hertzian() {
+        "N/m^1.5"
+    } else {
+        "N/m"
+    };
+    let mut facts: Facts = vec![
+        ("width", format::millimetres(gap.width)),
+        (
+            "can touch at",
+            match &gap.floors {
+                FloorPairs::Common => "floors of equal height".into(),
+                FloorPairs::Listed(pairs) => format!("{} listed pairs of floors", pairs.len()),
+                FloorPairs::Heights(heights) => format!("{} listed heights", heights.len()),
+            },
+        ),
+        ("contact law", law.kind.name().into()),
+        (
+            "stiffness",
+            format!("{} {unit}", format::significant(law.stiffness, 3)),
+        ),
+    ];
+    if law.kind.is_dissipative() {
+        let meaning = match law.restitution_is {
+            RestitutionIs::Input => "put into the formula",
+            RestitutionIs::Realised => "realised by free masses",
+        };
+        facts.push((
+            "restitution",
+            format!("{} ({meaning})", format::significant(law.restitution, 3)),
+        ));
+    }
+    facts.push((
+        "free masses rebound with",
+        format::fixed(free_restitution, 3),
+    ));
+    facts
+}
+
+fn motion(page: &Page) -> Facts {
+    let motion = page.motion;
+    let mut facts: Facts = vec![
+        ("name", motion.name.clone()),
+        ("peak", format::acceleration(motion.peak())),
+        ("scale", {
+            let reversed = if motion.scale < 0.0 { " (reversed)" } else { "" };
+            format!("{}{reversed}", format::significant(motion.scale, 4))
+        }),
+        (
+            "length",
+            format::unit(format::significant(motion.duration, 4), "s"),
+        ),
+    ];
+    match &motion.wave {
+        Wave::Sampled { step, acceleration } => facts.push((
+            "record",
+            format!(
+                "{} points, {} apart",
+                format::fixed(acceleration.len() as f64, 0),
+                format::milliseconds(*step)
+            ),
+        )),
+        Wave::Sine { period, .. } => facts.push(("wave", sine(*period))),
+        Wave::Ricker { period, .. } => facts.push((
+            "wave",
+            format!("Ricker pulse, period {} s", format::significant(*period, 3)),
+        )),
+    }
+    facts
+}
+
+fn sine(period: f64) -> String {
+    format!("sine, period {} s", format::significant(period, 3))
+}
+
+fn analysis(page: &Page) -> Facts {
+    let work = &page.summary.work;
+    let count = |n: u64| format::fixed(n as f64, 0);
+    let chosen = |step: Option<f64>| if step.is_some() { "given" } else { "automatic" };
+    let settings = &page.model.analysis;
+    let mut facts: Facts = vec![
+        (
+            "solver",
+            match settings.solver {
+                Solver::Riccati => "Riccati transfer matrices".into(),
+                Solver::Stiffness => "direct stiffness".into(),
+            },
+        ),
+        (
+            "step in free flight",
+            format!(
+                "{} ({})",
+                format::milliseconds(work.step_s),
+                chosen(settings.step)
+            ),
+        ),
+    ];
+    if let Some(step) = work.contact_step_s {
+        facts.push((
+            "step in contact",
+            format!(
+                "{} ({})",
+                format::milliseconds(step),
+                chosen(settings.contact_step)
+            ),
+        ));
+    }
+    facts.extend([
+        ("tolerance", format::significant(settings.tolerance, 1)),
+        (
+            "steps",
+            format!(
+                "{}, {} of them in contact, {} repeated at events",
+                count(work.steps),
+                count(work.contact_steps),
+                count(work.repeated_steps)
+            ),
+        ),
+        (
+            "work",
+            format!(
+                "{} factorisations, {} solutions, {} iterations",
+                count(work.factorizations),
+                count(work.solves),
+                count(work.iterations)
+            ),
+        ),
+        (
+            "wall time",
+            format::unit(format::significant(work.wall_s, 3), "s"),
+        ),
+    ]);
+    facts
+}
+
+fn energy(page: &Page) -> Facts {
+    let energy = &page.summary.energy;
+    let mut facts: Facts = vec![
+        ("input", format::energy(energy.input_j)),
+        ("kinetic", format::energy(energy.kinetic_j)),
+        ("strain", format::energy(energy.strain_j)),
+        ("damped", format::energy(energy.damped_j)),
+    ];
+    if energy.hysteretic_j != 0.0 {
+        facts.push(("hysteretic", format::energy(energy.hysteretic_j)));
+    }
+    facts.extend([
+        ("contact", format::energy(energy.contact_j)),
+        ("imbalance", format::significant(energy.imbalance, 2)),
+        (
+            "worst imbalance",
+            format::significant(energy.worst_imbalance, 2),
+        ),
+    ]);
+    facts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_storeys_are_said_once() {
+        let text = |values: &[f64]| grouped(values, |v| format::significant(v, 2));
+        assert_eq!(text(&[3.2, 3.2]), "3.2");
+        assert_eq!(text(&[60.0, 60.0, 40.0]), "1–2: 60, 3: 40");
+    }
+}

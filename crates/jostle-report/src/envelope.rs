@@ -1,0 +1,258 @@
+//! Peaks over the height of the buildings, as small pictures that need no script.
+
+use jostle::history::{Column, History};
+use jostle::model::Model;
+use maud::{Markup, html};
+
+use crate::{Page, format};
+
+/// Peaks of one building: values from the lowest floor up.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Envelope {
+    /// Greatest displacement to the right \[m\].
+    pub(crate) greatest: Vec<f64>,
+    /// Greatest displacement to the left \[m\].
+    pub(crate) least: Vec<f64>,
+    /// Greatest storey drift ratio, either sign \[–\].
+    pub(crate) drift: Vec<f64>,
+    /// Greatest total acceleration, either sign \[m/s²\]; empty if it was not recorded.
+    pub(crate) acceleration: Vec<f64>,
+}
+
+/// Envelopes of every building of the run, from its summary.
+pub(crate) fn of_run(page: &Page) -> Vec<Envelope> {
+    page.summary
+        .buildings
+        .iter()
+        .map(|building| {
+            let floors = &building.floors;
+            Envelope {
+                greatest: floors.iter().map(|f| f.displacement_max_m).collect(),
+                least: floors.iter().map(|f| f.displacement_min_m).collect(),
+                drift: floors.iter().map(|f| f.storey_drift_peak).collect(),
+                acceleration: floors
+                    .iter()
+                    .map(|f| f.total_acceleration_peak_m_s2)
+                    .collect(),
+            }
+        })
+        .collect()
+}
+
+/// Envelopes of every building of a history, from its recorded instants.
+pub(crate) fn of_history(model: &Model, history: &History) -> Vec<Envelope> {
+    model
+        .buildings
+        .iter()
+        .enumerate()
+        .map(|(building, shape)| {
+            let mut envelope = Envelope::default();
+            let mut below: Option<Vec<f64>> = None;
+            for (storey, height) in shape.storey_heights().iter().enumerate() {
+                let floor = storey + 1;
+                let Some(u) = history.column(Column::Displacement { building, floor }) else {
+                    break;
+                };
+                envelope.greatest.push(u.iter().copied().fold(0.0, f64::max));
+                envelope.least.push(u.iter().copied().fold(0.0, f64::min));
+                let drift = u.iter().enumerate().fold(0.0, |peak: f64, (row, u)| {
+                    let lower = below.as_ref().map_or(0.0, |below| below[row]);
+                    peak.max((u - lower).abs())
+                });
+                envelope.drift.push(drift / height);
+                below = Some(u);
+                if let Some(a) = history.column(Column::TotalAcceleration { building, floor }) {
+                    envelope
+                        .acceleration
+                        .push(a.iter().fold(0.0, |peak: f64, a| peak.max(a.abs())));
+                }
+            }
+            envelope
+        })
+        .collect()
+}
+
+/// One line of a small picture: (value, height) from the base up.
+struct Line {
+    building: usize,
+    dashed: bool,
+    points: Vec<(f64, f64)>,
+    /// What the pointer reads at a point.
+    meaning: &'static str,
+}
+
+/// Section with the three pictures.
+pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
+    let heights: Vec<Vec<f64>> = page
+        .model
+        .buildings
+        .iter()
+        .map(jostle::Building::floor_heights)
+        .collect();
+    let mut displacement = Vec::new();
+    let mut drift = Vec::new();
+    let mut acceleration = Vec::new();
+    let sets = without.map(|w| (w, true)).into_iter().chain([(run, false)]);
+    for (set, dashed) in sets {
+        for (building, (envelope, heights)) in set.iter().zip(&heights).enumerate() {
+            let line = |points, meaning| Line {
+                building,
+                dashed,
+                points,
+                meaning,
+            };
+            let both = [(&envelope.greatest, "to the right"), (&envelope.least, "to the left")];
+            for (values, meaning) in both {
+                displacement.push(line(from_base(values, heights, 1e3), meaning));
+            }
+            drift.push(line(steps(&envelope.drift, heights, 100.0), "drift of the storey"));
+            let floors = envelope.acceleration.iter().copied().zip(heights.iter().copied());
+            let mut points: Vec<(f64, f64)> = floors.collect();
+            if !points.is_empty() {
+                points.insert(0, (page.motion.peak(), 0.0));
+            }
+            acceleration.push(line(points, "either sign"));
+        }
+    }
+    let top = heights
+        .iter()
+        .flatten()
+        .copied()
+        .fold(0.0, f64::max)
+        .max(1e-3);
+    html! {
+        div.multiples {
+            (picture("Displacement", "mm", top, &displacement, page))
+            (picture("Storey drift", "%", top, &drift, page))
+            (picture("Total acceleration", "m/s²", top, &acceleration, page))
+        }
+    }
+}
+
+fn from_base(values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
+    std::iter::once((0.0, 0.0))
+        .chain(values.iter().map(|v| v * factor).zip(heights.iter().copied()))
+        .collect()
+}
+
+/// A value constant over each storey.
+fn steps(values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
+    let mut base = 0.0;
+    let mut points = Vec::new();
+    for (value, height) in values.iter().zip(heights) {
+        points.push((value * factor, base));
+        points.push((value * factor, *height));
+        base = *height;
+    }
+    points
+}
+
+const WIDTH: f64 = 320.0;
+const HEIGHT: f64 = 300.0;
+const LEFT: f64 = 38.0;
+const RIGHT: f64 = 14.0;
+const TOP: f64 = 10.0;
+const BOTTOM: f64 = 30.0;
+
+fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Markup {
+    let values = || {
+        lines
+            .iter()
+            .flat_map(|line| line.points.iter().map(|p| p.0))
+            .filter(|v| v.is_finite())
+    };
+    let low = values().fold(0.0, f64::min);
+    let high = values().fold(0.0, f64::max);
+    let span = if high > low { high - low } else { 1.0 };
+    let (low, high) = (
+        if low < 0.0 { low - 0.05 * span } else { 0.0 },
+        high + 0.05 * span,
+    );
+    let x = |value: f64| LEFT + (value - low) / (high - low) * (WIDTH - LEFT - RIGHT);
+    let y = |height: f64| HEIGHT - BOTTOM - height / (top * 1.03) * (HEIGHT - TOP - BOTTOM);
+    let (x_ticks, x_decimals) = ticks(low, high, 5.0);
+    let (y_ticks, y_decimals) = ticks(0.0, top * 1.03, 6.0);
+    html! {
+        figure.multiple {
+            figcaption { (title) " " span.unit { "[" (unit) "]" } }
+            svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(format!("{title} over the height")) {
+                g.grid {
+                    @for value in &x_ticks {
+                        line x1=(px(x(*value))) x2=(px(x(*value))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}
+                        text x=(px(x(*value))) y=(px(HEIGHT - BOTTOM + 15.0)) text-anchor="middle" { (format::fixed(*value, x_decimals)) }
+                    }
+                    @for value in &y_ticks {
+                        line x1=(px(LEFT)) x2=(px(WIDTH - RIGHT)) y1=(px(y(*value))) y2=(px(y(*value))) {}
+                        text x=(px(LEFT - 6.0)) y=(px(y(*value) + 3.5)) text-anchor="end" { (format::fixed(*value, y_decimals)) @if *value == 0.0 { " m" } }
+                    }
+                }
+                @for line in lines {
+                    polyline.line.dashed[line.dashed] style=(crate::page::colour(line.building)) points=(path(line, x, y)) {}
+                }
+                @for line in lines.iter().filter(|line| !line.dashed) {
+                    @for (value, height) in &line.points {
+                        @if *height > 0.0 {
+                            circle.dot style=(crate::page::colour(line.building)) cx=(px(x(*value))) cy=(px(y(*height))) r="5" {
+                                title {
+                                    (page.model.buildings.get(line.building).map_or("", |b| b.name.as_str())) ", "
+                                    (format::fixed(*height, 2)) " m: " (format::significant(*value, 4)) " " (unit) ", " (line.meaning)
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn path(line: &Line, x: impl Fn(f64) -> f64, y: impl Fn(f64) -> f64) -> String {
+    let points = line.points.iter().filter(|(value, _)| value.is_finite());
+    let texts: Vec<String> = points
+        .map(|(value, height)| format!("{},{}", px(x(*value)), px(y(*height))))
+        .collect();
+    texts.join(" ")
+}
+
+fn px(value: f64) -> String {
+    format!("{value:.1}")
+}
+
+/// Round values between `low` and `high`, about `count` of them, and the decimals they need.
+pub(crate) fn ticks(low: f64, high: f64, count: f64) -> (Vec<f64>, usize) {
+    let raw = (high - low) / count;
+    if !raw.is_finite() || raw <= 0.0 {
+        return (vec![0.0], 0);
+    }
+    let power = 10f64.powf(raw.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|m| m * power)
+        .find(|step| *step >= raw * 0.999)
+        .unwrap_or(10.0 * power);
+    let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
+    let decimals = (-step.log10().floor()).max(0.0) as usize;
+    ((first..=last).map(|i| i as f64 * step).collect(), decimals)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round() {
+        assert_eq!(
+            ticks(-0.12, 0.1, 5.0),
+            (vec![-0.1, -0.05, 0.0, 0.05, 0.1], 2)
+        );
+        assert_eq!(ticks(0.0, 0.0, 5.0), (vec![0.0], 0));
+    }
+
+    #[test]
+    fn drift_is_constant_within_a_storey() {
+        assert_eq!(
+            steps(&[0.01, 0.02], &[3.0, 6.0], 100.0),
+            vec![(1.0, 0.0), (1.0, 3.0), (2.0, 3.0), (2.0, 6.0)]
+        );
+    }
+}

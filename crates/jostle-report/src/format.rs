@@ -1,0 +1,207 @@
+//! Numbers as a reader likes them: few digits, sensible prefixes, never "NaN".
+
+/// Stands where there is no number.
+pub(crate) const NOTHING: &str = "–";
+
+/// `value` with `digits` significant digits.
+pub(crate) fn significant(value: f64, digits: i32) -> String {
+    if !value.is_finite() {
+        return NOTHING.into();
+    }
+    if value == 0.0 {
+        return "0".into();
+    }
+    // Rounding first: 999.96 with four digits has one digit more before the point.
+    let rounded: f64 = format!("{:.*e}", digits.max(1) as usize - 1, value)
+        .parse()
+        .unwrap_or(value);
+    let exponent = rounded.abs().log10().floor() as i32;
+    if !(-4..7).contains(&exponent) {
+        let mantissa = rounded / 10f64.powi(exponent);
+        return format!(
+            "{}\u{202f}×\u{202f}10{}",
+            fixed(mantissa, (digits - 1).max(0) as usize),
+            superscript(exponent)
+        );
+    }
+    fixed(rounded, (digits - 1 - exponent).max(0) as usize)
+}
+
+/// `value` with a given number of decimals, a true minus sign and thin spaces between thousands.
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+    if !value.is_finite() {
+        return NOTHING.into();
+    }
+    let text = format!("{:.*}", decimals, value.abs());
+    let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
+    let mut grouped = String::new();
+    for (i, digit) in whole.chars().enumerate() {
+        if i > 0 && (whole.len() - i) % 3 == 0 && whole.len() > 4 {
+            grouped.push('\u{202f}');
+        }
+        grouped.push(digit);
+    }
+    let is_zero = text.bytes().all(|b| matches!(b, b'0' | b'.'));
+    let sign = if value < 0.0 && !is_zero {
+        "\u{2212}"
+    } else {
+        ""
+    };
+    match fraction {
+        "" => format!("{sign}{grouped}"),
+        _ => format!("{sign}{grouped}.{fraction}"),
+    }
+}
+
+fn superscript(exponent: i32) -> String {
+    exponent
+        .to_string()
+        .chars()
+        .map(|c| match c {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            '0' => '⁰',
+            other => char::from_u32('⁰' as u32 + other as u32 - '0' as u32).unwrap_or(other),
+        })
+        .collect()
+}
+
+/// A value in the largest unit that leaves at least one digit before the point.
+fn prefixed(value: f64, digits: i32, units: &[(f64, &str)]) -> String {
+    if !value.is_finite() {
+        return NOTHING.into();
+    }
+    let fitting = units
+        .iter()
+        .rev()
+        .find(|(size, _)| value.abs() >= *size)
+        .or(units.first());
+    match fitting {
+        Some((size, unit)) => format!("{}\u{a0}{unit}", significant(value / size, digits)),
+        None => significant(value, digits),
+    }
+}
+
+/// A force; kN up to a hundred meganewton \[N\].
+pub(crate) fn force(newton: f64) -> String {
+    prefixed(newton, 4, &[(1.0, "N"), (1e3, "kN"), (1e8, "MN")])
+}
+
+/// An energy \[J\].
+pub(crate) fn energy(joule: f64) -> String {
+    prefixed(joule, 4, &[(1.0, "J"), (1e3, "kJ"), (1e6, "MJ")])
+}
+
+/// A length of the order of a gap, in millimetres \[m\].
+pub(crate) fn millimetres(metre: f64) -> String {
+    let value = metre * 1e3;
+    let decimals = match value.abs() {
+        v if v >= 1000.0 => 0,
+        v if v >= 1.0 || v == 0.0 => 1,
+        _ => 3,
+    };
+    let text = fixed(value, decimals);
+    // A round width stays round: "100 mm", not "100.0 mm".
+    let text = match text.split_once('.') {
+        Some((whole, fraction)) if fraction.bytes().all(|b| b == b'0') => whole.to_owned(),
+        _ => text,
+    };
+    if value.is_finite() {
+        format!("{text}\u{a0}mm")
+    } else {
+        text
+    }
+}
+
+/// An instant, to the millisecond \[s\].
+pub(crate) fn instant(second: f64) -> String {
+    unit(fixed(second, 3), "s")
+}
+
+/// A duration in milliseconds \[s\].
+pub(crate) fn milliseconds(second: f64) -> String {
+    unit(significant(second * 1e3, 3), "ms")
+}
+
+/// A mass in tonnes \[kg\].
+pub(crate) fn tonnes(kilogram: f64) -> String {
+    unit(significant(kilogram / 1e3, 4), "t")
+}
+
+/// A flexural rigidity \[N·m²\].
+pub(crate) fn rigidity(value: f64) -> String {
+    prefixed(
+        value,
+        4,
+        &[(1.0, "N·m²"), (1e3, "kN·m²"), (1e6, "MN·m²"), (1e9, "GN·m²")],
+    )
+}
+
+/// A lateral stiffness \[N/m\].
+pub(crate) fn stiffness(value: f64) -> String {
+    prefixed(
+        value,
+        4,
+        &[(1.0, "N/m"), (1e3, "kN/m"), (1e6, "MN/m"), (1e9, "GN/m")],
+    )
+}
+
+/// An acceleration in m/s² and in percent of g \[m/s²\].
+pub(crate) fn acceleration(value: f64) -> String {
+    if !value.is_finite() {
+        return NOTHING.into();
+    }
+    format!(
+        "{}\u{a0}m/s² ({}\u{a0}%\u{a0}g)",
+        significant(value, 3),
+        significant(value / STANDARD_GRAVITY * 100.0, 3)
+    )
+}
+
+/// A number with its unit, or a dash.
+pub(crate) fn unit(number: String, unit: &str) -> String {
+    if number == NOTHING {
+        number
+    } else {
+        format!("{number}\u{a0}{unit}")
+    }
+}
+
+/// g \[m/s²\].
+pub(crate) const STANDARD_GRAVITY: f64 = 9.806_65;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_follow_the_size() {
+        for (value, text) in [
+            (1282.85, "1283"),
+            (188.81, "188.8"),
+            (999.96, "1000"),
+            (0.012345, "0.01235"),
+            (-0.5, "−0.5000"),
+            (123_456.0, "123\u{202f}500"),
+            (1.5e-9, "1.500\u{202f}×\u{202f}10⁻⁹"),
+            (2e9, "2.000\u{202f}×\u{202f}10⁹"),
+            (0.0, "0"),
+            (f64::NAN, "–"),
+            (f64::INFINITY, "–"),
+        ] {
+            assert_eq!(significant(value, 4), text, "{value} with four digits");
+        }
+    }
+
+    #[test]
+    fn units_follow_the_size() {
+        assert_eq!(force(1_282_850.0), "1283\u{a0}kN");
+        assert_eq!(force(12.0), "12.00\u{a0}N");
+        assert_eq!(energy(2.5e6), "2.500\u{a0}MJ");
+        assert_eq!(millimetres(0.1), "100\u{a0}mm");
+        assert_eq!(millimetres(-0.0135), "−13.5\u{a0}mm");
+        assert_eq!(force(f64::NAN), "–");
+    }
+}

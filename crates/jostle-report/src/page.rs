@@ -1,0 +1,316 @@
+//! The page around the pictures: head, key figures, sections, controls.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::envelope::{self, envelopes};
+use crate::verdict::{closest_approach, peak_closing, verdict};
+use crate::{Page, describe, format, payload, tables};
+
+const STYLE: &str = include_str!("../assets/style.css");
+/// The scripts, in the order of their dependence; together they are one module.
+const SCRIPTS: [&str; 5] = [
+    include_str!("../assets/data.js"),
+    include_str!("../assets/chart.js"),
+    include_str!("../assets/scene.js"),
+    include_str!("../assets/player.js"),
+    include_str!("../assets/main.js"),
+];
+/// Nothing may be loaded: everything is in the file.
+const POLICY: &str =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+
+/// The style attribute that gives an element the colour of a building.
+pub(crate) fn colour(building: usize) -> String {
+    format!("--c:var(--c{})", building % 7)
+}
+
+/// The whole page.
+pub(crate) fn page(page: &Page) -> Markup {
+    let headline = verdict(page.summary);
+    let run = envelope::of_run(page);
+    let without = page
+        .without_contact
+        .map(|history| envelope::of_history(page.model, history));
+    let without = without.as_deref();
+    let recorded = page.history.len() > 1;
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="description" content=(headline);
+                title { (page.summary.title) " – jostle" }
+                link rel="icon" href="data:,";
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                (warnings(page))
+                header.head {
+                    div {
+                        p.kicker { "Seismic pounding report" }
+                        h1 { (page.summary.title) }
+                    }
+                    button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+                }
+                main {
+                    p.verdict { (headline) }
+                    (tiles(page))
+                    @if recorded {
+                        (motion_section(page))
+                        (chart_section(page))
+                    } @else {
+                        p.note { "No time histories were recorded, so there is nothing to play." }
+                    }
+                    section #impacts {
+                        h2 { "Impacts" }
+                        @if page.model.gaps.is_empty() {
+                            p.quiet { "The model has no gap." }
+                        } @else {
+                            (tables::impacts(page.summary))
+                        }
+                    }
+                    section #envelopes {
+                        h2 { "Peaks over the height" }
+                        (legend(page, without.is_some()))
+                        (envelopes(page, &run, without))
+                    }
+                    @if !page.model.gaps.is_empty() {
+                        section #joints {
+                            h2 { "Beside the code" }
+                            (tables::joints(page, &run, without))
+                        }
+                    }
+                    section #model {
+                        h2 { "What was computed" }
+                        (describe::model(page))
+                    }
+                    (guide())
+                }
+                footer {
+                    "Made by jostle " (page.summary.jostle) ". One file, nothing is loaded from elsewhere."
+                }
+                @if recorded {
+                    (player(page))
+                    noscript { p.note { "The animation and the time charts need JavaScript." } }
+                    script #page-data type="application/json" { (PreEscaped(payload::payload(page))) }
+                    script type="module" { (PreEscaped(SCRIPTS.concat())) }
+                }
+            }
+        }
+    }
+}
+
+fn warnings(page: &Page) -> Markup {
+    let summary = page.summary;
+    html! {
+        @if summary.ended_early.is_some() || !summary.warnings.is_empty() {
+            aside.warnings role="alert" {
+                @if let Some(why) = &summary.ended_early {
+                    p { b { "The run ended early: " } (why) }
+                }
+                @for warning in &summary.warnings {
+                    p { b { "Warning: " } (warning) }
+                }
+            }
+        }
+    }
+}
+
+fn tiles(page: &Page) -> Markup {
+    let summary = page.summary;
+    let mut tiles: Vec<(String, String, String)> = Vec::new();
+    let mut tile = |name: &str, value: String, note: String| {
+        tiles.push((name.to_owned(), value, note));
+    };
+    let impacts: usize = summary.gaps.iter().map(|gap| gap.impact_count).sum();
+    let hardest = summary
+        .gaps
+        .iter()
+        .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
+    if let Some(hardest) = hardest.filter(|_| impacts > 0) {
+        let contact = hardest
+            .contacts
+            .iter()
+            .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
+        let place = contact.map_or_else(String::new, crate::verdict::place);
+        tile("Peak force", format::force(hardest.peak_force_n), place);
+        let first = summary
+            .gaps
+            .iter()
+            .filter_map(|gap| gap.first_impact_s)
+            .min_by(f64::total_cmp);
+        tile(
+            "Impacts",
+            format::fixed(impacts as f64, 0),
+            first.map_or_else(String::new, |t| format!("first at {}", format::instant(t))),
+        );
+    } else if !summary.gaps.is_empty() {
+        tile("Impacts", "none".into(), String::new());
+    }
+    for gap in &summary.gaps {
+        let pair = if summary.gaps.len() > 1 {
+            format!(", {}–{}", gap.between[0], gap.between[1])
+        } else {
+            String::new()
+        };
+        let left = closest_approach(gap).filter(|distance| *distance > 0.0 && gap.impact_count == 0);
+        tile(
+            &format!("Peak closing{pair}"),
+            peak_closing(gap).map_or(format::NOTHING.into(), format::millimetres),
+            match left {
+                Some(left) => format!(
+                    "gap {}, {} left",
+                    format::millimetres(gap.width_m),
+                    format::millimetres(left)
+                ),
+                None => format!("gap {}", format::millimetres(gap.width_m)),
+            },
+        );
+        if let Some(closing) = gap.closing_without_contact_m {
+            tile(
+                &format!("Gap needed{pair}"),
+                format::millimetres(closing),
+                "smallest without pounding".into(),
+            );
+        }
+    }
+    for building in &summary.buildings {
+        if let Some(roof) = building.floors.last() {
+            tile(
+                &format!("Roof of {}", building.name),
+                format::millimetres(roof.displacement_max_m.max(-roof.displacement_min_m)),
+                format!(
+                    "{} left, {} right",
+                    format::millimetres(-roof.displacement_min_m),
+                    format::millimetres(roof.displacement_max_m)
+                ),
+            );
+        }
+    }
+    let pga = summary.motion.pga_m_s2;
+    tile(
+        "Peak ground acceleration",
+        format::unit(format::significant(pga, 3), "m/s²"),
+        format!(
+            "{} % g, {}",
+            format::significant(pga / format::STANDARD_GRAVITY * 100.0, 3),
+            summary.motion.name
+        ),
+    );
+    tile(
+        "Energy imbalance",
+        format::significant(summary.energy.worst_imbalance, 2),
+        "greatest over time".into(),
+    );
+    html! {
+        div.tiles {
+            @for (name, value, note) in &tiles {
+                div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
+            }
+        }
+    }
+}
+
+fn motion_section(page: &Page) -> Markup {
+    html! {
+        section #motion {
+            h2 { "How they move" }
+            figure.stage { div #scene {} }
+            div.controls {
+                label { "Exaggeration "
+                    input #exaggeration type="range" min="0" max="2" step="0.01" value="1";
+                    output #exaggeration-value for="exaggeration" { "10×" }
+                }
+                @if page.without_contact.is_some() && !page.model.gaps.is_empty() {
+                    label { input #ghost type="checkbox"; " also without contact (dashed)" }
+                }
+            }
+            p.quiet {
+                "To scale; sideways motion and gaps are both drawn exaggerated, so touching looks like touching. "
+                "Columns between floors are drawn smooth, not computed."
+            }
+        }
+    }
+}
+
+fn chart_section(page: &Page) -> Markup {
+    html! {
+        section #charts {
+            h2 { "Over time" }
+            div.controls {
+                label { "Show " select #place {} }
+                span.buttons role="group" aria-label="Zoom all charts" {
+                    button #zoom-in type="button" aria-label="Zoom in" { "+" }
+                    button #zoom-out type="button" aria-label="Zoom out" { "−" }
+                    button #zoom-impact type="button" { "This impact" }
+                    button #zoom-all type="button" { "Whole motion" }
+                }
+            }
+            p.quiet.screen {
+                "Drag across a chart to zoom, double-click for the whole motion, click to move the cursor. "
+                "On a chart with the keyboard focus, the wheel zooms (elsewhere with Shift or Ctrl); arrow keys move the cursor, + and − zoom."
+            }
+            div #time-charts {}
+            @if page.without_contact.is_some() && !page.model.gaps.is_empty() {
+                p.quiet { "Dashed: the same buildings passing through each other." }
+            }
+        }
+    }
+}
+
+fn legend(page: &Page, without: bool) -> Markup {
+    html! {
+        p.legend {
+            @for (i, building) in page.model.buildings.iter().enumerate() {
+                span.key { span.swatch style=(colour(i)) {} (building.name) }
+            }
+            @if without { span.key { span.swatch.dashed {} "without contact" } }
+        }
+    }
+}
+
+fn player(page: &Page) -> Markup {
+    let impacts = page.summary.gaps.iter().any(|gap| gap.impact_count > 0);
+    html! {
+        div #player.player role="group" aria-label="Playback" {
+            div.player-row {
+                button #play.play type="button" aria-label="Play" title="Play or pause (space)" { "▶" }
+                @if impacts {
+                    button #previous type="button" aria-label="Previous impact" title="Previous impact ([)" { "⏮" }
+                    button #next type="button" aria-label="Next impact" title="Next impact (])" { "⏭" }
+                }
+                output #clock.clock { "0.000 s" }
+                span #force-now.force-now {}
+                label.speed { span.wordy { "Speed " }
+                    select #speed aria-label="Speed" {
+                        @for speed in ["0.01", "0.1", "0.25", "0.5", "1", "2", "4"] {
+                            option value=(speed) selected[speed == "1"] { (speed) "×" }
+                        }
+                    }
+                }
+            }
+            div.scrub {
+                div #marks.marks aria-hidden="true" {}
+                input #scrub type="range" min="0" max="1" step="any" value="0" aria-label="Time";
+            }
+        }
+    }
+}
+
+fn guide() -> Markup {
+    html! {
+        section #guide {
+            h2 { "How to read this" }
+            ul {
+                li { "Displacements are relative to the ground and positive to the right; ground acceleration is positive to the right as well." }
+                li { "Closing is the displacement of the left floor minus that of the right one. The floors touch when it exceeds the gap; what is beyond is the indentation." }
+                li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact is one closed episode of one contact." }
+                li { "Total acceleration includes the ground. Storey drift is the relative displacement of two floors divided by the height between them." }
+                li { "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic and contact energy add up to it. The imbalance is what is missing, relative to the greatest energy until then." }
+                li { "Histories are thinned for this page, least of all during impacts; key figures and tables come from the full run." }
+            }
+        }
+    }
+}

@@ -1,0 +1,330 @@
+//! What the scripts of the page draw: geometry, impacts and thinned histories as one JSON text.
+
+use jostle::history::{Column, EnergyTerm, History};
+use jostle::model::{Building, Structure};
+use jostle::motion::{GroundMotion, Wave};
+use jostle::summary::{ContactSummary, Summary};
+use serde::Serialize;
+
+use crate::Page;
+use crate::encode::{Packed, thin_impacts, thin_rows};
+use crate::verdict::place;
+
+/// Bytes of base64 text to spend on the histories of the run, of the run without contact, and on forces.
+const RUN_BYTES: usize = 330_000;
+const WITHOUT_BYTES: usize = 170_000;
+const FORCE_BYTES: usize = 200_000;
+/// Most instants of either run: finer would not be seen.
+const MOST_ROWS: usize = 6000;
+/// Most points of the ground motion.
+const MOST_GROUND_POINTS: usize = 8000;
+/// Most impacts the player can jump to.
+const MOST_IMPACTS: usize = 2000;
+
+#[derive(Serialize)]
+struct Payload<'a> {
+    duration: f64,
+    buildings: Vec<Outline<'a>>,
+    gaps: Vec<GapData>,
+    ground: Series,
+    run: Table,
+    without: Option<Table>,
+    forces: Vec<Series>,
+    impacts: Vec<ImpactData>,
+    hysteretic: bool,
+}
+
+/// Shape of a building at rest.
+#[derive(Serialize)]
+struct Outline<'a> {
+    name: &'a str,
+    frame: bool,
+    /// Heights of the floors \[m\].
+    heights: Vec<f64>,
+    /// Bay widths \[m\].
+    spans: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct GapData {
+    left: usize,
+    width: f64,
+    contacts: Vec<ContactData>,
+}
+
+#[derive(Serialize)]
+struct ContactData {
+    /// Index into the histories.
+    index: usize,
+    label: String,
+    floors: [Option<usize>; 2],
+    height: f64,
+    peak: f64,
+    impacts: usize,
+}
+
+#[derive(Serialize)]
+struct ImpactData {
+    contact: usize,
+    start: f64,
+    end: f64,
+    peak: f64,
+    at: f64,
+}
+
+/// One quantity on instants of its own.
+#[derive(Serialize)]
+struct Series {
+    time: Packed,
+    values: Packed,
+}
+
+/// Quantities on common instants, named `u:building:floor` and `e:term`.
+#[derive(Serialize)]
+struct Table {
+    time: Packed,
+    columns: Vec<(String, Packed)>,
+}
+
+/// The JSON text, safe inside a script element.
+pub(crate) fn payload(page: &Page) -> String {
+    let time = page.history.column(Column::Time).unwrap_or_default();
+    let force = forces(page);
+    let payload = Payload {
+        duration: duration(page, &time),
+        buildings: page.model.buildings.iter().map(outline).collect(),
+        gaps: gaps(page),
+        ground: ground(page.motion),
+        run: table(page, page.history, &force, RUN_BYTES, true),
+        without: page
+            .without_contact
+            .map(|history| table(page, history, &[], WITHOUT_BYTES, false)),
+        forces: force_series(&time, &force),
+        impacts: impacts(page.summary),
+        hysteretic: page.summary.energy.hysteretic_j != 0.0,
+    };
+    // Finite numbers and strings only: this cannot fail.
+    let text = serde_json::to_string(&payload).unwrap_or_else(|_| "{}".into());
+    text.replace('<', "\\u003c")
+        .replace('\u{2028}', "\\u2028")
+        .replace('\u{2029}', "\\u2029")
+}
+
+fn duration(page: &Page, time: &[f64]) -> f64 {
+    let reached = time.last().copied().unwrap_or(0.0);
+    if reached > 0.0 {
+        reached
+    } else {
+        page.motion.duration.max(1e-3)
+    }
+}
+
+fn outline(building: &Building) -> Outline<'_> {
+    /// Drawn width of a shear building, which has none \[m\].
+    const NOMINAL_WIDTH: f64 = 6.0;
+    let (frame, spans) = match &building.structure {
+        Structure::Frame(frame) => (true, frame.spans.clone()),
+        Structure::Shear(_) => (false, vec![NOMINAL_WIDTH]),
+    };
+    Outline {
+        name: &building.name,
+        frame,
+        heights: building.floor_heights(),
+        spans,
+    }
+}
+
+/// All contacts in the order of their indices in the histories.
+pub(crate) fn contacts(summary: &Summary) -> impl Iterator<Item = &ContactSummary> {
+    summary.gaps.iter().flat_map(|gap| &gap.contacts)
+}
+
+fn gaps(page: &Page) -> Vec<GapData> {
+    let mut index = 0;
+    page.summary
+        .gaps
+        .iter()
+        .zip(&page.model.gaps)
+        .map(|(summary, gap)| GapData {
+            left: gap.left,
+            width: gap.width,
+            contacts: summary
+                .contacts
+                .iter()
+                .map(|contact| {
+                    index += 1;
+                    ContactData {
+                        index: index - 1,
+                        label: place(contact),
+                        floors: contact.floors,
+                        height: contact.height_m,
+                        peak: contact.peak_force_n,
+                        impacts: contact.impact_count,
+                    }
+                })
+                .collect(),
+        })
+        .collect()
+}
+
+fn ground(motion: &GroundMotion) -> Series {
+    let step = match &motion.wave {
+        Wave::Sampled { step, .. } => *step,
+        Wave::Sine { period, .. } | Wave::Ricker { period, .. } => period / 40.0,
+    };
+    let count = (motion.duration / step).floor().max(1.0);
+    let points = if count <= 1e6 { count as usize } else { 1_000_000 };
+    let step = if points < 1_000_000 { step } else { motion.duration / 1e6 };
+    let rows: Vec<usize> = if points <= MOST_GROUND_POINTS {
+        (0..=points).collect()
+    } else {
+        extremes(points, MOST_GROUND_POINTS, |i| motion.acceleration(i as f64 * step))
+    };
+    let time: Vec<f64> = rows.iter().map(|i| *i as f64 * step).collect();
+    Series {
+        values: Packed::values(time.iter().map(|t| motion.acceleration(*t))),
+        time: Packed::instants(&time),
+    }
+}
+
+/// The least and the greatest of every bucket, in order.
+fn extremes(points: usize, most: usize, value: impl Fn(usize) -> f64) -> Vec<usize> {
+    let bucket = (2 * points).div_ceil(most).max(2);
+    let mut rows = vec![0];
+    for start in (0..points).step_by(bucket) {
+        let mut pair = [start, start];
+        for i in start..(start + bucket).min(points) {
+            if value(i) < value(pair[0]) {
+                pair[0] = i;
+            }
+            if value(i) > value(pair[1]) {
+                pair[1] = i;
+            }
+        }
+        pair.sort_unstable();
+        rows.extend(pair);
+    }
+    rows.push(points);
+    rows.dedup();
+    rows
+}
+
+fn forces(page: &Page) -> Vec<Vec<f64>> {
+    (0..contacts(page.summary).count())
+        .map(|contact| {
+            page.history
+                .column(Column::ContactForce { contact })
+                .unwrap_or_default()
+        })
+        .collect()
+}
+
+fn force_series(time: &[f64], force: &[Vec<f64>]) -> Vec<Series> {
+    // Six bytes a point, four thirds of that as text.
+    let kept = thin_impacts(force, FORCE_BYTES / 8);
+    force
+        .iter()
+        .zip(kept)
+        .map(|(force, rows)| {
+            let instants: Vec<f64> = rows
+                .iter()
+                .filter_map(|row| time.get(*row).copied())
+                .collect();
+            Series {
+                time: Packed::instants(&instants),
+                values: Packed::values(rows.iter().map(|row| force[*row])),
+            }
+        })
+        .collect()
+}
+
+/// Displacements, and energies if asked for, on thinned instants that hit every peak displacement.
+fn table(
+    page: &Page,
+    history: &History,
+    force: &[Vec<f64>],
+    bytes: usize,
+    energies: bool,
+) -> Table {
+    let time = history.column(Column::Time).unwrap_or_default();
+    let columns: Vec<(String, Vec<f64>)> = wanted(page, energies)
+        .into_iter()
+        .filter_map(|(name, column)| Some((name, history.column(column)?)))
+        .collect();
+    let mut closed = vec![false; time.len()];
+    for (row, closed) in closed.iter_mut().enumerate() {
+        *closed = force.iter().any(|f| f.get(row).is_some_and(|f| *f != 0.0));
+    }
+    let always: Vec<usize> = columns
+        .iter()
+        .filter(|(name, _)| name.starts_with('u'))
+        .flat_map(|(_, values)| peaks(values))
+        .collect();
+    // Two bytes a value and four an instant, four thirds of that as text.
+    let budget = (bytes * 3 / 4 / (2 * columns.len() + 4)).min(MOST_ROWS);
+    let rows = thin_rows(&time, &closed, &always, budget);
+    let kept: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
+    Table {
+        time: Packed::instants(&kept),
+        columns: columns
+            .into_iter()
+            .map(|(name, values)| (name, Packed::values(rows.iter().map(|row| values[*row]))))
+            .collect(),
+    }
+}
+
+fn peaks(values: &[f64]) -> impl Iterator<Item = usize> {
+    let by = |a: &(usize, &f64), b: &(usize, &f64)| a.1.total_cmp(b.1);
+    let least = values.iter().enumerate().min_by(by);
+    let greatest = values.iter().enumerate().max_by(by);
+    least.into_iter().chain(greatest).map(|(row, _)| row)
+}
+
+fn wanted(page: &Page, energies: bool) -> Vec<(String, Column)> {
+    let mut wanted = Vec::new();
+    for (building, shape) in page.model.buildings.iter().enumerate() {
+        for floor in 1..=shape.floors() {
+            wanted.push((
+                format!("u:{building}:{floor}"),
+                Column::Displacement { building, floor },
+            ));
+        }
+    }
+    if energies {
+        wanted.extend(
+            EnergyTerm::ALL.map(|term| (format!("e:{}", energy_name(term)), Column::Energy(term))),
+        );
+    }
+    wanted
+}
+
+fn energy_name(term: EnergyTerm) -> &'static str {
+    match term {
+        EnergyTerm::Input => "input",
+        EnergyTerm::Kinetic => "kinetic",
+        EnergyTerm::Strain => "strain",
+        EnergyTerm::Damped => "damped",
+        EnergyTerm::Hysteretic => "hysteretic",
+        EnergyTerm::Contact => "contact",
+    }
+}
+
+/// The strongest impacts, in order of time.
+fn impacts(summary: &Summary) -> Vec<ImpactData> {
+    let mut impacts: Vec<ImpactData> = contacts(summary)
+        .enumerate()
+        .flat_map(|(index, contact)| {
+            contact.impacts.iter().map(move |impact| ImpactData {
+                contact: index,
+                start: impact.start_s,
+                end: impact.end_s,
+                peak: impact.peak_force_n,
+                at: impact.peak_force_at_s,
+            })
+        })
+        .collect();
+    impacts.sort_by(|a, b| b.peak.total_cmp(&a.peak));
+    impacts.truncate(MOST_IMPACTS);
+    impacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+    impacts
+}

@@ -1,0 +1,216 @@
+//! Impacts one by one, and the joint widths of the codes beside the computed ones.
+
+use jostle::separation::{absolute_sum, gb50011_frame_joint, srss};
+use jostle::summary::{ContactSummary, GapSummary, ImpactSummary, Summary};
+use maud::{Markup, html};
+
+use crate::envelope::Envelope;
+use crate::verdict::{peak_closing, place};
+use crate::{Page, format};
+
+/// Most impacts in the table; the strongest are kept.
+const MOST_ROWS: usize = 1000;
+/// Rows shown before the reader asks for all.
+const FIRST_ROWS: usize = 30;
+
+/// The table of impacts, in order of time.
+pub(crate) fn impacts(summary: &Summary) -> Markup {
+    let several = summary.gaps.len() > 1;
+    let mut rows: Vec<(&GapSummary, &ContactSummary, &ImpactSummary)> = summary
+        .gaps
+        .iter()
+        .flat_map(|gap| gap.contacts.iter().map(move |contact| (gap, contact)))
+        .flat_map(|(gap, contact)| contact.impacts.iter().map(move |i| (gap, contact, i)))
+        .collect();
+    let all = rows.len();
+    rows.sort_by(|a, b| b.2.peak_force_n.total_cmp(&a.2.peak_force_n));
+    rows.truncate(MOST_ROWS);
+    rows.sort_by(|a, b| a.2.start_s.total_cmp(&b.2.start_s));
+    let columns: [(&str, &str); 9] = [
+        ("start", "s"),
+        ("duration", "ms"),
+        ("peak force", "kN"),
+        ("indentation", "mm"),
+        ("impact speed", "m/s"),
+        ("separation speed", "m/s"),
+        ("restitution", "–"),
+        ("impulse", "kN·s"),
+        ("dissipated", "kJ"),
+    ];
+    html! {
+        @if all == 0 {
+            p.quiet { "No floor touched its neighbour." }
+        } @else {
+            @if all > MOST_ROWS {
+                p.quiet { "The " (MOST_ROWS) " strongest of " (all) " impacts; the file of impacts beside this page has all of them." }
+            }
+            div.scroll {
+                table #impact-table.sortable.clipped[rows.len() > FIRST_ROWS] data-first=(FIRST_ROWS) {
+                    thead { tr {
+                        th scope="col" { button type="button" { "where" } }
+                        @for (name, unit) in columns {
+                            th.number scope="col" aria-sort=[(name == "start").then_some("ascending")] {
+                                button type="button" { (name) @if unit != "–" { br; span.unit { "[" (unit) "]" } } }
+                            }
+                        }
+                    } }
+                    tbody {
+                        @for (i, (gap, contact, impact)) in rows.iter().enumerate() {
+                            tr.beyond[i >= FIRST_ROWS] {
+                                td { @if several { (gap.between[0]) "–" (gap.between[1]) ", " } (place(contact)) }
+                                @for value in cells(impact) { td.number { (value) } }
+                            }
+                        }
+                    }
+                }
+            }
+            @if rows.len() > FIRST_ROWS {
+                button #all-impacts.wide type="button" { "Show all " (rows.len()) " impacts" }
+            }
+            (restitution_note(summary))
+        }
+    }
+}
+
+fn cells(impact: &ImpactSummary) -> [String; 9] {
+    [
+        format::fixed(impact.start_s, 4),
+        format::significant((impact.end_s - impact.start_s) * 1e3, 3),
+        format::significant(impact.peak_force_n / 1e3, 4),
+        format::significant(impact.peak_indentation_m * 1e3, 3),
+        format::significant(impact.impact_speed_m_s, 3),
+        format::significant(impact.separation_speed_m_s, 3),
+        format::fixed(impact.realised_restitution, 3),
+        format::significant(impact.impulse_n_s / 1e3, 3),
+        format::significant(impact.dissipated_j / 1e3, 3),
+    ]
+}
+
+fn restitution_note(summary: &Summary) -> Markup {
+    html! {
+        div.note {
+            p {
+                "Restitution is separation speed ÷ impact speed as it came about. Two free masses would rebound with "
+                @for (i, gap) in summary.gaps.iter().enumerate() {
+                    @if i > 0 { ", " }
+                    b { (format::fixed(gap.free_restitution, 3)) }
+                    @if summary.gaps.len() > 1 { " (" (gap.between[0]) "–" (gap.between[1]) ")" }
+                }
+                " under this contact law. In a building the storeys and the other contacts push during the impact as well, so the two differ, and the ratio may even exceed one after a soft touch."
+            }
+            @if summary.gaps.iter().any(|gap| gap.law.starts_with("hertz-damp")) {
+                p {
+                    "The coefficient typed into the published hertz-damp formula is not the rebound of free masses: e = 0.65 there rebounds with 0.775."
+                }
+            }
+        }
+    }
+}
+
+/// A length to compare with the gap.
+struct Width {
+    name: String,
+    metres: f64,
+    class: &'static str,
+}
+
+/// Joint widths of a gap as bars: the gap, what the run needed, what rules ask for.
+pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
+    html! {
+        @for (summary, gap) in page.summary.gaps.iter().zip(&page.model.gaps) {
+            @let widths = widths(page, summary, gap.left, without.unwrap_or(run), without.is_some());
+            @let longest = widths.iter().map(|w| w.metres).fold(1e-9, f64::max);
+            @let lower = lower_height(page, gap.left);
+            div.joint {
+                h3 { (summary.between[0]) " and " (summary.between[1]) }
+                div.bars role="table" {
+                    @for width in &widths {
+                        div.bar-row role="row" {
+                            span.bar-name role="rowheader" { (width.name) }
+                            span.bar-track role="presentation" {
+                                span.bar.(width.class) style=(format!("width:{:.2}%", width.metres / longest * 100.0)) {}
+                                span.bar-gap style=(format!("left:{:.2}%", summary.width_m / longest * 100.0)) {}
+                            }
+                            span.bar-value role="cell" { (format::millimetres(width.metres)) }
+                        }
+                    }
+                }
+                @if let Some(height) = lower {
+                    p.quiet {
+                        "GB 50011-2010 §6.1.4, concrete frames, for the lower building (" (format::fixed(height, 1)) " m high). "
+                        "SRSS and ABS combine the peak displacements at the highest common floor "
+                        @if without.is_some() { "of the run without contact." } @else { "of this run, impacts included." }
+                        " The line marks the gap."
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn lower_height(page: &Page, left: usize) -> Option<f64> {
+    let buildings = page.model.buildings.get(left..left + 2)?;
+    buildings
+        .iter()
+        .filter_map(|building| building.floor_heights().last().copied())
+        .min_by(f64::total_cmp)
+}
+
+fn widths(
+    page: &Page,
+    summary: &GapSummary,
+    left: usize,
+    envelopes: &[Envelope],
+    without: bool,
+) -> Vec<Width> {
+    let mut widths = vec![Width {
+        name: "gap".into(),
+        metres: summary.width_m,
+        class: "of-gap",
+    }];
+    let mut add = |name: &str, metres: Option<f64>, class| {
+        if let Some(metres) = metres.filter(|m| m.is_finite() && *m >= 0.0) {
+            widths.push(Width {
+                name: name.into(),
+                metres,
+                class,
+            });
+        }
+    };
+    add("peak closing", peak_closing(summary), "of-run");
+    add(
+        "smallest gap without pounding",
+        summary.closing_without_contact_m,
+        "of-run",
+    );
+    let top = summary
+        .contacts
+        .iter()
+        .filter_map(|contact| match contact.floors {
+            [Some(l), Some(r)] => Some((l, r, contact.height_m)),
+            _ => None,
+        })
+        .max_by(|a, b| a.2.total_cmp(&b.2));
+    if let Some((l, r, _)) = top {
+        let peak = |building: usize, floor: usize| {
+            let envelope = envelopes.get(building)?;
+            let greatest = envelope.greatest.get(floor.wrapping_sub(1))?;
+            let least = envelope.least.get(floor.wrapping_sub(1))?;
+            Some(greatest.max(-least))
+        };
+        let pair = peak(left, l).zip(peak(left + 1, r));
+        let run = if without { "" } else { " (with impacts)" };
+        let (square, sum) = (format!("SRSS{run}"), format!("ABS{run}"));
+        add(&square, pair.map(|(l, r)| srss(l, r)), "of-rule");
+        add(&sum, pair.map(|(l, r)| absolute_sum(l, r)), "of-rule");
+    }
+    for intensity in 6..=9 {
+        let width = lower_height(page, left).and_then(|h| gb50011_frame_joint(h, intensity));
+        add(
+            &format!("GB 50011, intensity {intensity}"),
+            width,
+            "of-code",
+        );
+    }
+    widths
+}

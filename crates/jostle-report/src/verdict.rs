@@ -1,0 +1,162 @@
+//! What happened, in one sentence of plain words.
+
+use jostle::summary::{ContactSummary, GapSummary, ImpactSummary, Summary};
+
+use crate::format;
+
+/// The headline of the report.
+pub(crate) fn verdict(summary: &Summary) -> String {
+    let pounding: Vec<&GapSummary> = summary
+        .gaps
+        .iter()
+        .filter(|gap| gap.impact_count > 0)
+        .collect();
+    let quiet = summary.gaps.len() - pounding.len();
+    match (&summary.gaps[..], &pounding[..]) {
+        ([], _) => alone(summary),
+        ([_], [gap]) => sentence_of(gap),
+        ([gap], []) => approach(gap, "No contact: "),
+        (gaps, []) => {
+            let nearest = gaps
+                .iter()
+                .filter(|gap| closest_approach(gap).is_some())
+                .min_by(|a, b| {
+                    let distance = |gap| closest_approach(gap).unwrap_or(f64::INFINITY);
+                    distance(a).total_cmp(&distance(b))
+                });
+            match nearest {
+                Some(gap) => approach(gap, &format!("No contact in any of {} gaps: ", gaps.len())),
+                None => format!("No contact in any of {} gaps.", gaps.len()),
+            }
+        }
+        (_, gaps) if gaps.len() <= 2 => {
+            let mut text: Vec<String> = gaps.iter().map(|gap| sentence_of(gap)).collect();
+            if quiet > 0 {
+                text.push(match quiet {
+                    1 => "The other gap stays open.".into(),
+                    n => format!("The other {n} gaps stay open."),
+                });
+            }
+            text.join(" ")
+        }
+        (all, gaps) => {
+            let hardest = gaps
+                .iter()
+                .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
+            format!(
+                "{} of {} gaps close. {}",
+                gaps.len(),
+                all.len(),
+                hardest.map_or_else(String::new, |gap| sentence_of(gap))
+            )
+        }
+    }
+}
+
+fn alone(summary: &Summary) -> String {
+    let roof = summary.buildings.iter().filter_map(|building| {
+        let roof = building.floors.last()?;
+        Some((
+            &building.name,
+            roof.displacement_max_m.max(-roof.displacement_min_m),
+        ))
+    });
+    match roof.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((name, sway)) => format!(
+            "{name} sways up to {} at the roof; it has no neighbour to hit.",
+            format::millimetres(sway)
+        ),
+        None => "Nothing was recorded.".into(),
+    }
+}
+
+/// "J1 and J2 hit …" for a gap with at least one impact.
+fn sentence_of(gap: &GapSummary) -> String {
+    let [left, right] = &gap.between;
+    let all = || {
+        gap.contacts.iter().flat_map(|contact| {
+            contact
+                .impacts
+                .iter()
+                .map(move |impact| (contact, impact))
+        })
+    };
+    let first = all().min_by(|a, b| a.1.start_s.total_cmp(&b.1.start_s));
+    let hardest = all().max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));
+    let (Some((first_at, first)), Some((hardest_at, hardest))) = (first, hardest) else {
+        return format!(
+            "{left} and {right} hit {} with up to {}.",
+            times(gap.impact_count),
+            format::force(gap.peak_force_n)
+        );
+    };
+    let force = |impact: &ImpactSummary| format::force(impact.peak_force_n);
+    let at = |impact: &ImpactSummary| format::instant(impact.start_s);
+    if gap.impact_count == 1 {
+        return format!(
+            "{left} and {right} hit once: {}, at {}, with {}.",
+            place(first_at),
+            at(first),
+            force(first)
+        );
+    }
+    let head = format!(
+        "{left} and {right} hit {}, first at {} ({})",
+        times(gap.impact_count),
+        at(first),
+        place(first_at)
+    );
+    if hardest == first {
+        format!("{head}, then hardest too, with {}.", force(hardest))
+    } else {
+        format!(
+            "{head}, hardest at {} ({}), with {}.",
+            at(hardest),
+            place(hardest_at),
+            force(hardest)
+        )
+    }
+}
+
+fn approach(gap: &GapSummary, head: &str) -> String {
+    match closest_approach(gap) {
+        Some(distance) => format!(
+            "{head}{} and {} come no closer than {}.",
+            gap.between[0],
+            gap.between[1],
+            format::millimetres(distance)
+        ),
+        None => "No contact.".into(),
+    }
+}
+
+/// Least distance left between the faces of a gap \[m\].
+pub(crate) fn closest_approach(gap: &GapSummary) -> Option<f64> {
+    peak_closing(gap).map(|closing| gap.width_m - closing)
+}
+
+/// Greatest closing of any contact of a gap \[m\].
+pub(crate) fn peak_closing(gap: &GapSummary) -> Option<f64> {
+    gap.contacts
+        .iter()
+        .map(|contact| contact.closing_peak_m)
+        .filter(|closing| closing.is_finite())
+        .max_by(f64::total_cmp)
+}
+
+/// Where a contact is: "floor 5", "floors 5 and 4", "height 4.80 m".
+pub(crate) fn place(contact: &ContactSummary) -> String {
+    match contact.floors {
+        [Some(left), Some(right)] if left == right => format!("floor {left}"),
+        [Some(left), Some(right)] => format!("floors {left} and {right}"),
+        _ => format!("height {}\u{a0}m", format::fixed(contact.height_m, 2)),
+    }
+}
+
+fn times(count: usize) -> String {
+    match count {
+        1 => "once".into(),
+        2 => "twice".into(),
+        n => format!("{} times", format::fixed(n as f64, 0)),
+    }
+}
