@@ -199,6 +199,15 @@ impl ForceLaw {
         }
     }
 
+    /// Force at the instant of touch, before any indentation \[N\].
+    #[must_use]
+    pub fn onset(&self, impact_speed: f64) -> f64 {
+        match *self {
+            Self::Kelvin { damping, .. } => damping * impact_speed,
+            Self::Hertz { .. } => 0.0,
+        }
+    }
+
     /// Whether the force jumps when the contact opens, so that a step must end there.
     #[must_use]
     pub fn jumps_at_release(&self) -> bool {

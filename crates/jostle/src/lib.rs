@@ -1,13 +1,22 @@
 //! Seismic pounding of neighbouring buildings by the transfer matrix method for multibody systems.
 
 pub mod contact;
+pub mod equations;
 pub mod history;
+pub mod modal;
 pub mod model;
 pub mod motion;
 pub mod separation;
+pub mod skeleton;
+pub mod state;
+pub mod stepping;
+pub mod stiffness;
 pub mod summary;
+pub mod system;
 
 mod check;
+mod element;
+mod transfer;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
@@ -16,4 +25,8 @@ pub use model::{
     Shear, Solver, Structure,
 };
 pub use motion::{GroundMotion, Wave};
+pub use state::State;
+pub use stepping::{Outcome, Plan, Pounding, RunEnd, Settings, StepError, simulate};
 pub use summary::Summary;
+pub use system::System;
+pub use transfer::riccati::{RiccatiFactor, RiccatiSweep};

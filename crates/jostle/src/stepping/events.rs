@@ -1,0 +1,163 @@
+//! When a contact closes or opens inside a step: the cubic Hermite interpolant of its indentation.
+
+use crate::history::Extreme;
+
+/// Cubic through two values and two slopes over one step (theory, Eq. H1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Cubic {
+    pub(crate) start: f64,
+    pub(crate) end: f64,
+    /// Slopes times the step.
+    pub(crate) start_rise: f64,
+    pub(crate) end_rise: f64,
+}
+
+/// Direction of a crossing of zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Crossing {
+    Upwards,
+    Downwards,
+}
+
+impl Cubic {
+    pub(crate) fn new(start: f64, start_slope: f64, end: f64, end_slope: f64, step: f64) -> Self {
+        Self {
+            start,
+            end,
+            start_rise: start_slope * step,
+            end_rise: end_slope * step,
+        }
+    }
+
+    /// Value at a share of the step.
+    pub(crate) fn value(&self, at: f64) -> f64 {
+        let [c0, c1, c2, c3] = self.powers();
+        c0 + at * (c1 + at * (c2 + at * c3))
+    }
+
+    /// Slope times the step at a share of the step.
+    pub(crate) fn rise(&self, at: f64) -> f64 {
+        let [_, c1, c2, c3] = self.powers();
+        c1 + at * (2.0 * c2 + at * 3.0 * c3)
+    }
+
+    fn powers(&self) -> [f64; 4] {
+        let jump = self.end - self.start;
+        [
+            self.start,
+            self.start_rise,
+            3.0 * jump - 2.0 * self.start_rise - self.end_rise,
+            self.start_rise + self.end_rise - 2.0 * jump,
+        ]
+    }
+
+    /// Shares of the step, in order, where the slope vanishes strictly inside it.
+    fn turning_points(&self) -> impl Iterator<Item = f64> {
+        let [_, c1, c2, c3] = self.powers();
+        let discriminant = c2 * c2 - 3.0 * c1 * c3;
+        let mut points = [f64::NAN; 2];
+        if discriminant >= 0.0 {
+            // The stable pair of roots of c1 + 2 c2 t + 3 c3 t².
+            let q = -(c2 + c2.signum() * discriminant.sqrt());
+            points = [q / (3.0 * c3), c1 / q];
+            points.sort_by(f64::total_cmp);
+        }
+        points
+            .into_iter()
+            .filter(|point| *point > 0.0 && *point < 1.0)
+    }
+
+    /// Share of the step where the value first crosses zero in the given direction. The start counts as lying
+    /// on the side one comes from.
+    pub(crate) fn first_crossing(&self, crossing: Crossing) -> Option<f64> {
+        let sign = if crossing == Crossing::Upwards {
+            1.0
+        } else {
+            -1.0
+        };
+        let arrived = |at: f64| sign * self.value(at) > 0.0;
+        // No turning point can arrive earlier than the end when both slopes agree with the chord.
+        let mut before = 0.0;
+        for at in self.turning_points().chain([1.0]) {
+            let there = if at == 1.0 {
+                sign * self.end > 0.0
+            } else {
+                arrived(at)
+            };
+            if there {
+                return Some(bisect(before, at, arrived));
+            }
+            before = at;
+        }
+        None
+    }
+
+    /// Greatest value inside the step, if the cubic turns there from rising to falling.
+    pub(crate) fn peak(&self, start_time: f64, step: f64) -> Option<Extreme> {
+        if self.start_rise <= 0.0 || self.end_rise >= 0.0 {
+            return None;
+        }
+        let at = bisect(0.0, 1.0, |at| self.rise(at) <= 0.0);
+        Some(Extreme {
+            value: self.value(at),
+            at: start_time + at * step,
+        })
+    }
+}
+
+/// First point where `reached` holds, given that it does at `high`.
+pub(crate) fn bisect(mut low: f64, mut high: f64, reached: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if reached(middle) {
+            high = middle
+        } else {
+            low = middle
+        }
+    }
+    high
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cubic_reproduces_a_cubic() {
+        let f = |t: f64| 2.0 - 3.0 * t + t * t * t;
+        let slope = |t: f64| -3.0 + 3.0 * t * t;
+        let (a, h) = (0.4, 1.7);
+        let cubic = Cubic::new(f(a), slope(a), f(a + h), slope(a + h), h);
+        for at in [0.0, 0.3, 0.9, 1.0] {
+            assert!((cubic.value(at) - f(a + at * h)).abs() < 1e-13);
+            assert!((cubic.rise(at) - h * slope(a + at * h)).abs() < 1e-12);
+        }
+        // It falls, turns at t = 1 with the value 0, and rises.
+        assert_eq!(cubic.peak(a, h), None);
+    }
+
+    #[test]
+    fn a_touch_between_two_open_ends_is_found() {
+        // −0.1 + t(1 − t): open at both ends, closed from 0.1127 to 0.8873.
+        let cubic = Cubic::new(-0.1, 1.0, -0.1, -1.0, 1.0);
+        let touch = cubic.first_crossing(Crossing::Upwards).expect("it closes");
+        assert!((touch - (0.5 - 0.15_f64.sqrt())).abs() < 1e-15, "{touch}");
+        let peak = cubic.peak(0.0, 1.0).expect("it turns");
+        assert!((peak.value - 0.15).abs() < 1e-15 && (peak.at - 0.5).abs() < 1e-7);
+    }
+
+    #[test]
+    fn leaving_is_no_touch() {
+        assert_eq!(
+            Cubic::new(1e-15, -1.0, -0.5, -0.2, 1.0).first_crossing(Crossing::Upwards),
+            None
+        );
+        assert_eq!(
+            Cubic::new(-0.3, 0.0, -0.3, 0.0, 1.0).first_crossing(Crossing::Upwards),
+            None
+        );
+    }
+}

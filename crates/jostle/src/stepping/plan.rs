@@ -1,0 +1,190 @@
+//! Step sizes: fixed, or chosen from the tolerance (theory, Eqs. G1 and G2).
+
+use super::newmark::Newmark;
+use crate::contact::ForceLaw;
+use crate::model::{Analysis, ModelFault, Solver};
+use crate::motion::GroundMotion;
+use crate::system::{BuildingSystem, Contact, System};
+
+/// How a run will step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Step in free flight \[s\].
+    pub step: f64,
+    /// Steps while a contact is closed.
+    pub contact_steps: ContactSteps,
+    /// Integrator.
+    pub newmark: Newmark,
+    /// Which equations.
+    pub solver: Solver,
+}
+
+/// Into how many parts a free-flight step is divided while a contact is closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ContactSteps {
+    /// Always the same.
+    Fixed(u32),
+    /// The next power of two that gives at least this many steps per elastic impact at the actual impact speed.
+    PerImpact(f64),
+}
+
+/// Free-flight steps per first lateral period, at a tolerance of 1e-3.
+const STEPS_PER_FIRST_PERIOD: f64 = 250.0;
+/// Free-flight steps per third lateral period, at a tolerance of 1e-3.
+const STEPS_PER_THIRD_PERIOD: f64 = 60.0;
+/// Free-flight steps per period of an analytic ground motion, at a tolerance of 1e-3.
+const STEPS_PER_MOTION_PERIOD: f64 = 100.0;
+/// Steps per elastic impact, at a tolerance of 1e-3.
+const STEPS_PER_IMPACT: f64 = 60.0;
+/// Free-flight step where nothing else limits it \[s\].
+const LONGEST_STEP: f64 = 0.02;
+/// Fewest fixed steps per first period and per impact that still mean something.
+const FEWEST_PER_PERIOD: f64 = 20.0;
+const FEWEST_PER_IMPACT: f64 = 8.0;
+/// Impact speed for judging fixed contact steps \[m/s\].
+const TYPICAL_SPEED: f64 = 0.5;
+/// Finest division of a free-flight step.
+const FINEST: u32 = 1 << 20;
+
+impl Plan {
+    /// Chooses the steps for a system and a motion.
+    ///
+    /// # Errors
+    /// A fixed step that cannot resolve the first period, the record or an impact.
+    pub fn choose(
+        system: &System,
+        motion: &GroundMotion,
+        analysis: &Analysis,
+    ) -> Result<Self, Vec<ModelFault>> {
+        let mut faults = Vec::new();
+        let refinement = (analysis.tolerance / 1e-3).sqrt();
+        let step = match analysis.step {
+            Some(step) => {
+                check_step(step, system, motion, &mut faults);
+                step
+            }
+            None => automatic_step(system, motion, refinement),
+        };
+        let contact_steps = match analysis.contact_step {
+            Some(contact_step) => {
+                check_contact_step(contact_step, system, &mut faults);
+                ContactSteps::Fixed(
+                    (step / contact_step - 1e-9)
+                        .ceil()
+                        .clamp(1.0, f64::from(FINEST)) as u32,
+                )
+            }
+            None => ContactSteps::PerImpact(STEPS_PER_IMPACT / refinement),
+        };
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        Ok(Self {
+            step,
+            contact_steps,
+            newmark: Newmark::default(),
+            solver: analysis.solver,
+        })
+    }
+
+    /// Division of a free-flight step for a contact that closes at `impact_speed` \[m/s\].
+    #[must_use]
+    pub fn division(&self, contact: &Contact, impact_speed: f64) -> u32 {
+        match self.contact_steps {
+            ContactSteps::Fixed(division) => division,
+            ContactSteps::PerImpact(steps) => {
+                let duration = contact
+                    .law
+                    .elastic_duration(contact.effective_mass(), impact_speed.max(1e-3));
+                let wanted = (self.step * steps / duration).ceil();
+                if wanted >= f64::from(FINEST) {
+                    FINEST
+                } else {
+                    (wanted.max(1.0) as u32).next_power_of_two()
+                }
+            }
+        }
+    }
+}
+
+fn lateral_period(building: &BuildingSystem, number: usize) -> Option<f64> {
+    let periods: Vec<f64> = building
+        .lateral_modes()
+        .map(crate::modal::Mode::period)
+        .collect();
+    periods.get(number - 1).or(periods.last()).copied()
+}
+
+fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f64 {
+    let mut step = LONGEST_STEP;
+    for building in &system.buildings {
+        for (number, steps) in [(1, STEPS_PER_FIRST_PERIOD), (3, STEPS_PER_THIRD_PERIOD)] {
+            step = lateral_period(building, number)
+                .map_or(step, |period| step.min(refinement * period / steps));
+        }
+    }
+    if let Some(period) = motion.period() {
+        step = step.min(refinement * period / STEPS_PER_MOTION_PERIOD);
+    }
+    // Steps must land on the points of a record, where its slope changes.
+    match motion.step() {
+        Some(record_step) => record_step / (record_step / step - 1e-9).ceil().max(1.0),
+        None => step,
+    }
+}
+
+fn check_step(step: f64, system: &System, motion: &GroundMotion, faults: &mut Vec<ModelFault>) {
+    let mut fault = |problem: String| {
+        faults.push(ModelFault {
+            path: "analysis.step".into(),
+            problem,
+        })
+    };
+    for building in &system.buildings {
+        if let Some(period) =
+            lateral_period(building, 1).filter(|period| step > period / FEWEST_PER_PERIOD)
+        {
+            fault(format!(
+                "{step} s is too large for \"{}\", whose first period is {period:.4} s; use at most {:.4} s, or \"auto\"",
+                building.name,
+                period / FEWEST_PER_PERIOD
+            ));
+        }
+    }
+    if let Some(record_step) = motion
+        .step()
+        .filter(|record_step| step > record_step * (1.0 + 1e-9))
+    {
+        fault(format!(
+            "{step} s would skip points of the record, whose step is {record_step} s; use at most that, or \"auto\""
+        ));
+    }
+}
+
+fn check_contact_step(contact_step: f64, system: &System, faults: &mut Vec<ModelFault>) {
+    let shortest = system
+        .contacts
+        .iter()
+        .filter(|contact| has_stiffness(&contact.law))
+        .map(|contact| {
+            contact
+                .law
+                .elastic_duration(contact.effective_mass(), TYPICAL_SPEED)
+        });
+    let shortest = shortest.fold(f64::INFINITY, f64::min);
+    if contact_step > shortest / FEWEST_PER_IMPACT {
+        faults.push(ModelFault {
+            path: "analysis.contact_step".into(),
+            problem: format!(
+                "{contact_step} s is too large for impacts that last about {shortest:.4} s; use at most {:.5} s, or \"auto\"",
+                shortest / FEWEST_PER_IMPACT
+            ),
+        });
+    }
+}
+
+fn has_stiffness(law: &ForceLaw) -> bool {
+    match law {
+        ForceLaw::Kelvin { stiffness, .. } | ForceLaw::Hertz { stiffness, .. } => *stiffness > 0.0,
+    }
+}

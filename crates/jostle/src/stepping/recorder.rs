@@ -1,0 +1,199 @@
+//! Histories and peaks, taken after every accepted step.
+
+use super::energy::EnergyAudit;
+use super::events::Cubic;
+use crate::history::{Column, Energy, EnergyTerm, Extreme, FloorPeaks, History};
+use crate::state::State;
+use crate::system::System;
+
+/// Takes histories and peaks.
+pub(crate) struct Recorder {
+    history: Option<History>,
+    interval: f64,
+    due: f64,
+    pub(crate) floors: Vec<Vec<FloorPeaks>>,
+    pub(crate) closing: Vec<Extreme>,
+    pub(crate) base_shear: Vec<f64>,
+    /// Displacement and velocity of every floor, and closing and rate of every contact, a step ago.
+    before: Vec<(f64, f64)>,
+}
+
+/// Columns of a history, in order.
+fn columns(system: &System) -> Vec<Column> {
+    let mut columns = vec![Column::Time, Column::GroundAcceleration];
+    for (building, properties) in system.buildings.iter().enumerate() {
+        for floor in 1..=properties.floors.len() {
+            columns.extend([
+                Column::Displacement { building, floor },
+                Column::Velocity { building, floor },
+                Column::TotalAcceleration { building, floor },
+            ]);
+        }
+    }
+    columns.extend((0..system.contacts.len()).map(|contact| Column::ContactForce { contact }));
+    columns.extend(EnergyTerm::ALL.map(Column::Energy));
+    columns
+}
+
+impl Recorder {
+    /// Records histories at least `interval` apart, every step for zero; `None` only takes peaks.
+    pub(crate) fn new(system: &System, interval: Option<f64>) -> Self {
+        let tracked = system
+            .buildings
+            .iter()
+            .map(|building| building.floors.len())
+            .sum::<usize>()
+            + system.contacts.len();
+        Self {
+            history: interval.map(|_| History::new(columns(system))),
+            interval: interval.unwrap_or(0.0),
+            due: 0.0,
+            floors: system
+                .buildings
+                .iter()
+                .map(|b| vec![FloorPeaks::default(); b.floors.len()])
+                .collect(),
+            closing: vec![Extreme::default(); system.contacts.len()],
+            base_shear: vec![0.0; system.buildings.len()],
+            before: Vec::with_capacity(tracked),
+        }
+    }
+
+    /// Expects about this many more rows.
+    pub(crate) fn reserve(&mut self, rows: usize) {
+        if let Some(history) = &mut self.history {
+            history.reserve(rows);
+        }
+    }
+
+    pub(crate) fn into_history(self) -> Option<History> {
+        self.history
+    }
+
+    /// Remembers the tracked motions at the start of a step.
+    pub(crate) fn before_step(&mut self, system: &System, state: &State) {
+        self.before.clear();
+        let (u, v) = (&state.displacement, &state.velocity);
+        for floor in system
+            .buildings
+            .iter()
+            .flat_map(|building| &building.floors)
+        {
+            self.before.push((u[floor.dof], v[floor.dof]));
+        }
+        for contact in &system.contacts {
+            let [left, right] = contact.dofs;
+            self.before.push((u[left] - u[right], v[left] - v[right]));
+        }
+    }
+
+    /// Updates peaks with the step that ended in `state`.
+    pub(crate) fn after_step(&mut self, system: &System, state: &State, step: f64, ground: f64) {
+        let (u, v) = (&state.displacement, &state.velocity);
+        let start = state.time - step;
+        let mut before = self.before.iter();
+        for (index, building) in system.buildings.iter().enumerate() {
+            let mut below = 0.0;
+            for (peaks, floor) in self.floors[index].iter_mut().zip(&building.floors) {
+                let now = (u[floor.dof], v[floor.dof]);
+                if let Some(&then) = before.next() {
+                    let greatest = greatest_in_step(then, now, start, step);
+                    if greatest.value > peaks.displacement_max.value {
+                        peaks.displacement_max = greatest;
+                    }
+                    let least = greatest_in_step((-then.0, -then.1), (-now.0, -now.1), start, step);
+                    if -least.value < peaks.displacement_min.value {
+                        peaks.displacement_min = Extreme {
+                            value: -least.value,
+                            at: least.at,
+                        };
+                    }
+                }
+                let total = (state.acceleration[floor.dof] + ground).abs();
+                peaks.total_acceleration = peaks.total_acceleration.max(total);
+                peaks.storey_drift = peaks
+                    .storey_drift
+                    .max(((now.0 - below) / floor.storey_height).abs());
+                below = now.0;
+            }
+            let shear = building.equations.base_shear(&u[building.range()]);
+            self.base_shear[index] = self.base_shear[index].max(shear.abs());
+        }
+        for (contact, closing) in system.contacts.iter().zip(&mut self.closing) {
+            let [left, right] = contact.dofs;
+            if let Some(&then) = before.next() {
+                let greatest =
+                    greatest_in_step(then, (u[left] - u[right], v[left] - v[right]), start, step);
+                if greatest.value > closing.value {
+                    *closing = greatest;
+                }
+            }
+        }
+    }
+
+    /// Adds a row to the history when one is due.
+    pub(crate) fn record(
+        &mut self,
+        system: &System,
+        state: &State,
+        ground: f64,
+        audit: &mut EnergyAudit,
+    ) {
+        let Some(history) = &mut self.history else {
+            return;
+        };
+        if state.time < self.due {
+            return;
+        }
+        self.due = if self.interval > 0.0 {
+            state.time + self.interval * (1.0 - 1e-9)
+        } else {
+            state.time
+        };
+        let energy = audit.balance(system, &state.displacement, &state.velocity);
+        let mut row = history.push_row().iter_mut();
+        let mut put = |value: f64| {
+            if let Some(place) = row.next() {
+                *place = value;
+            }
+        };
+        put(state.time);
+        put(ground);
+        for floor in system
+            .buildings
+            .iter()
+            .flat_map(|building| &building.floors)
+        {
+            put(state.displacement[floor.dof]);
+            put(state.velocity[floor.dof]);
+            put(state.acceleration[floor.dof] + ground);
+        }
+        state.contacts.iter().for_each(|phase| put(phase.force()));
+        let Energy {
+            input,
+            kinetic,
+            strain,
+            damped,
+            hysteretic,
+            contact,
+            ..
+        } = energy;
+        [input, kinetic, strain, damped, hysteretic, contact]
+            .into_iter()
+            .for_each(put);
+    }
+}
+
+/// Greatest value in a step between (value, slope) at its ends.
+fn greatest_in_step(then: (f64, f64), now: (f64, f64), start: f64, step: f64) -> Extreme {
+    let end = Extreme {
+        value: now.0,
+        at: start + step,
+    };
+    if then.1 <= 0.0 || now.1 >= 0.0 {
+        return end;
+    }
+    Cubic::new(then.0, then.1, now.0, now.1, step)
+        .peak(start, step)
+        .unwrap_or(end)
+}

@@ -1,0 +1,207 @@
+//! The Riccati transfer recursion in its stable form: block LDLᵀ of the step equations along the path.
+//!
+//! At a cut, what lies behind it exerts `b = R a + g` on what lies ahead (theory, Eq. R1). Passing one
+//! degree of freedom replaces R by a Schur complement (Eq. R3); the pivots D, the couplings L and the loads
+//! are all that need be kept. Unlike the product of transfer matrices no growing and decaying solutions are
+//! ever mixed, so that nothing is lost at small steps or in tall frames.
+
+use crate::stepping::{NotPositive, StepEquations};
+use crate::system::BuildingSystem;
+
+/// The recursion through one building: the pattern of the couplings, found once.
+#[derive(Clone, Debug)]
+pub struct RiccatiSweep {
+    /// Start of every column of L in `rows`; one longer than the order.
+    starts: Vec<usize>,
+    /// Row of every coupling.
+    rows: Vec<u32>,
+    /// Start of every row's list in `reached`.
+    reached_starts: Vec<usize>,
+    /// Columns that couple to a row, in an order in which they can be eliminated.
+    reached: Vec<u32>,
+    /// Diagonal of K.
+    stiffness_diagonal: Vec<f64>,
+    /// Rows of K above the diagonal: start, column, value.
+    upper_starts: Vec<usize>,
+    upper: Vec<(u32, f64)>,
+    mass: Vec<f64>,
+}
+
+/// Pivots and couplings for one step size.
+#[derive(Clone, Debug, Default)]
+pub struct RiccatiFactor {
+    couplings: Vec<f64>,
+    inverse_pivots: Vec<f64>,
+    pivots: Vec<f64>,
+    next: Vec<usize>,
+    work: Vec<f64>,
+}
+
+impl RiccatiSweep {
+    /// Couplings kept per factor: one solution costs two multiply-adds for each.
+    #[must_use]
+    pub fn couplings(&self) -> usize {
+        self.rows.len()
+    }
+}
+
+impl StepEquations for RiccatiSweep {
+    type Factor = RiccatiFactor;
+
+    fn of(building: &BuildingSystem) -> Self {
+        let equations = &building.equations;
+        let n = equations.len();
+        let stiffness = &equations.stiffness;
+        let (upper_starts, upper) = by_rows(n, stiffness);
+        // The displacement that each one is eliminated into: the parent in the elimination tree.
+        let mut parent = vec![usize::MAX; n];
+        let mut met_by = vec![usize::MAX; n];
+        let (mut reached, mut reached_starts, mut counts) = (Vec::new(), vec![0], vec![0_usize; n]);
+        let mut branch = Vec::new();
+        for row in 0..n {
+            met_by[row] = row;
+            let first = reached.len();
+            for &(column, _) in &upper[upper_starts[row]..upper_starts[row + 1]] {
+                let mut at = column as usize;
+                branch.clear();
+                while met_by[at] != row {
+                    if parent[at] == usize::MAX {
+                        parent[at] = row;
+                    }
+                    branch.push(at as u32);
+                    counts[at] += 1;
+                    met_by[at] = row;
+                    at = parent[at];
+                }
+                reached.extend(branch.iter());
+            }
+            // Along the path every column comes after those it depends on.
+            reached[first..].sort_unstable();
+            reached_starts.push(reached.len());
+        }
+        let mut starts = vec![0; n + 1];
+        for column in 0..n {
+            starts[column + 1] = starts[column] + counts[column];
+        }
+        let mut next = starts.clone();
+        let mut rows = vec![0; starts[n]];
+        for row in 0..n {
+            for &column in &reached[reached_starts[row]..reached_starts[row + 1]] {
+                rows[next[column as usize]] = row as u32;
+                next[column as usize] += 1;
+            }
+        }
+        Self {
+            starts,
+            rows,
+            reached_starts,
+            reached,
+            stiffness_diagonal: stiffness.diagonal.clone(),
+            upper_starts,
+            upper,
+            mass: equations.mass.clone(),
+        }
+    }
+
+    fn factorize(
+        &self,
+        stiffness_factor: f64,
+        mass_factor: f64,
+        factor: &mut RiccatiFactor,
+    ) -> Result<(), NotPositive> {
+        let n = self.mass.len();
+        factor.couplings.resize(self.rows.len(), 0.0);
+        factor.pivots.resize(n, 0.0);
+        factor.inverse_pivots.resize(n, 0.0);
+        factor.work.clear();
+        factor.work.resize(n, 0.0);
+        factor.next.clear();
+        factor.next.extend_from_slice(&self.starts[..n]);
+        let RiccatiFactor {
+            couplings,
+            inverse_pivots,
+            pivots,
+            next,
+            work,
+        } = factor;
+        for row in 0..n {
+            let own =
+                stiffness_factor * self.stiffness_diagonal[row] + mass_factor * self.mass[row];
+            for &(column, value) in &self.upper[self.upper_starts[row]..self.upper_starts[row + 1]]
+            {
+                work[column as usize] = stiffness_factor * value;
+            }
+            let mut pivot = own;
+            for &column in &self.reached[self.reached_starts[row]..self.reached_starts[row + 1]] {
+                let column = column as usize;
+                let value = std::mem::take(&mut work[column]);
+                let known = self.starts[column]..next[column];
+                for (&below, &coupling) in self.rows[known.clone()].iter().zip(&couplings[known]) {
+                    work[below as usize] -= coupling * value;
+                }
+                let coupling = value * inverse_pivots[column];
+                pivot -= coupling * value;
+                couplings[next[column]] = coupling;
+                next[column] += 1;
+            }
+            if !(pivot > 1e-14 * own.abs() && pivot.is_finite()) {
+                work.fill(0.0);
+                return Err(NotPositive { dof: row });
+            }
+            pivots[row] = pivot;
+            inverse_pivots[row] = 1.0 / pivot;
+        }
+        Ok(())
+    }
+
+    #[inline]
+    fn solve(&self, factor: &RiccatiFactor, load: &mut [f64]) {
+        let n = self.mass.len();
+        let load = &mut load[..n];
+        for column in 0..n {
+            let value = load[column];
+            let entries = self.starts[column]..self.starts[column + 1];
+            for (&row, &coupling) in self.rows[entries.clone()]
+                .iter()
+                .zip(&factor.couplings[entries])
+            {
+                load[row as usize] -= coupling * value;
+            }
+        }
+        for (value, inverse_pivot) in load.iter_mut().zip(&factor.inverse_pivots) {
+            *value *= inverse_pivot;
+        }
+        for column in (0..n).rev() {
+            let entries = self.starts[column]..self.starts[column + 1];
+            let mut value = load[column];
+            for (&row, &coupling) in self.rows[entries.clone()]
+                .iter()
+                .zip(&factor.couplings[entries])
+            {
+                value -= coupling * load[row as usize];
+            }
+            load[column] = value;
+        }
+    }
+}
+
+/// The strict lower triangle by rows: for every row its columns and values.
+fn by_rows(n: usize, matrix: &crate::equations::SparseSymmetric) -> (Vec<usize>, Vec<(u32, f64)>) {
+    let mut starts = vec![0; n + 1];
+    for row in &matrix.rows {
+        starts[*row as usize + 1] += 1;
+    }
+    for row in 0..n {
+        starts[row + 1] += starts[row];
+    }
+    let mut next = starts.clone();
+    let mut entries = vec![(0, 0.0); matrix.rows.len()];
+    for column in 0..n {
+        for entry in matrix.starts[column]..matrix.starts[column + 1] {
+            let row = matrix.rows[entry] as usize;
+            entries[next[row]] = (column as u32, matrix.values[entry]);
+            next[row] += 1;
+        }
+    }
+    (starts, entries)
+}
