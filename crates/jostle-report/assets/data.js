@@ -1,0 +1,118 @@
+// What the page carries: histories packed as integers in base64, geometry, impacts.
+
+const page = JSON.parse(document.getElementById("page-data").textContent);
+
+/** Numbers of a packed list: offset + scale · integer, little-endian. */
+function unpack({ kind, offset, scale, data }) {
+  const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
+  const view = new DataView(bytes.buffer);
+  const size = kind === "u32" ? 4 : 2;
+  const numbers = new Float64Array(bytes.length / size);
+  for (let i = 0; i < numbers.length; i++) {
+    const integer = kind === "u32" ? view.getUint32(4 * i, true) : view.getInt16(2 * i, true);
+    numbers[i] = offset + scale * integer;
+  }
+  return numbers;
+}
+
+/** Index of the last entry ≤ value in a rising list; -1 before the first. */
+function indexBefore(list, value) {
+  let low = 0;
+  let high = list.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (list[middle] <= value) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
+}
+
+/** Value at an instant on straight lines between the points; the ends hold on. */
+function interpolate(time, values, t) {
+  const i = indexBefore(time, t);
+  if (i < 0) return values[0] ?? 0;
+  if (i >= time.length - 1) return values[values.length - 1];
+  const span = time[i + 1] - time[i];
+  return span > 0 ? values[i] + ((t - time[i]) / span) * (values[i + 1] - values[i]) : values[i];
+}
+
+function unpackTable(table) {
+  if (!table) return null;
+  return {
+    time: unpack(table.time),
+    columns: new Map(table.columns.map(([name, column]) => [name, unpack(column)])),
+  };
+}
+
+const run = unpackTable(page.run);
+const without = unpackTable(page.without);
+const ground = { time: unpack(page.ground.time), values: unpack(page.ground.values) };
+const forces = page.forces.map((force) => ({ time: unpack(force.time), values: unpack(force.values) }));
+
+/** All contacts by their index, each with its gap. */
+const contacts = page.gaps.flatMap((gap) => gap.contacts.map((contact) => ({ ...contact, gap })));
+
+/** Displacement history of a building at a height: of a floor, or between floors on a straight line. */
+function displacementColumn(table, building, floor, height) {
+  if (floor) return table.columns.get(`u:${building}:${floor}`);
+  const heights = page.buildings[building].heights;
+  const above = heights.findIndex((h) => h >= height - 1e-3);
+  if (above < 0) return undefined;
+  const base = above > 0 ? heights[above - 1] : 0;
+  const part = (height - base) / (heights[above] - base);
+  const upper = table.columns.get(`u:${building}:${above + 1}`);
+  const lower = above > 0 ? table.columns.get(`u:${building}:${above}`) : undefined;
+  return upper?.map((u, i) => part * u + (1 - part) * (lower ? lower[i] : 0));
+}
+
+/** The numbers of a list times a factor. */
+const scaled = (values, factor) => values.map((value) => value * factor);
+
+function greatest(values) {
+  let peak = 0;
+  for (const value of values) peak = Math.max(peak, Math.abs(value));
+  return peak;
+}
+
+/** Fixed decimals with a true minus sign. */
+function fixed(value, decimals) {
+  if (!Number.isFinite(value)) return "–";
+  const text = value.toFixed(decimals);
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+}
+
+/** A value with about three digits, for read-outs. */
+function readable(value) {
+  const size = Math.abs(value);
+  return fixed(value, size >= 1000 ? 0 : size >= 100 ? 1 : size >= 1 || size === 0 ? 2 : 3);
+}
+
+/** Round values between two ends, about `count` of them, and the decimals they need. */
+function ticks(low, high, count) {
+  const raw = (high - low) / count;
+  if (!(raw > 0) || !Number.isFinite(raw)) return { values: [low], decimals: 0 };
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
+  const values = [];
+  for (let i = Math.ceil(low / step); i <= high / step + 1e-9; i++) values.push(i * step);
+  return { values, decimals: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
+}
+
+const svgNamespace = "http://www.w3.org/2000/svg";
+
+/** A new SVG element with attributes, inside a parent. */
+function svg(name, attributes, parent) {
+  const element = document.createElementNS(svgNamespace, name);
+  for (const [key, value] of Object.entries(attributes ?? {})) element.setAttribute(key, value);
+  parent?.append(element);
+  return element;
+}
+
+/** A new HTML element with a class and text, inside a parent. */
+function html(name, className, text, parent) {
+  const element = document.createElement(name);
+  if (className) element.className = className;
+  if (text !== undefined) element.textContent = text;
+  parent?.append(element);
+  return element;
+}

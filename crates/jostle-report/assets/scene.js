@@ -1,0 +1,190 @@
+// The buildings to scale, moving. Sideways motion and gaps share one exaggeration, so that floors that
+// touch are drawn touching.
+
+class Scene {
+  constructor(host) {
+    this.host = host;
+    this.svg = svg("svg", { role: "img", "aria-label": "The buildings at the current instant" }, host);
+    this.top = Math.max(...page.buildings.flatMap((b) => b.heights));
+    this.peak = Math.max(1e-9, ...this.columns(run).flat().filter(Boolean).map(greatest));
+    this.groundPeak = greatest(ground.values) || 1;
+    this.hardest = Math.max(1e-9, ...page.impacts.map((impact) => impact.peak));
+    this.exaggeration = this.fitting();
+    this.ghost = false;
+    this.time = 0;
+    this.run = this.columns(run);
+    this.other = without && this.columns(without);
+    this.byContact = contacts.map((contact) => page.impacts.filter((impact) => impact.contact === contact.index));
+    this.starts = this.byContact.map((list) => list.map((impact) => impact.start));
+    this.build();
+    new ResizeObserver(() => this.layout()).observe(host);
+  }
+
+  /** Displacement columns: per building, per floor from the ground up. */
+  columns(table) {
+    return page.buildings.map((b, i) => b.heights.map((_, floor) => table.columns.get(`u:${i}:${floor + 1}`)));
+  }
+
+  /** The round exaggeration that moves the roofs by about a twentieth of the height. */
+  fitting() {
+    const wanted = (0.06 * this.top) / this.peak;
+    return [1, 2, 5, 10, 20, 50, 100].findLast((f) => f <= wanted) ?? 1;
+  }
+
+  build() {
+    this.back = svg("g", { class: "back" }, this.svg);
+    this.parts = page.buildings.map((building, i) => {
+      const group = svg("g", { class: "building", style: `--c:var(--c${i % 7})` }, this.svg);
+      return {
+        ghost: svg("path", { class: "ghost" }, group),
+        columns: svg("path", { class: "columns" }, group),
+        floors: svg("path", { class: building.frame ? "beams" : "slabs" }, group),
+        sway: svg("text", { class: "sway", "text-anchor": "middle" }, group),
+      };
+    });
+    this.flashes = contacts.map(() => svg("circle", { class: "flash" }, this.svg));
+    this.arrow = svg("path", { class: "ground-arrow" }, this.svg);
+  }
+
+  /** Places the buildings; sizes the picture to the room there is. */
+  layout() {
+    this.width = Math.max(this.host.clientWidth, 240);
+    const f = this.exaggeration;
+    const room = f * this.peak + 0.02 * this.top + 0.5;
+    const widths = page.buildings.map((b) => b.spans.reduce((sum, span) => sum + span, 0));
+    let x = room;
+    this.left = widths.map((width, i) => {
+      const start = x;
+      const gap = page.gaps.find((g) => g.left === i);
+      x += width + (gap ? f * gap.width : 2 * f * this.peak + 2);
+      return start;
+    });
+    const last = widths.length - 1;
+    const total = this.left[last] + widths[last] + room;
+    const tallest = this.width < 600 ? 330 : 470;
+    this.scale = Math.min(this.width / total, (tallest - 90) / this.top);
+    this.base = this.top * this.scale + 34;
+    this.shift = (this.width - total * this.scale) / 2;
+    this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.base + 62}`);
+    this.widths = widths;
+    this.drawBack();
+    this.draw(this.time);
+  }
+
+  px(x) {
+    return this.shift + x * this.scale;
+  }
+
+  py(height) {
+    return this.base - height * this.scale;
+  }
+
+  drawBack() {
+    const back = this.back;
+    back.replaceChildren();
+    svg("path", { class: "ground", d: `M0,${this.base}H${this.width}` }, back);
+    svg("rect", { class: "soil", x: 0, y: this.base, width: this.width, height: 7 }, back);
+    const row = this.base + 24;
+    page.buildings.forEach((building, i) => {
+      const room = Math.max(4, Math.floor((this.widths[i] * this.scale + 30) / 8));
+      const name = building.name.length > room ? `${building.name.slice(0, room - 1)}…` : building.name;
+      const x = this.px(this.left[i] + this.widths[i] / 2);
+      svg("text", { class: "name", x, y: row, "text-anchor": "middle" }, back).textContent = name;
+    });
+    for (const gap of page.gaps) {
+      const x = this.px(this.left[gap.left] + this.widths[gap.left] + (this.exaggeration * gap.width) / 2);
+      const near = Math.min(this.widths[gap.left], this.widths[gap.left + 1]) * this.scale;
+      const label = near > 55 ? `gap ${readableLength(gap.width)}` : readableLength(gap.width);
+      svg("text", { class: "gap-name", x, y: row + 17, "text-anchor": "middle" }, back).textContent = label;
+    }
+    const bar = [50, 20, 10, 5, 2, 1].find((metres) => metres <= this.top / 3) ?? 1;
+    const [x, y] = [8, this.base - 12];
+    svg("path", { class: "ruler", d: `M${x},${y - bar * this.scale}V${y}m-3,0h6m-6,${-bar * this.scale}h6` }, back);
+    svg("text", { class: "ruler-name", x: x + 7, y: y - (bar * this.scale) / 2 + 4 }, back).textContent = `${bar} m`;
+  }
+
+  /** Sideways places of the floors of a building, the ground first [m]. */
+  places(columns, table, t) {
+    const k = Math.min(Math.max(indexBefore(table.time, t), 0), table.time.length - 2);
+    const span = table.time[k + 1] - table.time[k];
+    const part = span > 0 ? Math.min(Math.max((t - table.time[k]) / span, 0), 1) : 0;
+    return [0, ...columns.map((u) => (u ? u[k] + part * (u[k + 1] - u[k]) : 0))];
+  }
+
+  draw(t) {
+    this.time = t;
+    if (!this.scale) return;
+    const sways = page.buildings.map((_, i) => this.places(this.run[i], run, t));
+    page.buildings.forEach((building, i) => this.drawBuilding(building, i, sways[i], t));
+    this.drawFlashes(sways, t);
+    const a = interpolate(ground.time, ground.values, t) / this.groundPeak;
+    const middle = this.width / 2;
+    const tip = middle + a * Math.min(90, this.width / 5);
+    const head = Math.sign(a) * Math.min(7, Math.abs(tip - middle));
+    const y = this.base + 52;
+    this.arrow.setAttribute("d", `M${middle},${y - 5}v10m0,-5H${tip}m${-head},-4l${head},4l${-head},4`);
+  }
+
+  drawBuilding(building, i, sway, t) {
+    const part = this.parts[i];
+    const f = this.exaggeration;
+    const lines = building.spans.reduce((xs, span) => [...xs, xs[xs.length - 1] + span], [this.left[i]]);
+    const heights = [0, ...building.heights];
+    const column = (x, places) => {
+      let path = "";
+      for (let k = 1; k < heights.length; k++) {
+        const [x0, x1] = [this.px(x + f * places[k - 1]), this.px(x + f * places[k])];
+        const [y0, y1] = [this.py(heights[k - 1]), this.py(heights[k])];
+        const middle = (y0 + y1) / 2;
+        path += `M${x0.toFixed(2)},${y0.toFixed(2)}C${x0.toFixed(2)},${middle.toFixed(2)} ${x1.toFixed(2)},${middle.toFixed(2)} ${x1.toFixed(2)},${y1.toFixed(2)}`;
+      }
+      return path;
+    };
+    const floor = (places) =>
+      heights
+        .slice(1)
+        .map((h, k) => `M${this.px(lines[0] + f * places[k + 1]).toFixed(2)},${this.py(h).toFixed(2)}h${(this.widths[i] * this.scale).toFixed(2)}`)
+        .join("");
+    part.columns.setAttribute("d", lines.map((x) => column(x, sway)).join(""));
+    part.floors.setAttribute("d", floor(sway));
+    const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
+    part.ghost.setAttribute("d", ghost ? column(lines[0], ghost) + column(lines[lines.length - 1], ghost) + floor(ghost) : "");
+    const roof = sway[sway.length - 1];
+    part.sway.setAttribute("x", this.px(this.left[i] + this.widths[i] / 2));
+    part.sway.setAttribute("y", this.py(heights[heights.length - 1]) - 12);
+    part.sway.textContent = `${fixed(roof * 1e3, 1)} mm`;
+  }
+
+  drawFlashes(sways, t) {
+    contacts.forEach((contact, i) => {
+      const { impact, strength } = this.glow(i, t);
+      const circle = this.flashes[i];
+      circle.style.display = impact ? "" : "none";
+      if (!impact) return;
+      const left = contact.gap.left;
+      const height = contact.height;
+      const heights = [0, ...page.buildings[left].heights];
+      const sway = interpolate(heights, sways[left], height);
+      circle.setAttribute("cx", this.px(this.left[left] + this.widths[left] + this.exaggeration * sway));
+      circle.setAttribute("cy", this.py(height));
+      circle.setAttribute("r", (5 + 17 * Math.sqrt(impact.peak / this.hardest)) * (0.5 + 0.5 * strength));
+      circle.style.opacity = (0.9 * strength).toFixed(2);
+    });
+  }
+
+  /** The latest impact of a contact while it can still be seen. */
+  glow(contact, t) {
+    const last = this.byContact[contact][indexBefore(this.starts[contact], t)];
+    if (!last) return {};
+    const strength = t <= last.end ? 1 : Math.exp(-(t - last.end) / this.afterglow);
+    return strength > 0.03 ? { impact: last, strength } : {};
+  }
+
+  /** How long a flash lingers [s]. */
+  afterglow = 0.15;
+}
+
+/** A length in mm without needless decimals. */
+function readableLength(metres) {
+  return `${Number((metres * 1e3).toPrecision(4))} mm`;
+}

@@ -188,9 +188,8 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
         Damping::Rayleigh { alpha, beta } => format!("Rayleigh, {}", coefficients(*alpha, *beta)),
         Damping::Ratio { ratio, modes } => {
             let modes: Vec<String> = modes.iter().map(usize::to_string).collect();
-            let used = rayleigh.map_or_else(String::new, |(a, b)| {
-                format!(" ({})", coefficients(a, b))
-            });
+            let used =
+                rayleigh.map_or_else(String::new, |(a, b)| format!(" ({})", coefficients(a, b)));
             format!(
                 "{}\u{a0}% at lateral mode{} {}{used}",
                 format::significant(ratio * 100.0, 3),
@@ -247,7 +246,11 @@ fn motion(page: &Page) -> Facts {
         ("name", motion.name.clone()),
         ("peak", format::acceleration(motion.peak())),
         ("scale", {
-            let reversed = if motion.scale < 0.0 { " (reversed)" } else { "" };
+            let reversed = if motion.scale < 0.0 {
+                " (reversed)"
+            } else {
+                ""
+            };
             format!("{}{reversed}", format::significant(motion.scale, 4))
         }),
         (

@@ -91,7 +91,11 @@ pub(crate) fn thin_rows(
         for row in 0..count {
             let turns = closed.get(row) != closed.get(row.saturating_sub(1))
                 || (row + 1 < count && closed.get(row) != closed.get(row + 1));
-            let near = if closed.get(row) == Some(&true) { 0.125 } else { 1.0 };
+            let near = if closed.get(row) == Some(&true) {
+                0.125
+            } else {
+                1.0
+            };
             // A little less than the spacing: evenly recorded rows must not beat against it.
             let due = time[row] - previous >= 0.999 * near * spacing;
             let turn = turns && time[row] - previous >= 0.02 * near * spacing;
@@ -164,8 +168,12 @@ impl Episode {
         let inner: Vec<usize> = (self.start + 1..self.end).collect();
         let buckets = ((most - 2) / 2).max(1);
         for bucket in inner.chunks(inner.len().div_ceil(buckets)) {
-            let least = bucket.iter().min_by(|a, b| force[**a].total_cmp(&force[**b]));
-            let greatest = bucket.iter().max_by(|a, b| force[**a].total_cmp(&force[**b]));
+            let least = bucket
+                .iter()
+                .min_by(|a, b| force[**a].total_cmp(&force[**b]));
+            let greatest = bucket
+                .iter()
+                .max_by(|a, b| force[**a].total_cmp(&force[**b]));
             if let (Some(least), Some(greatest)) = (least, greatest) {
                 kept.push(*least.min(greatest));
                 if least != greatest {
@@ -192,7 +200,9 @@ fn episodes_of(force: &[f64]) -> Vec<Episode> {
         episodes.push(Episode {
             start: start.saturating_sub(1),
             end: row.min(force.len() - 1),
-            peak: force[start..row].iter().fold(0.0, |peak: f64, f| peak.max(f.abs())),
+            peak: force[start..row]
+                .iter()
+                .fold(0.0, |peak: f64, f| peak.max(f.abs())),
         });
     }
     episodes

@@ -53,7 +53,9 @@ pub(crate) fn of_history(model: &Model, history: &History) -> Vec<Envelope> {
                 let Some(u) = history.column(Column::Displacement { building, floor }) else {
                     break;
                 };
-                envelope.greatest.push(u.iter().copied().fold(0.0, f64::max));
+                envelope
+                    .greatest
+                    .push(u.iter().copied().fold(0.0, f64::max));
                 envelope.least.push(u.iter().copied().fold(0.0, f64::min));
                 let drift = u.iter().enumerate().fold(0.0, |peak: f64, (row, u)| {
                     let lower = below.as_ref().map_or(0.0, |below| below[row]);
@@ -101,12 +103,22 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
                 points,
                 meaning,
             };
-            let both = [(&envelope.greatest, "to the right"), (&envelope.least, "to the left")];
+            let both = [
+                (&envelope.greatest, "to the right"),
+                (&envelope.least, "to the left"),
+            ];
             for (values, meaning) in both {
                 displacement.push(line(from_base(values, heights, 1e3), meaning));
             }
-            drift.push(line(steps(&envelope.drift, heights, 100.0), "drift of the storey"));
-            let floors = envelope.acceleration.iter().copied().zip(heights.iter().copied());
+            drift.push(line(
+                steps(&envelope.drift, heights, 100.0),
+                "drift of the storey",
+            ));
+            let floors = envelope
+                .acceleration
+                .iter()
+                .copied()
+                .zip(heights.iter().copied());
             let mut points: Vec<(f64, f64)> = floors.collect();
             if !points.is_empty() {
                 points.insert(0, (page.motion.peak(), 0.0));
@@ -131,7 +143,12 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
 
 fn from_base(values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
     std::iter::once((0.0, 0.0))
-        .chain(values.iter().map(|v| v * factor).zip(heights.iter().copied()))
+        .chain(
+            values
+                .iter()
+                .map(|v| v * factor)
+                .zip(heights.iter().copied()),
+        )
         .collect()
 }
 
@@ -191,7 +208,7 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
                 }
                 @for line in lines.iter().filter(|line| !line.dashed) {
                     @for (value, height) in &line.points {
-                        @if *height > 0.0 {
+                        @if *height > 0.0 && value.is_finite() {
                             circle.dot style=(crate::page::colour(line.building)) cx=(px(x(*value))) cy=(px(y(*height))) r="5" {
                                 title {
                                     (page.model.buildings.get(line.building).map_or("", |b| b.name.as_str())) ", "

@@ -135,7 +135,12 @@ pub(crate) fn rigidity(value: f64) -> String {
     prefixed(
         value,
         4,
-        &[(1.0, "N·m²"), (1e3, "kN·m²"), (1e6, "MN·m²"), (1e9, "GN·m²")],
+        &[
+            (1.0, "N·m²"),
+            (1e3, "kN·m²"),
+            (1e6, "MN·m²"),
+            (1e9, "GN·m²"),
+        ],
     )
 }
 

@@ -155,7 +155,8 @@ fn tiles(page: &Page) -> Markup {
         } else {
             String::new()
         };
-        let left = closest_approach(gap).filter(|distance| *distance > 0.0 && gap.impact_count == 0);
+        let left =
+            closest_approach(gap).filter(|distance| *distance > 0.0 && gap.impact_count == 0);
         tile(
             &format!("Peak closing{pair}"),
             peak_closing(gap).map_or(format::NOTHING.into(), format::millimetres),

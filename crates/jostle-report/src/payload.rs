@@ -173,12 +173,22 @@ fn ground(motion: &GroundMotion) -> Series {
         Wave::Sine { period, .. } | Wave::Ricker { period, .. } => period / 40.0,
     };
     let count = (motion.duration / step).floor().max(1.0);
-    let points = if count <= 1e6 { count as usize } else { 1_000_000 };
-    let step = if points < 1_000_000 { step } else { motion.duration / 1e6 };
+    let points = if count <= 1e6 {
+        count as usize
+    } else {
+        1_000_000
+    };
+    let step = if points < 1_000_000 {
+        step
+    } else {
+        motion.duration / 1e6
+    };
     let rows: Vec<usize> = if points <= MOST_GROUND_POINTS {
         (0..=points).collect()
     } else {
-        extremes(points, MOST_GROUND_POINTS, |i| motion.acceleration(i as f64 * step))
+        extremes(points, MOST_GROUND_POINTS, |i| {
+            motion.acceleration(i as f64 * step)
+        })
     };
     let time: Vec<f64> = rows.iter().map(|i| *i as f64 * step).collect();
     Series {

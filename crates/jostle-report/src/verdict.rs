@@ -74,12 +74,9 @@ fn alone(summary: &Summary) -> String {
 fn sentence_of(gap: &GapSummary) -> String {
     let [left, right] = &gap.between;
     let all = || {
-        gap.contacts.iter().flat_map(|contact| {
-            contact
-                .impacts
-                .iter()
-                .map(move |impact| (contact, impact))
-        })
+        gap.contacts
+            .iter()
+            .flat_map(|contact| contact.impacts.iter().map(move |impact| (contact, impact)))
     };
     let first = all().min_by(|a, b| a.1.start_s.total_cmp(&b.1.start_s));
     let hardest = all().max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));

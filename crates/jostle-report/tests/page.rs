@@ -1,0 +1,154 @@
+//! What the page promises, read from its text.
+
+mod fixture;
+
+use std::time::Instant;
+
+use fixture::{Run, alone, row_of_three, two_frames};
+use jostle_report::render;
+
+fn pages() -> Vec<(&'static str, Run)> {
+    vec![
+        ("two-frames", two_frames(0.1)),
+        ("wide-gap", two_frames(0.4)),
+        ("alone", alone()),
+        ("row-of-three", row_of_three()),
+    ]
+}
+
+#[test]
+fn page_of_the_example_stays_below_one_megabyte() {
+    for (name, run) in pages() {
+        let started = Instant::now();
+        let text = render(&run.page());
+        println!(
+            "{name}: {} rows, {} impacts, {} bytes, {:.1} ms",
+            run.history.len(),
+            run.summary.gaps.iter().map(|g| g.impact_count).sum::<usize>(),
+            text.len(),
+            started.elapsed().as_secs_f64() * 1e3
+        );
+        assert!(text.len() < 1_000_000, "{name} has {} bytes", text.len());
+    }
+}
+
+#[test]
+fn page_loads_nothing_from_outside() {
+    for (name, run) in pages() {
+        let text = render(&run.page()).to_lowercase();
+        let namespace = "http://www.w3.org/2000/svg";
+        let text = text.replace(namespace, "");
+        for outside in ["http://", "https://", "url(http", "@import", "src=", "fetch(", "href=\"//"] {
+            assert!(!text.contains(outside), "{name} contains {outside}");
+        }
+        assert_eq!(text.matches("href=").count(), 1, "only the empty icon has an address");
+    }
+}
+
+#[test]
+fn names_with_markup_are_escaped() {
+    let text = render(&row_of_three().page());
+    assert!(!text.contains("North <b>"), "a name became markup");
+    assert!(text.contains("North &lt;b&gt;&amp;"), "the name is not shown");
+    assert!(!text.contains("\"</script>"), "a name ended a script");
+    assert_eq!(text.matches("</script>").count(), 2, "one for the data, one for the code");
+}
+
+#[test]
+fn no_number_reads_nan() {
+    for (name, run) in pages() {
+        let text = render(&run.page());
+        let shown = text.split("<script").next().unwrap();
+        let outside_style = shown.split("</style>").nth(1).unwrap();
+        for word in ["NaN", "inf ", "null"] {
+            assert!(!outside_style.contains(word), "{name} shows {word}");
+        }
+    }
+}
+
+#[test]
+fn missing_numbers_are_dashes() {
+    let mut run = two_frames(0.1);
+    run.summary.energy.worst_imbalance = f64::NAN;
+    run.summary.buildings[0].floors[4].displacement_max_m = f64::NAN;
+    for contact in &mut run.summary.gaps[0].contacts {
+        for impact in &mut contact.impacts {
+            impact.realised_restitution = f64::INFINITY;
+        }
+    }
+    let text = render(&run.page());
+    let shown = text.split("<script").next().unwrap();
+    assert!(!shown.contains("NaN") && !shown.contains("inf<"), "not a number is shown");
+}
+
+#[test]
+fn verdict_says_what_happened() {
+    let verdict = |run: &Run| {
+        let text = render(&run.page());
+        let from = text.split("<p class=\"verdict\">").nth(1).unwrap().to_owned();
+        from.split("</p>").next().unwrap().replace('\u{a0}', " ")
+    };
+    let quiet = verdict(&two_frames(0.4));
+    assert!(quiet.starts_with("No contact: J1 and J2 come no closer than"), "{quiet}");
+    let mut run = two_frames(0.1);
+    let contact = run.summary.gaps[0].contacts.last_mut().unwrap();
+    contact.impacts.truncate(1);
+    contact.impacts[0].start_s = 6.148;
+    contact.impacts[0].peak_force_n = 1_282_850.0;
+    for other in &mut run.summary.gaps[0].contacts[..4] {
+        other.impacts.clear();
+    }
+    run.summary.gaps[0].impact_count = 1;
+    assert_eq!(
+        verdict(&run),
+        "J1 and J2 hit once: floor 5, at 6.148 s, with 1283 kN."
+    );
+    assert!(verdict(&alone()).starts_with("Solo sways up to"), "{}", verdict(&alone()));
+}
+
+#[test]
+fn warnings_come_first() {
+    let mut run = alone();
+    run.summary.ended_early = Some("the step at t = 3.2 s did not converge".into());
+    let text = render(&run.page());
+    let warning = text.find("did not converge").unwrap();
+    assert!(warning < text.find("<h1>").unwrap(), "the warning hides below the title");
+}
+
+#[test]
+fn thousands_of_impacts_fit() {
+    let mut run = two_frames(0.1);
+    let contact = run.summary.gaps[0].contacts.last_mut().unwrap();
+    let one = contact.impacts[0];
+    contact.impacts = (0..5000)
+        .map(|i| {
+            let mut impact = one;
+            impact.start_s = 0.006 * f64::from(i);
+            impact.peak_force_n = f64::from(i % 977) * 1e3;
+            impact
+        })
+        .collect();
+    run.summary.gaps[0].impact_count = 5000;
+    let text = render(&run.page());
+    assert!(text.len() < 1_300_000, "{} bytes", text.len());
+    assert!(text.contains("Show all 1000 impacts"), "long tables are folded");
+}
+
+#[test]
+fn a_run_without_histories_still_reports() {
+    let mut run = two_frames(0.1);
+    run.history = jostle::History::new(Vec::new());
+    run.without_contact = None;
+    let text = render(&run.page());
+    assert!(text.contains("No time histories were recorded") && !text.contains("<script"), "{}", text.len());
+}
+
+/// Writes the pages into a folder, to be looked at.
+#[test]
+fn pages_are_written() {
+    for (name, run) in pages() {
+        let path = format!("{}/{name}.html", env!("CARGO_TARGET_TMPDIR"));
+        std::fs::write(&path, render(&run.page())).unwrap();
+        println!("{path}");
+    }
+}
