@@ -8,6 +8,7 @@ mod coupling;
 mod energy;
 mod events;
 mod factors;
+mod lanes;
 mod newmark;
 mod plan;
 mod recorder;

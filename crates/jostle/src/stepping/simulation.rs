@@ -7,6 +7,7 @@ use super::coupling::{Closed, ContactEquations};
 use super::energy::EnergyAudit;
 use super::events::{Crossing, Cubic, bisect};
 use super::factors::StepFactors;
+use super::lanes;
 use super::plan::Plan;
 use super::recorder::Recorder;
 use super::{NotPositive, StepEquations};
@@ -715,10 +716,8 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             let displacements = &mut self.state.displacement[range.clone()];
             let velocities = &mut self.state.velocity[range.clone()];
             let accelerations = &mut self.state.acceleration[range];
-            let (mut driven_rise, mut moved) = (0.0, 0.0);
             let motion = displacements.iter_mut().zip(velocities).zip(accelerations);
-            let masses = equations.mass.iter().zip(&equations.driven_mass);
-            for ((rise, ((u, v), a)), (mass, driven)) in rises.iter_mut().zip(motion).zip(masses) {
+            for (rise, ((u, v), a)) in rises.iter_mut().zip(motion) {
                 let (v0, a0) = (*v, *a);
                 let drift = k.d_v * v0 + k.d_a * a0;
                 let change = *rise - own.shift * drift;
@@ -726,9 +725,9 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
                 *u += change;
                 *v = v0 + k.c * change + drift;
                 *a = a0 + k.a * change + (k.b_v * v0 + k.b_a * a0);
-                driven_rise += driven * change;
-                moved += mass * change * change;
             }
+            let driven_rise = lanes::dot(&equations.driven_mass, rises);
+            let moved = lanes::weighted_square(&equations.mass, rises);
             if !driven_rise.is_finite() {
                 return Err(StepError::NotFinite {
                     time: self.state.time,

@@ -134,36 +134,52 @@ impl Ties {
     }
 }
 
-/// Nodes in the order of the transfer path.
+/// Nodes in the order of the transfer path: all beams at once, step by step from their left ends; all columns
+/// between floors at once, step by step upwards; then the floors. The beams do not meet, and taking them
+/// abreast keeps a processor busy that would otherwise wait for every link of a single chain.
 fn node_order(skeleton: &Skeleton) -> Vec<usize> {
-    // A node inside a beam or a column has elements of one direction only, two of them.
-    let mut horizontal = vec![0; skeleton.nodes.len()];
-    let mut vertical = vec![0; skeleton.nodes.len()];
-    for member in &skeleton.members {
-        let count = if member.is_vertical(&skeleton.nodes) {
-            &mut vertical
-        } else {
-            &mut horizontal
-        };
-        member.ends.iter().for_each(|end| count[*end] += 1);
+    let nodes = &skeleton.nodes;
+    let mut neighbours = vec![Vec::new(); nodes.len()];
+    let (mut horizontal, mut vertical) = (vec![0; nodes.len()], vec![0; nodes.len()]);
+    let members = skeleton.members.iter().map(|member| (member.ends, member.is_vertical(nodes)));
+    let hinges = skeleton.hinges.iter().map(|hinge| (hinge.ends, false));
+    for ([a, b], is_vertical) in members.chain(hinges) {
+        neighbours[a].push(b);
+        neighbours[b].push(a);
+        let count = if is_vertical { &mut vertical } else { &mut horizontal };
+        count[a] += 1;
+        count[b] += 1;
     }
-    for end in skeleton.hinges.iter().flat_map(|hinge| hinge.ends) {
-        horizontal[end] += 1;
-    }
+    // A node inside a beam or a column has two elements, of one direction.
     let stage = |node: usize| match (horizontal[node], vertical[node]) {
         (2, 0) => 0,
         (0, 2) => 1,
         _ => 2,
     };
-    let mut order: Vec<usize> = (0..skeleton.nodes.len()).collect();
-    order.sort_by(|&a, &b| {
-        let (p, q) = (&skeleton.nodes[a], &skeleton.nodes[b]);
-        let along = match stage(a) {
-            // Column by column within a storey is the same as height by height: the columns do not meet.
-            1 => p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)),
-            _ => p.y.total_cmp(&q.y).then(p.x.total_cmp(&q.x)),
-        };
-        stage(a).cmp(&stage(b)).then(along).then(a.cmp(&b))
-    });
+    let by_height = |a: &usize, b: &usize| {
+        let (p, q) = (&nodes[*a], &nodes[*b]);
+        p.y.total_cmp(&q.y).then(p.x.total_cmp(&q.x)).then(a.cmp(b))
+    };
+    let along_column = |a: &usize, b: &usize| {
+        let (p, q) = (&nodes[*a], &nodes[*b]);
+        p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(a.cmp(b))
+    };
+    let mut order = Vec::new();
+    for inside in 0..2 {
+        let mut interior: Vec<usize> = (0..nodes.len()).filter(|&node| stage(node) == inside).collect();
+        if inside == 0 { interior.sort_by(by_height) } else { interior.sort_by(along_column) }
+        let mut link = 0;
+        let mut links: Vec<(usize, usize)> = Vec::new();
+        for &node in &interior {
+            let continues = links.last().is_some_and(|(_, previous)| neighbours[node].contains(previous));
+            link = if continues { link + 1 } else { 0 };
+            links.push((link, node));
+        }
+        links.sort_by_key(|(link, _)| *link);
+        order.extend(links.into_iter().map(|(_, node)| node));
+    }
+    let mut joints: Vec<usize> = (0..nodes.len()).filter(|&node| stage(node) == 2).collect();
+    joints.sort_by(by_height);
+    order.extend(joints);
     order
 }
