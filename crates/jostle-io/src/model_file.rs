@@ -1,0 +1,350 @@
+//! Model files: from text to a checked [`jostle::Model`] and the ground motion it asks for.
+//!
+//! Reading never stops at the first fault. A value that cannot be used is noted and replaced by a harmless one,
+//! so that the rest is still read and checked; the result is thrown away if anything was noted.
+
+mod analysis;
+mod building;
+mod frame;
+mod gap;
+mod motion;
+mod section;
+mod shear;
+
+use std::path::Path;
+
+use jostle::{GroundMotion, Model, ModelFault};
+
+use crate::fault::{Fault, InputError};
+use crate::keys::Section;
+use crate::motion_spec::{MotionError, MotionSource, MotionSpec, Scaling};
+use crate::reader::{Field, Reader};
+use crate::record::RecordOptions;
+use crate::source::{Source, Span};
+use crate::tree::{self, Format, Node, Value};
+
+/// A model file, read and checked.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// The model.
+    pub model: Model,
+    /// The ground motion; `None` if the file has none.
+    pub motion: Option<MotionSpec>,
+    /// Things the user should know although the file is valid.
+    pub warnings: Vec<String>,
+    origin: Origin,
+}
+
+/// Where a model came from, to point at its lines later.
+#[derive(Clone, Debug)]
+struct Origin {
+    source: Source,
+    root: Node,
+}
+
+/// Changes of a model from the command line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overrides {
+    /// Scale the motion to this peak, > 0 \[m/s²\].
+    pub pga: Option<f64>,
+    /// Width of every gap, ≥ 0 \[m\].
+    pub gap: Option<f64>,
+    /// Another record: a built-in name, or a path from the current folder.
+    pub record: Option<String>,
+}
+
+/// Why a change cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OverrideError {
+    /// The peak is not positive.
+    #[error("the peak ground acceleration must be greater than zero, found {0} m/s2")]
+    Pga(f64),
+    /// The width is negative.
+    #[error("the gap must not be negative, found {0} m")]
+    Gap(f64),
+    /// Nothing to widen or narrow.
+    #[error("the model has no gap whose width could be changed")]
+    NoGap,
+    /// Nothing to scale.
+    #[error("the model has no ground motion to scale; choose a record as well")]
+    NoMotion,
+}
+
+/// Reads and checks the model file at a path. A name ending in `.json` is read as JSON, any other as TOML.
+///
+/// # Errors
+/// Every fault of the file in one go.
+pub fn read_model_file(path: &Path) -> Result<Input, InputError> {
+    let name = path.display().to_string();
+    let unreadable =
+        |error: std::io::Error| InputError::whole(&name, format!("cannot be read: {error}"), None);
+    let size = std::fs::metadata(path).map_err(unreadable)?.len();
+    if size > tree::LARGEST_FILE as u64 {
+        return Err(tree::too_large(&name, size));
+    }
+    let bytes = std::fs::read(path).map_err(unreadable)?;
+    let text = tree::decode(&name, &bytes)?;
+    let base = path.parent().unwrap_or(Path::new(""));
+    read_model_text(&name, text, Format::of_path(path), base)
+}
+
+/// Reads and checks the text of a model file. `name` stands in messages; records are looked for from `base`.
+///
+/// # Errors
+/// Every fault of the text in one go.
+pub fn read_model_text(
+    name: &str,
+    text: &str,
+    format: Format,
+    base: &Path,
+) -> Result<Input, InputError> {
+    let text = tree::decode(name, text.as_bytes())?;
+    let source = Source::new(name, text);
+    let root = tree::parse(&source, format)?;
+    let mut reader = Reader::new(&source);
+    let read = read_root(&mut reader, &root, base);
+    if let Some((model, _)) = &read {
+        let checked = model.check().err().unwrap_or_default();
+        add_model_faults(&mut reader, &root, checked);
+    }
+    let faults = reader.into_faults();
+    match read {
+        Some((model, motion)) if faults.is_empty() => Ok(Input {
+            warnings: warnings(&model, &root),
+            model,
+            motion,
+            origin: Origin { source, root },
+        }),
+        _ => Err(InputError {
+            name: name.to_owned(),
+            faults,
+        }),
+    }
+}
+
+impl Input {
+    /// Changes what the command line asks to change.
+    ///
+    /// # Errors
+    /// [`OverrideError`] if a value is out of range or there is nothing to change; then nothing is changed.
+    pub fn apply(&mut self, overrides: &Overrides) -> Result<(), OverrideError> {
+        let unusable = |value: f64| !value.is_finite() || value < 0.0;
+        if let Some(pga) = overrides.pga.filter(|pga| unusable(*pga) || *pga == 0.0) {
+            return Err(OverrideError::Pga(pga));
+        }
+        if let Some(gap) = overrides.gap.filter(|gap| unusable(*gap)) {
+            return Err(OverrideError::Gap(gap));
+        }
+        if overrides.gap.is_some() && self.model.gaps.is_empty() {
+            return Err(OverrideError::NoGap);
+        }
+        if overrides.pga.is_some() && overrides.record.is_none() && self.motion.is_none() {
+            return Err(OverrideError::NoMotion);
+        }
+        for gap in &mut self.model.gaps {
+            gap.width = overrides.gap.unwrap_or(gap.width);
+        }
+        if let Some(record) = &overrides.record {
+            self.motion = Some(with_record(self.motion.as_ref(), record));
+        }
+        if let (Some(motion), Some(pga)) = (&mut self.motion, overrides.pga) {
+            motion.scaling = Scaling::Pga(pga);
+        }
+        Ok(())
+    }
+
+    /// The ground motion in numbers.
+    ///
+    /// # Errors
+    /// [`InputError`] at the line of the record when there is none, or it cannot be read or scaled.
+    pub fn ground_motion(&self) -> Result<GroundMotion, InputError> {
+        let resolved = match &self.motion {
+            Some(motion) => motion.resolve(),
+            None => Err(MotionError::None),
+        };
+        resolved.map_err(|error| {
+            let path = match &error {
+                MotionError::None => "motion",
+                MotionError::TooStrong { .. } | MotionError::Zero { .. } => "motion.pga",
+                MotionError::NotFound { .. } | MotionError::Record { .. } => "motion.record",
+            };
+            self.fault(path, error.to_string())
+        })
+    }
+
+    /// An error about a field that only came to light after reading: it shows the line of the file.
+    #[must_use]
+    pub fn fault(&self, path: &str, problem: impl Into<String>) -> InputError {
+        let (span, path) = locate(&self.origin.root, path);
+        InputError {
+            name: self.origin.source.name.clone(),
+            faults: vec![Fault {
+                place: (span != (0..0)).then(|| self.origin.source.place(&span)),
+                path,
+                problem: problem.into(),
+                remedy: None,
+            }],
+        }
+    }
+}
+
+/// The motion of a model with its record replaced: the scaling stays, what described the old source goes.
+fn with_record(old: Option<&MotionSpec>, record: &str) -> MotionSpec {
+    let new = MotionSpec::record(record);
+    match old {
+        None => new,
+        Some(old) => {
+            let was_record = matches!(old.source, MotionSource::Record { .. });
+            let MotionSource::Record { name, base, .. } = new.source else {
+                return new;
+            };
+            MotionSpec {
+                source: MotionSource::Record {
+                    name,
+                    base,
+                    options: RecordOptions::default(),
+                },
+                duration: old.duration.filter(|_| was_record),
+                ..old.clone()
+            }
+        }
+    }
+}
+
+/// Reads the whole tree; `None` if there is nothing to build a model from.
+fn read_root(
+    reader: &mut Reader<'_>,
+    root: &Node,
+    base: &Path,
+) -> Option<(Model, Option<MotionSpec>)> {
+    let field = Field {
+        node: root,
+        path: String::new(),
+    };
+    let view = reader.open(&field, &[Section::Root])?;
+    let title = match reader.get(&view, "title") {
+        Some(field) => reader.text(&field),
+        None => Some("Untitled".to_owned()),
+    };
+    let motion = match reader.get(&view, "motion") {
+        Some(field) => motion::read(reader, &field, base),
+        None => None,
+    };
+    let buildings = match reader.get(&view, "building") {
+        Some(field) => building::read_all(reader, &field),
+        None => {
+            reader.missing(
+                &view,
+                "building",
+                "add a [[building]]; \"jostle new\" writes a commented example",
+            );
+            None
+        }
+    };
+    let gaps = match reader.get(&view, "gap") {
+        Some(field) => gap::read_all(reader, &field, buildings.as_deref()),
+        None => Vec::new(),
+    };
+    let analysis = reader.get(&view, "analysis");
+    let analysis = analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
+    let model = Model {
+        title: title.unwrap_or_default(),
+        buildings: buildings?,
+        gaps,
+        analysis,
+    };
+    Some((model, motion))
+}
+
+/// Adds what the model's own check found, unless reading has found a fault there already.
+fn add_model_faults(reader: &mut Reader<'_>, root: &Node, faults: Vec<ModelFault>) {
+    let mut seen: Vec<String> = reader.faults().map(|fault| fault.path.clone()).collect();
+    let building_is_bad = seen.iter().any(|path| path.starts_with("building"));
+    for fault in faults {
+        let (span, path) = locate(root, &fault.path);
+        // With a replaced value in a building, floor heights mean nothing.
+        let follows = building_is_bad && path.contains(".floors");
+        let known = seen
+            .iter()
+            .any(|other| is_within(&path, other) || is_within(other, &path));
+        if !follows && !known {
+            seen.push(path.clone());
+            reader.fault(&span, path, fault.problem);
+        }
+    }
+}
+
+/// Whether a path is another one or below it.
+fn is_within(path: &str, other: &str) -> bool {
+    path.strip_prefix(other)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
+/// The place of a field in the file, and its path as the file spells it: one value that stands for a list has
+/// no index there. A field that is absent is shown at the table that lacks it.
+fn locate(root: &Node, path: &str) -> (Span, String) {
+    let mut node = root;
+    let mut spelt = String::new();
+    let parts = path
+        .split(['.', '['])
+        .map(|part| part.trim_end_matches(']'));
+    let mut lost = false;
+    for part in parts {
+        match (&node.value, part.parse::<usize>()) {
+            (Value::List(list), Ok(index)) if !lost => {
+                spelt = format!("{spelt}[{part}]");
+                match list.get(index) {
+                    Some(entry) => node = entry,
+                    None => lost = true,
+                }
+            }
+            (_, Ok(_)) => {}
+            (Value::Table(table), Err(_)) if !lost => {
+                spelt = crate::reader::join(&spelt, part);
+                match table.get(part) {
+                    Some(entry) => node = entry,
+                    None => lost = true,
+                }
+            }
+            (_, Err(_)) => {
+                spelt = crate::reader::join(&spelt, part);
+                lost = true;
+            }
+        }
+    }
+    (node.span.clone(), spelt)
+}
+
+/// What is valid but may not be meant.
+fn warnings(model: &Model, root: &Node) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (left, pair) in model.buildings.windows(2).enumerate() {
+        if let [a, b] = pair
+            && !model.gaps.iter().any(|gap| gap.left == left)
+        {
+            warnings.push(format!(
+                "there is no gap between \"{}\" and \"{}\": they pass through each other; add a [[gap]]",
+                a.name, b.name
+            ));
+        }
+    }
+    let listed = match &root.value {
+        Value::Table(table) => table.get("building"),
+        _ => None,
+    };
+    if let Some(Value::List(list)) = listed.map(|node| &node.value) {
+        for (node, building) in list.iter().zip(&model.buildings) {
+            if let Value::Table(table) = &node.value
+                && table.get("storey_height").is_none()
+            {
+                warnings.push(format!(
+                    "\"{}\" has no storey_height: storeys of {} m are assumed, for drifts and for floors at equal height",
+                    building.name,
+                    shear::DEFAULT_STOREY_HEIGHT
+                ));
+            }
+        }
+    }
+    warnings
+}

@@ -1,0 +1,230 @@
+//! `[[building]]`: what frames and shear buildings have in common.
+
+use jostle::{Building, Damping, Structure};
+
+use super::{frame, shear};
+use crate::keys::{BUILDING_KINDS, Section};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// Most buildings in a row.
+const MOST_BUILDINGS: usize = 1000;
+
+/// Most storeys of a building.
+const MOST_STOREYS: usize = 200;
+
+/// Reads the list of buildings; `None` if it is no list.
+pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<Building>> {
+    let Some(entries) = field.entries() else {
+        let found = field.node.describe();
+        *reader.bad(
+            field,
+            format!("expected a list of buildings, found {found}"),
+        ) = Some("write [[building]], with double brackets".into());
+        return None;
+    };
+    if entries.len() > MOST_BUILDINGS {
+        let count = entries.len();
+        reader.bad(
+            field,
+            format!("at most {MOST_BUILDINGS} buildings are possible, found {count}"),
+        );
+        return None;
+    }
+    let buildings = entries
+        .iter()
+        .enumerate()
+        .map(|(i, entry)| read(reader, entry, i))
+        .collect::<Vec<_>>();
+    // A building that is no table leaves the others without their place in the row.
+    buildings.into_iter().collect()
+}
+
+fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Building> {
+    let is_shear = match &field.node.value {
+        crate::tree::Value::Table(table) => table.get("kind").is_some_and(
+            |kind| matches!(&kind.value, crate::tree::Value::Text(text) if text == "shear"),
+        ),
+        _ => false,
+    };
+    let view = if is_shear {
+        reader.open(field, &[Section::Building, Section::Shear])
+    } else {
+        reader.open(field, &[Section::Building, Section::Frame])
+    }?;
+    let name = reader
+        .get(&view, "name")
+        .and_then(|field| reader.text(&field));
+    if let Some(kind) = reader.get(&view, "kind") {
+        reader.choice(&kind, BUILDING_KINDS, &[]);
+    }
+    let structure = if is_shear {
+        Structure::Shear(shear::read(reader, &view))
+    } else {
+        Structure::Frame(frame::read(reader, &view))
+    };
+    let mut building = Building {
+        name: name.unwrap_or_else(|| format!("B{}", index + 1)),
+        structure,
+        damping: Damping::Rayleigh {
+            alpha: 0.0,
+            beta: 0.0,
+        },
+    };
+    building.damping = read_damping(reader, &view, building.floors(), is_shear);
+    Some(building)
+}
+
+/// The number of storeys: as stated, or as long as the first of the lists.
+///
+/// Every list is then held against it where it is read.
+pub(super) fn storeys(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    lists: &[&'static str],
+) -> Option<usize> {
+    let (storeys, floors) = (reader.get(view, "storeys"), reader.get(view, "floors"));
+    if let (Some(_), Some(floors)) = (&storeys, &floors) {
+        *reader.bad(floors, "stands beside storeys") = Some("keep either storeys or floors".into());
+    }
+    if let Some(field) = storeys.or(floors) {
+        let count = reader.count(&field)?;
+        if (1..=MOST_STOREYS).contains(&count) {
+            return Some(count);
+        }
+        reader.bad(
+            &field,
+            format!("must lie between 1 and {MOST_STOREYS}, found {count}"),
+        );
+        return None;
+    }
+    for list in lists {
+        let Some(field) = reader.get(view, list) else {
+            continue;
+        };
+        match field.entries().map(|entries| entries.len()) {
+            Some(0) => {
+                reader.bad(&field, "is empty");
+                return None;
+            }
+            Some(count @ 1..=MOST_STOREYS) => return Some(count),
+            Some(count) => {
+                reader.bad(
+                    &field,
+                    format!("has {count} entries; at most {MOST_STOREYS} storeys are possible"),
+                );
+                return None;
+            }
+            None => {}
+        }
+    }
+    let example = lists.first().copied().unwrap_or("storey_height");
+    reader.missing(
+        view,
+        "storeys",
+        format!("add storeys = 5, or a list as {example} from the ground up"),
+    );
+    None
+}
+
+/// One value per storey from the ground up; a single value holds for all. `None` after a fault.
+pub(super) fn per_storey(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    dimension: Dimension,
+    storeys: Option<usize>,
+) -> Option<Vec<f64>> {
+    let Some(entries) = field.entries() else {
+        let value = reader.quantity(field, dimension)?;
+        return Some(vec![value; storeys.unwrap_or(1)]);
+    };
+    let values: Vec<_> = entries
+        .iter()
+        .map(|entry| reader.quantity(entry, dimension))
+        .collect();
+    has_length(reader, field, values.len(), storeys)?;
+    values.into_iter().collect()
+}
+
+/// Notes a list that is not as long as the building is high.
+pub(super) fn has_length(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    count: usize,
+    storeys: Option<usize>,
+) -> Option<()> {
+    match storeys {
+        Some(storeys) if storeys != count => {
+            reader.bad(
+                field,
+                format!("has {count} entries for {storeys} storeys; give one value, or one per storey from the ground up"),
+            );
+            None
+        }
+        _ => Some(()),
+    }
+}
+
+/// 5 % of critical damping in the first and third lateral mode, as far as there are so many.
+fn default_modes(floors: usize) -> Vec<usize> {
+    match floors {
+        0 | 1 => vec![1],
+        2 => vec![1, 2],
+        _ => vec![1, 3],
+    }
+}
+
+fn read_damping(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    floors: usize,
+    is_shear: bool,
+) -> Damping {
+    let usual = Damping::Ratio {
+        ratio: 0.05,
+        modes: default_modes(floors),
+    };
+    let Some(field) = reader.get(view, "damping") else {
+        return usual;
+    };
+    let Some(view) = reader.open(&field, &[Section::Damping]) else {
+        return usual;
+    };
+    let number = |reader: &mut Reader<'_>, key, dimension| {
+        let field = reader.get(&view, key)?;
+        reader.quantity(&field, dimension)
+    };
+    let alpha = number(reader, "alpha", Dimension::Frequency);
+    let beta = number(reader, "beta", Dimension::Time);
+    let ratio = number(reader, "ratio", Dimension::Dimensionless);
+    let modes = reader.get(&view, "modes").map(|field| {
+        let modes = read_modes(reader, &field);
+        if let (true, Some(highest)) = (is_shear, modes.iter().max().filter(|m| **m > floors)) {
+            reader.bad(&field, format!("mode {highest} does not exist; a shear building of {floors} floors has as many modes"));
+        }
+        modes
+    });
+    if view.has("alpha") || view.has("beta") {
+        if view.has("ratio") || view.has("modes") {
+            *reader.bad(&field, "mixes ratio and modes with alpha and beta") =
+                Some("keep either ratio and modes, or alpha and beta".into());
+        }
+        return Damping::Rayleigh {
+            alpha: alpha.unwrap_or(0.0),
+            beta: beta.unwrap_or(0.0),
+        };
+    }
+    Damping::Ratio {
+        ratio: ratio.unwrap_or(0.05),
+        modes: modes.unwrap_or_else(|| default_modes(floors)),
+    }
+}
+
+/// Mode numbers; after a fault, the first mode.
+fn read_modes(reader: &mut Reader<'_>, field: &Field<'_>) -> Vec<usize> {
+    let modes = match field.entries() {
+        Some(entries) => entries.iter().map(|entry| reader.count(entry)).collect(),
+        None => reader.count(field).map(|mode| vec![mode]),
+    };
+    modes.unwrap_or_else(|| vec![1])
+}

@@ -1,0 +1,219 @@
+//! `kind = "frame"`: columns, beams and their masses.
+
+use jostle::{Axial, Frame, Joint};
+
+use super::building::{per_storey, storeys};
+use super::section::{Material, read_modulus, read_sections};
+use crate::keys::{AXIAL, Section};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// Most spans of a frame.
+const MOST_SPANS: usize = 50;
+
+/// Density of reinforced concrete \[kg/m³\].
+const CONCRETE_DENSITY: f64 = 2500.0;
+
+/// Reads the keys of a frame; after a fault, harmless values stand in.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
+    let count = storeys(
+        reader,
+        view,
+        &["storey_height", "column", "beam", "beam_mass", "floor_mass"],
+    );
+    let height = match reader.get(view, "storey_height") {
+        Some(field) => per_storey(reader, &field, Dimension::Length, count),
+        None => {
+            reader.missing(
+                view,
+                "storey_height",
+                "add storey_height = \"3.2 m\", or a list from the ground up",
+            );
+            None
+        }
+    };
+    let storey_heights = height.unwrap_or_else(|| vec![3.0; count.unwrap_or(1)]);
+    let spans = read_spans(reader, view);
+
+    let (modulus, modulus_is_bad) = read_modulus(reader, view);
+    let density = match reader.get(view, "density") {
+        Some(field) => reader.quantity(&field, Dimension::Density),
+        None => None,
+    };
+    let (column_factor, beam_factor) = stiffness_factors(reader, view);
+    let material = |factor| Material {
+        modulus,
+        modulus_is_bad,
+        density: density.unwrap_or(CONCRETE_DENSITY),
+        factor,
+    };
+    let columns = read_sections(reader, view, "column", count, material(column_factor));
+    let beams = read_sections(reader, view, "beam", count, material(beam_factor));
+    if let (Some(field), true) = (
+        reader.get(view, "density"),
+        density.is_some_and(|d| d < 0.0),
+    ) {
+        reader.bad(&field, "must not be negative");
+    }
+    let (beam_mass, floor_mass) = masses(reader, view, count);
+    let column_segments = match reader.get(view, "column_segments") {
+        Some(field) => reader.count(&field).unwrap_or(1),
+        None => 4,
+    };
+    Frame {
+        beam_segments: beam_segments(reader, view, spans.len()),
+        storey_heights,
+        spans,
+        columns,
+        beams,
+        beam_mass,
+        floor_mass,
+        column_segments,
+        axial: axial(reader, view),
+        joint: joint(reader, view),
+    }
+}
+
+fn read_spans(reader: &mut Reader<'_>, view: &View<'_>) -> Vec<f64> {
+    const STAND_IN: f64 = 6.0;
+    let Some(field) = reader.get(view, "spans") else {
+        reader.missing(
+            view,
+            "spans",
+            "add the bay widths from left to right: spans = [\"6 m\", \"6 m\"]",
+        );
+        return vec![STAND_IN];
+    };
+    let Some(entries) = field.entries() else {
+        let found = field.node.describe();
+        *reader.bad(
+            &field,
+            format!("expected a list of bay widths, found {found}"),
+        ) = Some("write spans = [\"6 m\"] for a single bay".into());
+        return vec![STAND_IN];
+    };
+    if entries.len() > MOST_SPANS {
+        let count = entries.len();
+        reader.bad(
+            &field,
+            format!("at most {MOST_SPANS} spans are possible, found {count}"),
+        );
+        return vec![STAND_IN];
+    }
+    entries
+        .iter()
+        .map(|entry| {
+            reader
+                .quantity(entry, Dimension::Length)
+                .unwrap_or(STAND_IN)
+        })
+        .collect()
+}
+
+/// Factors on EI of columns and of beams.
+fn stiffness_factors(reader: &mut Reader<'_>, view: &View<'_>) -> (f64, f64) {
+    let Some(field) = reader.get(view, "stiffness_factor") else {
+        return (1.0, 1.0);
+    };
+    if !matches!(field.node.value, crate::tree::Value::Table(_)) {
+        let factor = reader
+            .positive(&field, Dimension::Dimensionless)
+            .unwrap_or(1.0);
+        return (factor, factor);
+    }
+    let Some(view) = reader.open(&field, &[Section::StiffnessFactor]) else {
+        return (1.0, 1.0);
+    };
+    let mut factor = |key| match reader.get(&view, key) {
+        Some(field) => reader
+            .positive(&field, Dimension::Dimensionless)
+            .unwrap_or(1.0),
+        None => 1.0,
+    };
+    (factor("column"), factor("beam"))
+}
+
+/// Mass on the beams, and further mass of the floors.
+fn masses(reader: &mut Reader<'_>, view: &View<'_>, count: Option<usize>) -> (Vec<f64>, Vec<f64>) {
+    let storeys = count.unwrap_or(1);
+    let floor_mass = reader
+        .get(view, "floor_mass")
+        .map(|field| per_storey(reader, &field, Dimension::Mass, count));
+    let beam_mass = match reader.get(view, "beam_mass") {
+        Some(field) => per_storey(reader, &field, Dimension::LineMass, count),
+        None => {
+            if floor_mass.is_none() {
+                reader.missing(
+                    view,
+                    "beam_mass",
+                    "add the mass that the beams carry, with slab and their self weight: beam_mass = \"3600 kg/m\"; or floor_mass = \"40 t\"",
+                );
+            }
+            None
+        }
+    };
+    (
+        beam_mass.unwrap_or_else(|| vec![0.0; storeys]),
+        floor_mass.flatten().unwrap_or_else(|| vec![0.0; storeys]),
+    )
+}
+
+fn beam_segments(reader: &mut Reader<'_>, view: &View<'_>, spans: usize) -> Vec<usize> {
+    let Some(field) = reader.get(view, "beam_segments") else {
+        return vec![4; spans];
+    };
+    match field.entries() {
+        Some(entries) => entries
+            .iter()
+            .take(MOST_SPANS + 1)
+            .map(|entry| reader.count(entry).unwrap_or(1))
+            .collect(),
+        None => vec![reader.count(&field).unwrap_or(1); spans],
+    }
+}
+
+fn axial(reader: &mut Reader<'_>, view: &View<'_>) -> Axial {
+    let Some(field) = reader.get(view, "axial") else {
+        return Axial::default();
+    };
+    if !matches!(field.node.value, crate::tree::Value::Table(_)) {
+        let flexible = is_flexible(reader, &field);
+        return Axial {
+            columns_flexible: flexible,
+            beams_flexible: flexible,
+        };
+    }
+    let Some(view) = reader.open(&field, &[Section::Axial]) else {
+        return Axial::default();
+    };
+    let mut flexible = |key| match reader.get(&view, key) {
+        Some(field) => is_flexible(reader, &field),
+        None => false,
+    };
+    Axial {
+        columns_flexible: flexible("columns"),
+        beams_flexible: flexible("beams"),
+    }
+}
+
+fn is_flexible(reader: &mut Reader<'_>, field: &Field<'_>) -> bool {
+    reader.choice(field, AXIAL, &[]) == Some("flexible")
+}
+
+fn joint(reader: &mut Reader<'_>, view: &View<'_>) -> Joint {
+    let Some(field) = reader.get(view, "joint") else {
+        return Joint::default();
+    };
+    let Some(view) = reader.open(&field, &[Section::Joint]) else {
+        return Joint::default();
+    };
+    let rotational_stiffness = match reader.get(&view, "rotational_stiffness") {
+        Some(field) if field.as_text() != Some("rigid") => {
+            reader.quantity(&field, Dimension::RotationalStiffness)
+        }
+        _ => None,
+    };
+    Joint {
+        rotational_stiffness,
+    }
+}

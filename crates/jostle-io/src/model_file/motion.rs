@@ -1,0 +1,219 @@
+//! `[motion]`: a record or an analytic wave, and its scaling.
+
+use std::path::Path;
+
+use crate::keys::{Section, WAVES};
+use crate::motion_spec::{MotionSource, MotionSpec, Scaling};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View, join};
+use crate::record::{RecordOptions, acceleration_unit};
+
+/// Longest analysis \[s\].
+const LONGEST: f64 = 10_000.0;
+
+pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> Option<MotionSpec> {
+    let view = reader.open(field, &[Section::Motion])?;
+    let duration = reader
+        .get(&view, "duration")
+        .and_then(|field| duration(reader, &field));
+    let record = reader.get(&view, "record");
+    let wave = reader.get(&view, "kind");
+    let source = match (&record, &wave) {
+        (Some(_), Some(wave)) => {
+            *reader.bad(wave, "stands beside record") = Some("keep either record or kind".into());
+            None
+        }
+        (Some(record), None) => {
+            refuse(
+                reader,
+                &view,
+                &["amplitude", "period", "centre"],
+                "a record",
+            );
+            read_record(reader, &view, record, base)
+        }
+        (None, Some(wave)) => {
+            refuse(
+                reader,
+                &view,
+                &["unit", "step", "column"],
+                "an analytic wave",
+            );
+            read_wave(reader, &view, wave)
+        }
+        (None, None) => {
+            reader.missing(
+                &view,
+                "record",
+                "add record = \"el-centro-1940-ns\", a path to a record, or kind = \"sine\"",
+            );
+            None
+        }
+    };
+    let scaling = scaling(reader, &view);
+    let reverse = reader
+        .get(&view, "reverse")
+        .and_then(|field| reader.flag(&field));
+    Some(MotionSpec {
+        source: source?,
+        scaling,
+        reverse: reverse.unwrap_or(false),
+        duration,
+    })
+}
+
+fn duration(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {
+    let duration = reader.positive(field, Dimension::Time)?;
+    if duration > LONGEST {
+        reader.bad(
+            field,
+            format!("must be at most {LONGEST} s, found {duration} s"),
+        );
+        return None;
+    }
+    Some(duration)
+}
+
+/// Notes keys that do not go with the source.
+fn refuse(reader: &mut Reader<'_>, view: &View<'_>, keys: &[&'static str], source: &str) {
+    for key in keys {
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, format!("does not go with {source}")) =
+                Some(format!("remove {key}"));
+        }
+    }
+}
+
+fn read_record(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    record: &Field<'_>,
+    base: &Path,
+) -> Option<MotionSource> {
+    let name = reader.text(record)?;
+    let mut options = RecordOptions::default();
+    if let Some(field) = reader.get(view, "unit") {
+        options.unit = reader.text(&field);
+        if options
+            .unit
+            .as_deref()
+            .is_some_and(|unit| acceleration_unit(unit).is_none())
+        {
+            let found = field.node.describe();
+            reader.bad(
+                &field,
+                format!(
+                    "expected a unit of acceleration such as \"g\" or \"cm/s2\", found {found}"
+                ),
+            );
+        }
+    }
+    if let Some(field) = reader.get(view, "step") {
+        options.step = reader.positive(&field, Dimension::Time);
+    }
+    if let Some(field) = reader.get(view, "column") {
+        options.column = reader.count(&field);
+        if options.column == Some(0) {
+            reader.bad(&field, "columns count from 1");
+        }
+    }
+    if name.trim().is_empty() {
+        reader.bad(record, "must not be empty");
+    }
+    Some(MotionSource::Record {
+        name,
+        base: base.to_owned(),
+        options,
+    })
+}
+
+fn read_wave(reader: &mut Reader<'_>, view: &View<'_>, wave: &Field<'_>) -> Option<MotionSource> {
+    let kind = reader.choice(wave, WAVES, &[]);
+    let amplitude = required(
+        reader,
+        view,
+        "amplitude",
+        Dimension::Acceleration,
+        "\"2 m/s2\"",
+    );
+    let period = required(reader, view, "period", Dimension::Time, "\"0.7 s\"").and_then(
+        |(field, period)| {
+            let good = (1e-3..=LONGEST).contains(&period);
+            if !good {
+                reader.bad(
+                    &field,
+                    format!("must lie between 0.001 s and {LONGEST} s, found {period} s"),
+                );
+            }
+            good.then_some(period)
+        },
+    );
+    let centre = reader.get(view, "centre");
+    match kind? {
+        "ricker" => {
+            let centre = match centre {
+                Some(field) => duration(reader, &field)?,
+                None => 1.5 * period?,
+            };
+            Some(MotionSource::Ricker {
+                amplitude: amplitude?.1,
+                period: period?,
+                centre,
+            })
+        }
+        _ => {
+            if let Some(field) = centre {
+                *reader.bad(&field, "does not go with a sine") = Some("remove centre".into());
+            }
+            if !view.has("duration") {
+                reader.missing(
+                    view,
+                    "duration",
+                    "say how long the sine lasts: duration = \"8 s\"",
+                );
+            }
+            Some(MotionSource::Sine {
+                amplitude: amplitude?.1,
+                period: period?,
+            })
+        }
+    }
+}
+
+fn required<'n>(
+    reader: &mut Reader<'_>,
+    view: &View<'n>,
+    key: &'static str,
+    dimension: Dimension,
+    example: &str,
+) -> Option<(Field<'n>, f64)> {
+    let Some(field) = reader.get(view, key) else {
+        reader.missing(view, key, format!("add {key} = {example}"));
+        return None;
+    };
+    let value = reader.quantity(&field, dimension)?;
+    Some((field, value))
+}
+
+fn scaling(reader: &mut Reader<'_>, view: &View<'_>) -> Scaling {
+    let (pga, scale) = (reader.get(view, "pga"), reader.get(view, "scale"));
+    match (pga, scale) {
+        (Some(_), Some(scale)) => {
+            *reader.fault(
+                &scale.node.span.clone(),
+                join(&view.path, "scale"),
+                "stands beside pga",
+            ) = Some("keep either pga or scale".into());
+            Scaling::AsRecorded
+        }
+        (Some(pga), None) => {
+            let value = reader.positive(&pga, Dimension::Acceleration);
+            value.map_or(Scaling::AsRecorded, Scaling::Pga)
+        }
+        (None, Some(scale)) => {
+            let value = reader.quantity(&scale, Dimension::Dimensionless);
+            value.map_or(Scaling::AsRecorded, Scaling::Factor)
+        }
+        (None, None) => Scaling::AsRecorded,
+    }
+}

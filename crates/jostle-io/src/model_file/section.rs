@@ -1,0 +1,212 @@
+//! Cross-sections of columns and beams, and the material they are made of.
+
+use jostle::Section;
+
+use super::building::has_length;
+use crate::keys::{self, CONCRETES};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// Modulus of elasticity of the concrete grades C20 … C80 \[GPa\] (GB 50010, table 4.1.5).
+const CONCRETE_MODULI: [f64; 13] = [
+    25.5, 28.0, 30.0, 31.5, 32.5, 33.5, 34.5, 35.5, 36.0, 36.5, 37.0, 37.5, 38.0,
+];
+
+/// Material and cracking factor of columns or beams.
+#[derive(Clone, Copy)]
+pub(super) struct Material {
+    /// Modulus of elasticity; `None` if the file has none \[Pa\].
+    pub(super) modulus: Option<f64>,
+    /// Whether a fault was noted where the modulus stands.
+    pub(super) modulus_is_bad: bool,
+    /// Density of columns; beams weigh nothing by themselves \[kg/m³\].
+    pub(super) density: f64,
+    /// Factor on every EI \[–\].
+    pub(super) factor: f64,
+}
+
+/// Stands in after a fault.
+const STAND_IN: Section = Section {
+    flexural_rigidity: 1.0,
+    axial_rigidity: Some(1.0),
+    line_mass: 1.0,
+};
+
+/// Reads the modulus; also tells whether one stands there that could not be read.
+pub(super) fn read_modulus(reader: &mut Reader<'_>, view: &View<'_>) -> (Option<f64>, bool) {
+    let modulus = reader.get(view, "elastic_modulus");
+    let concrete = reader.get(view, "concrete");
+    let stated = modulus.is_some() || concrete.is_some();
+    if let (Some(_), Some(concrete)) = (&modulus, &concrete) {
+        *reader.bad(concrete, "stands beside elastic_modulus") =
+            Some("keep either concrete or elastic_modulus".into());
+    }
+    let value = match (modulus, concrete) {
+        (Some(field), _) => reader.positive(&field, Dimension::Modulus),
+        (None, Some(field)) => reader.choice(&field, CONCRETES, &[]).and_then(|grade| {
+            let index = CONCRETES.iter().position(|known| *known == grade)?;
+            CONCRETE_MODULI
+                .get(index)
+                .map(|gigapascals| 1e9 * gigapascals)
+        }),
+        (None, None) => None,
+    };
+    (value, stated && value.is_none())
+}
+
+/// Sections of all storeys: one table for all, or a list from the ground up.
+pub(super) fn read_sections(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    storeys: Option<usize>,
+    material: Material,
+) -> Vec<Section> {
+    let stand_in = vec![STAND_IN; storeys.unwrap_or(1)];
+    let Some(field) = reader.get(view, key) else {
+        reader.missing(
+            view,
+            key,
+            format!("add {key} = {{ width = \"300 mm\", depth = \"600 mm\" }}"),
+        );
+        return stand_in;
+    };
+    let Some(entries) = field.entries() else {
+        let section = read_section(reader, &field, key == "column", material);
+        return section.map_or(stand_in, |section| vec![section; storeys.unwrap_or(1)]);
+    };
+    let sections: Option<Vec<_>> = entries
+        .iter()
+        .map(|entry| read_section(reader, entry, key == "column", material))
+        .collect::<Vec<_>>()
+        .into_iter()
+        .collect();
+    match (has_length(reader, &field, entries.len(), storeys), sections) {
+        (Some(()), Some(sections)) => sections,
+        _ => stand_in,
+    }
+}
+
+fn read_section(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    is_column: bool,
+    material: Material,
+) -> Option<Section> {
+    let view = if is_column {
+        reader.open(field, &[keys::Section::Column])
+    } else {
+        reader.open(field, &[keys::Section::Beam])
+    }?;
+    let by_rigidity = view.has("EI") || view.has("EA");
+    let by_size = view.has("width") || view.has("depth");
+    let mut section = match (by_size, by_rigidity) {
+        (true, true) => {
+            *reader.bad(field, "has both a size and rigidities") =
+                Some("keep either width and depth, or EI and EA".into());
+            None
+        }
+        (false, true) => rigidities(reader, &view),
+        _ => rectangle(reader, &view, material),
+    };
+    if let Some(section) = &mut section {
+        section.flexural_rigidity *= material.factor;
+    }
+    if !is_column {
+        return section.map(|section| Section {
+            line_mass: 0.0,
+            ..section
+        });
+    }
+    let stated = reader.get(&view, "mass");
+    let mass = match stated {
+        Some(field) => reader.quantity(&field, Dimension::LineMass),
+        None => own_mass(reader, &view, section, by_rigidity, material),
+    };
+    Some(Section {
+        line_mass: mass?,
+        ..section?
+    })
+}
+
+/// Width × depth, of one material. The line mass is that of the density.
+fn rectangle(reader: &mut Reader<'_>, view: &View<'_>, material: Material) -> Option<Section> {
+    let mut side = |key: &'static str, example: &str| match reader.get(view, key) {
+        Some(field) => reader.positive(&field, Dimension::Length),
+        None => {
+            reader.missing(
+                view,
+                key,
+                format!("add {key} = {example}, or give EI instead of width and depth"),
+            );
+            None
+        }
+    };
+    let (width, depth) = (side("width", "\"300 mm\""), side("depth", "\"600 mm\""));
+    let Some(modulus) = material.modulus else {
+        if !material.modulus_is_bad {
+            let place = view.span.clone();
+            *reader.fault(&place, view.path.clone(), "needs a modulus of elasticity") = Some(
+                "add elastic_modulus = \"30 GPa\" or concrete = \"C30\" to the building".into(),
+            );
+        }
+        return None;
+    };
+    let (width, depth) = (width?, depth?);
+    let area = width * depth;
+    Some(Section {
+        flexural_rigidity: modulus * area * depth * depth / 12.0,
+        axial_rigidity: Some(modulus * area),
+        line_mass: material.density * area,
+    })
+}
+
+fn rigidities(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Section> {
+    let bending = match reader.get(view, "EI") {
+        Some(field) => reader.positive(&field, Dimension::FlexuralRigidity),
+        None => {
+            reader.missing(
+                view,
+                "EI",
+                "add EI = \"150 MN.m2\" beside EA, or give width and depth instead",
+            );
+            None
+        }
+    };
+    let axial = reader
+        .get(view, "EA")
+        .map(|field| reader.positive(&field, Dimension::Force));
+    Some(Section {
+        flexural_rigidity: bending?,
+        axial_rigidity: match axial {
+            Some(rigidity) => Some(rigidity?),
+            None => None,
+        },
+        line_mass: 0.0,
+    })
+}
+
+/// Self mass of a column that does not state it: of the rectangle, or of the area EA/E.
+fn own_mass(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    section: Option<Section>,
+    by_rigidity: bool,
+    material: Material,
+) -> Option<f64> {
+    let section = section?;
+    if !by_rigidity {
+        return Some(section.line_mass);
+    }
+    if let (Some(axial), Some(modulus)) = (section.axial_rigidity, material.modulus) {
+        return Some(material.density * axial / modulus);
+    }
+    if !material.modulus_is_bad {
+        reader.missing(
+            view,
+            "mass",
+            "a column given by EI needs its self mass: add mass = \"1500 kg/m\" (0 is possible), or EA here and elastic_modulus in the building",
+        );
+    }
+    None
+}

@@ -1,0 +1,40 @@
+//! `kind = "shear"`: floor masses on storey springs.
+
+use jostle::Shear;
+
+use super::building::{per_storey, storeys};
+use crate::quantity::Dimension;
+use crate::reader::{Reader, View};
+
+/// Storey height of a shear building that does not say it; only drifts and contacts depend on it \[m\].
+pub(super) const DEFAULT_STOREY_HEIGHT: f64 = 3.0;
+
+/// Reads the keys of a shear building; after a fault, harmless values stand in.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Shear {
+    let count = storeys(reader, view, &["mass", "stiffness", "storey_height"]);
+    let mut list = |key, dimension, example: Option<&str>, stand_in: f64| {
+        let values = match (reader.get(view, key), example) {
+            (Some(field), _) => per_storey(reader, &field, dimension, count),
+            (None, Some(example)) => {
+                reader.missing(
+                    view,
+                    key,
+                    format!("add {key} = {example}, or a list from the ground up"),
+                );
+                None
+            }
+            (None, None) => None,
+        };
+        values.unwrap_or_else(|| vec![stand_in; count.unwrap_or(1)])
+    };
+    Shear {
+        mass: list("mass", Dimension::Mass, Some("\"40 t\""), 1.0),
+        stiffness: list("stiffness", Dimension::Stiffness, Some("\"60 MN/m\""), 1.0),
+        storey_heights: list(
+            "storey_height",
+            Dimension::Length,
+            None,
+            DEFAULT_STOREY_HEIGHT,
+        ),
+    }
+}

@@ -1,0 +1,251 @@
+//! Which ground motion a model asks for, and how it becomes numbers.
+
+use std::path::{Path, PathBuf};
+
+use jostle::{GroundMotion, Wave};
+
+use crate::builtin;
+use crate::keys::nearest;
+use crate::record::{RecordError, RecordOptions, read_record};
+
+/// The ground motion of a model file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionSpec {
+    /// Where the motion comes from.
+    pub source: MotionSource,
+    /// How it is scaled.
+    pub scaling: Scaling,
+    /// Whether its sign is changed.
+    pub reverse: bool,
+    /// Length of the analysis; `None` is as long as the record \[s\].
+    pub duration: Option<f64>,
+}
+
+/// Where a ground motion comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MotionSource {
+    /// A built-in record by name, or else a file.
+    Record {
+        /// Name or path as written.
+        name: String,
+        /// Folder that a relative path starts from.
+        base: PathBuf,
+        /// What the file does not say itself.
+        options: RecordOptions,
+    },
+    /// `amplitude · sin(2π t / period)`.
+    Sine {
+        /// Amplitude \[m/s²\].
+        amplitude: f64,
+        /// Period \[s\].
+        period: f64,
+    },
+    /// Ricker pulse.
+    Ricker {
+        /// Peak acceleration \[m/s²\].
+        amplitude: f64,
+        /// Period of the strongest harmonic \[s\].
+        period: f64,
+        /// Time of the peak \[s\].
+        centre: f64,
+    },
+}
+
+/// How a motion is scaled.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub enum Scaling {
+    /// Not at all.
+    #[default]
+    AsRecorded,
+    /// To this peak ground acceleration of the whole record, > 0 \[m/s²\].
+    Pga(f64),
+    /// By this factor \[–\].
+    Factor(f64),
+}
+
+/// Why a ground motion could not be had.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// The model asks for none.
+    #[error(
+        "the model has no ground motion; add [motion] with a record, such as \"el-centro-1940-ns\""
+    )]
+    None,
+    /// Neither a built-in record nor a file.
+    #[error("there is no record \"{name}\"{}; built-in records: {}", similar(.nearest), builtin::record_names().join(", "))]
+    NotFound {
+        /// Name as written.
+        name: String,
+        /// Built-in names and files that are spelt similarly.
+        nearest: Vec<String>,
+    },
+    /// The file has a fault.
+    #[error("{name}{error}")]
+    Record {
+        /// Name of the file.
+        name: String,
+        /// The fault.
+        error: RecordError,
+    },
+    /// A motion without acceleration cannot be scaled to a peak.
+    #[error("the record \"{name}\" is zero throughout and cannot be scaled to a peak")]
+    Zero {
+        /// Name of the record.
+        name: String,
+    },
+    /// Scaling left the range of numbers.
+    #[error(
+        "the scaled motion \"{name}\" exceeds 100 m/s2; check pga, scale and the unit of the record"
+    )]
+    TooStrong {
+        /// Name of the record.
+        name: String,
+    },
+}
+
+fn similar(nearest: &[String]) -> String {
+    if nearest.is_empty() {
+        String::new()
+    } else {
+        format!(" (did you mean \"{}\"?)", nearest.join("\" or \""))
+    }
+}
+
+/// No earthquake comes near this; larger numbers are a mistaken unit \[m/s²\].
+pub(crate) const GREATEST_ACCELERATION: f64 = 100.0;
+
+impl MotionSpec {
+    /// A record as recorded, by built-in name or by path from the current folder.
+    #[must_use]
+    pub fn record(name: &str) -> Self {
+        Self {
+            source: MotionSource::Record {
+                name: name.to_owned(),
+                base: PathBuf::new(),
+                options: RecordOptions::default(),
+            },
+            scaling: Scaling::AsRecorded,
+            reverse: false,
+            duration: None,
+        }
+    }
+
+    /// Reads the record, if it is one, and scales it.
+    ///
+    /// A peak refers to the whole record, also when the analysis is shorter, so that cutting the end of a
+    /// record does not change its beginning.
+    ///
+    /// # Errors
+    /// [`MotionError`] when the record cannot be found or read, or cannot be scaled.
+    pub fn resolve(&self) -> Result<GroundMotion, MotionError> {
+        let mut motion = match &self.source {
+            MotionSource::Record {
+                name,
+                base,
+                options,
+            } => find_record(name, base, options)?,
+            MotionSource::Sine { amplitude, period } => analytic(
+                "sine",
+                self.duration.unwrap_or(10.0 * period),
+                Wave::Sine {
+                    amplitude: *amplitude,
+                    period: *period,
+                },
+            ),
+            MotionSource::Ricker {
+                amplitude,
+                period,
+                centre,
+            } => analytic(
+                "Ricker pulse",
+                self.duration.unwrap_or(centre + 10.0 * period),
+                Wave::Ricker {
+                    amplitude: *amplitude,
+                    period: *period,
+                    centre: *centre,
+                },
+            ),
+        };
+        let peak = motion.unscaled_peak();
+        motion.scale = match self.scaling {
+            Scaling::AsRecorded => 1.0,
+            Scaling::Factor(factor) => factor,
+            Scaling::Pga(_) if peak == 0.0 => {
+                return Err(MotionError::Zero { name: motion.name });
+            }
+            Scaling::Pga(pga) => pga / peak,
+        };
+        if self.reverse {
+            motion.scale = -motion.scale;
+        }
+        let strongest = motion.scale.abs() * peak;
+        if !motion.scale.is_finite() || strongest > GREATEST_ACCELERATION {
+            return Err(MotionError::TooStrong { name: motion.name });
+        }
+        motion.duration = self.duration.unwrap_or(motion.duration);
+        Ok(motion)
+    }
+}
+
+fn analytic(name: &str, duration: f64, wave: Wave) -> GroundMotion {
+    GroundMotion {
+        name: name.to_owned(),
+        scale: 1.0,
+        duration,
+        wave,
+    }
+}
+
+/// A built-in record, or the file of that name.
+fn find_record(
+    name: &str,
+    base: &Path,
+    options: &RecordOptions,
+) -> Result<GroundMotion, MotionError> {
+    if let Some(motion) = builtin::record(name) {
+        return Ok(motion);
+    }
+    let path = base.join(name);
+    if !path.is_file() {
+        return Err(MotionError::NotFound {
+            name: name.to_owned(),
+            nearest: similar_names(name, &path),
+        });
+    }
+    let error = |error| MotionError::Record {
+        name: path.display().to_string(),
+        error,
+    };
+    let record = read_record(&path, options).map_err(error)?;
+    let title = path.file_stem().unwrap_or(path.as_os_str());
+    Ok(GroundMotion::sampled(
+        &title.to_string_lossy(),
+        record.step,
+        record.acceleration,
+    ))
+}
+
+/// The built-in record and the file beside `path` whose names come nearest.
+fn similar_names(name: &str, path: &Path) -> Vec<String> {
+    let builtin = nearest(name, builtin::record_names().into_iter()).map(str::to_owned);
+    let folder = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let wanted = path
+        .file_name()
+        .map(|n| n.to_string_lossy().into_owned())
+        .unwrap_or_default();
+    let files: Vec<String> = std::fs::read_dir(folder)
+        .map(|entries| {
+            entries
+                .flatten()
+                .take(10_000)
+                .map(|entry| entry.file_name().to_string_lossy().into_owned())
+                .collect()
+        })
+        .unwrap_or_default();
+    let file = nearest(&wanted, files.iter().map(String::as_str)).map(str::to_owned);
+    builtin.into_iter().chain(file).collect()
+}

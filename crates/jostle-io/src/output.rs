@@ -1,0 +1,80 @@
+//! Files of results: written whole or not at all.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use jostle::Summary;
+
+/// Why a result file could not be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// The file system refused.
+    #[error("{}: cannot be written: {error}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
+    /// The table could not be encoded.
+    #[error("{}: cannot be encoded: {reason}", path.display())]
+    Encoding {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        reason: String,
+    },
+}
+
+/// Writes a file under a temporary name in the same folder, then renames it, so that a reader sees the old file
+/// or the new one, never a part.
+///
+/// # Errors
+/// [`OutputError::Io`] with path and reason.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let write = || -> std::io::Result<()> {
+        let folder = match path.parent() {
+            Some(parent) if parent != Path::new("") => parent,
+            _ => Path::new("."),
+        };
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".jostle-").suffix(".part");
+        readable_by_all(&mut builder);
+        let mut file = builder.tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        file.persist(path).map_err(|error| error.error)?;
+        Ok(())
+    };
+    write().map_err(|error| OutputError::Io {
+        path: path.to_owned(),
+        error,
+    })
+}
+
+/// Temporary files are private by default; results follow the user's umask.
+#[cfg(unix)]
+fn readable_by_all(builder: &mut tempfile::Builder<'_, '_>) {
+    use std::os::unix::fs::PermissionsExt;
+    builder.permissions(std::fs::Permissions::from_mode(0o666));
+}
+
+#[cfg(not(unix))]
+fn readable_by_all(_: &mut tempfile::Builder<'_, '_>) {}
+
+/// Text of `summary.json`, with a final line break.
+#[must_use]
+pub fn summary_json(summary: &Summary) -> String {
+    // Plain structs of numbers and strings always serialise.
+    let text = serde_json::to_string_pretty(summary).unwrap_or_default();
+    text + "\n"
+}
+
+/// Writes `summary.json`.
+///
+/// # Errors
+/// [`OutputError`] with path and reason.
+pub fn write_summary_json(path: &Path, summary: &Summary) -> Result<(), OutputError> {
+    write_atomically(path, summary_json(summary).as_bytes())
+}

@@ -1,0 +1,316 @@
+//! Typed access to the value tree. A fault is noted and reading goes on, so that all faults are found at once.
+
+use crate::fault::Fault;
+use crate::keys::{Kind, Section, keys_of, nearest};
+use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten};
+use crate::source::{Source, Span};
+use crate::tree::{Node, Table, Value};
+
+/// Collects the faults of one file.
+pub(crate) struct Reader<'s> {
+    source: &'s Source,
+    faults: Vec<(usize, Fault)>,
+    /// Keys asked for, to hold the reader against the table of keys.
+    #[cfg(test)]
+    pub(crate) asked: std::collections::BTreeSet<(Section, &'static str)>,
+}
+
+/// A table of the file whose keys have been checked.
+#[derive(Clone)]
+pub(crate) struct View<'n> {
+    table: &'n Table,
+    sections: &'static [Section],
+    pub(crate) span: Span,
+    pub(crate) path: String,
+}
+
+/// A value of the file.
+#[derive(Clone)]
+pub(crate) struct Field<'n> {
+    pub(crate) node: &'n Node,
+    pub(crate) path: String,
+}
+
+impl<'n> Field<'n> {
+    /// An entry of the list that this field is.
+    pub(crate) fn entry(&self, index: usize, node: &'n Node) -> Field<'n> {
+        Field {
+            node,
+            path: format!("{}[{index}]", self.path),
+        }
+    }
+
+    /// The entries of a list; `None` for any other value.
+    pub(crate) fn entries(&self) -> Option<Vec<Field<'n>>> {
+        match &self.node.value {
+            Value::List(list) => Some(
+                list.iter()
+                    .enumerate()
+                    .map(|(i, node)| self.entry(i, node))
+                    .collect(),
+            ),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn as_text(&self) -> Option<&'n str> {
+        match &self.node.value {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+}
+
+impl View<'_> {
+    /// Whether the table has this key.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.table.get(key).is_some()
+    }
+}
+
+impl<'s> Reader<'s> {
+    pub(crate) fn new(source: &'s Source) -> Self {
+        Self {
+            source,
+            faults: Vec::new(),
+            #[cfg(test)]
+            asked: std::collections::BTreeSet::new(),
+        }
+    }
+
+    /// Notes a fault; a remedy can be added to what is returned.
+    pub(crate) fn fault(
+        &mut self,
+        span: &Span,
+        path: impl Into<String>,
+        problem: impl Into<String>,
+    ) -> &mut Option<String> {
+        let fault = Fault {
+            path: path.into(),
+            place: Some(self.source.place(span)),
+            problem: problem.into(),
+            remedy: None,
+        };
+        self.faults.push((span.start, fault));
+        let last = self.faults.len() - 1;
+        &mut self.faults[last].1.remedy
+    }
+
+    /// Notes a fault of a value.
+    pub(crate) fn bad(
+        &mut self,
+        field: &Field<'_>,
+        problem: impl Into<String>,
+    ) -> &mut Option<String> {
+        self.fault(&field.node.span.clone(), field.path.clone(), problem)
+    }
+
+    /// Notes a key that is absent; shown at the table that lacks it.
+    pub(crate) fn missing(&mut self, view: &View<'_>, key: &str, remedy: impl Into<String>) {
+        let path = join(&view.path, key);
+        *self.fault(&view.span.clone(), path, "is missing") = Some(remedy.into());
+    }
+
+    /// The faults noted, in the order of the file.
+    pub(crate) fn into_faults(mut self) -> Vec<Fault> {
+        self.faults.sort_by_key(|(start, _)| *start);
+        self.faults.into_iter().map(|(_, fault)| fault).collect()
+    }
+
+    pub(crate) fn faults(&self) -> impl Iterator<Item = &Fault> {
+        self.faults.iter().map(|(_, fault)| fault)
+    }
+
+    /// Takes a value as a table and checks the names of its keys.
+    pub(crate) fn open<'n>(
+        &mut self,
+        field: &Field<'n>,
+        sections: &'static [Section],
+    ) -> Option<View<'n>> {
+        let Value::Table(table) = &field.node.value else {
+            let example = keys_of(sections).next().map_or("", |key| key.name);
+            let found = field.node.describe();
+            self.bad(
+                field,
+                format!("expected a table such as {{ {example} = … }}, found {found}"),
+            );
+            return None;
+        };
+        for entry in &table.entries {
+            if keys_of(sections).all(|key| key.name != entry.key) {
+                let shown = shorten(&entry.key);
+                let remedy = suggest(&entry.key, sections);
+                let path = join(&field.path, &shown);
+                *self.fault(&entry.key_span, path, format!("unknown key \"{shown}\"")) =
+                    Some(remedy);
+            } else if keys_of(sections)
+                .any(|key| key.name == entry.key && key.kind == Kind::Reserved)
+            {
+                let path = join(&field.path, &entry.key);
+                *self.fault(&entry.key_span, path, "is not available in this version") =
+                    Some(format!("remove {} for an elastic analysis", entry.key));
+            }
+        }
+        Some(View {
+            table,
+            sections,
+            span: field.node.span.clone(),
+            path: field.path.clone(),
+        })
+    }
+
+    /// The value of a key, if present.
+    pub(crate) fn get<'n>(&mut self, view: &View<'n>, key: &'static str) -> Option<Field<'n>> {
+        #[cfg(test)]
+        {
+            let section = view
+                .sections
+                .iter()
+                .find(|section| keys_of(&[**section]).any(|known| known.name == key));
+            let section = section.unwrap_or_else(|| panic!("{key} is not in the table of keys"));
+            self.asked.insert((*section, key));
+        }
+        debug_assert!(keys_of(view.sections).any(|known| known.name == key));
+        view.table.get(key).map(|node| Field {
+            node,
+            path: join(&view.path, key),
+        })
+    }
+
+    /// A quantity: text with a unit, or a bare number in SI.
+    pub(crate) fn quantity(&mut self, field: &Field<'_>, dimension: Dimension) -> Option<f64> {
+        let parsed = match &field.node.value {
+            Value::Text(text) => parse_quantity(text, dimension).map_err(|e| e.to_string()),
+            Value::Integer(value) => {
+                check_magnitude(*value as f64, dimension).map_err(|e| e.to_string())
+            }
+            Value::Number(value) => check_magnitude(*value, dimension).map_err(|e| e.to_string()),
+            _ => Err(format!(
+                "expected {dimension} (such as {}), found {}",
+                example(dimension),
+                field.node.describe()
+            )),
+        };
+        parsed
+            .map_err(|problem| {
+                self.bad(field, problem);
+            })
+            .ok()
+    }
+
+    /// A quantity greater than zero.
+    pub(crate) fn positive(&mut self, field: &Field<'_>, dimension: Dimension) -> Option<f64> {
+        let value = self.quantity(field, dimension)?;
+        if value > 0.0 {
+            return Some(value);
+        }
+        let found = field.node.describe();
+        self.bad(field, format!("must be greater than zero, found {found}"));
+        None
+    }
+
+    /// A whole number that is not negative.
+    pub(crate) fn count(&mut self, field: &Field<'_>) -> Option<usize> {
+        let whole = match field.node.value {
+            Value::Integer(value) => usize::try_from(value).ok(),
+            Value::Number(value) if value.fract() == 0.0 && (0.0..=1e9).contains(&value) => {
+                Some(value as usize)
+            }
+            _ => None,
+        };
+        if whole.is_none() {
+            let found = field.node.describe();
+            self.bad(field, format!("expected a whole number, found {found}"));
+        }
+        whole
+    }
+
+    pub(crate) fn flag(&mut self, field: &Field<'_>) -> Option<bool> {
+        if let Value::Flag(flag) = field.node.value {
+            return Some(flag);
+        }
+        let found = field.node.describe();
+        self.bad(field, format!("expected true or false, found {found}"));
+        None
+    }
+
+    pub(crate) fn text(&mut self, field: &Field<'_>) -> Option<String> {
+        if let Some(text) = field.as_text() {
+            return Some(text.to_owned());
+        }
+        let found = field.node.describe();
+        self.bad(field, format!("expected a text in quotes, found {found}"));
+        None
+    }
+
+    /// One of several words; `later` are those of other versions of the format.
+    pub(crate) fn choice(
+        &mut self,
+        field: &Field<'_>,
+        known: &[&'static str],
+        later: &[&'static str],
+    ) -> Option<&'static str> {
+        let available = known.join(", ");
+        let Some(text) = field.as_text() else {
+            let found = field.node.describe();
+            self.bad(field, format!("expected one of {available}; found {found}"));
+            return None;
+        };
+        if let Some(word) = known.iter().find(|word| **word == text) {
+            return Some(word);
+        }
+        let shown = shorten(text);
+        if later.contains(&text) {
+            self.bad(
+                field,
+                format!("\"{shown}\" is not available in this version; available: {available}"),
+            );
+        } else {
+            let remedy = nearest(text, known.iter().copied())
+                .map(|word| format!("did you mean \"{word}\"?"));
+            *self.bad(
+                field,
+                format!("\"{shown}\" is not known; available: {available}"),
+            ) = remedy;
+        }
+        None
+    }
+}
+
+/// What to write instead of an unknown key.
+fn suggest(key: &str, sections: &'static [Section]) -> String {
+    let other_kinds = [(Section::Frame, "frame"), (Section::Shear, "shear")];
+    for (section, kind) in other_kinds {
+        if sections.contains(&Section::Building) && keys_of(&[section]).any(|k| k.name == key) {
+            return format!("this key belongs to buildings of kind = \"{kind}\"");
+        }
+    }
+    if sections == [Section::Beam] && key == "mass" {
+        return "the mass on the beams is beam_mass of the building".into();
+    }
+    match nearest(key, keys_of(sections).map(|key| key.name)) {
+        Some(name) => format!("did you mean \"{name}\"?"),
+        None => {
+            let names: Vec<_> = keys_of(sections).map(|key| key.name).collect();
+            format!("known here: {}", names.join(", "))
+        }
+    }
+}
+
+/// An example as it stands in a file.
+fn example(dimension: Dimension) -> String {
+    if dimension == Dimension::Dimensionless {
+        dimension.example().to_owned()
+    } else {
+        format!("\"{}\"", dimension.example())
+    }
+}
+
+/// Path of a key below a table.
+pub(crate) fn join(path: &str, key: &str) -> String {
+    if path.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{path}.{key}")
+    }
+}

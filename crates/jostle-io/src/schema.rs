@@ -1,0 +1,119 @@
+//! JSON Schema (draft 2020-12) of the model file, made from the table of keys.
+
+use serde_json::{Map, Value, json};
+
+use crate::keys::{Key, Kind, Section, keys_of};
+use crate::quantity::Dimension;
+
+/// The JSON Schema of a model file, as text with a final line break.
+#[must_use]
+pub fn model_schema() -> String {
+    let mut schema = table(&[Section::Root]);
+    if let Value::Object(map) = &mut schema {
+        map.insert(
+            "$schema".into(),
+            json!("https://json-schema.org/draft/2020-12/schema"),
+        );
+        map.insert("title".into(), json!("jostle model file"));
+    }
+    // Plain maps of strings always serialise.
+    serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
+}
+
+/// A table with the keys of some sections and no others.
+fn table(sections: &[Section]) -> Value {
+    let mut properties = Map::new();
+    for key in keys_of(sections).filter(|key| key.kind != Kind::Reserved) {
+        properties.insert(key.name.into(), property(key));
+    }
+    let required: Vec<&str> = keys_of(sections)
+        .filter(|key| key.required)
+        .map(|key| key.name)
+        .collect();
+    let mut schema = json!({
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": false,
+    });
+    if !required.is_empty() {
+        schema["required"] = json!(required);
+    }
+    schema
+}
+
+/// A building: the keys of its kind.
+fn building() -> Value {
+    let of_kind = |section, kind: &str, named: bool| {
+        let mut schema = table(&[Section::Building, section]);
+        schema["properties"]["kind"] = json!({ "const": kind });
+        if named && let Some(required) = schema["required"].as_array_mut() {
+            required.push(json!("kind"));
+        }
+        schema
+    };
+    json!({ "oneOf": [of_kind(Section::Frame, "frame", false), of_kind(Section::Shear, "shear", true)] })
+}
+
+fn property(key: &Key) -> Value {
+    let mut schema = kind(key.kind);
+    let description = match key.default {
+        Some(default) => format!("{} Default: {default}.", key.doc),
+        None => key.doc.to_owned(),
+    };
+    schema["description"] = json!(description);
+    schema
+}
+
+fn kind(kind: Kind) -> Value {
+    let count = json!({ "type": "integer", "minimum": 0 });
+    let one_or_list = |one: Value| json!({ "anyOf": [one, { "type": "array", "items": one }] });
+    match kind {
+        Kind::Text => json!({ "type": "string" }),
+        Kind::Count => count,
+        Kind::Flag => json!({ "type": "boolean" }),
+        Kind::Quantity(dimension) => quantity(dimension),
+        Kind::PerStorey(dimension) => one_or_list(quantity(dimension)),
+        Kind::Quantities(dimension) => json!({ "type": "array", "items": quantity(dimension) }),
+        Kind::ContactStiffness => {
+            let mut schema = quantity(Dimension::HertzStiffness);
+            schema["examples"] = json!(["2e9 N/m^1.5", "500 MN/m"]);
+            schema
+        }
+        Kind::CountPerSpan | Kind::Modes => one_or_list(count),
+        Kind::Choice(words) => json!({ "enum": words }),
+        Kind::WordOr(word, dimension) => {
+            json!({ "anyOf": [{ "const": word }, quantity(dimension)] })
+        }
+        Kind::ChoiceOrTable(words, section) => {
+            json!({ "anyOf": [{ "enum": words }, table(&[section])] })
+        }
+        Kind::NumberOrTable(section) => {
+            json!({ "anyOf": [quantity(Dimension::Dimensionless), table(&[section])] })
+        }
+        Kind::Table(section) => table(&[section]),
+        Kind::TablePerStorey(section) => one_or_list(table(&[section])),
+        Kind::Tables(sections) if sections.contains(&Section::Building) => {
+            json!({ "type": "array", "minItems": 1, "items": building() })
+        }
+        Kind::Tables(sections) => json!({ "type": "array", "items": table(sections) }),
+        Kind::Neighbours => json!({
+            "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2,
+        }),
+        Kind::FloorPairs => json!({ "anyOf": [
+            { "const": "common" },
+            { "type": "array", "items": { "type": "array", "items": count, "minItems": 2, "maxItems": 2 } },
+            { "type": "array", "items": quantity(Dimension::Length) },
+        ] }),
+        // Not part of the schema.
+        Kind::Reserved => json!({}),
+    }
+}
+
+/// A text with a unit, or a number in SI.
+fn quantity(dimension: Dimension) -> Value {
+    json!({
+        "type": ["string", "number"],
+        "examples": [dimension.example()],
+        "$comment": format!("{dimension}; a number is in {}", dimension.si_unit()),
+    })
+}

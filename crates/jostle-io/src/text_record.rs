@@ -1,0 +1,368 @@
+//! Records as one or more columns of text: CSV, tabs or spaces, with or without times.
+//!
+//! Unit and step come from comments (`# unit = g`, `# step = 0.02 s`, `# gravity = 9.81 m/s2`), from the header
+//! row (`time_s,acceleration_g` or `time (s), acc (g)`), from the times, or from the options. What is stated
+//! nowhere is asked for, never guessed.
+
+use crate::quantity::{Dimension, STANDARD_GRAVITY, parse_quantity, shorten};
+use crate::record::{
+    Record, RecordError, RecordOptions, Series, acceleration_unit, number, numbered_lines,
+};
+
+/// What comments and the header row say.
+#[derive(Default)]
+struct Header {
+    unit: Option<(String, f64)>,
+    step: Option<f64>,
+    /// Size of the unit `g` in this file \[m/s²\].
+    gravity: Option<f64>,
+    time_column: Option<usize>,
+    acceleration_column: Option<usize>,
+    /// Size of the unit of the times \[s\].
+    time_unit: Option<f64>,
+}
+
+/// A line of numbers, as text.
+struct Row<'t> {
+    line: usize,
+    cells: Vec<&'t str>,
+}
+
+/// Lines without numbers accepted before the data.
+const MOST_HEADER_ROWS: usize = 50;
+
+/// Reads columns of text.
+///
+/// # Errors
+/// [`RecordError`] when a line cannot be understood, times are not equally spaced, or unit or step are
+/// stated nowhere.
+pub(crate) fn parse_text(text: &str, options: &RecordOptions) -> Result<Record, RecordError> {
+    let (mut header, rows) = split(text)?;
+    apply_options(&mut header, options)?;
+    let Some(first) = rows.first() else {
+        return Err(RecordError::TooFew { found: 0 });
+    };
+    let columns = first.cells.len();
+    if let Some(row) = rows.iter().find(|row| row.cells.len() != columns) {
+        return Err(RecordError::Ragged {
+            line: row.line,
+            found: row.cells.len(),
+            expected: columns,
+        });
+    }
+    let acceleration = acceleration_column(&header, options, first)?;
+    let time = header
+        .time_column
+        .or((columns > 1 && acceleration != 0).then_some(0))
+        .filter(|column| *column != acceleration);
+
+    let mut series = Series {
+        values: Vec::with_capacity(rows.len()),
+        lines: rows.iter().map(|row| row.line).collect(),
+        unit: header.unit.clone(),
+    };
+    for row in &rows {
+        series
+            .values
+            .push(number(row.line, cell(row, acceleration))?);
+    }
+    let step = match time {
+        Some(column) => {
+            let times = Times::read(&rows, column, header.time_unit.unwrap_or(1.0))?;
+            let step = times.step()?;
+            if let Some(stated) = header.step.filter(|s| (s / step - 1.0).abs() > 1e-3) {
+                return Err(RecordError::StepConflict {
+                    found: step,
+                    stated,
+                });
+            }
+            // A record whose first value is one step after the origin starts at rest.
+            if (times.first / step - 1.0).abs() < 1e-3 {
+                series.values.insert(0, 0.0);
+                series.lines.insert(0, first.line);
+            }
+            step
+        }
+        None => header.step.ok_or(RecordError::StepUnknown)?,
+    };
+    series.into_record(step)
+}
+
+/// Separates comments and header rows from rows of numbers.
+fn split(text: &str) -> Result<(Header, Vec<Row<'_>>), RecordError> {
+    let mut header = Header::default();
+    let mut rows: Vec<Row<'_>> = Vec::new();
+    let mut header_rows = 0;
+    let mut column_names = None;
+    for (line, content) in numbered_lines(text) {
+        if let Some(comment) = comment(content) {
+            read_comment(&mut header, line, comment)?;
+        } else if !content.is_empty() {
+            let cells = cells(content);
+            let first = cells.first().copied().unwrap_or("");
+            if rows.is_empty() && number(line, first).is_err() {
+                header_rows += 1;
+                if header_rows > MOST_HEADER_ROWS {
+                    return Err(RecordError::NotANumber {
+                        line,
+                        found: shorten(first),
+                    });
+                }
+                column_names = Some((line, content));
+            } else {
+                rows.push(Row { line, cells });
+            }
+        }
+    }
+    // The header row nearest to the numbers names the columns.
+    if let Some((line, content)) = column_names {
+        read_column_names(&mut header, line, content)?;
+    }
+    Ok((header, rows))
+}
+
+fn comment(line: &str) -> Option<&str> {
+    ["#", "%", "//", "!"]
+        .iter()
+        .find_map(|mark| line.strip_prefix(mark))
+}
+
+/// Cells of a line: between semicolons, else commas, else blanks.
+fn cells(line: &str) -> Vec<&str> {
+    let separated = |separator: char| {
+        let line = line.strip_suffix(separator).unwrap_or(line);
+        line.split(separator).map(str::trim).collect()
+    };
+    if line.contains(';') {
+        separated(';')
+    } else if line.contains(',') {
+        separated(',')
+    } else {
+        line.split_whitespace().collect()
+    }
+}
+
+fn cell<'r>(row: &'r Row<'_>, column: usize) -> &'r str {
+    row.cells.get(column).copied().unwrap_or("")
+}
+
+/// `unit = g`, `step = 0.02 s` (or `dt`), `gravity = 9.81 m/s2`; other comments say nothing.
+fn read_comment(header: &mut Header, line: usize, comment: &str) -> Result<(), RecordError> {
+    let Some((key, value)) = comment.split_once(['=', ':']) else {
+        return Ok(());
+    };
+    let value = value.trim();
+    match key.trim().to_lowercase().as_str() {
+        "unit" | "units" => header.unit = Some(read_unit(line, value)?),
+        "step" | "dt" | "time step" => {
+            let step = parse_quantity(value, Dimension::Time);
+            header.step = Some(step.map_err(|_| bad_number(line, value))?);
+        }
+        "gravity" => {
+            let gravity = parse_quantity(value, Dimension::Acceleration).ok();
+            let near = gravity.filter(|g| (9.7..=9.9).contains(g));
+            header.gravity = Some(near.ok_or_else(|| bad_number(line, value))?);
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+fn bad_number(line: usize, text: &str) -> RecordError {
+    RecordError::NotANumber {
+        line,
+        found: shorten(text),
+    }
+}
+
+fn read_unit(line: usize, text: &str) -> Result<(String, f64), RecordError> {
+    let bad = || RecordError::Unit {
+        line,
+        found: shorten(text),
+    };
+    Ok((text.to_owned(), acceleration_unit(text).ok_or_else(bad)?))
+}
+
+/// `time_s,acceleration_g`, `time (s), acc (g)`, `t a`.
+fn read_column_names(header: &mut Header, line: usize, content: &str) -> Result<(), RecordError> {
+    let names = if content.contains([',', ';']) || !content.contains(['(', '[']) {
+        cells(content)
+    } else {
+        // `time (s)  acc (g)`: the blanks before brackets separate nothing.
+        content
+            .split_inclusive([')', ']'])
+            .map(str::trim)
+            .filter(|name| !name.is_empty())
+            .collect()
+    };
+    for (column, name) in names.iter().enumerate() {
+        let lower = name.trim_matches('"').to_lowercase();
+        let (word, unit) = split_unit(&lower);
+        let is_time = matches!(word, "t" | "time" | "times");
+        let is_acceleration = matches!(word, "a" | "ag" | "a_g" | "acc" | "accel")
+            || word.starts_with("acceleration")
+            || word.starts_with("ground_acceleration")
+            || word.starts_with("ground acceleration");
+        if is_time && header.time_column.is_none() {
+            header.time_column = Some(column);
+            header.time_unit = match unit {
+                None => None,
+                Some(unit) => {
+                    let size = parse_quantity(&format!("1 {unit}"), Dimension::Time);
+                    Some(size.map_err(|_| bad_number(line, unit))?)
+                }
+            };
+        } else if is_acceleration && header.acceleration_column.is_none() {
+            header.acceleration_column = Some(column);
+            if let (Some(unit), None) = (unit, &header.unit) {
+                header.unit = Some(read_unit(line, unit)?);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// `acc (g)` as `acc` and `g`; `acceleration_cm_s2` as `acceleration` and `cm_s2`.
+fn split_unit(name: &str) -> (&str, Option<&str>) {
+    let name = name.trim();
+    if let Some((word, unit)) = name.split_once(['(', '[']) {
+        let unit = unit.trim_end_matches([')', ']']).trim();
+        return (word.trim(), (!unit.is_empty()).then_some(unit));
+    }
+    if matches!(name, "a_g" | "ground_acceleration") {
+        return (name, None);
+    }
+    match name.split_once('_') {
+        Some(("ground", rest)) => match rest.split_once('_') {
+            Some((word, unit)) if word.starts_with("acc") => ("acceleration", Some(unit)),
+            _ => (name, None),
+        },
+        Some((word, unit)) => (word, Some(unit)),
+        None => (name, None),
+    }
+}
+
+fn apply_options(header: &mut Header, options: &RecordOptions) -> Result<(), RecordError> {
+    if let Some(unit) = &options.unit {
+        header.unit = Some(read_unit(0, unit)?);
+    }
+    if let Some(step) = options.step {
+        header.step = Some(step);
+    }
+    // A record made with another value of g keeps it.
+    if let (Some((_, size)), Some(gravity)) = (&mut header.unit, header.gravity)
+        && *size == STANDARD_GRAVITY
+    {
+        *size = gravity;
+    }
+    Ok(())
+}
+
+/// Index of the column that holds the acceleration.
+fn acceleration_column(
+    header: &Header,
+    options: &RecordOptions,
+    first: &Row<'_>,
+) -> Result<usize, RecordError> {
+    let (line, columns) = (first.line, first.cells.len());
+    let column = match (options.column, header.acceleration_column, columns) {
+        (Some(wanted), ..) => {
+            wanted
+                .checked_sub(1)
+                .filter(|c| *c < columns)
+                .ok_or(RecordError::NoColumn {
+                    line,
+                    wanted,
+                    columns,
+                })?
+        }
+        (None, Some(column), _) if column < columns => column,
+        (None, _, 1) => 0,
+        (None, _, 2) => 1,
+        _ => return Err(RecordError::WhichColumn { line, columns }),
+    };
+    Ok(column)
+}
+
+/// Printed times: equally spaced, but for the rounding of their last digit.
+struct Times {
+    lines: Vec<usize>,
+    values: Vec<f64>,
+    /// Unit of the last printed digit.
+    digits: Vec<f64>,
+    first: f64,
+}
+
+impl Times {
+    fn read(rows: &[Row<'_>], column: usize, unit: f64) -> Result<Self, RecordError> {
+        let mut times = Self {
+            lines: rows.iter().map(|row| row.line).collect(),
+            values: Vec::with_capacity(rows.len()),
+            digits: Vec::with_capacity(rows.len()),
+            first: 0.0,
+        };
+        for row in rows {
+            let text = cell(row, column);
+            times.values.push(unit * number(row.line, text)?);
+            times.digits.push(unit * last_digit(text));
+        }
+        times.first = times.values.first().copied().unwrap_or(0.0);
+        Ok(times)
+    }
+
+    /// The common step, freed from the rounding of the printed times.
+    fn step(&self) -> Result<f64, RecordError> {
+        let count = self.values.len();
+        let (Some(last), Some(digit), true) = (self.values.last(), self.digits.last(), count >= 2)
+        else {
+            return Err(RecordError::TooFew { found: count });
+        };
+        let first_digit = self.digits.first().copied().unwrap_or(0.0);
+        let intervals = (count - 1) as f64;
+        let step = (last - self.first) / intervals;
+        let ends = 0.51 * (digit + first_digit);
+        for (i, time) in self.values.iter().enumerate() {
+            let expected = self.first + i as f64 * step;
+            let allowed = ends + 0.51 * self.digits[i] + 1e-9 * time.abs();
+            let rising = i == 0 || *time > self.values[i - 1];
+            if !((time - expected).abs() <= allowed && rising) {
+                return Err(self.culprit(i));
+            }
+        }
+        Ok(simplest(step, (ends / intervals).max(1e-12 * step)))
+    }
+
+    /// The first time that does not continue the steps before it; `fallback` if that cannot be told.
+    fn culprit(&self, fallback: usize) -> RecordError {
+        let step = self.values.get(1).map_or(0.0, |second| second - self.first);
+        let deviates = |i: &usize| {
+            let expected = self.first + *i as f64 * step;
+            let allowed = 0.51 * (*i as f64 + 1.0) * (self.digits[0] + self.digits[1]);
+            (self.values[*i] - expected).abs() > allowed + 1e-9 * expected.abs()
+        };
+        let at = (2..self.values.len()).find(deviates).unwrap_or(fallback);
+        RecordError::UnequalStep {
+            line: self.lines[at],
+            found: self.values[at],
+            expected: self.first + at as f64 * step,
+        }
+    }
+}
+
+/// Unit of the last printed digit: 0.01 for `1.25`, 1e-4 for `1.25e-2`.
+fn last_digit(text: &str) -> f64 {
+    let lower = text.to_ascii_lowercase().replace('d', "e");
+    let (mantissa, exponent) = lower.split_once('e').unwrap_or((&lower, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, d)| d.len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let decimals = i32::try_from(decimals).unwrap_or(i32::MAX);
+    10f64.powi(exponent.saturating_sub(decimals).clamp(-300, 300))
+}
+
+/// The number of fewest digits within `uncertainty` of a value: 0.02 for 0.019999999.
+fn simplest(value: f64, uncertainty: f64) -> f64 {
+    (0..15)
+        .filter_map(|digits| format!("{value:.digits$e}").parse::<f64>().ok())
+        .find(|rounded| (rounded - value).abs() <= uncertainty)
+        .unwrap_or(value)
+}

@@ -1,0 +1,71 @@
+//! The value tree of a TOML text.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::source::Span;
+use crate::tree::{Entry, Node, SyntaxError, Table, Value};
+
+/// Parses a whole text; reports every syntax error that the parser can tell apart.
+pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
+    let (root, errors) = DeTable::parse_recoverable(text);
+    if errors.is_empty() {
+        return Ok(Node {
+            span: 0..0,
+            value: Value::Table(table(root.get_ref())),
+        });
+    }
+    let mut faults: Vec<SyntaxError> = errors
+        .into_iter()
+        .map(|error| SyntaxError {
+            span: error.span().unwrap_or(0..0),
+            problem: error.message().trim().replace('\n', "; "),
+        })
+        .collect();
+    faults.sort_by_key(|fault| fault.span.start);
+    faults.truncate(100);
+    // One slip often confuses the rest of its line: keep the first message of a line.
+    let line = |span: &Span| {
+        text.get(..span.start)
+            .map_or(0, |t| t.matches('\n').count())
+    };
+    faults.dedup_by_key(|fault| line(&fault.span));
+    Err(faults)
+}
+
+fn table(parsed: &DeTable<'_>) -> Table {
+    let mut entries: Vec<Entry> = parsed
+        .iter()
+        .map(|(key, value)| Entry {
+            key: key.get_ref().to_string(),
+            key_span: key.span(),
+            node: node(value),
+        })
+        .collect();
+    // The parser sorts by name; faults read better in the order of the file.
+    entries.sort_by_key(|entry| entry.key_span.start);
+    Table { entries }
+}
+
+fn node(parsed: &Spanned<DeValue<'_>>) -> Node {
+    let value = match parsed.get_ref() {
+        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::Integer(integer) => {
+            let digits = integer.as_str();
+            match i64::from_str_radix(digits, integer.radix()) {
+                Ok(integer) => Value::Integer(integer),
+                // Too long for an integer, not for a number.
+                Err(_) => Value::Number(digits.parse().unwrap_or(f64::INFINITY)),
+            }
+        }
+        DeValue::Float(number) => Value::Number(number.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(flag) => Value::Flag(*flag),
+        DeValue::Datetime(_) => Value::Other("a date"),
+        DeValue::Array(list) => Value::List(list.iter().map(node).collect()),
+        DeValue::Table(inner) => Value::Table(table(inner)),
+    };
+    Node {
+        span: parsed.span(),
+        value,
+    }
+}
