@@ -16,6 +16,7 @@ pub mod system;
 
 mod check;
 mod element;
+mod summarise;
 mod transfer;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
@@ -27,6 +28,7 @@ pub use model::{
 pub use motion::{GroundMotion, Wave};
 pub use state::State;
 pub use stepping::{Outcome, Plan, Pounding, RunEnd, Settings, StepError, simulate};
+pub use summarise::Run;
 pub use summary::Summary;
 pub use system::System;
 pub use transfer::riccati::{RiccatiFactor, RiccatiSweep};

@@ -24,7 +24,8 @@ use crate::transfer::riccati::RiccatiSweep;
 pub struct Settings {
     /// Whether buildings push each other or pass through each other.
     pub pounding: Pounding,
-    /// Least time between recorded instants, zero for every step; `None` records no histories \[s\].
+    /// Least time between recorded instants in free flight, zero for every step; every step of a closed contact
+    /// is recorded. `None` records no histories \[s\].
     pub record_interval: Option<f64>,
 }
 
