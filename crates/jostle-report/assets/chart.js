@@ -91,7 +91,7 @@ class TimeChart {
     this.selection = svg("rect", { class: "selection" }, this.layers.marks);
     this.listen();
     view.charts.add(this);
-    this.observer = new ResizeObserver(() => this.draw());
+    this.observer = new ResizeObserver(() => requestAnimationFrame(() => this.draw()));
     this.observer.observe(this.figure);
   }
 

@@ -153,7 +153,7 @@ scrub.max = page.duration;
 scrub.addEventListener("input", () => seek(Number(scrub.value)));
 byId("play").addEventListener("click", () => player.toggle());
 player.onState = (playing) => {
-  byId("play").textContent = playing ? "❚❚" : "▶";
+  byId("play").classList.toggle("playing", playing);
   byId("play").setAttribute("aria-label", playing ? "Pause" : "Play");
 };
 const speed = byId("speed");
@@ -263,4 +263,16 @@ table?.tBodies[0].addEventListener("click", (event) => {
   zoomImpact.click();
 });
 
-player.seek(0);
+// The first picture: the hardest impact, or the nearest the buildings come.
+function tellingInstant() {
+  if (groups.length) return groups.reduce((best, group) => (group.peak > best.peak ? group : best)).at;
+  const [left, right] = contacts.length ? [contacts[0].gap.left, contacts[0].gap.left + 1] : [0, 0];
+  const contact = [...contacts].sort((a, b) => b.height - a.height)[0];
+  const of = (building, side) => displacementColumn(run, building, contact?.floors[side] ?? page.buildings[building].heights.length, contact?.height);
+  const [u, v] = [of(left, 0), contact ? of(right, 1) : undefined];
+  const measure = (i) => (v ? u[i] - v[i] : Math.abs(u[i]));
+  let best = 0;
+  for (let i = 1; i < (u?.length ?? 0); i++) if (measure(i) > measure(best)) best = i;
+  return run.time[best];
+}
+player.seek(tellingInstant());

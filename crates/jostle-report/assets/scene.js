@@ -17,7 +17,7 @@ class Scene {
     this.byContact = contacts.map((contact) => page.impacts.filter((impact) => impact.contact === contact.index));
     this.starts = this.byContact.map((list) => list.map((impact) => impact.start));
     this.build();
-    new ResizeObserver(() => this.layout()).observe(host);
+    new ResizeObserver(() => requestAnimationFrame(() => this.layout())).observe(host);
   }
 
   /** Displacement columns: per building, per floor from the ground up. */
@@ -61,11 +61,11 @@ class Scene {
     });
     const last = widths.length - 1;
     const total = this.left[last] + widths[last] + room;
-    const tallest = this.width < 600 ? 330 : 470;
-    this.scale = Math.min(this.width / total, (tallest - 90) / this.top);
+    const tallest = this.width < 600 ? 340 : 560;
+    this.scale = Math.min(this.width / total, (tallest - 100) / this.top);
     this.base = this.top * this.scale + 34;
     this.shift = (this.width - total * this.scale) / 2;
-    this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.base + 62}`);
+    this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.base + 70}`);
     this.widths = widths;
     this.drawBack();
     this.draw(this.time);
@@ -97,10 +97,17 @@ class Scene {
       const label = near > 55 ? `gap ${readableLength(gap.width)}` : readableLength(gap.width);
       svg("text", { class: "gap-name", x, y: row + 17, "text-anchor": "middle" }, back).textContent = label;
     }
+    const arrow = { class: "ground-name", x: this.width / 2 - this.reach - 10, y: this.base + 62, "text-anchor": "end" };
+    svg("text", arrow, back).textContent = this.width < 600 ? "ground" : "ground acceleration";
     const bar = [50, 20, 10, 5, 2, 1].find((metres) => metres <= this.top / 3) ?? 1;
     const [x, y] = [8, this.base - 12];
     svg("path", { class: "ruler", d: `M${x},${y - bar * this.scale}V${y}m-3,0h6m-6,${-bar * this.scale}h6` }, back);
     svg("text", { class: "ruler-name", x: x + 7, y: y - (bar * this.scale) / 2 + 4 }, back).textContent = `${bar} m`;
+  }
+
+  /** How far the arrow of the ground acceleration reaches at its peak [px]. */
+  get reach() {
+    return Math.min(90, this.width / 6);
   }
 
   /** Sideways places of the floors of a building, the ground first [m]. */
@@ -119,9 +126,9 @@ class Scene {
     this.drawFlashes(sways, t);
     const a = interpolate(ground.time, ground.values, t) / this.groundPeak;
     const middle = this.width / 2;
-    const tip = middle + a * Math.min(90, this.width / 5);
+    const tip = middle + a * this.reach;
     const head = Math.sign(a) * Math.min(7, Math.abs(tip - middle));
-    const y = this.base + 52;
+    const y = this.base + 58;
     this.arrow.setAttribute("d", `M${middle},${y - 5}v10m0,-5H${tip}m${-head},-4l${head},4l${-head},4`);
   }
 

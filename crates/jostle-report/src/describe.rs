@@ -43,10 +43,10 @@ fn building(index: usize, building: &Building, summary: Option<&BuildingSummary>
     let mut facts: Facts = vec![(
         "storeys",
         format!(
-            "{}, {} m high ({} m)",
+            "{} of {} m, {} m high",
             building.floors(),
-            format::significant(heights.last().copied().unwrap_or(0.0), 4),
-            grouped(building.storey_heights(), |h| format::significant(h, 3))
+            grouped(building.storey_heights(), |h| format::plain(h, 3)),
+            format::plain(heights.last().copied().unwrap_or(0.0), 4)
         ),
     )];
     match &building.structure {
@@ -81,7 +81,7 @@ fn building(index: usize, building: &Building, summary: Option<&BuildingSummary>
                     table.periods {
                         caption { "Lateral modes" }
                         thead { tr { th scope="row" { "mode" } @for mode in 1..=summary.periods_s.len().min(PERIODS) { th.number { (mode) } } } }
-                        tbody { tr { th scope="row" { "T [s]" } @for period in summary.periods_s.iter().take(PERIODS) { td.number { (format::significant(*period, 4)) } } } }
+                        tbody { tr { th scope="row" { "T [s]" } @for period in summary.periods_s.iter().take(PERIODS) { td.number { (format::plain(*period, 4)) } } } }
                     }
                 }
             }
@@ -93,7 +93,7 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
     let spans: Vec<String> = frame
         .spans
         .iter()
-        .map(|span| format::significant(*span, 3))
+        .map(|span| format::plain(*span, 3))
         .collect();
     facts.push(("spans", format!("{} m", spans.join(" + "))));
     let rigidities = |sections: &[jostle::Section]| {
@@ -107,8 +107,8 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
         "line mass",
         format!(
             "columns {}, beams {} kg/m",
-            grouped(&columns, |m| format::significant(m, 4)),
-            grouped(&frame.beam_mass, |m| format::significant(m, 4))
+            grouped(&columns, |m| format::plain(m, 4)),
+            grouped(&frame.beam_mass, |m| format::plain(m, 4))
         ),
     ));
     if frame.floor_mass.iter().any(|mass| *mass > 0.0) {
@@ -134,7 +134,7 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
     ));
     let joint = match frame.joint.rotational_stiffness {
         None => "rigid".into(),
-        Some(stiffness) => format!("{} N·m/rad", format::significant(stiffness, 3)),
+        Some(stiffness) => format!("{} N·m/rad", format::plain(stiffness, 3)),
     };
     facts.push(("joints", joint));
 }
@@ -180,8 +180,8 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
     let coefficients = |alpha: f64, beta: f64| {
         format!(
             "α = {}\u{a0}1/s, β = {}\u{a0}s",
-            format::significant(alpha, 4),
-            format::significant(beta, 4)
+            format::plain(alpha, 4),
+            format::plain(beta, 4)
         )
     };
     match damping {
@@ -192,7 +192,7 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
                 rayleigh.map_or_else(String::new, |(a, b)| format!(" ({})", coefficients(a, b)));
             format!(
                 "{}\u{a0}% at lateral mode{} {}{used}",
-                format::significant(ratio * 100.0, 3),
+                format::plain(ratio * 100.0, 3),
                 if modes.len() > 1 { "s" } else { "" },
                 modes.join(" and ")
             )
@@ -220,7 +220,7 @@ fn contact(gap: &Gap, free_restitution: f64) -> Facts {
         ("contact law", law.kind.name().into()),
         (
             "stiffness",
-            format!("{} {unit}", format::significant(law.stiffness, 3)),
+            format!("{} {unit}", format::plain(law.stiffness, 3)),
         ),
     ];
     if law.kind.is_dissipative() {
@@ -230,7 +230,7 @@ fn contact(gap: &Gap, free_restitution: f64) -> Facts {
         };
         facts.push((
             "restitution",
-            format!("{} ({meaning})", format::significant(law.restitution, 3)),
+            format!("{} ({meaning})", format::plain(law.restitution, 3)),
         ));
     }
     facts.push((
@@ -251,11 +251,11 @@ fn motion(page: &Page) -> Facts {
             } else {
                 ""
             };
-            format!("{}{reversed}", format::significant(motion.scale, 4))
+            format!("{}{reversed}", format::plain(motion.scale, 4))
         }),
         (
             "length",
-            format::unit(format::significant(motion.duration, 4), "s"),
+            format::unit(format::plain(motion.duration, 4), "s"),
         ),
     ];
     match &motion.wave {
@@ -270,14 +270,14 @@ fn motion(page: &Page) -> Facts {
         Wave::Sine { period, .. } => facts.push(("wave", sine(*period))),
         Wave::Ricker { period, .. } => facts.push((
             "wave",
-            format!("Ricker pulse, period {} s", format::significant(*period, 3)),
+            format!("Ricker pulse, period {} s", format::plain(*period, 3)),
         )),
     }
     facts
 }
 
 fn sine(period: f64) -> String {
-    format!("sine, period {} s", format::significant(period, 3))
+    format!("sine, period {} s", format::plain(period, 3))
 }
 
 fn analysis(page: &Page) -> Facts {
@@ -313,7 +313,7 @@ fn analysis(page: &Page) -> Facts {
         ));
     }
     facts.extend([
-        ("tolerance", format::significant(settings.tolerance, 1)),
+        ("tolerance", format::plain(settings.tolerance, 1)),
         (
             "steps",
             format!(
@@ -334,7 +334,7 @@ fn analysis(page: &Page) -> Facts {
         ),
         (
             "wall time",
-            format::unit(format::significant(work.wall_s, 3), "s"),
+            format::unit(format::plain(work.wall_s, 3), "s"),
         ),
     ]);
     facts
@@ -353,10 +353,10 @@ fn energy(page: &Page) -> Facts {
     }
     facts.extend([
         ("contact", format::energy(energy.contact_j)),
-        ("imbalance", format::significant(energy.imbalance, 2)),
+        ("imbalance", format::plain(energy.imbalance, 2)),
         (
             "worst imbalance",
-            format::significant(energy.worst_imbalance, 2),
+            format::plain(energy.worst_imbalance, 2),
         ),
     ]);
     facts
@@ -368,7 +368,7 @@ mod tests {
 
     #[test]
     fn equal_storeys_are_said_once() {
-        let text = |values: &[f64]| grouped(values, |v| format::significant(v, 2));
+        let text = |values: &[f64]| grouped(values, |v| format::plain(v, 2));
         assert_eq!(text(&[3.2, 3.2]), "3.2");
         assert_eq!(text(&[60.0, 60.0, 40.0]), "1–2: 60, 3: 40");
     }

@@ -27,6 +27,23 @@ pub(crate) fn significant(value: f64, digits: i32) -> String {
     fixed(rounded, (digits - 1 - exponent).max(0) as usize)
 }
 
+/// `value` with at most `digits` significant digits and no trailing zeros: for what the user typed.
+pub(crate) fn plain(value: f64, digits: i32) -> String {
+    let text = significant(value, digits);
+    match text.split_once("\u{202f}×") {
+        Some((mantissa, power)) => format!("{}\u{202f}×{power}", without_zeros(mantissa)),
+        None => without_zeros(&text).to_owned(),
+    }
+}
+
+fn without_zeros(text: &str) -> &str {
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        text
+    }
+}
+
 /// `value` with a given number of decimals, a true minus sign and thin spaces between thousands.
 pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
@@ -84,6 +101,15 @@ fn prefixed(value: f64, digits: i32, units: &[(f64, &str)]) -> String {
     }
 }
 
+/// A stated value in the largest fitting unit, without trailing zeros.
+fn prefixed_plain(value: f64, units: &[(f64, &str)]) -> String {
+    let text = prefixed(value, 4, units);
+    match text.split_once('\u{a0}') {
+        Some((number, unit)) => format!("{}\u{a0}{unit}", without_zeros(number)),
+        None => text,
+    }
+}
+
 /// A force; kN up to a hundred meganewton \[N\].
 pub(crate) fn force(newton: f64) -> String {
     prefixed(newton, 4, &[(1.0, "N"), (1e3, "kN"), (1e8, "MN")])
@@ -104,15 +130,7 @@ pub(crate) fn millimetres(metre: f64) -> String {
     };
     let text = fixed(value, decimals);
     // A round width stays round: "100 mm", not "100.0 mm".
-    let text = match text.split_once('.') {
-        Some((whole, fraction)) if fraction.bytes().all(|b| b == b'0') => whole.to_owned(),
-        _ => text,
-    };
-    if value.is_finite() {
-        format!("{text}\u{a0}mm")
-    } else {
-        text
-    }
+    unit(without_zeros(&text).to_owned(), "mm")
 }
 
 /// An instant, to the millisecond \[s\].
@@ -122,20 +140,17 @@ pub(crate) fn instant(second: f64) -> String {
 
 /// A duration in milliseconds \[s\].
 pub(crate) fn milliseconds(second: f64) -> String {
-    unit(significant(second * 1e3, 3), "ms")
+    unit(plain(second * 1e3, 3), "ms")
 }
 
 /// A mass in tonnes \[kg\].
 pub(crate) fn tonnes(kilogram: f64) -> String {
-    unit(significant(kilogram / 1e3, 4), "t")
+    unit(plain(kilogram / 1e3, 4), "t")
 }
 
 /// A flexural rigidity \[N·m²\].
 pub(crate) fn rigidity(value: f64) -> String {
-    prefixed(
-        value,
-        4,
-        &[
+    prefixed_plain(value, &[
             (1.0, "N·m²"),
             (1e3, "kN·m²"),
             (1e6, "MN·m²"),
@@ -146,9 +161,8 @@ pub(crate) fn rigidity(value: f64) -> String {
 
 /// A lateral stiffness \[N/m\].
 pub(crate) fn stiffness(value: f64) -> String {
-    prefixed(
+    prefixed_plain(
         value,
-        4,
         &[(1.0, "N/m"), (1e3, "kN/m"), (1e6, "MN/m"), (1e9, "GN/m")],
     )
 }
@@ -198,6 +212,19 @@ mod tests {
         ] {
             assert_eq!(significant(value, 4), text, "{value} with four digits");
         }
+    }
+
+    #[test]
+    fn stated_values_keep_no_zeros() {
+        for (value, text) in [
+            (3.2, "3.2"),
+            (100.0, "100"),
+            (2e9, "2\u{202f}×\u{202f}10⁹"),
+            (0.002_13, "0.00213"),
+        ] {
+            assert_eq!(plain(value, 4), text, "{value} as stated");
+        }
+        assert_eq!(rigidity(81e6), "81\u{a0}MN·m²");
     }
 
     #[test]

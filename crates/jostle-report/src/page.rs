@@ -277,10 +277,12 @@ fn player(page: &Page) -> Markup {
     html! {
         div #player.player role="group" aria-label="Playback" {
             div.player-row {
-                button #play.play type="button" aria-label="Play" title="Play or pause (space)" { "▶" }
+                button #play.play type="button" aria-label="Play" title="Play or pause (space)" {
+                    (icon("play-icon", "M4 2v16l14-8z")) (icon("pause-icon", "M4 2h4v16h-4zM12 2h4v16h-4z"))
+                }
                 @if impacts {
-                    button #previous type="button" aria-label="Previous impact" title="Previous impact ([)" { "⏮" }
-                    button #next type="button" aria-label="Next impact" title="Next impact (])" { "⏭" }
+                    button #previous type="button" aria-label="Previous impact" title="Previous impact ([)" { (icon("", "M3 3h3v14h-3zM17 3v14l-10-7z")) }
+                    button #next type="button" aria-label="Next impact" title="Next impact (])" { (icon("", "M3 3v14l10-7zM14 3h3v14h-3z")) }
                 }
                 output #clock.clock { "0.000 s" }
                 span #force-now.force-now {}
@@ -298,6 +300,10 @@ fn player(page: &Page) -> Markup {
             }
         }
     }
+}
+
+fn icon(class: &str, outline: &str) -> Markup {
+    html! { svg class=(class) viewBox="0 0 20 20" aria-hidden="true" { path d=(outline) {} } }
 }
 
 fn guide() -> Markup {

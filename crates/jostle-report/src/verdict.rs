@@ -97,19 +97,18 @@ fn sentence_of(gap: &GapSummary) -> String {
             force(first)
         );
     }
-    let head = format!(
-        "{left} and {right} hit {}, first at {} ({})",
-        times(gap.impact_count),
-        at(first),
-        place(first_at)
-    );
+    let head = format!("{left} and {right} hit {}", times(gap.impact_count));
+    let (first_place, hardest_place) = (place(first_at), place(hardest_at));
+    let start = format!("{} ({first_place})", at(first));
     if hardest == first {
-        format!("{head}, then hardest too, with {}.", force(hardest))
+        format!(
+            "{head}, first and hardest at {start}, with {}.",
+            force(hardest)
+        )
     } else {
         format!(
-            "{head}, hardest at {} ({}), with {}.",
+            "{head}, first at {start}, hardest at {} ({hardest_place}), with {}.",
             at(hardest),
-            place(hardest_at),
             force(hardest)
         )
     }

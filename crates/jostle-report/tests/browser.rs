@@ -1,0 +1,311 @@
+//! The page in a real browser: it plays, scrubs, zooms, turns dark, fits a phone, and never complains.
+//!
+//! Needs a chromium on the machine; set `JOSTLE_SKIP_BROWSER` to do without.
+
+mod fixture;
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use fixture::{Run, alone, row_of_three, two_frames};
+use headless_chrome::protocol::cdp::types::Event;
+use headless_chrome::protocol::cdp::{Emulation, Input, Log, Page, Runtime};
+use headless_chrome::{Browser, LaunchOptions, Tab};
+use jostle_report::render;
+
+fn chromium() -> PathBuf {
+    let names = [
+        "chromium",
+        "chromium-browser",
+        "google-chrome",
+        "google-chrome-stable",
+    ];
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&folders)
+        .flat_map(|folder| names.map(|name| folder.join(name)))
+        .find(|path| path.is_file())
+        .expect("no chromium found: install the package `chromium` (apt install chromium), or set JOSTLE_SKIP_BROWSER=1 to leave the browser tests out")
+}
+
+/// An open page and everything it complained about.
+struct Opened {
+    tab: Arc<Tab>,
+    complaints: Arc<Mutex<Vec<String>>>,
+    // Dropped last: closing the browser ends the tab, and the folder holds the page.
+    _browser: Browser,
+    _folder: tempfile::TempDir,
+}
+
+/// Opens the page of a run in a window of the given size; `None` when browser tests are switched off.
+fn open(run: &Run, width: u32, height: u32) -> Option<Opened> {
+    if std::env::var_os("JOSTLE_SKIP_BROWSER").is_some() {
+        println!("skipped: JOSTLE_SKIP_BROWSER is set");
+        return None;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("report.html");
+    std::fs::write(&file, render(&run.page())).unwrap();
+    let options = LaunchOptions::default_builder()
+        .path(Some(chromium()))
+        .sandbox(false)
+        .window_size(Some((width, height)))
+        .args(
+            ["--disable-gpu", "--disable-quic", "--disable-sync"]
+                .map(std::ffi::OsStr::new)
+                .to_vec(),
+        )
+        .build()
+        .unwrap();
+    let browser = Browser::new(options).unwrap();
+    let tab = browser.new_tab().unwrap();
+    let complaints = Arc::new(Mutex::new(Vec::new()));
+    let notes = Arc::clone(&complaints);
+    tab.add_event_listener(Arc::new(move |event: &Event| {
+        let note = match event {
+            Event::RuntimeExceptionThrown(e) => {
+                Some(format!("exception: {:?}", e.params.exception_details))
+            }
+            Event::RuntimeConsoleAPICalled(e) => Some(format!("console: {:?}", e.params.args)),
+            Event::LogEntryAdded(e) => Some(format!("log: {:?}", e.params.entry)),
+            _ => None,
+        };
+        if let Some(note) = note {
+            notes.lock().unwrap().push(note);
+        }
+    }))
+    .unwrap();
+    tab.call_method(Runtime::Enable(None)).unwrap();
+    tab.call_method(Log::Enable(None)).unwrap();
+    tab.call_method(Emulation::SetDeviceMetricsOverride {
+        width,
+        height,
+        device_scale_factor: 1.0,
+        mobile: width < 500,
+        scale: None,
+        screen_width: None,
+        screen_height: None,
+        position_x: None,
+        position_y: None,
+        dont_set_visible_size: None,
+        screen_orientation: None,
+        viewport: None,
+        display_feature: None,
+        device_posture: None,
+    })
+    .unwrap();
+    tab.navigate_to(&format!("file://{}", file.display()))
+        .unwrap();
+    tab.wait_until_navigated().unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    Some(Opened {
+        tab,
+        complaints,
+        _browser: browser,
+        _folder: folder,
+    })
+}
+
+impl Opened {
+    fn value(&self, script: &str) -> serde_json::Value {
+        let result = self.tab.evaluate(script, true).unwrap();
+        result.value.unwrap_or_default()
+    }
+
+    fn number(&self, script: &str) -> f64 {
+        self.value(script)
+            .as_f64()
+            .unwrap_or_else(|| panic!("no number from {script}"))
+    }
+
+    fn text(&self, script: &str) -> String {
+        self.value(script).as_str().unwrap_or_default().to_owned()
+    }
+
+    fn clock(&self) -> f64 {
+        self.number("parseFloat(document.getElementById('clock').textContent)")
+    }
+
+    fn mouse(&self, kind: Input::DispatchMouseEventTypeOption, x: f64, y: f64) {
+        self.tab
+            .call_method(Input::DispatchMouseEvent {
+                Type: kind,
+                x,
+                y,
+                button: Some(Input::MouseButton::Left),
+                click_count: Some(1),
+                modifiers: None,
+                timestamp: None,
+                buttons: None,
+                force: None,
+                tangential_pressure: None,
+                tilt_x: None,
+                tilt_y: None,
+                twist: None,
+                delta_x: None,
+                delta_y: None,
+                pointer_Type: None,
+            })
+            .unwrap();
+    }
+
+    /// Keeps a picture of the whole page among the build outputs.
+    fn picture(&self, name: &str) {
+        std::thread::sleep(Duration::from_millis(150));
+        let png = self
+            .tab
+            .capture_screenshot(
+                Page::CaptureScreenshotFormatOption::Png,
+                None,
+                None,
+                true,
+            )
+            .unwrap();
+        std::fs::write(format!("{}/{name}.png", env!("CARGO_TARGET_TMPDIR")), png).unwrap();
+    }
+
+    fn assert_content(&self) {
+        let complaints = self.complaints.lock().unwrap();
+        assert!(complaints.is_empty(), "the page complained: {complaints:#?}");
+    }
+
+    fn assert_fits(&self) {
+        let (content, window) = (
+            self.number("document.documentElement.scrollWidth"),
+            self.number("innerWidth"),
+        );
+        assert!(content <= window, "{content} px wide in a window of {window} px");
+    }
+}
+
+const FIRST_CHART: &str = "document.querySelector('.chart svg').getBoundingClientRect()";
+const TIME_LABELS: &str =
+    "[...document.querySelectorAll('.chart svg')][0].querySelector('.grid').textContent";
+
+#[test]
+fn playing_moves_time_and_buildings() {
+    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+        return;
+    };
+    let shape = "document.querySelector('.building .columns').getAttribute('d')";
+    let (clock, before) = (page.clock(), page.text(shape));
+    page.value("document.getElementById('play').click()");
+    std::thread::sleep(Duration::from_millis(700));
+    page.value("document.getElementById('play').click()");
+    let (later, after) = (page.clock(), page.text(shape));
+    assert!(later > clock + 0.1, "played from {clock} s to {later} s only");
+    assert_ne!(before, after, "the building stood still");
+    std::thread::sleep(Duration::from_millis(150));
+    assert_eq!(page.clock(), later, "paused, but time went on");
+    page.assert_content();
+}
+
+#[test]
+fn scrubbing_and_jumping_find_their_instants() {
+    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+        return;
+    };
+    page.value("{ const s = document.getElementById('scrub'); s.value = 3; s.dispatchEvent(new Event('input')); }");
+    assert!((page.clock() - 3.0).abs() < 0.01, "scrubbed to {}", page.clock());
+    page.value("document.getElementById('next').click()");
+    let first = page.clock();
+    assert!(first > 6.0 && first < 6.4, "the first impact is near 6.2 s, not at {first} s");
+    let force = page.text("document.getElementById('force-now').textContent");
+    assert!(force.ends_with("kN"), "no force at the impact: {force:?}");
+    page.value("document.getElementById('next').click()");
+    assert!(page.clock() > first, "the second impact comes later");
+    page.picture("jumped");
+    page.assert_content();
+}
+
+#[test]
+fn charts_zoom_together_and_come_back() {
+    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+        return;
+    };
+    page.value("document.querySelector('.chart').scrollIntoView({block: 'start'})");
+    std::thread::sleep(Duration::from_millis(200));
+    let whole = page.text(TIME_LABELS);
+    let [left, top] = ["left", "top"].map(|side| page.number(&format!("{FIRST_CHART}.{side}")));
+    let y = top + 60.0;
+    use Input::DispatchMouseEventTypeOption::{MouseMoved, MousePressed, MouseReleased};
+    page.mouse(MousePressed, left + 300.0, y);
+    page.mouse(MouseMoved, left + 350.0, y);
+    page.mouse(MouseMoved, left + 400.0, y);
+    page.mouse(MouseReleased, left + 400.0, y);
+    std::thread::sleep(Duration::from_millis(200));
+    let zoomed = page.text(TIME_LABELS);
+    assert_ne!(whole, zoomed, "dragging did not zoom");
+    page.value("document.getElementById('zoom-impact').click()");
+    std::thread::sleep(Duration::from_millis(200));
+    page.picture("impact");
+    let bends = page.text("document.querySelectorAll('.chart')[1].querySelector('.line').getAttribute('d')");
+    assert!(bends.matches('L').count() > 40, "an impact should show its shape: {bends}");
+    page.value("document.querySelector('.chart svg').dispatchEvent(new MouseEvent('dblclick'))");
+    std::thread::sleep(Duration::from_millis(200));
+    assert_eq!(page.text(TIME_LABELS), whole, "double-click did not reset");
+    page.value("document.querySelector('.chart svg').dispatchEvent(new WheelEvent('wheel', {deltaY: -300, shiftKey: true, clientX: 500, cancelable: true}))");
+    std::thread::sleep(Duration::from_millis(200));
+    assert_ne!(page.text(TIME_LABELS), whole, "the wheel did not zoom");
+    page.assert_content();
+}
+
+#[test]
+fn every_place_has_its_charts() {
+    for run in [two_frames(0.1), alone(), row_of_three()] {
+        let Some(page) = open(&run, 1280, 900) else {
+            return;
+        };
+        let places = page.number("document.getElementById('place').options.length");
+        assert!(places >= 3.0, "only {places} places");
+        let empty = "(() => { const s = document.getElementById('place'); const empty = []; for (const o of s.options) { s.value = o.value; s.dispatchEvent(new Event('change')); if (!document.querySelectorAll('#time-charts > div .chart').length) empty.push(o.value); } return empty.join(); })()";
+        assert_eq!(page.text(empty), "", "places without a chart");
+        page.assert_content();
+    }
+}
+
+#[test]
+fn dark_is_dark_and_light_is_light() {
+    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+        return;
+    };
+    let paper = "getComputedStyle(document.body).backgroundColor";
+    assert_eq!(page.text(paper), "rgb(255, 255, 255)");
+    page.value("document.getElementById('theme').click()");
+    assert_eq!(page.text(paper), "rgb(21, 24, 28)");
+    page.picture("dark");
+    page.assert_content();
+}
+
+#[test]
+fn impacts_sort_and_unfold() {
+    let Some(page) = open(&row_of_three(), 1280, 900) else {
+        return;
+    };
+    let shown = "[...document.querySelectorAll('#impact-table tbody tr')].filter(r => r.offsetParent).length";
+    assert_eq!(page.number(shown), 30.0);
+    page.value("document.querySelectorAll('#impact-table th button')[3].click()");
+    let forces = "[...document.querySelectorAll('#impact-table tbody tr')].map(r => parseFloat(r.cells[3].textContent)).every((f, i, all) => i === 0 || f <= all[i - 1])";
+    assert_eq!(page.value(forces), true, "not sorted by force, greatest first");
+    page.value("document.getElementById('all-impacts').click()");
+    assert!(page.number(shown) > 30.0, "the rest stayed folded");
+    page.picture("row-of-three");
+    page.assert_content();
+}
+
+#[test]
+fn nothing_overflows_a_phone() {
+    let runs = [
+        ("two-frames", two_frames(0.1)),
+        ("alone", alone()),
+        ("row-of-three", row_of_three()),
+    ];
+    for (name, run) in runs {
+        let Some(page) = open(&run, 375, 740) else {
+            return;
+        };
+        page.assert_fits();
+        page.picture(&format!("phone-{name}"));
+        page.assert_content();
+    }
+}
