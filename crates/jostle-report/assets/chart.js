@@ -97,6 +97,9 @@ class TimeChart {
 
   static count = 0;
 
+  /** Width while printing [px]; otherwise as wide as there is room. */
+  static paperWidth = null;
+
   remove() {
     this.view.charts.delete(this);
     this.observer.disconnect();
@@ -130,7 +133,7 @@ class TimeChart {
   }
 
   draw() {
-    this.width = Math.max(this.figure.clientWidth, 240);
+    this.width = TimeChart.paperWidth ?? Math.max(this.figure.clientWidth, 240);
     this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     const box = {
       x: margin.left,

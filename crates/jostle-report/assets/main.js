@@ -218,6 +218,15 @@ document.addEventListener("keydown", (event) => {
   else if (event.key === "]") jump(1);
 });
 
+// On paper the pictures are drawn for its width, so that their letters stay readable.
+const drawFor = (width) => {
+  TimeChart.paperWidth = width;
+  scene.layout();
+  for (const chart of view.charts) chart.draw();
+};
+addEventListener("beforeprint", () => drawFor(720));
+addEventListener("afterprint", () => drawFor(null));
+
 const marks = byId("marks");
 for (const group of gatherImpacts(page.impacts, page.duration / 400)) {
   const mark = html("i", "", undefined, marks);

@@ -48,7 +48,7 @@ class Scene {
 
   /** Places the buildings; sizes the picture to the room there is. */
   layout() {
-    this.width = Math.max(this.host.clientWidth, 240);
+    this.width = TimeChart.paperWidth ?? Math.max(this.host.clientWidth, 240);
     const f = this.exaggeration;
     const room = f * this.peak + 0.02 * this.top + 0.5;
     const widths = page.buildings.map((b) => b.spans.reduce((sum, span) => sum + span, 0));
@@ -86,15 +86,18 @@ class Scene {
     svg("rect", { class: "soil", x: 0, y: this.base, width: this.width, height: 7 }, back);
     const row = this.base + 24;
     page.buildings.forEach((building, i) => {
-      const room = Math.max(4, Math.floor((this.widths[i] * this.scale + 30) / 8));
-      const name = building.name.length > room ? `${building.name.slice(0, room - 1)}…` : building.name;
+      const room = page.buildings.length > 1 ? this.widths[i] * this.scale + 4 : this.width;
       const x = this.px(this.left[i] + this.widths[i] / 2);
-      svg("text", { class: "name", x, y: row, "text-anchor": "middle" }, back).textContent = name;
+      const label = svg("text", { class: "name", x, y: row, "text-anchor": "middle" }, back);
+      label.textContent = building.name;
+      for (let kept = building.name.length - 1; kept > 0 && label.getComputedTextLength() > room; kept--) {
+        label.textContent = `${building.name.slice(0, kept)}…`;
+      }
     });
     for (const gap of page.gaps) {
       const x = this.px(this.left[gap.left] + this.widths[gap.left] + (this.exaggeration * gap.width) / 2);
       const near = Math.min(this.widths[gap.left], this.widths[gap.left + 1]) * this.scale;
-      const label = near > 55 ? `gap ${readableLength(gap.width)}` : readableLength(gap.width);
+      const label = near > 70 ? `gap ${readableLength(gap.width)}` : readableLength(gap.width);
       svg("text", { class: "gap-name", x, y: row + 17, "text-anchor": "middle" }, back).textContent = label;
     }
     const arrow = { class: "ground-name", x: this.width / 2 - this.reach - 10, y: this.base + 62, "text-anchor": "end" };

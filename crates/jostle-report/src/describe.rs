@@ -25,7 +25,7 @@ pub(crate) fn model(page: &Page) -> Markup {
             @for (i, building) in page.model.buildings.iter().enumerate() {
                 (self::building(i, building, page.summary.buildings.get(i)))
             }
-            @for (gap, summary) in page.model.gaps.iter().zip(&page.summary.gaps) {
+            @for (summary, gap) in page.gaps() {
                 div.card {
                     h3 { "Gap " (summary.between[0]) "–" (summary.between[1]) }
                     (list(&contact(gap, summary.free_restitution)))

@@ -12,7 +12,8 @@ mod payload;
 mod tables;
 mod verdict;
 
-use jostle::{GroundMotion, History, Model, Summary};
+use jostle::summary::GapSummary;
+use jostle::{Gap, GroundMotion, History, Model, Summary};
 
 /// Everything a report shows.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +29,20 @@ pub struct Page<'a> {
     /// Time histories of the same buildings passing through each other: the same columns, on instants of
     /// their own. `None` when that run was not made.
     pub without_contact: Option<&'a History>,
+}
+
+impl<'a> Page<'a> {
+    /// Every gap of the summary with its description in the model.
+    fn gaps(&self) -> impl Iterator<Item = (&'a GapSummary, &'a Gap)> {
+        let (model, summary) = (self.model, self.summary);
+        summary.gaps.iter().filter_map(move |gap| {
+            let left_name = |candidate: &&Gap| {
+                let left = model.buildings.get(candidate.left);
+                left.is_some_and(|building| building.name == gap.between[0])
+            };
+            Some((gap, model.gaps.iter().find(left_name)?))
+        })
+    }
 }
 
 /// The whole HTML page. It loads nothing from outside and stays below 1 MB for ordinary runs.

@@ -68,7 +68,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         @if page.model.gaps.is_empty() {
                             p.quiet { "The model has no gap." }
                         } @else {
-                            (tables::impacts(page.summary))
+                            (tables::impacts(page))
                         }
                     }
                     section #envelopes {
@@ -183,8 +183,8 @@ fn tiles(page: &Page) -> Markup {
                 &format!("Roof of {}", building.name),
                 format::millimetres(roof.displacement_max_m.max(-roof.displacement_min_m)),
                 format!(
-                    "{} left, {} right",
-                    format::millimetres(-roof.displacement_min_m),
+                    "{} / +{}",
+                    format::fixed(roof.displacement_min_m * 1e3, 1),
                     format::millimetres(roof.displacement_max_m)
                 ),
             );

@@ -141,10 +141,7 @@ pub(crate) fn contacts(summary: &Summary) -> impl Iterator<Item = &ContactSummar
 
 fn gaps(page: &Page) -> Vec<GapData> {
     let mut index = 0;
-    page.summary
-        .gaps
-        .iter()
-        .zip(&page.model.gaps)
+    page.gaps()
         .map(|(summary, gap)| GapData {
             left: gap.left,
             width: gap.width,

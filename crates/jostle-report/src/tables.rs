@@ -1,7 +1,8 @@
 //! Impacts one by one, and the joint widths of the codes beside the computed ones.
 
+use jostle::contact::{LawKind, RestitutionIs};
 use jostle::separation::{absolute_sum, gb50011_frame_joint, srss};
-use jostle::summary::{ContactSummary, GapSummary, ImpactSummary, Summary};
+use jostle::summary::{ContactSummary, GapSummary, ImpactSummary};
 use maud::{Markup, html};
 
 use crate::envelope::Envelope;
@@ -14,7 +15,8 @@ const MOST_ROWS: usize = 1000;
 const FIRST_ROWS: usize = 30;
 
 /// The table of impacts, in order of time.
-pub(crate) fn impacts(summary: &Summary) -> Markup {
+pub(crate) fn impacts(page: &Page) -> Markup {
+    let summary = page.summary;
     let several = summary.gaps.len() > 1;
     let mut rows: Vec<(&GapSummary, &ContactSummary, &ImpactSummary)> = summary
         .gaps
@@ -67,7 +69,7 @@ pub(crate) fn impacts(summary: &Summary) -> Markup {
             @if rows.len() > FIRST_ROWS {
                 button #all-impacts.wide type="button" { "Show all " (rows.len()) " impacts" }
             }
-            (restitution_note(summary))
+            (restitution_note(page))
         }
     }
 }
@@ -86,7 +88,14 @@ fn cells(impact: &ImpactSummary) -> [String; 9] {
     ]
 }
 
-fn restitution_note(summary: &Summary) -> Markup {
+fn restitution_note(page: &Page) -> Markup {
+    let summary = page.summary;
+    let published = page
+        .gaps()
+        .map(|(summary, gap)| (summary, gap.law))
+        .find(|(_, law)| {
+            law.kind == LawKind::HertzDamp && law.restitution_is == RestitutionIs::Input
+        });
     html! {
         div.note {
             p {
@@ -98,9 +107,10 @@ fn restitution_note(summary: &Summary) -> Markup {
                 }
                 " under this contact law. In a building the storeys and the other contacts push during the impact as well, so the two differ, and the ratio may even exceed one after a soft touch."
             }
-            @if summary.gaps.iter().any(|gap| gap.law.starts_with("hertz-damp")) {
+            @if let Some((gap, law)) = published {
                 p {
-                    "The coefficient typed into the published hertz-damp formula is not the rebound of free masses: e = 0.65 there rebounds with 0.775."
+                    "The coefficient put into the published hertz-damp formula is not the rebound of free masses: with e = "
+                    (format::plain(law.restitution, 3)) " they rebound with " (format::fixed(gap.free_restitution, 3)) "."
                 }
             }
         }
@@ -117,12 +127,16 @@ struct Width {
 /// Joint widths of a gap as bars: the gap, what the run needed, what rules ask for.
 pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
     html! {
-        @for (summary, gap) in page.summary.gaps.iter().zip(&page.model.gaps) {
+        @for (summary, gap) in page.gaps() {
             @let widths = widths(page, summary, gap.left, without.unwrap_or(run), without.is_some());
             @let longest = widths.iter().map(|w| w.metres).fold(1e-9, f64::max);
-            @let lower = lower_height(page, gap.left);
             div.joint {
-                h3 { (summary.between[0]) " and " (summary.between[1]) }
+                h3 {
+                    (summary.between[0]) " and " (summary.between[1])
+                    @if let Some(height) = lower_height(page, gap.left) {
+                        span.quiet { " · lower building " (format::plain(height, 4)) " m high" }
+                    }
+                }
                 div.bars role="table" {
                     @for width in &widths {
                         div.bar-row role="row" {
@@ -135,15 +149,12 @@ pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>
                         }
                     }
                 }
-                @if let Some(height) = lower {
-                    p.quiet {
-                        "GB 50011-2010 §6.1.4, concrete frames, for the lower building (" (format::fixed(height, 1)) " m high). "
-                        "SRSS and ABS combine the peak displacements at the highest common floor "
-                        @if without.is_some() { "of the run without contact." } @else { "of this run, impacts included." }
-                        " The line marks the gap."
-                    }
-                }
             }
+        }
+        p.quiet {
+            "The line marks the gap. Code: GB 50011-2010 §6.1.4, concrete frames, for the height of the lower building. "
+            "SRSS and ABS combine the peak displacements at the highest common floor "
+            @if without.is_some() { "of the run without contact." } @else { "of this run, impacts included." }
         }
     }
 }
@@ -207,7 +218,7 @@ fn widths(
     for intensity in 6..=9 {
         let width = lower_height(page, left).and_then(|h| gb50011_frame_joint(h, intensity));
         add(
-            &format!("GB 50011, intensity {intensity}"),
+            &format!("code, intensity {intensity}"),
             width,
             "of-code",
         );
