@@ -10,6 +10,8 @@ mod gap;
 mod motion;
 mod section;
 mod shear;
+#[cfg(test)]
+mod tests;
 
 use std::path::Path;
 

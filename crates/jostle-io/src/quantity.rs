@@ -237,7 +237,7 @@ pub(crate) fn check_magnitude(value: f64, expected: Dimension) -> Result<f64, Qu
     } else {
         Err(QuantityError::NotFinite {
             expected,
-            found: value.to_string(),
+            found: show_number(value),
         })
     }
 }
@@ -314,6 +314,15 @@ fn nearest_unit(unit: &str) -> Option<String> {
         .filter(|(distance, _)| *distance <= 1)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name.to_owned())
+}
+
+/// A number for a message, short also when it is huge.
+pub(crate) fn show_number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() || (1e-6..1e12).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }
 
 /// The text for a message: of bounded length.

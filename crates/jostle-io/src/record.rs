@@ -46,7 +46,7 @@ pub enum RecordError {
     )]
     Binary,
     /// Too few values.
-    #[error(": only {found} values; a record needs at least two")]
+    #[error(": a record needs at least two values, found {found}")]
     TooFew {
         /// Values found.
         found: usize,
@@ -171,7 +171,7 @@ pub enum RecordError {
         columns: usize,
     },
     /// Lines of different length.
-    #[error(":{line}: {found} columns where {expected} were expected")]
+    #[error(":{line}: expected {expected} columns as on the lines before, found {found}")]
     Ragged {
         /// Line, from 1.
         line: usize,

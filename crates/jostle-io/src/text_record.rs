@@ -51,10 +51,7 @@ pub(crate) fn parse_text(text: &str, options: &RecordOptions) -> Result<Record, 
         });
     }
     let acceleration = acceleration_column(&header, options, first)?;
-    let time = header
-        .time_column
-        .or((columns > 1 && acceleration != 0).then_some(0))
-        .filter(|column| *column != acceleration);
+    let times = read_times(&header, &rows, acceleration)?;
 
     let mut series = Series {
         values: Vec::with_capacity(rows.len()),
@@ -66,10 +63,8 @@ pub(crate) fn parse_text(text: &str, options: &RecordOptions) -> Result<Record, 
             .values
             .push(number(row.line, cell(row, acceleration))?);
     }
-    let step = match time {
-        Some(column) => {
-            let times = Times::read(&rows, column, header.time_unit.unwrap_or(1.0))?;
-            let step = times.step()?;
+    let step = match times {
+        Some((first_time, step)) => {
             if let Some(stated) = header.step.filter(|s| (s / step - 1.0).abs() > 1e-3) {
                 return Err(RecordError::StepConflict {
                     found: step,
@@ -77,7 +72,7 @@ pub(crate) fn parse_text(text: &str, options: &RecordOptions) -> Result<Record, 
                 });
             }
             // A record whose first value is one step after the origin starts at rest.
-            if (times.first / step - 1.0).abs() < 1e-3 {
+            if (first_time / step - 1.0).abs() < 1e-3 {
                 series.values.insert(0, 0.0);
                 series.lines.insert(0, first.line);
             }
@@ -284,6 +279,26 @@ fn acceleration_column(
     Ok(column)
 }
 
+/// First time and step of the column of times, if there is one: the one named so, else the first.
+fn read_times(
+    header: &Header,
+    rows: &[Row<'_>],
+    acceleration: usize,
+) -> Result<Option<(f64, f64)>, RecordError> {
+    let columns = rows.first().map_or(0, |row| row.cells.len());
+    let column = header.time_column.unwrap_or(0);
+    if columns < 2 || column == acceleration {
+        return Ok(None);
+    }
+    let unit = header.time_unit.unwrap_or(1.0);
+    let times = Times::read(rows, column, unit).and_then(|times| Ok((times.first, times.step()?)));
+    // With a stated step, a first column without a name need not be times.
+    if times.is_err() && header.time_column.is_none() && header.step.is_some() {
+        return Ok(None);
+    }
+    times.map(Some)
+}
+
 /// Printed times: equally spaced, but for the rounding of their last digit.
 struct Times {
     lines: Vec<usize>,
@@ -320,10 +335,18 @@ impl Times {
         let first_digit = self.digits.first().copied().unwrap_or(0.0);
         let intervals = (count - 1) as f64;
         let step = (last - self.first) / intervals;
-        let ends = 0.51 * (digit + first_digit);
+        // Times printed too coarsely to tell a rounded step from a lost line must be exact.
+        let rounding = |digit: f64| {
+            if digit <= 0.25 * step {
+                0.51 * digit
+            } else {
+                0.0
+            }
+        };
+        let ends = rounding(*digit) + rounding(first_digit);
         for (i, time) in self.values.iter().enumerate() {
             let expected = self.first + i as f64 * step;
-            let allowed = ends + 0.51 * self.digits[i] + 1e-9 * time.abs();
+            let allowed = ends + rounding(self.digits[i]) + 1e-6 * step + 1e-9 * time.abs();
             let rising = i == 0 || *time > self.values[i - 1];
             if !((time - expected).abs() <= allowed && rising) {
                 return Err(self.culprit(i));
@@ -337,8 +360,7 @@ impl Times {
         let step = self.values.get(1).map_or(0.0, |second| second - self.first);
         let deviates = |i: &usize| {
             let expected = self.first + *i as f64 * step;
-            let allowed = 0.51 * (*i as f64 + 1.0) * (self.digits[0] + self.digits[1]);
-            (self.values[*i] - expected).abs() > allowed + 1e-9 * expected.abs()
+            (self.values[*i] - expected).abs() > 0.5 * step
         };
         let at = (2..self.values.len()).find(deviates).unwrap_or(fallback);
         RecordError::UnequalStep {

@@ -74,7 +74,7 @@ impl Node {
         match &self.value {
             Value::Text(text) => format!("\"{}\"", crate::quantity::shorten(text)),
             Value::Integer(value) => value.to_string(),
-            Value::Number(value) => value.to_string(),
+            Value::Number(value) => crate::quantity::show_number(*value),
             Value::Flag(value) => value.to_string(),
             Value::List(_) => "a list".into(),
             Value::Table(_) => "a table".into(),

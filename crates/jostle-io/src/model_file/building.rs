@@ -6,6 +6,7 @@ use super::{frame, shear};
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
+use crate::tree::Value;
 
 /// Most buildings in a row.
 const MOST_BUILDINGS: usize = 1000;
@@ -20,7 +21,7 @@ pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec
         *reader.bad(
             field,
             format!("expected a list of buildings, found {found}"),
-        ) = Some("write [[building]], with double brackets".into());
+        ) = Some("write [[building]] with double brackets; in JSON \"building\": [{ … }]".into());
         return None;
     };
     if entries.len() > MOST_BUILDINGS {
@@ -41,12 +42,7 @@ pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec
 }
 
 fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Building> {
-    let is_shear = match &field.node.value {
-        crate::tree::Value::Table(table) => table.get("kind").is_some_and(
-            |kind| matches!(&kind.value, crate::tree::Value::Text(text) if text == "shear"),
-        ),
-        _ => false,
-    };
+    let is_shear = looks_like_shear(field);
     let view = if is_shear {
         reader.open(field, &[Section::Building, Section::Shear])
     } else {
@@ -55,8 +51,18 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Buil
     let name = reader
         .get(&view, "name")
         .and_then(|field| reader.text(&field));
-    if let Some(kind) = reader.get(&view, "kind") {
-        reader.choice(&kind, BUILDING_KINDS, &[]);
+    match reader.get(&view, "kind") {
+        Some(kind) => {
+            reader.choice(&kind, BUILDING_KINDS, &[]);
+        }
+        None if is_shear => {
+            reader.missing(
+                &view,
+                "kind",
+                "add kind = \"shear\" for masses on storey springs",
+            );
+        }
+        None => {}
     }
     let structure = if is_shear {
         Structure::Shear(shear::read(reader, &view))
@@ -75,6 +81,21 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Buil
     Some(building)
 }
 
+/// Whether the building is a shear building. Where `kind` is absent or misspelt the other keys tell, so that
+/// one slip is one fault.
+fn looks_like_shear(field: &Field<'_>) -> bool {
+    let Value::Table(table) = &field.node.value else {
+        return false;
+    };
+    match table.get("kind").map(|kind| &kind.value) {
+        Some(Value::Text(kind)) if BUILDING_KINDS.contains(&kind.as_str()) => kind == "shear",
+        _ => {
+            let has = |key| table.get(key).is_some();
+            (has("mass") || has("stiffness")) && !has("spans") && !has("column")
+        }
+    }
+}
+
 /// The number of storeys: as stated, or as long as the first of the lists.
 ///
 /// Every list is then held against it where it is read.
@@ -85,7 +106,8 @@ pub(super) fn storeys(
 ) -> Option<usize> {
     let (storeys, floors) = (reader.get(view, "storeys"), reader.get(view, "floors"));
     if let (Some(_), Some(floors)) = (&storeys, &floors) {
-        *reader.bad(floors, "stands beside storeys") = Some("keep either storeys or floors".into());
+        *reader.bad(floors, "cannot stand beside storeys") =
+            Some("keep either storeys or floors".into());
     }
     if let Some(field) = storeys.or(floors) {
         let count = reader.count(&field)?;
@@ -155,9 +177,10 @@ pub(super) fn has_length(
 ) -> Option<()> {
     match storeys {
         Some(storeys) if storeys != count => {
+            let entries = if count == 1 { "entry" } else { "entries" };
             reader.bad(
                 field,
-                format!("has {count} entries for {storeys} storeys; give one value, or one per storey from the ground up"),
+                format!("has {count} {entries} for {storeys} storeys; give one value, or one per storey from the ground up"),
             );
             None
         }
@@ -200,7 +223,7 @@ fn read_damping(
     let modes = reader.get(&view, "modes").map(|field| {
         let modes = read_modes(reader, &field);
         if let (true, Some(highest)) = (is_shear, modes.iter().max().filter(|m| **m > floors)) {
-            reader.bad(&field, format!("mode {highest} does not exist; a shear building of {floors} floors has as many modes"));
+            reader.bad(&field, format!("mode {highest} does not exist; a shear building has as many modes as floors, here {floors}"));
         }
         modes
     });

@@ -24,7 +24,7 @@ pub(super) fn read_all(
     let Some(entries) = field.entries() else {
         let found = field.node.describe();
         *reader.bad(field, format!("expected a list of gaps, found {found}")) =
-            Some("write [[gap]], with double brackets".into());
+            Some("write [[gap]] with double brackets; in JSON \"gap\": [{ … }]".into());
         return Vec::new();
     };
     entries

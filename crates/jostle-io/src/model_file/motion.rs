@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::keys::{Section, WAVES};
 use crate::motion_spec::{MotionSource, MotionSpec, Scaling};
 use crate::quantity::Dimension;
-use crate::reader::{Field, Reader, View, join};
+use crate::reader::{Field, Reader, View};
 use crate::record::{RecordOptions, acceleration_unit};
 
 /// Longest analysis \[s\].
@@ -20,7 +20,8 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
     let wave = reader.get(&view, "kind");
     let source = match (&record, &wave) {
         (Some(_), Some(wave)) => {
-            *reader.bad(wave, "stands beside record") = Some("keep either record or kind".into());
+            *reader.bad(wave, "cannot stand beside record") =
+                Some("keep either record or kind".into());
             None
         }
         (Some(record), None) => {
@@ -197,23 +198,14 @@ fn required<'n>(
 
 fn scaling(reader: &mut Reader<'_>, view: &View<'_>) -> Scaling {
     let (pga, scale) = (reader.get(view, "pga"), reader.get(view, "scale"));
-    match (pga, scale) {
-        (Some(_), Some(scale)) => {
-            *reader.fault(
-                &scale.node.span.clone(),
-                join(&view.path, "scale"),
-                "stands beside pga",
-            ) = Some("keep either pga or scale".into());
-            Scaling::AsRecorded
-        }
-        (Some(pga), None) => {
-            let value = reader.positive(&pga, Dimension::Acceleration);
-            value.map_or(Scaling::AsRecorded, Scaling::Pga)
-        }
-        (None, Some(scale)) => {
-            let value = reader.quantity(&scale, Dimension::Dimensionless);
-            value.map_or(Scaling::AsRecorded, Scaling::Factor)
-        }
-        (None, None) => Scaling::AsRecorded,
+    if let (Some(_), Some(scale)) = (&pga, &scale) {
+        *reader.bad(scale, "cannot stand beside pga") = Some("keep either pga or scale".into());
     }
+    let factor = scale
+        .and_then(|field| reader.quantity(&field, Dimension::Dimensionless))
+        .map(Scaling::Factor);
+    let peak = pga
+        .and_then(|field| reader.positive(&field, Dimension::Acceleration))
+        .map(Scaling::Pga);
+    peak.or(factor).unwrap_or_default()
 }

@@ -1,0 +1,61 @@
+//! The reader and the table of keys agree.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use super::read_root;
+use crate::keys::{KEYS, Kind};
+use crate::reader::Reader;
+use crate::source::Source;
+use crate::tree::{Format, parse};
+
+/// Models that together have every table of a file.
+const ALL_TABLES: [&str; 3] = [
+    r#"
+[motion]
+record = "el-centro"
+[[building]]
+column = { EI = 1, mass = 1 }
+beam = { width = 1, depth = 1 }
+stiffness_factor = { column = 1 }
+axial = { columns = "rigid" }
+joint = { rotational_stiffness = 1 }
+damping = { ratio = 0.1 }
+[[building]]
+kind = "shear"
+[[gap]]
+[analysis]
+"#,
+    r#"
+building = []
+motion = { kind = "ricker" }
+"#,
+    r#"
+[[building]]
+column = { width = 1, depth = 1 }
+beam = { EI = 1 }
+"#,
+];
+
+#[test]
+fn every_key_of_the_table_is_read() {
+    let mut asked = BTreeSet::new();
+    for text in ALL_TABLES {
+        let source = Source::new("model.toml", text);
+        let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+        let mut reader = Reader::new(&source);
+        // Keys that are not in the table make the reader panic here.
+        read_root(&mut reader, &root, Path::new(""));
+        asked.extend(reader.asked);
+    }
+    let known: BTreeSet<_> = KEYS
+        .iter()
+        .filter(|key| key.kind != Kind::Reserved)
+        .map(|key| (key.section, key.name))
+        .collect();
+    let unread: Vec<_> = known.difference(&asked).collect();
+    assert!(
+        unread.is_empty(),
+        "keys in the table that nobody reads: {unread:?}"
+    );
+}

@@ -1,0 +1,395 @@
+//! What a user sees when a model file is wrong: every fault, with its line and what to do.
+
+use std::path::Path;
+
+use jostle_io::{Format, Input, read_model_text};
+
+fn read(text: &str, format: Format) -> Result<Input, jostle_io::InputError> {
+    read_model_text("model.toml", text, format, Path::new(""))
+}
+
+/// The message for a text that must be refused.
+fn message(text: &str) -> String {
+    match read(text, Format::Toml) {
+        Ok(_) => panic!("this text should be refused:\n{text}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Asserts that a text has exactly one fault, whose first line is as given.
+fn assert_single(text: &str, wanted: &str) {
+    let shown = message(text);
+    assert_eq!(shown.lines().next(), Some(wanted), "in\n{shown}");
+    assert!(
+        shown.ends_with("1 fault in model.toml"),
+        "only one fault in\n{shown}"
+    );
+}
+
+const SHEAR: &str = r#"
+[[building]]
+name = "A"
+kind = "shear"
+storey_height = "3 m"
+mass = ["40 t", "40 t"]
+stiffness = "60 MN/m"
+"#;
+
+const FRAME: &str = r#"
+[[building]]
+name = "B"
+storeys = 2
+storey_height = "3 m"
+spans = ["6 m"]
+column = { width = "500 mm", depth = "500 mm" }
+beam = { width = "300 mm", depth = "600 mm" }
+concrete = "C30"
+beam_mass = "3600 kg/m"
+"#;
+
+const GAP: &str = r#"
+[[gap]]
+between = ["A", "B"]
+width = "20 mm"
+"#;
+
+#[test]
+fn plain_model_is_accepted() {
+    read(&format!("{SHEAR}{FRAME}{GAP}"), Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
+fn all_faults_come_at_once_with_their_lines() {
+    let text = r#"titel = "Two houses"
+
+[motion]
+record = "el-centro-1940-ns"
+pga = "220 cm"
+
+[[building]]
+name = "A"
+storeys = 5
+storey_height = "3.2 kg"
+spans = ["2.4 m", "-6 m"]
+column = { width = "500 mm", hight = "500 mm", depth = "500 mm" }
+beam = [{ width = "300 mm", depth = "600 mm" }]
+concrete = "C33"
+beam_mass = "25 kN/m"
+hinges = { rule = "normal" }
+
+[[building]]
+name = "B"
+kind = "shear"
+mass = ["40 t", "40 t"]
+stiffness = "60 MN/m"
+
+[[gap]]
+between = ["B", "A"]
+law = "ye"
+"#;
+    let wanted = r#"model.toml:1:1: titel: unknown key "titel"
+  1 | titel = "Two houses"
+    | ^^^^^
+  help: did you mean "title"?
+
+model.toml:5:7: motion.pga: expected an acceleration (such as "220 cm/s2"), found "220 cm"
+  5 | pga = "220 cm"
+    |       ^^^^^^^^
+
+model.toml:10:17: building[0].storey_height: expected a length (such as "3.2 m"), found "3.2 kg"
+  10 | storey_height = "3.2 kg"
+     |                 ^^^^^^^^
+
+model.toml:11:19: building[0].spans[1]: must be greater than zero, found -6 m
+  11 | spans = ["2.4 m", "-6 m"]
+     |                   ^^^^^^
+
+model.toml:12:30: building[0].column.hight: unknown key "hight"
+  12 | column = { width = "500 mm", hight = "500 mm", depth = "500 mm" }
+     |                              ^^^^^
+  help: known here: width, depth, EI, EA, mass
+
+model.toml:13:8: building[0].beam: has 1 entry for 5 storeys; give one value, or one per storey from the ground up
+  13 | beam = [{ width = "300 mm", depth = "600 mm" }]
+     |        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+
+model.toml:14:12: building[0].concrete: "C33" is not known; available: C20, C25, C30, C35, C40, C45, C50, C55, C60, C65, C70, C75, C80
+  14 | concrete = "C33"
+     |            ^^^^^
+  help: did you mean "C30"?
+
+model.toml:16:1: building[0].hinges: is not available in this version
+  16 | hinges = { rule = "normal" }
+     | ^^^^^^
+  help: remove hinges for an elastic analysis
+
+model.toml:24:1: gap[0].width: is missing
+  24 | [[gap]]
+     | ^^^^^^^
+  help: add width = "100 mm"
+
+model.toml:25:11: gap[0].between: names the right neighbour first
+  25 | between = ["B", "A"]
+     |           ^^^^^^^^^^
+  help: the buildings stand, from left to right: "A", "B"
+
+model.toml:26:7: gap[0].law: "ye" is not available in this version; available: linear, kelvin, kelvin-no-tension, hertz, hertz-damp
+  26 | law = "ye"
+     |       ^^^^
+
+11 faults in model.toml"#;
+    assert_eq!(message(text), wanted);
+}
+
+#[test]
+fn faults_of_the_model_point_at_the_file() {
+    let text = format!(
+        "{SHEAR}damping = {{ ratio = 5, modes = [2, 1] }}\n{FRAME}{GAP}restitution = 1.5\n"
+    );
+    let wanted = r#"model.toml:8:21: building[0].damping.ratio: must lie between 0 and 1 (0.05 is 5 % of critical), found 5
+  8 | damping = { ratio = 5, modes = [2, 1] }
+    |                     ^
+
+model.toml:8:32: building[0].damping.modes: takes one lateral mode, or two different ones in rising order, counted from 1; found [2, 1]
+  8 | damping = { ratio = 5, modes = [2, 1] }
+    |                                ^^^^^^
+
+model.toml:23:15: gap[0].restitution: must be greater than 0 and at most 1, found 1.5
+  23 | restitution = 1.5
+     |               ^^^
+
+3 faults in model.toml"#;
+    assert_eq!(message(&text), wanted);
+}
+
+#[test]
+fn one_value_for_all_storeys_is_one_fault() {
+    let text = SHEAR.replace("\"60 MN/m\"", "\"-60 MN/m\"");
+    assert_single(
+        &text,
+        "model.toml:7:13: building[0].stiffness: must be greater than zero, found -60000000 N/m",
+    );
+}
+
+#[test]
+fn syntax_errors_have_line_and_column() {
+    let text = "title = \"x\n[motion\nrecord = \"el-centro\"\n";
+    let wanted = r#"model.toml:1:11: invalid basic string, expected `"`
+  1 | title = "x
+    |           ^
+
+model.toml:2:8: unclosed table, expected `]`
+  2 | [motion
+    |        ^
+
+2 faults in model.toml"#;
+    assert_eq!(message(text), wanted);
+}
+
+#[test]
+fn json_gives_the_same_model_and_the_same_faults() {
+    let text = r#"{ "building": [ { "name": "A", "kind": "shear", "storey_height": "3 m",
+  "mass": ["40 t", "40 t"], "stiffness": "60 MN/m" } ] }"#;
+    let json = read(text, Format::Json).unwrap_or_else(|error| panic!("{error}"));
+    let toml = read(SHEAR, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(json.model, toml.model);
+
+    let wrong = text.replace("60 MN/m", "60 MN");
+    let error = read(&wrong, Format::Json)
+        .expect_err("a force is no stiffness")
+        .to_string();
+    assert!(
+        error.starts_with("model.toml:2:42: building[0].stiffness: expected a stiffness (such as \"60 MN/m\"), found \"60 MN\"\n"),
+        "{error}"
+    );
+    for (wrong, wanted) in [
+        (
+            text.replace("] }", "], }"),
+            "model.toml:2:55: trailing commas are not allowed",
+        ),
+        (
+            text.replace("\"name\"", "\"kind\""),
+            "model.toml:1:32: the key \"kind\" stands here twice",
+        ),
+        (
+            "[]".into(),
+            "model.toml:1:1: a model file must be an object: { \"building\": [ … ] }",
+        ),
+        (
+            String::new(),
+            "model.toml:1:1: a model file must be an object: { \"building\": [ … ] }",
+        ),
+    ] {
+        let shown = read(&wrong, Format::Json)
+            .expect_err("broken JSON")
+            .to_string();
+        assert_eq!(shown.lines().next(), Some(wanted), "in\n{shown}");
+    }
+}
+
+#[test]
+fn neighbours_must_exist_and_touch() {
+    let third = SHEAR.replace("\"A\"", "\"C\"");
+    let gap = |names: &str| format!("{SHEAR}{FRAME}{third}[[gap]]\nbetween = {names}\nwidth = 0\n");
+    assert_single(
+        &gap("[\"A\", \"b\"]"),
+        "model.toml:26:17: gap[0].between[1]: there is no building \"b\"",
+    );
+    assert_single(
+        &gap("[\"A\", \"C\"]"),
+        "model.toml:26:11: gap[0].between: names two buildings that are not neighbours",
+    );
+    assert_single(
+        &gap("\"A-B\""),
+        "model.toml:26:11: gap[0].between: expected the names of two neighbours, such as [\"A\", \"B\"]",
+    );
+    let shown = message(&gap("[\"A\", \"C\"]"));
+    assert!(
+        shown.contains("the buildings stand, from left to right: \"A\", \"B\", \"C\""),
+        "the order is told:\n{shown}"
+    );
+}
+
+#[test]
+fn contact_stiffness_must_suit_the_law() {
+    let gap = |rest: &str| format!("{SHEAR}{FRAME}{GAP}{rest}\n");
+    assert_single(
+        &gap("stiffness = \"60 MN/m\""),
+        "model.toml:22:13: gap[0].stiffness: expected a Hertz contact stiffness (such as \"2e9 N/m^1.5\"), found \"60 MN/m\"",
+    );
+    assert_single(
+        &gap("law = \"linear\""),
+        "model.toml:19:1: gap[0].stiffness: is missing",
+    );
+    assert_single(
+        &gap("law = \"hertz_damp\""),
+        "model.toml:22:7: gap[0].law: \"hertz_damp\" is not known; available: linear, kelvin, kelvin-no-tension, hertz, hertz-damp",
+    );
+}
+
+#[test]
+fn sections_by_rigidity_need_a_mass() {
+    let column =
+        |section: &str| FRAME.replace("{ width = \"500 mm\", depth = \"500 mm\" }", section);
+    assert_single(
+        &column("{ EI = \"150 MN.m2\" }"),
+        "model.toml:7:10: building[0].column.mass: is missing",
+    );
+    assert_single(
+        &column("{ EI = \"150 MN.m2\", width = \"1 m\", mass = 0 }"),
+        "model.toml:7:10: building[0].column: has both a size and rigidities",
+    );
+    for good in [
+        "{ EI = \"150 MN.m2\", mass = \"1500 kg/m\" }",
+        "{ EI = \"150 MN.m2\", EA = \"7500 MN\" }",
+    ] {
+        read(&column(good), Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+    }
+    assert_single(
+        &FRAME
+            .replace("concrete = \"C30\"\n", "")
+            .replace("beam = {", "beam = { EI = 1e8 } #"),
+        "model.toml:7:10: building[0].column: needs a modulus of elasticity",
+    );
+}
+
+#[test]
+fn a_misspelt_kind_is_one_fault() {
+    assert_single(
+        &SHEAR.replace("\"shear\"", "\"sheer\""),
+        "model.toml:4:8: building[0].kind: \"sheer\" is not known; available: frame, shear",
+    );
+    assert_single(
+        &SHEAR.replace("kind = \"shear\"\n", ""),
+        "model.toml:2:1: building[0].kind: is missing",
+    );
+}
+
+#[test]
+fn sizes_are_limited() {
+    assert_single(
+        &FRAME.replace("storeys = 2", "storeys = 1000000000"),
+        "model.toml:4:11: building[0].storeys: must lie between 1 and 200, found 1000000000",
+    );
+    assert_single(
+        &FRAME.replace("[\"6 m\"]", &format!("{:?}", vec![6.0; 51])),
+        "model.toml:6:9: building[0].spans: at most 50 spans are possible, found 51",
+    );
+    assert_single(
+        &FRAME.replace("\"3 m\"", "1e300"),
+        "model.toml:5:17: building[0].storey_height: expected a length (such as \"3.2 m\"), found \"1e300\", which is not a usable number",
+    );
+}
+
+#[test]
+fn motion_faults_are_explained() {
+    let motion = |keys: &str| format!("{SHEAR}[motion]\n{keys}\n");
+    assert_single(
+        &motion("record = \"el-centro\"\npga = 1\nscale = 2"),
+        "model.toml:11:9: motion.scale: cannot stand beside pga",
+    );
+    assert_single(
+        &motion("kind = \"sine\"\nperiod = \"1 s\"\nduration = \"8 s\""),
+        "model.toml:8:1: motion.amplitude: is missing",
+    );
+    assert_single(
+        &motion("pga = 1"),
+        "model.toml:8:1: motion.record: is missing",
+    );
+
+    let input = read(&motion("record = \"el-zentro-1940-ns\""), Format::Toml)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let wanted = r#"model.toml:9:10: motion.record: there is no record "el-zentro-1940-ns" (did you mean "el-centro-1940-ns"?); built-in records: el-centro-1940-ns
+  9 | record = "el-zentro-1940-ns"
+    |          ^^^^^^^^^^^^^^^^^^^
+
+1 fault in model.toml"#;
+    let error = input.ground_motion().expect_err("there is no such record");
+    assert_eq!(error.to_string(), wanted);
+
+    let still = read(SHEAR, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+    let error = still.ground_motion().expect_err("there is no motion");
+    assert_eq!(
+        error.to_string(),
+        "model.toml: motion: the model has no ground motion; add [motion] with a record, such as \"el-centro-1940-ns\"\n\n1 fault in model.toml"
+    );
+}
+
+#[test]
+fn long_lines_are_cut_around_the_fault() {
+    let text = format!("title = \"{}\"; x", "ä".repeat(500));
+    let shown = message(&text);
+    assert!(
+        shown.lines().all(|line| line.chars().count() < 140),
+        "{shown}"
+    );
+    let lines: Vec<&str> = shown.lines().collect();
+    let caret = lines[2].chars().position(|c| c == '^').expect("a caret");
+    assert_eq!(
+        lines[1].chars().nth(caret),
+        Some(';'),
+        "the caret stands below the fault:\n{shown}"
+    );
+}
+
+#[test]
+fn text_that_is_not_utf_8_is_refused() {
+    let folder = std::env::temp_dir().join(format!("jostle-io-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let path = folder.join("latin.toml");
+    std::fs::write(&path, b"title = \"x\"\nname = \"Stra\xdfe\"\n").expect("a file");
+    let shown = jostle_io::read_model_file(&path)
+        .expect_err("not UTF-8")
+        .to_string();
+    assert!(
+        shown.contains("the text is not UTF-8 (first seen in line 2)"),
+        "{shown}"
+    );
+    std::fs::write(
+        &path,
+        [b"\xef\xbb\xbf".as_slice(), SHEAR.as_bytes()].concat(),
+    )
+    .expect("a file");
+    jostle_io::read_model_file(&path).unwrap_or_else(|error| panic!("{error}"));
+    std::fs::remove_dir_all(&folder).expect("the folder is ours");
+}

@@ -1,0 +1,227 @@
+//! Result tables can be read back, with the names and numbers that were written.
+
+use std::path::PathBuf;
+
+use jostle::summary::{
+    ContactSummary, EnergySummary, GapSummary, ImpactSummary, MotionSummary, WorkSummary,
+};
+use jostle::{Column, EnergyTerm, History, Model, Summary};
+use jostle_io::{
+    Format, read_model_text, write_atomically, write_history_parquet, write_impacts_parquet,
+    write_summary_json,
+};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+
+fn model() -> Model {
+    let text = r#"
+title = "Two, with an odd name"
+[[building]]
+name = "A, west"
+kind = "shear"
+mass = ["40 t", "40 t"]
+stiffness = "60 MN/m"
+storey_height = "3 m"
+[[building]]
+name = "B"
+kind = "shear"
+mass = ["40 t", "40 t"]
+stiffness = "90 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["A, west", "B"]
+width = "10 mm"
+"#;
+    match read_model_text("m", text, Format::Toml, "".as_ref()) {
+        Ok(input) => input.model,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+fn impact(start: f64) -> ImpactSummary {
+    ImpactSummary {
+        start_s: start,
+        end_s: start + 0.25,
+        peak_force_n: 1e6,
+        peak_force_at_s: start + 0.1,
+        peak_indentation_m: 1e-3,
+        impact_speed_m_s: 0.5,
+        separation_speed_m_s: 0.3,
+        realised_restitution: 0.6,
+        impulse_n_s: 1e4,
+        dissipated_j: 2e3,
+    }
+}
+
+fn contact(
+    floors: [Option<usize>; 2],
+    height_m: f64,
+    impacts: Vec<ImpactSummary>,
+) -> ContactSummary {
+    ContactSummary {
+        floors,
+        height_m,
+        closing_peak_m: 0.011,
+        closing_peak_at_s: 1.0,
+        impact_count: impacts.len(),
+        peak_force_n: 1e6,
+        peak_force_at_s: None,
+        impulse_n_s: 1e4,
+        impacts,
+    }
+}
+
+fn summary() -> Summary {
+    Summary {
+        title: "Two".into(),
+        jostle: "0.1.0".into(),
+        motion: MotionSummary {
+            name: "m".into(),
+            points: 0,
+            step_s: 0.0,
+            pga_m_s2: 1.0,
+            scale: 1.0,
+            duration_s: 1.0,
+        },
+        buildings: Vec::new(),
+        gaps: vec![GapSummary {
+            between: ["A, west".into(), "B".into()],
+            width_m: 0.01,
+            law: "hertz".into(),
+            free_restitution: 1.0,
+            contacts: vec![
+                contact([Some(1), Some(1)], 3.0, vec![impact(1.0), impact(2.0)]),
+                contact([None, Some(2)], 4.5, vec![impact(1.5)]),
+            ],
+            impact_count: 3,
+            peak_force_n: 1e6,
+            first_impact_s: Some(1.0),
+            closing_without_contact_m: None,
+        }],
+        energy: EnergySummary::default(),
+        work: WorkSummary::default(),
+        ended_early: None,
+        warnings: Vec::new(),
+    }
+}
+
+/// A folder of our own below the temporary one.
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("jostle-io-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// Rows of names and values.
+fn read(path: &PathBuf) -> Vec<Vec<(String, Field)>> {
+    let file = std::fs::File::open(path).expect("the file was written");
+    let reader = SerializedFileReader::new(file).expect("the file is Parquet");
+    let rows = reader.get_row_iter(None).expect("rows can be read");
+    rows.map(|row| row.expect("a row").into_columns()).collect()
+}
+
+#[test]
+fn histories_have_named_columns() {
+    let columns = vec![
+        Column::Time,
+        Column::GroundAcceleration,
+        Column::Displacement {
+            building: 0,
+            floor: 2,
+        },
+        Column::Velocity {
+            building: 1,
+            floor: 1,
+        },
+        Column::TotalAcceleration {
+            building: 1,
+            floor: 2,
+        },
+        Column::ContactForce { contact: 0 },
+        Column::ContactForce { contact: 1 },
+        Column::Energy(EnergyTerm::Input),
+    ];
+    let values: Vec<f64> = (0..16).map(f64::from).collect();
+    let history = History::from_rows(columns, values);
+    let folder = folder("history");
+    let path = folder.join("history.parquet");
+    write_history_parquet(&path, &model(), &summary(), &history).expect("written");
+    let rows = read(&path);
+    let names: Vec<&str> = rows[0].iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "time_s",
+            "ground_acceleration_m_s2",
+            "A__west.floor2.displacement_m",
+            "B.floor1.velocity_m_s",
+            "B.floor2.total_acceleration_m_s2",
+            "A__west-B.floor1-1.force_n",
+            "A__west-B.at4.500m.force_n",
+            "energy_input_j",
+        ]
+    );
+    let second: Vec<Field> = rows[1].iter().map(|(_, value)| value.clone()).collect();
+    let wanted: Vec<Field> = (8..16)
+        .map(|value| Field::Double(f64::from(value)))
+        .collect();
+    assert_eq!(second, wanted);
+    std::fs::remove_dir_all(folder).expect("the folder is ours");
+}
+
+#[test]
+fn impacts_have_one_row_each() {
+    let folder = folder("impacts");
+    let path = folder.join("impacts.parquet");
+    write_impacts_parquet(&path, &summary()).expect("written");
+    let rows = read(&path);
+    let column = |name: &str| -> Vec<Field> {
+        let values = rows
+            .iter()
+            .flat_map(|row| row.iter().filter(|(n, _)| n == name));
+        values.map(|(_, value)| value.clone()).collect()
+    };
+    assert_eq!(column("gap"), vec![Field::Str("A, west-B".into()); 3]);
+    assert_eq!(
+        column("left_floor"),
+        [Field::Int(1), Field::Int(1), Field::Null]
+    );
+    assert_eq!(
+        column("right_floor"),
+        [Field::Int(1), Field::Int(1), Field::Int(2)]
+    );
+    assert_eq!(column("start_s"), [1.0, 2.0, 1.5].map(Field::Double));
+    assert_eq!(column("duration_s"), [0.25; 3].map(Field::Double));
+
+    // A run without impacts still has a table, with the same columns.
+    let mut quiet = summary();
+    quiet.gaps.clear();
+    write_impacts_parquet(&path, &quiet).expect("written over the old one");
+    assert!(read(&path).is_empty(), "no rows");
+    std::fs::remove_dir_all(folder).expect("the folder is ours");
+}
+
+#[test]
+fn files_are_replaced_whole_and_errors_name_the_path() {
+    let folder = folder("atomic");
+    let path = folder.join("summary.json");
+    write_atomically(&path, b"old").expect("written");
+    write_summary_json(&path, &summary()).expect("written over the old one");
+    let text = std::fs::read_to_string(&path).expect("readable");
+    assert!(text.starts_with("{\n  \"title\": \"Two\""), "{text}");
+    assert_eq!(
+        std::fs::read_dir(&folder).expect("readable").count(),
+        1,
+        "no part file is left"
+    );
+
+    let missing = folder.join("no such folder").join("x.json");
+    let error = write_atomically(&missing, b"x")
+        .expect_err("there is no such folder")
+        .to_string();
+    assert!(
+        error.contains("no such folder/x.json: cannot be written: "),
+        "{error}"
+    );
+    std::fs::remove_dir_all(folder).expect("the folder is ours");
+}
