@@ -6,8 +6,8 @@ use crate::model::{Gap, Model};
 use crate::motion::GroundMotion;
 use crate::stepping::{Outcome, Plan, RunEnd};
 use crate::summary::{
-    BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary, ImpactSummary, MotionSummary,
-    Summary, WorkSummary,
+    BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
+    ImpactSummary, MotionSummary, Summary, WorkSummary,
 };
 use crate::system::{BuildingSystem, System};
 
@@ -34,9 +34,22 @@ impl Summary {
     /// Sums up a run.
     #[must_use]
     pub fn of(run: &Run) -> Self {
-        let Run { model, system, motion, outcome, .. } = *run;
-        let buildings = (0..system.buildings.len()).map(|index| building_summary(index, system, outcome)).collect();
-        let gaps = model.gaps.iter().enumerate().map(|(index, gap)| gap_summary(index, gap, run)).collect();
+        let Run {
+            model,
+            system,
+            motion,
+            outcome,
+            ..
+        } = *run;
+        let buildings = (0..system.buildings.len())
+            .map(|index| building_summary(index, system, outcome))
+            .collect();
+        let gaps = model
+            .gaps
+            .iter()
+            .enumerate()
+            .map(|(index, gap)| gap_summary(index, gap, run))
+            .collect();
         Self {
             title: model.title.clone(),
             jostle: env!("CARGO_PKG_VERSION").to_owned(),
@@ -54,7 +67,10 @@ impl Summary {
             work: work_summary(run),
             ended_early: match &outcome.end {
                 RunEnd::Completed => None,
-                RunEnd::Stopped => Some(format!("stopped at t = {:.3} s of {:.3} s", outcome.state.time, motion.duration)),
+                RunEnd::Stopped => Some(format!(
+                    "stopped at t = {:.3} s of {:.3} s",
+                    outcome.state.time, motion.duration
+                )),
                 RunEnd::Failed(error) => Some(error.to_string()),
             },
             warnings: warnings(run),
@@ -64,20 +80,28 @@ impl Summary {
 
 fn building_summary(index: usize, system: &System, outcome: &Outcome) -> BuildingSummary {
     let building = &system.buildings[index];
-    let floors = building.floors.iter().zip(&outcome.floors[index]).enumerate().map(|(k, (floor, peaks))| FloorSummary {
-        floor: k + 1,
-        height_m: floor.height,
-        displacement_max_m: peaks.displacement_max.value,
-        displacement_max_at_s: peaks.displacement_max.at,
-        displacement_min_m: peaks.displacement_min.value,
-        displacement_min_at_s: peaks.displacement_min.at,
-        total_acceleration_peak_m_s2: peaks.total_acceleration,
-        storey_drift_peak: peaks.storey_drift,
-    });
+    let floors = building
+        .floors
+        .iter()
+        .zip(&outcome.floors[index])
+        .enumerate()
+        .map(|(k, (floor, peaks))| FloorSummary {
+            floor: k + 1,
+            height_m: floor.height,
+            displacement_max_m: peaks.displacement_max.value,
+            displacement_max_at_s: peaks.displacement_max.at,
+            displacement_min_m: peaks.displacement_min.value,
+            displacement_min_at_s: peaks.displacement_min.at,
+            total_acceleration_peak_m_s2: peaks.total_acceleration,
+            storey_drift_peak: peaks.storey_drift,
+        });
     BuildingSummary {
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),
-        periods_s: building.lateral_modes().map(crate::modal::Mode::period).collect(),
+        periods_s: building
+            .lateral_modes()
+            .map(crate::modal::Mode::period)
+            .collect(),
         rayleigh_alpha_per_s: building.equations.alpha,
         rayleigh_beta_s: building.equations.beta,
         floors: floors.collect(),
@@ -88,13 +112,23 @@ fn building_summary(index: usize, system: &System, outcome: &Outcome) -> Buildin
 }
 
 fn roof_displacement(building: &BuildingSystem, outcome: &Outcome) -> f64 {
-    building.floors.last().map_or(0.0, |roof| outcome.state.displacement[roof.dof])
+    building
+        .floors
+        .last()
+        .map_or(0.0, |roof| outcome.state.displacement[roof.dof])
 }
 
 fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
-    let Run { system, outcome, .. } = *run;
-    let own: Vec<usize> = (0..system.contacts.len()).filter(|&contact| system.contacts[contact].gap == index).collect();
-    let contacts: Vec<ContactSummary> = own.iter().map(|&contact| contact_summary(contact, system, outcome)).collect();
+    let Run {
+        system, outcome, ..
+    } = *run;
+    let own: Vec<usize> = (0..system.contacts.len())
+        .filter(|&contact| system.contacts[contact].gap == index)
+        .collect();
+    let contacts: Vec<ContactSummary> = own
+        .iter()
+        .map(|&contact| contact_summary(contact, system, outcome))
+        .collect();
     let impacts = contacts.iter().flat_map(|contact| &contact.impacts);
     GapSummary {
         between: [gap.left, gap.left + 1].map(|building| system.buildings[building].name.clone()),
@@ -102,19 +136,30 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
         law: gap.law.kind.name().to_owned(),
         free_restitution: gap.law.free_restitution(),
         impact_count: contacts.iter().map(|contact| contact.impact_count).sum(),
-        peak_force_n: contacts.iter().map(|contact| contact.peak_force_n).fold(0.0, f64::max),
+        peak_force_n: contacts
+            .iter()
+            .map(|contact| contact.peak_force_n)
+            .fold(0.0, f64::max),
         first_impact_s: impacts.map(|impact| impact.start_s).min_by(f64::total_cmp),
-        closing_without_contact_m: run
-            .without_contact
-            .map(|outcome| own.iter().map(|&contact| outcome.closing[contact].value).fold(0.0, f64::max)),
+        closing_without_contact_m: run.without_contact.map(|outcome| {
+            own.iter()
+                .map(|&contact| outcome.closing[contact].value)
+                .fold(0.0, f64::max)
+        }),
         contacts,
     }
 }
 
 fn contact_summary(index: usize, system: &System, outcome: &Outcome) -> ContactSummary {
-    let mut impacts: Vec<&Impact> = outcome.impacts.iter().filter(|impact| impact.contact == index).collect();
+    let mut impacts: Vec<&Impact> = outcome
+        .impacts
+        .iter()
+        .filter(|impact| impact.contact == index)
+        .collect();
     impacts.sort_by(|a, b| a.start.total_cmp(&b.start));
-    let strongest = impacts.iter().max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
+    let strongest = impacts
+        .iter()
+        .max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
     let contact = &system.contacts[index];
     ContactSummary {
         floors: contact.floors,

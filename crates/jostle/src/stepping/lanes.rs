@@ -16,7 +16,12 @@ pub(crate) fn weighted_square(weights: &[f64], x: &[f64]) -> f64 {
 fn sum(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
     let mut lanes = [0.0; LANES];
     let (whole_a, whole_b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let rest: f64 = whole_a.remainder().iter().zip(whole_b.remainder()).map(|(a, b)| term(*a, *b)).sum();
+    let rest: f64 = whole_a
+        .remainder()
+        .iter()
+        .zip(whole_b.remainder())
+        .map(|(a, b)| term(*a, *b))
+        .sum();
     for (a, b) in whole_a.zip(whole_b) {
         for lane in 0..LANES {
             lanes[lane] += term(a[lane], b[lane]);

@@ -31,7 +31,7 @@ pub enum ContactSteps {
 /// Free-flight steps per first lateral period, at a tolerance of 1e-3.
 const STEPS_PER_FIRST_PERIOD: f64 = 250.0;
 /// Free-flight steps per third lateral period, at a tolerance of 1e-3.
-const STEPS_PER_THIRD_PERIOD: f64 = 60.0;
+const STEPS_PER_THIRD_PERIOD: f64 = 75.0;
 /// Free-flight steps per period of an analytic ground motion, at a tolerance of 1e-3.
 const STEPS_PER_MOTION_PERIOD: f64 = 100.0;
 /// Steps per elastic impact, at a tolerance of 1e-3.

@@ -33,7 +33,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             pounding: Pounding::Included,
-            record_interval: Some(0.0),
+            record_interval: Some(0.005),
         }
     }
 }

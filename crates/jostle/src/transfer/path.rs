@@ -141,12 +141,19 @@ fn node_order(skeleton: &Skeleton) -> Vec<usize> {
     let nodes = &skeleton.nodes;
     let mut neighbours = vec![Vec::new(); nodes.len()];
     let (mut horizontal, mut vertical) = (vec![0; nodes.len()], vec![0; nodes.len()]);
-    let members = skeleton.members.iter().map(|member| (member.ends, member.is_vertical(nodes)));
+    let members = skeleton
+        .members
+        .iter()
+        .map(|member| (member.ends, member.is_vertical(nodes)));
     let hinges = skeleton.hinges.iter().map(|hinge| (hinge.ends, false));
     for ([a, b], is_vertical) in members.chain(hinges) {
         neighbours[a].push(b);
         neighbours[b].push(a);
-        let count = if is_vertical { &mut vertical } else { &mut horizontal };
+        let count = if is_vertical {
+            &mut vertical
+        } else {
+            &mut horizontal
+        };
         count[a] += 1;
         count[b] += 1;
     }
@@ -166,12 +173,20 @@ fn node_order(skeleton: &Skeleton) -> Vec<usize> {
     };
     let mut order = Vec::new();
     for inside in 0..2 {
-        let mut interior: Vec<usize> = (0..nodes.len()).filter(|&node| stage(node) == inside).collect();
-        if inside == 0 { interior.sort_by(by_height) } else { interior.sort_by(along_column) }
+        let mut interior: Vec<usize> = (0..nodes.len())
+            .filter(|&node| stage(node) == inside)
+            .collect();
+        if inside == 0 {
+            interior.sort_by(by_height)
+        } else {
+            interior.sort_by(along_column)
+        }
         let mut link = 0;
         let mut links: Vec<(usize, usize)> = Vec::new();
         for &node in &interior {
-            let continues = links.last().is_some_and(|(_, previous)| neighbours[node].contains(previous));
+            let continues = links
+                .last()
+                .is_some_and(|(_, previous)| neighbours[node].contains(previous));
             link = if continues { link + 1 } else { 0 };
             links.push((link, node));
         }

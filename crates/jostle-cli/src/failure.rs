@@ -1,0 +1,47 @@
+//! How a command can fail, and what the shell is told.
+
+use std::process::ExitCode;
+
+use jostle_io::{InputError, OutputError};
+
+use crate::terminal;
+
+/// Why a command did not do what it was asked.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The input is wrong.
+    Input(String),
+    /// The analysis failed, or its results could not be written.
+    Analysis(String),
+    /// The user stopped it.
+    Stopped,
+}
+
+impl Failure {
+    /// Prints the failure and turns it into an exit code.
+    pub(crate) fn report(self) -> ExitCode {
+        match self {
+            Self::Input(text) => {
+                terminal::error(&text);
+                ExitCode::from(2)
+            }
+            Self::Analysis(text) => {
+                terminal::error(&text);
+                ExitCode::from(1)
+            }
+            Self::Stopped => ExitCode::from(130),
+        }
+    }
+}
+
+impl From<InputError> for Failure {
+    fn from(error: InputError) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        Self::Analysis(error.to_string())
+    }
+}

@@ -1,0 +1,112 @@
+//! `jostle modes`: natural periods, participation and shapes.
+
+use std::fmt::Write;
+
+use jostle::modal::Mode;
+use jostle::system::BuildingSystem;
+use jostle_io::Overrides;
+use serde_json::{Value, json};
+
+use crate::args::ModesArgs;
+use crate::failure::Failure;
+use crate::open::open;
+use crate::terminal::{self, BOLD, DIM, styled};
+
+pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
+    let opened = open(args.model.as_deref(), &Overrides::default())?;
+    let count = args.count as usize;
+    if args.json {
+        let buildings: Vec<Value> = opened
+            .system
+            .buildings
+            .iter()
+            .map(|building| as_json(building, count))
+            .collect();
+        return terminal::print(&format!("{:#}", json!({ "buildings": buildings })));
+    }
+    let mut text = String::new();
+    for building in &opened.system.buildings {
+        // Writing to a string cannot fail.
+        let _ = describe(&mut text, building, count);
+    }
+    terminal::print(&text)
+}
+
+fn as_json(building: &BuildingSystem, count: usize) -> Value {
+    let mode = |mode: &Mode| {
+        json!({
+            "period_s": mode.period(),
+            "circular_frequency_rad_s": mode.circular_frequency,
+            "effective_mass_ratio_x": mode.effective_mass_ratio_x,
+            "effective_mass_ratio_y": mode.effective_mass_ratio_y,
+            "lateral": mode.is_lateral(),
+            "floor_shape": shape(mode),
+        })
+    };
+    json!({
+        "name": building.name,
+        "periods_s": building.lateral_modes().take(count).map(Mode::period).collect::<Vec<_>>(),
+        "modes": building.modes.iter().take(count).map(mode).collect::<Vec<_>>(),
+    })
+}
+
+/// Horizontal shape at the floors from the ground up, scaled so that the floor that moves most moves by ±1.
+fn shape(mode: &Mode) -> Vec<f64> {
+    let largest = mode.floors.iter().fold(0.0_f64, |largest, value| {
+        if value.abs() > largest.abs() {
+            *value
+        } else {
+            largest
+        }
+    });
+    let scale = if largest == 0.0 {
+        0.0
+    } else {
+        1.0 / largest.abs()
+    };
+    mode.floors.iter().map(|value| value * scale).collect()
+}
+
+fn describe(text: &mut String, building: &BuildingSystem, count: usize) -> std::fmt::Result {
+    writeln!(text, "{}", styled(BOLD, &building.name))?;
+    writeln!(
+        text,
+        "  mode   period        ω     mass x   mass y   floors 1 … {}",
+        building.floors.len()
+    )?;
+    let (mut lateral, mut carried) = (0, 0.0);
+    for (index, mode) in building.modes.iter().take(count).enumerate() {
+        let shape: Vec<String> = shape(mode)
+            .iter()
+            .map(|value| format!("{value:+.2}"))
+            .collect();
+        lateral += usize::from(mode.is_lateral());
+        carried += mode.effective_mass_ratio_x;
+        let mark = if mode.is_lateral() {
+            format!("T{lateral}")
+        } else {
+            String::new()
+        };
+        let sway = if mode.is_lateral() {
+            shape.join(" ")
+        } else {
+            styled(DIM, "beams")
+        };
+        writeln!(
+            text,
+            "  {:>4}  {:7.4} s {:8.3}  {:6.2} %  {:5.2} %   {mark:3} {sway}",
+            index + 1,
+            mode.period(),
+            mode.circular_frequency,
+            mode.effective_mass_ratio_x * 100.0,
+            mode.effective_mass_ratio_y * 100.0
+        )?;
+    }
+    let all = building.modes.len();
+    writeln!(
+        text,
+        "  {} of {all} modes listed, with {:.1} % of the mass horizontally; T marks lateral modes (≥ 1 %)\n",
+        count.min(all),
+        carried * 100.0
+    )
+}

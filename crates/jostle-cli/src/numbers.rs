@@ -1,0 +1,49 @@
+//! Numbers as people read them.
+
+/// A whole number with thin spaces between thousands.
+pub(crate) fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// Metres as millimetres with one decimal.
+pub(crate) fn mm(metres: f64) -> String {
+    format!("{:.1}", metres * 1e3)
+}
+
+/// Newtons as kilonewtons with one decimal.
+pub(crate) fn kn(newtons: f64) -> String {
+    format!("{:.1}", newtons * 1e-3)
+}
+
+/// One thing or several.
+pub(crate) fn counted(count: usize, thing: &str) -> String {
+    if count == 1 {
+        format!("1 {thing}")
+    } else {
+        format!("{count} {thing}s")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_set_apart() {
+        assert_eq!(grouped(7), "7");
+        assert_eq!(grouped(1234), "1\u{202f}234");
+        assert_eq!(grouped(1_000_000), "1\u{202f}000\u{202f}000");
+        assert_eq!(
+            counted(1, "impact") + &counted(0, "impact"),
+            "1 impact0 impacts"
+        );
+    }
+}

@@ -1,0 +1,89 @@
+//! From arguments to an assembled model.
+
+use std::path::Path;
+
+use jostle::model::ModelFault;
+use jostle::{GroundMotion, Plan, System};
+use jostle_io::{Dimension, Input, InputError, Overrides, parse_quantity};
+
+use crate::args::ModelArgs;
+use crate::failure::Failure;
+
+/// The built-in example that runs without a model file.
+const EXAMPLE: &str = "paper";
+
+/// A model ready to be stepped.
+pub(crate) struct Opened {
+    pub(crate) input: Input,
+    /// Name for messages and result folders.
+    pub(crate) name: String,
+    pub(crate) system: System,
+}
+
+/// Reads a model file, or a built-in example, and assembles it.
+pub(crate) fn open(model: Option<&Path>, overrides: &Overrides) -> Result<Opened, Failure> {
+    let path = model.unwrap_or(Path::new(EXAMPLE));
+    let builtin = path
+        .to_str()
+        .filter(|name| !path.exists() && jostle_io::model_names().contains(name));
+    let mut input = match builtin {
+        Some(name) => jostle_io::builtin_model(name)?,
+        None => jostle_io::read_model_file(path)?,
+    };
+    input
+        .apply(overrides)
+        .map_err(|error| Failure::Input(error.to_string()))?;
+    let system = System::assemble(&input.model).map_err(|faults| point_at(&input, faults))?;
+    let name = path.file_stem().map_or_else(
+        || EXAMPLE.to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    );
+    Ok(Opened {
+        input,
+        name,
+        system,
+    })
+}
+
+impl Opened {
+    /// The ground motion and the steps to take through it.
+    pub(crate) fn plan(&self) -> Result<(GroundMotion, Plan), Failure> {
+        let motion = self.input.ground_motion()?;
+        let plan = Plan::choose(&self.system, &motion, &self.input.model.analysis)
+            .map_err(|faults| point_at(&self.input, faults))?;
+        Ok((motion, plan))
+    }
+}
+
+impl ModelArgs {
+    /// What the options change, in SI.
+    pub(crate) fn overrides(&self) -> Result<Overrides, Failure> {
+        let quantity = |option: &str, text: &Option<String>, dimension| {
+            let parsed = text
+                .as_ref()
+                .map(|text| parse_quantity(text, dimension))
+                .transpose();
+            parsed.map_err(|error| Failure::Input(format!("{option}: {error}")))
+        };
+        Ok(Overrides {
+            pga: quantity("--pga", &self.pga, Dimension::Acceleration)?,
+            gap: quantity("--gap", &self.gap, Dimension::Length)?,
+            record: self.record.clone(),
+        })
+    }
+}
+
+/// Faults that only assembly shows, at their lines of the file.
+fn point_at(input: &Input, faults: Vec<ModelFault>) -> Failure {
+    let mut errors = faults
+        .into_iter()
+        .map(|fault| input.fault(&fault.path, fault.problem));
+    let Some(first) = errors.next() else {
+        return Failure::Input("the model is wrong".to_owned());
+    };
+    let all = errors.fold(first, |mut all: InputError, error| {
+        all.faults.extend(error.faults);
+        all
+    });
+    all.into()
+}

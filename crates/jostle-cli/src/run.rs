@@ -1,0 +1,175 @@
+//! `jostle run`: one analysis.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use jostle::stepping::Progress;
+use jostle::{GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Summary, simulate};
+use jostle_report::Page;
+
+use crate::args::RunArgs;
+use crate::failure::Failure;
+use crate::open::{Opened, open};
+use crate::{run_text, terminal};
+
+/// Where results go when nothing else is said.
+const RESULTS: &str = "jostle-out";
+/// Runs shorter than this need no progress bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
+    let opened = open(args.model.model.as_deref(), &args.model.overrides()?)?;
+    for warning in &opened.input.warnings {
+        terminal::remark(&format!(
+            "{} {warning}",
+            terminal::styled(terminal::LOUD, "warning:")
+        ));
+    }
+    let (motion, plan) = opened.plan()?;
+    let out = folder(args, &opened);
+    if let Some(out) = &out {
+        std::fs::create_dir_all(out).map_err(|error| {
+            Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
+        })?;
+    }
+
+    let stop = stop_on_interrupt();
+    let started = Instant::now();
+    let outcome = watch(&opened, &motion, &plan, Pounding::Included, &stop);
+    let wall = started.elapsed().as_secs_f64();
+    let twin =
+        (!args.no_report && !opened.system.contacts.is_empty() && outcome.end == RunEnd::Completed)
+            .then(|| watch(&opened, &motion, &plan, Pounding::Excluded, &stop))
+            .filter(|twin| twin.end == RunEnd::Completed);
+
+    let model = &opened.input.model;
+    let summary = Summary::of(&Run {
+        model,
+        system: &opened.system,
+        motion: &motion,
+        plan: &plan,
+        outcome: &outcome,
+        without_contact: twin.as_ref(),
+        wall,
+    });
+    if let (Some(out), Some(history)) = (&out, &outcome.history) {
+        jostle_io::write_history_parquet(&out.join("history.parquet"), model, &summary, history)?;
+        jostle_io::write_impacts_parquet(&out.join("impacts.parquet"), &summary)?;
+        if !args.no_report {
+            let without_contact = twin.as_ref().and_then(|twin| twin.history.as_ref());
+            let page = Page {
+                model,
+                motion: &motion,
+                summary: &summary,
+                history,
+                without_contact,
+            };
+            jostle_io::write_atomically(
+                &out.join("report.html"),
+                jostle_report::render(&page).as_bytes(),
+            )?;
+        }
+        jostle_io::write_summary_json(&out.join("summary.json"), &summary)?;
+    }
+    if args.json {
+        terminal::print(&jostle_io::summary_json(&summary))?;
+    } else {
+        let report = out.as_deref().map(|out| result(out, args.no_report));
+        terminal::print(&run_text::describe(&summary, report.as_deref()))?;
+    }
+    ending(&outcome.end, out.as_deref())
+}
+
+/// The folder for results, if any are to be written.
+fn folder(args: &RunArgs, opened: &Opened) -> Option<PathBuf> {
+    let default = || (!args.json).then(|| Path::new(RESULTS).join(&opened.name));
+    args.out.clone().or_else(default)
+}
+
+/// The file that a user will want to open.
+fn result(out: &Path, no_report: bool) -> PathBuf {
+    out.join(if no_report {
+        "summary.json"
+    } else {
+        "report.html"
+    })
+}
+
+/// Set by Ctrl-C; a second one ends the program at once.
+fn stop_on_interrupt() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    // Without a handler Ctrl-C still stops the program, only less gently.
+    let _ = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+    stop
+}
+
+/// Runs with a progress bar, which appears only on a terminal and only if the run takes a while.
+fn watch(
+    opened: &Opened,
+    motion: &GroundMotion,
+    plan: &Plan,
+    pounding: Pounding,
+    stop: &AtomicBool,
+) -> Outcome {
+    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
+    let template = "{prefix} {bar:40} {percent:>3} %  {msg}  {eta} left";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar.set_prefix(if pounding == Pounding::Included {
+        "pounding       "
+    } else {
+        "without contact"
+    });
+    let (started, mut shown) = (Instant::now(), false);
+    let outcome = simulate(
+        &opened.system,
+        motion,
+        plan,
+        Settings {
+            pounding,
+            ..Settings::default()
+        },
+        |Progress { time, duration }| {
+            if !shown && terminal::is_watched() && started.elapsed() > PATIENCE {
+                bar.set_draw_target(ProgressDrawTarget::stderr());
+                shown = true;
+            }
+            if shown {
+                bar.set_position((1000.0 * time / duration) as u64);
+                bar.set_message(format!("{time:.1} of {duration:.1} s"));
+            }
+            if stop.load(Ordering::Relaxed) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        },
+    );
+    bar.finish_and_clear();
+    outcome
+}
+
+/// Whether the run counts as done.
+fn ending(end: &RunEnd, out: Option<&Path>) -> Result<(), Failure> {
+    let kept = out.map_or_else(String::new, |out| {
+        format!("; what was computed until then is in {}", out.display())
+    });
+    match end {
+        RunEnd::Completed => Ok(()),
+        RunEnd::Stopped => {
+            terminal::remark(&format!("stopped{kept}"));
+            Err(Failure::Stopped)
+        }
+        RunEnd::Failed(error) => Err(Failure::Analysis(format!("{error}{kept}"))),
+    }
+}

@@ -1,0 +1,200 @@
+//! The summary of a run on one screen.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use jostle::separation::gb50011_frame_joint;
+use jostle::summary::{BuildingSummary, ContactSummary, GapSummary, Summary};
+
+use crate::numbers::{counted, grouped, kn, mm};
+use crate::terminal::{BOLD, DIM, LOUD, styled};
+
+/// Contacts listed at most.
+const LISTED: usize = 10;
+
+/// The summary as text; `result` is the file to open next.
+pub(crate) fn describe(summary: &Summary, result: Option<&Path>) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = write_all(&mut text, summary, result);
+    text
+}
+
+fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std::fmt::Result {
+    let motion = &summary.motion;
+    writeln!(text, "{}", styled(BOLD, &summary.title))?;
+    let reversed = if motion.scale < 0.0 { ", reversed" } else { "" };
+    writeln!(
+        text,
+        "{}{reversed}, peak {:.1} cm/s² ({:.3} g), {:.2} s",
+        motion.name,
+        motion.pga_m_s2 * 100.0,
+        motion.pga_m_s2 / jostle_io::STANDARD_GRAVITY,
+        motion.duration_s
+    )?;
+    if let Some(reason) = &summary.ended_early {
+        writeln!(
+            text,
+            "\n{}",
+            styled(LOUD, &format!("ended early: {reason}"))
+        )?;
+    }
+    write_buildings(text, &summary.buildings)?;
+    for gap in &summary.gaps {
+        write_gap(text, gap, summary)?;
+    }
+    for warning in &summary.warnings {
+        writeln!(text, "{} {warning}", styled(LOUD, "note:"))?;
+    }
+    let (energy, work) = (&summary.energy, &summary.work);
+    let accounting = format!(
+        "energy balance {:.0e} · {} steps of {:.3} ms ({} in contact) · {} factorisations · {} solutions · {:.3} s",
+        energy.worst_imbalance,
+        grouped(work.steps),
+        work.step_s * 1e3,
+        grouped(work.contact_steps),
+        grouped(work.factorizations),
+        grouped(work.solves),
+        work.wall_s
+    );
+    writeln!(text, "\n{}", styled(DIM, &accounting))?;
+    if let Some(result) = result {
+        writeln!(text, "→ {}", styled(BOLD, &result.display().to_string()))?;
+    }
+    Ok(())
+}
+
+fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    let width = buildings
+        .iter()
+        .map(|building| building.name.chars().count())
+        .fold(8, usize::max);
+    writeln!(
+        text,
+        "\n{:width$}  floors     mass  {:17}  {:>17}  {:>6}  {:>10}",
+        "building", "periods", "roof", "drift", "base shear"
+    )?;
+    for building in buildings {
+        let periods: Vec<String> = building
+            .periods_s
+            .iter()
+            .take(3)
+            .map(|period| format!("{period:.3}"))
+            .collect();
+        let Some(roof) = building.floors.last() else {
+            continue;
+        };
+        let drift = building
+            .floors
+            .iter()
+            .map(|floor| floor.storey_drift_peak)
+            .fold(0.0, f64::max);
+        writeln!(
+            text,
+            "{:width$}  {:6}  {:5.0} t  {:15} s  {:>+6.1} / {:>+5.1} mm  {:4.2} %  {:>7} kN",
+            building.name,
+            building.floors.len(),
+            building.mass_kg * 1e-3,
+            periods.join(" "),
+            roof.displacement_max_m * 1e3,
+            roof.displacement_min_m * 1e3,
+            drift * 100.0,
+            kn(building.base_shear_peak_n)
+        )?;
+    }
+    Ok(())
+}
+
+fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt::Result {
+    let [left, right] = &gap.between;
+    let verdict = match gap.first_impact_s {
+        Some(first) => format!(
+            "{}, peak {} kN, first at {first:.3} s",
+            counted(gap.impact_count, "impact"),
+            kn(gap.peak_force_n)
+        ),
+        None => {
+            let closest = gap
+                .contacts
+                .iter()
+                .map(|contact| contact.closing_peak_m)
+                .fold(0.0, f64::max);
+            format!(
+                "no contact; they come within {} mm",
+                mm(gap.width_m - closest)
+            )
+        }
+    };
+    writeln!(
+        text,
+        "\n{left} ↔ {right}, {} mm apart: {}",
+        mm(gap.width_m),
+        styled(BOLD, &verdict)
+    )?;
+    let mut hit: Vec<&ContactSummary> = gap
+        .contacts
+        .iter()
+        .filter(|contact| contact.impact_count > 0)
+        .collect();
+    hit.sort_by(|a, b| b.height_m.total_cmp(&a.height_m));
+    if !hit.is_empty() {
+        writeln!(
+            text,
+            "  floors   impacts   peak force    impulse   closing    first"
+        )?;
+    }
+    for contact in hit.iter().take(LISTED) {
+        let floor = |side: usize| {
+            contact.floors[side].map_or_else(|| "–".to_owned(), |floor| floor.to_string())
+        };
+        writeln!(
+            text,
+            "  {:>7}  {:7}  {:>8} kN  {:>5.1} kN·s  {:>5} mm  {:>7.3} s",
+            format!("{} | {}", floor(0), floor(1)),
+            contact.impact_count,
+            kn(contact.peak_force_n),
+            contact.impulse_n_s * 1e-3,
+            mm(contact.closing_peak_m),
+            contact.impacts.first().map_or(0.0, |impact| impact.start_s)
+        )?;
+    }
+    if hit.len() > LISTED {
+        writeln!(
+            text,
+            "  … and {} more",
+            counted(hit.len() - LISTED, "contact")
+        )?;
+    }
+    if let Some(closing) = gap.closing_without_contact_m {
+        writeln!(
+            text,
+            "  Passing through each other they would close {} mm: the smallest gap without pounding.",
+            mm(closing)
+        )?;
+    }
+    write_code_joint(text, gap, summary)
+}
+
+/// The joint that a code asks for, beside the answer.
+fn write_code_joint(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt::Result {
+    let height = |name: &String| {
+        let building = summary
+            .buildings
+            .iter()
+            .find(|building| building.name == *name)?;
+        building.floors.last().map(|roof| roof.height_m)
+    };
+    let [Some(left), Some(right)] = gap.between.each_ref().map(height) else {
+        return Ok(());
+    };
+    let lower = left.min(right);
+    let joints: Vec<String> = (6..=9)
+        .filter_map(|i| gb50011_frame_joint(lower, i))
+        .map(|joint| format!("{:.0}", joint * 1e3))
+        .collect();
+    writeln!(
+        text,
+        "  GB 50011 asks frames {lower:.1} m high for {} mm at intensity 6 / 7 / 8 / 9.",
+        joints.join(" / ")
+    )
+}
