@@ -44,7 +44,10 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
         write_gap(text, gap, summary)?;
     }
     for warning in &summary.warnings {
-        writeln!(text, "{} {warning}", styled(LOUD, "note:"))?;
+        writeln!(text, "{} {warning}", styled(LOUD, "warning:"))?;
+    }
+    for note in &summary.notes {
+        writeln!(text, "{} {note}", styled(DIM, "note:"))?;
     }
     let (energy, work) = (&summary.energy, &summary.work);
     let accounting = format!(

@@ -102,6 +102,7 @@ fn summary() -> Summary {
         work: WorkSummary::default(),
         ended_early: None,
         warnings: Vec::new(),
+        notes: Vec::new(),
     }
 }
 
@@ -157,7 +158,7 @@ fn histories_have_named_columns() {
             "B.floor1.velocity_m_s",
             "B.floor2.total_acceleration_m_s2",
             "A__west-B.floor1-1.force_n",
-            "A__west-B.at4.500m.force_n",
+            "A__west-B.at4500mm.force_n",
             "energy_input_j",
         ]
     );

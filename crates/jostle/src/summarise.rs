@@ -74,6 +74,7 @@ impl Summary {
                 RunEnd::Failed(error) => Some(error.to_string()),
             },
             warnings: warnings(run),
+            notes: notes(run),
         }
     }
 }
@@ -220,27 +221,31 @@ fn work_summary(run: &Run) -> WorkSummary {
     }
 }
 
-/// What a user should know before trusting the numbers.
+/// Reasons not to trust the numbers.
 fn warnings(run: &Run) -> Vec<String> {
-    let mut warnings = Vec::new();
     let tolerance = run.model.analysis.energy_tolerance;
     let worst = run.outcome.energy.worst_imbalance;
-    if worst.is_nan() || worst > tolerance {
-        warnings.push(format!(
-            "the energies do not balance: {worst:.1e} of the energy is unaccounted for (tolerance {tolerance:.1e}); do not trust this run"
-        ));
+    if worst <= tolerance {
+        return Vec::new();
     }
-    for gap in &run.model.gaps {
-        let (asked, free) = (gap.law.restitution, gap.law.free_restitution());
-        let meant = gap.law.restitution_is == RestitutionIs::Input && gap.law.kind.is_dissipative();
-        if meant && (free - asked).abs() > 0.005 {
-            warnings.push(format!(
-                "{} with a restitution of {asked} lets free masses rebound with {free:.3}; \
-                 restitution_is = \"realised\" makes it {asked}",
-                gap.law.kind.name()
+    vec![format!(
+        "the energies do not balance: {worst:.1e} of the energy is unaccounted for (tolerance {tolerance:.1e}); do not trust this run"
+    )]
+}
+
+/// Things worth knowing about the numbers.
+fn notes(run: &Run) -> Vec<String> {
+    let mut notes = Vec::new();
+    for law in run.model.gaps.iter().map(|gap| &gap.law) {
+        let (asked, free) = (law.restitution, law.free_restitution());
+        let published = law.restitution_is == RestitutionIs::Input && law.kind.is_dissipative();
+        if published && (free - asked).abs() > 0.005 {
+            notes.push(format!(
+                "{} with restitution {asked} lets free masses rebound with {free:.3}; restitution_is = \"realised\" makes it {asked}",
+                law.kind.name()
             ));
         }
     }
-    warnings.dedup();
-    warnings
+    notes.dedup();
+    notes
 }

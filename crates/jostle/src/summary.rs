@@ -21,8 +21,10 @@ pub struct Summary {
     pub work: WorkSummary,
     /// Whether the run reached the end of the motion, and why not.
     pub ended_early: Option<String>,
-    /// Things the user should know before trusting the numbers.
+    /// Reasons not to trust the numbers.
     pub warnings: Vec<String>,
+    /// Things worth knowing about the numbers.
+    pub notes: Vec<String>,
 }
 
 /// Ground motion as used.

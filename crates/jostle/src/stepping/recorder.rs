@@ -131,25 +131,22 @@ impl Recorder {
         }
     }
 
-    /// Adds a row to the history when one is due.
+    /// Adds a row to the history when one is due, or at once when it is `wanted`.
     pub(crate) fn record(
         &mut self,
         system: &System,
         state: &State,
         ground: f64,
+        wanted: bool,
         audit: &mut EnergyAudit,
     ) {
         let Some(history) = &mut self.history else {
             return;
         };
-        if state.time < self.due {
+        if !wanted && state.time < self.due {
             return;
         }
-        self.due = if self.interval > 0.0 {
-            state.time + self.interval * (1.0 - 1e-9)
-        } else {
-            state.time
-        };
+        self.due = state.time + self.interval * (1.0 - 1e-9);
         let energy = audit.balance(system, &state.displacement, &state.velocity);
         let mut row = history.push_row().iter_mut();
         let mut put = |value: f64| {

@@ -274,8 +274,13 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
 
     fn run(mut self, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Outcome {
         let duration = self.motion.duration;
-        self.recorder
-            .record(self.system, &self.state, self.ground[0], &mut self.audit);
+        self.recorder.record(
+            self.system,
+            &self.state,
+            self.ground[0],
+            true,
+            &mut self.audit,
+        );
         let mut end = RunEnd::Completed;
         while duration - self.state.time > 1e-9 * self.plan.step {
             if self.work.steps.is_multiple_of(OBSERVED_EVERY)
@@ -702,8 +707,13 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         self.work.contact_steps += u64::from(was_closed);
         self.recorder
             .after_step(self.system, &self.state, step, self.ground[0]);
-        self.recorder
-            .record(self.system, &self.state, self.ground[0], &mut self.audit);
+        self.recorder.record(
+            self.system,
+            &self.state,
+            self.ground[0],
+            was_closed,
+            &mut self.audit,
+        );
         Ok(())
     }
 
