@@ -4,6 +4,7 @@
 use crate::quantity::shorten;
 use crate::record::{
     Record, RecordError, RecordOptions, Series, acceleration_unit, number, numbered_lines,
+    option_unit,
 };
 
 /// Lines in which the count and the step must stand.
@@ -44,13 +45,7 @@ pub(crate) fn parse_at2(text: &str, options: &RecordOptions) -> Result<Record, R
     };
 
     // What the user says explicitly comes before what the header says.
-    if let Some(text) = &options.unit {
-        let size = acceleration_unit(text).ok_or_else(|| RecordError::Unit {
-            line: 0,
-            found: shorten(text),
-        })?;
-        unit = Some((text.clone(), size));
-    }
+    unit = option_unit(options)?.or(unit);
     let mut series = Series {
         values: Vec::new(),
         lines: Vec::new(),

@@ -7,31 +7,49 @@ use crate::model_file::{Input, read_model_text};
 use crate::record::{RecordOptions, parse_record};
 use crate::tree::Format;
 
-/// El Centro 1940, component NS, digitisation of Peknold.
-const EL_CENTRO: &str = include_str!("../data/el-centro-1940-ns.csv");
+/// A ground motion that comes with the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BuiltinRecord {
+    /// Name in model files.
+    pub name: &'static str,
+    /// Other names understood.
+    pub aliases: &'static [&'static str],
+    /// One line for people.
+    pub description: &'static str,
+    /// The file.
+    text: &'static str,
+}
+
+/// The ground motions that come with the program.
+pub const BUILTIN_RECORDS: &[BuiltinRecord] = &[BuiltinRecord {
+    name: "el-centro-1940-ns",
+    aliases: &["el-centro"],
+    description: "El Centro, Imperial Valley 1940, north-south, digitisation of Peknold; 0.319 g, 31.18 s",
+    text: include_str!("../data/el-centro-1940-ns.csv"),
+}];
 
 /// Names and texts of the built-in models.
 const MODELS: &[(&str, &str)] = &[("paper", include_str!("../data/paper.toml"))];
 
-/// Names of the built-in ground motions.
+/// A built-in ground motion by name, unscaled; `None` if there is none of that name.
 #[must_use]
-pub fn record_names() -> Vec<&'static str> {
-    vec!["el-centro-1940-ns"]
-}
-
-/// A built-in ground motion, unscaled; `None` if there is none of that name.
-#[must_use]
-pub fn record(name: &str) -> Option<GroundMotion> {
+pub fn builtin_record(name: &str) -> Option<GroundMotion> {
     let name = name.trim().to_ascii_lowercase();
-    if !matches!(name.as_str(), "el-centro-1940-ns" | "el-centro") {
-        return None;
-    }
-    let record = parse_record(EL_CENTRO.as_bytes(), &RecordOptions::default()).ok()?;
+    let known = BUILTIN_RECORDS
+        .iter()
+        .find(|known| known.name == name || known.aliases.contains(&name.as_str()))?;
+    let record = parse_record(known.text.as_bytes(), &RecordOptions::default()).ok()?;
     Some(GroundMotion::sampled(
-        "el-centro-1940-ns",
+        known.name,
         record.step,
         record.acceleration,
     ))
+}
+
+/// Names of the built-in ground motions, for messages.
+pub(crate) fn record_names() -> String {
+    let names: Vec<_> = BUILTIN_RECORDS.iter().map(|record| record.name).collect();
+    names.join(", ")
 }
 
 /// Names of the built-in models.

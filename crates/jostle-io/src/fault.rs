@@ -24,13 +24,9 @@ pub struct InputError {
     pub name: String,
     /// The faults in the order of the file, never empty.
     pub faults: Vec<Fault>,
+    /// Number of further faults, of a file that has hundreds.
+    pub more: usize,
 }
-
-/// Faults shown at most; the count at the end tells how many there are.
-const SHOWN: usize = 100;
-
-/// Longest part of a source line shown \[characters\].
-const WIDTH: usize = 120;
 
 impl InputError {
     /// An error without place: the file as a whole.
@@ -43,6 +39,7 @@ impl InputError {
                 problem: problem.into(),
                 remedy,
             }],
+            more: 0,
         }
     }
 }
@@ -51,14 +48,15 @@ impl std::error::Error for InputError {}
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for fault in self.faults.iter().take(SHOWN) {
+        for fault in &self.faults {
             write_fault(f, &self.name, fault)?;
         }
-        if let Some(hidden @ 1..) = self.faults.len().checked_sub(SHOWN) {
-            writeln!(f, "… and {hidden} more")?;
+        if self.more > 0 {
+            writeln!(f, "… and {} more", self.more)?;
         }
-        let plural = if self.faults.len() == 1 { "" } else { "s" };
-        write!(f, "{} fault{plural} in {}", self.faults.len(), self.name)
+        let count = self.faults.len() + self.more;
+        let plural = if count == 1 { "" } else { "s" };
+        write!(f, "{count} fault{plural} in {}", self.name)
     }
 }
 
@@ -80,32 +78,26 @@ fn write_fault(f: &mut fmt::Formatter<'_>, name: &str, fault: &Fault) -> fmt::Re
     }
 }
 
-/// The line and a caret below the offending part; a long line is cut around it.
+/// The line and a caret below the offending part.
 fn write_line(f: &mut fmt::Formatter<'_>, place: &Place) -> fmt::Result {
-    let column = place.column - 1;
-    let cut = if column + place.length.min(WIDTH / 2) > WIDTH {
-        column.saturating_sub(WIDTH / 4)
-    } else {
-        0
-    };
     let shown: String = place
         .text
         .chars()
-        .skip(cut)
-        .take(WIDTH)
         .map(|c| match c {
             '\t' => ' ',
             c if c.is_control() => '\u{fffd}',
             c => c,
         })
         .collect();
+    let shown = shown.trim_end();
+    let indent = place.column.saturating_sub(1 + place.skipped);
+    let room = shown.chars().count().saturating_sub(indent).max(1);
     let margin = " ".repeat(place.line.to_string().len());
-    let carets = place.length.min(WIDTH.saturating_sub(column - cut).max(1));
-    writeln!(f, "  {} | {}", place.line, shown.trim_end())?;
+    writeln!(f, "  {} | {shown}", place.line)?;
     writeln!(
         f,
         "  {margin} | {}{}",
-        " ".repeat(column - cut),
-        "^".repeat(carets)
+        " ".repeat(indent),
+        "^".repeat(place.length.min(room))
     )
 }

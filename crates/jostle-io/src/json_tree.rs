@@ -74,7 +74,7 @@ fn table(object: &ast::Object<'_>, repeated: &mut Vec<SyntaxError>) -> Table {
     for property in &object.properties {
         let key = property.name.as_str();
         let key_span = property.name.start()..property.name.end();
-        if !seen.insert(key) {
+        if !seen.insert(key) && repeated.len() < 100 {
             repeated.push(SyntaxError {
                 span: key_span.clone(),
                 problem: format!(

@@ -19,11 +19,14 @@ mod source;
 mod tables;
 mod templates;
 mod text_record;
+mod times;
 mod toml_tree;
 mod tree;
 mod unit;
 
-pub use builtin::{builtin_model, model_names, model_text, record as builtin_record, record_names};
+pub use builtin::{
+    BUILTIN_RECORDS, BuiltinRecord, builtin_model, builtin_record, model_names, model_text,
+};
 pub use fault::{Fault, InputError};
 pub use model_file::{Input, OverrideError, Overrides, read_model_file, read_model_text};
 pub use motion_spec::{MotionError, MotionSource, MotionSpec, Scaling};

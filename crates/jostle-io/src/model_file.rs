@@ -13,6 +13,7 @@ mod shear;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use jostle::{GroundMotion, Model, ModelFault};
@@ -110,18 +111,15 @@ pub fn read_model_text(
         let checked = model.check().err().unwrap_or_default();
         add_model_faults(&mut reader, &root, checked);
     }
-    let faults = reader.into_faults();
+    let error = reader.into_error();
     match read {
-        Some((model, motion)) if faults.is_empty() => Ok(Input {
+        Some((model, motion)) if error.faults.is_empty() => Ok(Input {
             warnings: warnings(&model, &root),
             model,
             motion,
             origin: Origin { source, root },
         }),
-        _ => Err(InputError {
-            name: name.to_owned(),
-            faults,
-        }),
+        _ => Err(error),
     }
 }
 
@@ -187,6 +185,7 @@ impl Input {
                 problem: problem.into(),
                 remedy: None,
             }],
+            more: 0,
         }
     }
 }
@@ -261,17 +260,21 @@ fn read_root(
 
 /// Adds what the model's own check found, unless reading has found a fault there already.
 fn add_model_faults(reader: &mut Reader<'_>, root: &Node, faults: Vec<ModelFault>) {
-    let mut seen: Vec<String> = reader.faults().map(|fault| fault.path.clone()).collect();
+    let mut seen: BTreeSet<String> = reader.faults().map(|fault| fault.path.clone()).collect();
     let building_is_bad = seen.iter().any(|path| path.starts_with("building"));
     for fault in faults {
         let (span, path) = locate(root, &fault.path);
+        // One value for all storeys gives one fault per storey.
+        if seen.contains(&path) {
+            continue;
+        }
         // With a replaced value in a building, floor heights mean nothing.
         let follows = building_is_bad && path.contains(".floors");
         let known = seen
             .iter()
             .any(|other| is_within(&path, other) || is_within(other, &path));
         if !follows && !known {
-            seen.push(path.clone());
+            seen.insert(path.clone());
             reader.fault(&span, path, fault.problem);
         }
     }

@@ -73,7 +73,7 @@ pub enum MotionError {
     )]
     None,
     /// Neither a built-in record nor a file.
-    #[error("there is no record \"{name}\"{}; built-in records: {}", similar(.nearest), builtin::record_names().join(", "))]
+    #[error("there is no record \"{name}\"{}; built-in records: {}", similar(.nearest), builtin::record_names())]
     NotFound {
         /// Name as written.
         name: String,
@@ -203,7 +203,7 @@ fn find_record(
     base: &Path,
     options: &RecordOptions,
 ) -> Result<GroundMotion, MotionError> {
-    if let Some(motion) = builtin::record(name) {
+    if let Some(motion) = builtin::builtin_record(name) {
         return Ok(motion);
     }
     let path = base.join(name);
@@ -228,7 +228,10 @@ fn find_record(
 
 /// The built-in record and the file beside `path` whose names come nearest.
 fn similar_names(name: &str, path: &Path) -> Vec<String> {
-    let builtin = nearest(name, builtin::record_names().into_iter()).map(str::to_owned);
+    let known = builtin::BUILTIN_RECORDS
+        .iter()
+        .flat_map(|record| record.aliases.iter().chain([&record.name]));
+    let builtin = nearest(name, known.copied()).map(str::to_owned);
     let folder = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),

@@ -1,15 +1,22 @@
 //! Typed access to the value tree. A fault is noted and reading goes on, so that all faults are found at once.
 
-use crate::fault::Fault;
+use crate::fault::{Fault, InputError};
 use crate::keys::{Kind, Section, keys_of, nearest};
 use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten};
 use crate::source::{Source, Span};
 use crate::tree::{Node, Table, Value};
 
+/// Faults of a file that are kept; beyond that, they are counted.
+const MOST_FAULTS: usize = 500;
+
 /// Collects the faults of one file.
 pub(crate) struct Reader<'s> {
     source: &'s Source,
     faults: Vec<(usize, Fault)>,
+    /// Faults beyond [`MOST_FAULTS`].
+    more: usize,
+    /// Takes the remedies of those.
+    dropped: Option<String>,
     /// Keys asked for, to hold the reader against the table of keys.
     #[cfg(test)]
     pub(crate) asked: std::collections::BTreeSet<(Section, &'static str)>,
@@ -74,6 +81,8 @@ impl<'s> Reader<'s> {
         Self {
             source,
             faults: Vec::new(),
+            more: 0,
+            dropped: None,
             #[cfg(test)]
             asked: std::collections::BTreeSet::new(),
         }
@@ -86,6 +95,10 @@ impl<'s> Reader<'s> {
         path: impl Into<String>,
         problem: impl Into<String>,
     ) -> &mut Option<String> {
+        if self.faults.len() == MOST_FAULTS {
+            self.more += 1;
+            return &mut self.dropped;
+        }
         let fault = Fault {
             path: path.into(),
             place: Some(self.source.place(span)),
@@ -112,10 +125,14 @@ impl<'s> Reader<'s> {
         *self.fault(&view.span.clone(), path, "is missing") = Some(remedy.into());
     }
 
-    /// The faults noted, in the order of the file.
-    pub(crate) fn into_faults(mut self) -> Vec<Fault> {
+    /// All that was noted, in the order of the file.
+    pub(crate) fn into_error(mut self) -> InputError {
         self.faults.sort_by_key(|(start, _)| *start);
-        self.faults.into_iter().map(|(_, fault)| fault).collect()
+        InputError {
+            name: self.source.name.clone(),
+            faults: self.faults.into_iter().map(|(_, fault)| fault).collect(),
+            more: self.more,
+        }
     }
 
     pub(crate) fn faults(&self) -> impl Iterator<Item = &Fault> {

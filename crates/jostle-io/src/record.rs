@@ -99,12 +99,26 @@ pub enum RecordError {
         /// The text.
         found: String,
     },
-    /// A unit that is none of acceleration.
+    /// A record format that is not read yet.
+    #[error(
+        ": this looks like a {format} record, which is not read; export it as PEER AT2, CSV or columns of text"
+    )]
+    OtherFormat {
+        /// Name of the format.
+        format: &'static str,
+    },
+    /// A unit asked for that is none of acceleration.
+    #[error(": unit = \"{found}\" is not an acceleration; say \"g\" or \"cm/s2\", for example")]
+    OptionUnit {
+        /// The text.
+        found: String,
+    },
+    /// A unit in the file that is none of acceleration.
     #[error(
         ":{line}: the unit \"{found}\" is not an acceleration; records of velocity or displacement cannot be used"
     )]
     Unit {
-        /// Line, from 1; 0 for an option.
+        /// Line, from 1.
         line: usize,
         /// The text.
         found: String,
@@ -139,6 +153,14 @@ pub enum RecordError {
         found: f64,
         /// Time expected \[s\].
         expected: f64,
+    },
+    /// A time that is not later than the one before.
+    #[error(":{line}: time {found} s does not come after the time before it")]
+    TimeNotRising {
+        /// Line, from 1.
+        line: usize,
+        /// Time found \[s\].
+        found: f64,
     },
     /// The file's times contradict the stated step.
     #[error(
@@ -218,11 +240,32 @@ pub fn parse_record(bytes: &[u8], options: &RecordOptions) -> Result<Record, Rec
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let record = if at2::is_at2(text) {
         at2::parse_at2(text, options)
+    } else if let Some(format) = other_format(text) {
+        Err(RecordError::OtherFormat { format })
     } else {
         text_record::parse_text(text, options)
     }?;
     check_step(record.step)?;
     Ok(record)
+}
+
+/// Well-known formats whose columns of numbers would be misread, told by how they begin.
+fn other_format(text: &str) -> Option<&'static str> {
+    let first = text.lines().next().unwrap_or("");
+    let second = text.lines().nth(1).unwrap_or("");
+    if first.starts_with("Origin Time") {
+        Some("K-NET or KiK-net")
+    } else if first.starts_with("EVENT_NAME:") {
+        Some("ESM (DYNA)")
+    } else if first.contains("(Format v") {
+        Some("COSMOS")
+    } else if first.contains("orrected accelerogram") {
+        Some("CSMIP")
+    } else if first.contains("ACCELEROGRAM") && second.starts_with('*') {
+        Some("USGS SMC")
+    } else {
+        None
+    }
 }
 
 fn check_size(size: usize) -> Result<(), RecordError> {
@@ -279,6 +322,17 @@ pub(crate) fn acceleration_unit(text: &str) -> Option<f64> {
         .replace("m/ss", "m/s/s");
     let size = parse_quantity(&format!("1 {plain}"), Dimension::Acceleration).ok()?;
     (!plain.is_empty() && size > 0.0).then_some(size)
+}
+
+/// The unit that the user adds, with its size.
+pub(crate) fn option_unit(options: &RecordOptions) -> Result<Option<(String, f64)>, RecordError> {
+    let Some(text) = &options.unit else {
+        return Ok(None);
+    };
+    let size = acceleration_unit(text).ok_or_else(|| RecordError::OptionUnit {
+        found: crate::quantity::shorten(text),
+    })?;
+    Ok(Some((text.clone(), size)))
 }
 
 /// Raw values of a file, where they stand, and their unit.

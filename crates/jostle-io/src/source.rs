@@ -14,6 +14,9 @@ pub(crate) struct Source {
     line_starts: Vec<usize>,
 }
 
+/// Longest part of a line kept with a place \[characters\].
+const WIDTH: usize = 120;
+
 /// A place in a file, for people: lines and columns count from 1, columns in characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
@@ -21,10 +24,12 @@ pub struct Place {
     pub line: usize,
     /// Column of the first character.
     pub column: usize,
-    /// Characters covered on that line, at least one.
+    /// Characters covered on that line, from 1 to 120.
     pub length: usize,
-    /// The whole line.
+    /// The line, or the part of a long line around the place.
     pub text: String,
+    /// Characters of the line before `text` that are left out.
+    pub skipped: usize,
 }
 
 impl Source {
@@ -49,12 +54,20 @@ impl Source {
         let rest = self.text.get(first..).unwrap_or("");
         let text = rest.split('\n').next().unwrap_or("").trim_end_matches('\r');
         let end = self.boundary(span.end).min(first + text.len());
+        let before = self.text.get(first..start).unwrap_or("").chars().count();
         let covered = self.text.get(start..end.max(start)).unwrap_or("");
+        let length = covered.chars().take(WIDTH).count().max(1);
+        let skipped = if before + length.min(WIDTH / 2) > WIDTH {
+            before.saturating_sub(WIDTH / 4)
+        } else {
+            0
+        };
         Place {
             line,
-            column: 1 + self.text.get(first..start).unwrap_or("").chars().count(),
-            length: covered.chars().count().max(1),
-            text: text.to_owned(),
+            column: 1 + before,
+            length,
+            text: text.chars().skip(skipped).take(WIDTH).collect(),
+            skipped,
         }
     }
 

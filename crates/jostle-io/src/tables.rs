@@ -26,8 +26,8 @@ enum Values {
 /// Writes the time histories: one row per instant.
 ///
 /// Columns are `time_s`, `ground_acceleration_m_s2`, then for every floor such as `J1.floor5`
-/// `…​.displacement_m`, `….velocity_m_s`, `….total_acceleration_m_s2`, for every contact
-/// `J1-J2.floor5-5.force_n` (or `J1-J2.at8.000m.force_n` between floors), and `energy_input_j` and its kin.
+/// `….displacement_m`, `….velocity_m_s`, `….total_acceleration_m_s2`, for every contact
+/// `J1-J2.floor5-5.force_n` (or `J1-J2.at8000mm.force_n` between floors), and `energy_input_j` and its kin.
 ///
 /// # Errors
 /// [`OutputError`] with path and reason.
@@ -109,7 +109,7 @@ fn contact_names(summary: &Summary) -> Vec<String> {
         for contact in &gap.contacts {
             names.push(match contact.floors {
                 [Some(left), Some(right)] => format!("{pair}.floor{left}-{right}"),
-                _ => format!("{pair}.at{:.3}m", contact.height_m),
+                _ => format!("{pair}.at{:.0}mm", 1e3 * contact.height_m),
             });
         }
     }

@@ -7,7 +7,9 @@
 use crate::quantity::{Dimension, STANDARD_GRAVITY, parse_quantity, shorten};
 use crate::record::{
     Record, RecordError, RecordOptions, Series, acceleration_unit, number, numbered_lines,
+    option_unit,
 };
+use crate::times::Times;
 
 /// What comments and the header row say.
 #[derive(Default)]
@@ -238,9 +240,7 @@ fn split_unit(name: &str) -> (&str, Option<&str>) {
 }
 
 fn apply_options(header: &mut Header, options: &RecordOptions) -> Result<(), RecordError> {
-    if let Some(unit) = &options.unit {
-        header.unit = Some(read_unit(0, unit)?);
-    }
+    header.unit = option_unit(options)?.or(header.unit.take());
     if let Some(step) = options.step {
         header.step = Some(step);
     }
@@ -291,100 +291,11 @@ fn read_times(
         return Ok(None);
     }
     let unit = header.time_unit.unwrap_or(1.0);
-    let times = Times::read(rows, column, unit).and_then(|times| Ok((times.first, times.step()?)));
+    let cells = rows.iter().map(|row| (row.line, cell(row, column)));
+    let times = Times::read(cells, unit).and_then(|times| Ok((times.first, times.step()?)));
     // With a stated step, a first column without a name need not be times.
     if times.is_err() && header.time_column.is_none() && header.step.is_some() {
         return Ok(None);
     }
     times.map(Some)
-}
-
-/// Printed times: equally spaced, but for the rounding of their last digit.
-struct Times {
-    lines: Vec<usize>,
-    values: Vec<f64>,
-    /// Unit of the last printed digit.
-    digits: Vec<f64>,
-    first: f64,
-}
-
-impl Times {
-    fn read(rows: &[Row<'_>], column: usize, unit: f64) -> Result<Self, RecordError> {
-        let mut times = Self {
-            lines: rows.iter().map(|row| row.line).collect(),
-            values: Vec::with_capacity(rows.len()),
-            digits: Vec::with_capacity(rows.len()),
-            first: 0.0,
-        };
-        for row in rows {
-            let text = cell(row, column);
-            times.values.push(unit * number(row.line, text)?);
-            times.digits.push(unit * last_digit(text));
-        }
-        times.first = times.values.first().copied().unwrap_or(0.0);
-        Ok(times)
-    }
-
-    /// The common step, freed from the rounding of the printed times.
-    fn step(&self) -> Result<f64, RecordError> {
-        let count = self.values.len();
-        let (Some(last), Some(digit), true) = (self.values.last(), self.digits.last(), count >= 2)
-        else {
-            return Err(RecordError::TooFew { found: count });
-        };
-        let first_digit = self.digits.first().copied().unwrap_or(0.0);
-        let intervals = (count - 1) as f64;
-        let step = (last - self.first) / intervals;
-        // Times printed too coarsely to tell a rounded step from a lost line must be exact.
-        let rounding = |digit: f64| {
-            if digit <= 0.25 * step {
-                0.51 * digit
-            } else {
-                0.0
-            }
-        };
-        let ends = rounding(*digit) + rounding(first_digit);
-        for (i, time) in self.values.iter().enumerate() {
-            let expected = self.first + i as f64 * step;
-            let allowed = ends + rounding(self.digits[i]) + 1e-6 * step + 1e-9 * time.abs();
-            let rising = i == 0 || *time > self.values[i - 1];
-            if !((time - expected).abs() <= allowed && rising) {
-                return Err(self.culprit(i));
-            }
-        }
-        Ok(simplest(step, (ends / intervals).max(1e-12 * step)))
-    }
-
-    /// The first time that does not continue the steps before it; `fallback` if that cannot be told.
-    fn culprit(&self, fallback: usize) -> RecordError {
-        let step = self.values.get(1).map_or(0.0, |second| second - self.first);
-        let deviates = |i: &usize| {
-            let expected = self.first + *i as f64 * step;
-            (self.values[*i] - expected).abs() > 0.5 * step
-        };
-        let at = (2..self.values.len()).find(deviates).unwrap_or(fallback);
-        RecordError::UnequalStep {
-            line: self.lines[at],
-            found: self.values[at],
-            expected: self.first + at as f64 * step,
-        }
-    }
-}
-
-/// Unit of the last printed digit: 0.01 for `1.25`, 1e-4 for `1.25e-2`.
-fn last_digit(text: &str) -> f64 {
-    let lower = text.to_ascii_lowercase().replace('d', "e");
-    let (mantissa, exponent) = lower.split_once('e').unwrap_or((&lower, "0"));
-    let decimals = mantissa.split_once('.').map_or(0, |(_, d)| d.len());
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let decimals = i32::try_from(decimals).unwrap_or(i32::MAX);
-    10f64.powi(exponent.saturating_sub(decimals).clamp(-300, 300))
-}
-
-/// The number of fewest digits within `uncertainty` of a value: 0.02 for 0.019999999.
-fn simplest(value: f64, uncertainty: f64) -> f64 {
-    (0..15)
-        .filter_map(|digits| format!("{value:.digits$e}").parse::<f64>().ok())
-        .find(|rounded| (rounded - value).abs() <= uncertainty)
-        .unwrap_or(value)
 }

@@ -135,5 +135,6 @@ pub(crate) fn parse(source: &Source, format: Format) -> Result<Node, InputError>
                 remedy: None,
             })
             .collect(),
+        more: 0,
     })
 }

@@ -361,7 +361,7 @@ mod tests {
         assert_unit("mm", 1e-3, LENGTH);
         assert_unit("µm", 1e-6, LENGTH);
         assert_unit("gal", 0.01, ACCELERATION);
-        assert_unit("kip", 4448.221_615_260_5, FORCE);
+        assert_unit("kip", 4_448.221_615_260_5, FORCE);
         assert_unit("ksi", 6_894_757.293_168_36, PRESSURE);
         assert_unit("N/mm2", 1e6, PRESSURE);
         assert_unit("m2.kg", 1.0, [2.0, 1.0, 0.0]);

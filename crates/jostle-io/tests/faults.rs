@@ -393,3 +393,14 @@ fn text_that_is_not_utf_8_is_refused() {
     jostle_io::read_model_file(&path).unwrap_or_else(|error| panic!("{error}"));
     std::fs::remove_dir_all(&folder).expect("the folder is ours");
 }
+
+#[test]
+fn hundreds_of_faults_are_counted() {
+    let text: String = (0..700).map(|i| format!("key{i} = 1\n")).collect();
+    let shown = message(&text);
+    assert!(
+        shown.ends_with("… and 201 more\n701 faults in model.toml"),
+        "{}",
+        &shown[shown.len() - 200..]
+    );
+}

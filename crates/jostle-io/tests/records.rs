@@ -58,8 +58,8 @@ fn strange_line_ends_and_long_headers_are_read() {
     assert_record(&text.replace('\n', "\r"), 0.01, &[0.5 * G, -0.5 * G]);
     let centimetres = text.replace("UNITS OF G.", "UNITS OF CM/SEC/SEC");
     assert_record(&centimetres, 0.01, &[0.005, -0.005]);
-    let named = format!("title\ndetails\nThe units are (g)\nNPTS= 2, DT= .01 SEC\n1 0.5\n");
-    assert_record(&named, 0.01, &[G, 0.5 * G]);
+    let named = "title\ndetails\nThe units are (g)\nNPTS= 2, DT= .01 SEC\n1 0.5\n";
+    assert_record(named, 0.01, &[G, 0.5 * G]);
 }
 
 #[test]
@@ -160,6 +160,10 @@ fn unequal_steps_name_the_line_but_rounding_is_forgiven() {
         "t_s,acc_g\n0.00,0\n0.01,1\n0.02,2\n0.04,1\n0.05,0\n",
         ":5: time 0.04 s where 0.03 s was expected; time steps must be equal, resample the record",
     );
+    assert_refused(
+        "t_s,acc_g\n0.00,0\n0.01,1\n0.01,2\n",
+        ":4: time 0.01 s does not come after the time before it",
+    );
     let rounded: String = (0..400)
         .map(|i| format!("{:.3},{}\n", f64::from(i) * 0.0125, i % 2))
         .collect();
@@ -201,5 +205,13 @@ fn impossible_values_are_refused() {
     assert_refused(
         "a\0b",
         ": this is no plain text file; export the record as AT2, CSV or columns of text in UTF-8",
+    );
+}
+
+#[test]
+fn other_record_formats_are_named_not_misread() {
+    assert_refused(
+        "Origin Time       2018/01/24 19:51:00\nLat.              41.0\n",
+        ": this looks like a K-NET or KiK-net record, which is not read; export it as PEER AT2, CSV or columns of text",
     );
 }

@@ -7,6 +7,7 @@ use super::section::{Material, read_modulus, read_sections};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
+use crate::tree::Value;
 
 /// Most spans of a frame.
 const MOST_SPANS: usize = 50;
@@ -36,25 +37,16 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
     let spans = read_spans(reader, view);
 
     let (modulus, modulus_is_bad) = read_modulus(reader, view);
-    let density = match reader.get(view, "density") {
-        Some(field) => reader.quantity(&field, Dimension::Density),
-        None => None,
-    };
+    let density = read_density(reader, view);
     let (column_factor, beam_factor) = stiffness_factors(reader, view);
     let material = |factor| Material {
         modulus,
         modulus_is_bad,
-        density: density.unwrap_or(CONCRETE_DENSITY),
+        density,
         factor,
     };
     let columns = read_sections(reader, view, "column", count, material(column_factor));
     let beams = read_sections(reader, view, "beam", count, material(beam_factor));
-    if let (Some(field), true) = (
-        reader.get(view, "density"),
-        density.is_some_and(|d| d < 0.0),
-    ) {
-        reader.bad(&field, "must not be negative");
-    }
     let (beam_mass, floor_mass) = masses(reader, view, count);
     let column_segments = match reader.get(view, "column_segments") {
         Some(field) => reader.count(&field).unwrap_or(1),
@@ -71,6 +63,20 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
         column_segments,
         axial: axial(reader, view),
         joint: joint(reader, view),
+    }
+}
+
+/// Density of the columns \[kg/m³\].
+fn read_density(reader: &mut Reader<'_>, view: &View<'_>) -> f64 {
+    let Some(field) = reader.get(view, "density") else {
+        return CONCRETE_DENSITY;
+    };
+    match reader.quantity(&field, Dimension::Density) {
+        Some(density) if density < 0.0 => {
+            reader.bad(&field, "must not be negative");
+            CONCRETE_DENSITY
+        }
+        density => density.unwrap_or(CONCRETE_DENSITY),
     }
 }
 
@@ -115,7 +121,7 @@ fn stiffness_factors(reader: &mut Reader<'_>, view: &View<'_>) -> (f64, f64) {
     let Some(field) = reader.get(view, "stiffness_factor") else {
         return (1.0, 1.0);
     };
-    if !matches!(field.node.value, crate::tree::Value::Table(_)) {
+    if !matches!(field.node.value, Value::Table(_)) {
         let factor = reader
             .positive(&field, Dimension::Dimensionless)
             .unwrap_or(1.0);
@@ -176,7 +182,7 @@ fn axial(reader: &mut Reader<'_>, view: &View<'_>) -> Axial {
     let Some(field) = reader.get(view, "axial") else {
         return Axial::default();
     };
-    if !matches!(field.node.value, crate::tree::Value::Table(_)) {
+    if !matches!(field.node.value, Value::Table(_)) {
         let flexible = is_flexible(reader, &field);
         return Axial {
             columns_flexible: flexible,

@@ -12,6 +12,9 @@ const CONCRETE_STIFFNESS: f64 = 2e9;
 /// Restitution of colliding concrete \[–\].
 const CONCRETE_RESTITUTION: f64 = 0.65;
 
+/// Most gaps: one less than buildings.
+const MOST_GAPS: usize = 999;
+
 /// Most contacts of a gap.
 const MOST_CONTACTS: usize = 10_000;
 
@@ -27,6 +30,14 @@ pub(super) fn read_all(
             Some("write [[gap]] with double brackets; in JSON \"gap\": [{ … }]".into());
         return Vec::new();
     };
+    if entries.len() > MOST_GAPS {
+        let count = entries.len();
+        reader.bad(
+            field,
+            format!("at most {MOST_GAPS} gaps are possible, found {count}"),
+        );
+        return Vec::new();
+    }
     entries
         .iter()
         .filter_map(|entry| read(reader, entry, buildings))
