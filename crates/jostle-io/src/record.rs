@@ -101,7 +101,7 @@ pub enum RecordError {
     },
     /// A record format that is not read yet.
     #[error(
-        ": this looks like a {format} record, which is not read; export it as PEER AT2, CSV or columns of text"
+        ": this looks like a record in {format} format, which is not read; export it as PEER AT2, CSV or columns of text"
     )]
     OtherFormat {
         /// Name of the format.

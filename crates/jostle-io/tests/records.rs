@@ -212,6 +212,6 @@ fn impossible_values_are_refused() {
 fn other_record_formats_are_named_not_misread() {
     assert_refused(
         "Origin Time       2018/01/24 19:51:00\nLat.              41.0\n",
-        ": this looks like a K-NET or KiK-net record, which is not read; export it as PEER AT2, CSV or columns of text",
+        ": this looks like a record in K-NET or KiK-net format, which is not read; export it as PEER AT2, CSV or columns of text",
     );
 }

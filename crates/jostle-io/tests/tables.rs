@@ -103,6 +103,7 @@ fn summary() -> Summary {
         ended_early: None,
         warnings: Vec::new(),
         notes: Vec::new(),
+        notes: Vec::new(),
     }
 }
 
