@@ -103,7 +103,6 @@ fn summary() -> Summary {
         ended_early: None,
         warnings: Vec::new(),
         notes: Vec::new(),
-        notes: Vec::new(),
     }
 }
 
