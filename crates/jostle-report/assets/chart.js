@@ -71,16 +71,15 @@ class TimeChart {
     Object.assign(this, { view, unit, series, levels, zone, height, seek, title });
     this.figure = html("figure", "chart", undefined, host);
     const caption = html("figcaption", "", undefined, this.figure);
-    html("span", "chart-title", title, caption);
-    html("span", "unit", ` [${unit}]`, caption);
+    html("span", "unit", ` [${unit}]`, html("span", "chart-title", title, caption));
     this.readouts = this.makeLegend(caption);
     this.svg = svg("svg", { role: "img", "aria-label": `${title} over time`, tabindex: 0 }, this.figure);
     this.clip = `clip-${TimeChart.count++}`;
     this.layers = {};
     const definitions = svg("clipPath", { id: this.clip }, svg("defs", {}, this.svg));
     this.clipBox = svg("rect", {}, definitions);
-    for (const name of ["zone", "grid", "lines", "marks"]) {
-      const inside = name === "grid" ? {} : { "clip-path": `url(#${this.clip})` };
+    for (const name of ["zone", "grid", "lines", "levels", "marks"]) {
+      const inside = name === "grid" || name === "levels" ? {} : { "clip-path": `url(#${this.clip})` };
       this.layers[name] = svg("g", { class: name, ...inside }, this.svg);
     }
     this.paths = this.series.map((s) =>
@@ -182,8 +181,9 @@ class TimeChart {
   }
 
   drawGrid() {
-    const { grid, zone } = this.layers;
+    const { grid, zone, levels } = this.layers;
     grid.replaceChildren();
+    levels.replaceChildren();
     zone.replaceChildren();
     const bottom = this.height - margin.bottom;
     const right = this.width - margin.right;
@@ -206,8 +206,8 @@ class TimeChart {
     }
     for (const { value, label } of this.levels) {
       const y = this.y(value);
-      svg("line", { x1: margin.left, x2: right, y1: y, y2: y, class: "level" }, grid);
-      svg("text", { x: right - 5, y: y - 5, "text-anchor": "end", class: "level-name" }, grid).textContent = label;
+      svg("line", { x1: margin.left, x2: right, y1: y, y2: y, class: "level" }, levels);
+      svg("text", { x: right - 5, y: y - 5, "text-anchor": "end", class: "level-name" }, levels).textContent = label;
     }
     if (this.zone !== undefined) {
       const y = Math.max(margin.top, this.y(this.zone));

@@ -43,6 +43,7 @@ class Scene {
       };
     });
     this.flashes = contacts.map(() => svg("circle", { class: "flash" }, this.svg));
+    this.instant = svg("text", { class: "instant", x: 12, y: 24 }, this.svg);
     this.arrow = svg("path", { class: "ground-arrow" }, this.svg);
   }
 
@@ -124,6 +125,7 @@ class Scene {
   draw(t) {
     this.time = t;
     if (!this.scale) return;
+    this.instant.textContent = `t = ${fixed(t, 3)} s`;
     const sways = page.buildings.map((_, i) => this.places(this.run[i], run, t));
     page.buildings.forEach((building, i) => this.drawBuilding(building, i, sways[i], t));
     this.drawFlashes(sways, t);

@@ -79,9 +79,12 @@ fn building(index: usize, building: &Building, summary: Option<&BuildingSummary>
             @if let Some(summary) = summary {
                 @if !summary.periods_s.is_empty() {
                     table.periods {
-                        caption { "Lateral modes" }
-                        thead { tr { th scope="row" { "mode" } @for mode in 1..=summary.periods_s.len().min(PERIODS) { th.number { (mode) } } } }
-                        tbody { tr { th scope="row" { "T [s]" } @for period in summary.periods_s.iter().take(PERIODS) { td.number { (format::plain(*period, 4)) } } } }
+                        thead { tr { th scope="col" { "lateral mode" } th.number scope="col" { "period [s]" } } }
+                        tbody {
+                            @for (i, period) in summary.periods_s.iter().take(PERIODS).enumerate() {
+                                tr { td { (i + 1) } td.number { (format::fixed(*period, 4)) } }
+                            }
+                        }
                     }
                 }
             }
@@ -354,10 +357,7 @@ fn energy(page: &Page) -> Facts {
     facts.extend([
         ("contact", format::energy(energy.contact_j)),
         ("imbalance", format::plain(energy.imbalance, 2)),
-        (
-            "worst imbalance",
-            format::plain(energy.worst_imbalance, 2),
-        ),
+        ("worst imbalance", format::plain(energy.worst_imbalance, 2)),
     ]);
     facts
 }

@@ -150,7 +150,9 @@ pub(crate) fn tonnes(kilogram: f64) -> String {
 
 /// A flexural rigidity \[N·m²\].
 pub(crate) fn rigidity(value: f64) -> String {
-    prefixed_plain(value, &[
+    prefixed_plain(
+        value,
+        &[
             (1.0, "N·m²"),
             (1e3, "kN·m²"),
             (1e6, "MN·m²"),

@@ -106,7 +106,7 @@ fn warnings(page: &Page) -> Markup {
     let summary = page.summary;
     html! {
         @if summary.ended_early.is_some() || !summary.warnings.is_empty() {
-            aside.warnings role="alert" {
+            aside.warnings.failed[summary.ended_early.is_some()] role="alert" {
                 @if let Some(why) = &summary.ended_early {
                     p { b { "The run ended early: " } (why) }
                 }

@@ -217,11 +217,7 @@ fn widths(
     }
     for intensity in 6..=9 {
         let width = lower_height(page, left).and_then(|h| gb50011_frame_joint(h, intensity));
-        add(
-            &format!("code, intensity {intensity}"),
-            width,
-            "of-code",
-        );
+        add(&format!("code, intensity {intensity}"), width, "of-code");
     }
     widths
 }

@@ -161,25 +161,26 @@ impl Opened {
         std::thread::sleep(Duration::from_millis(300));
         let png = self
             .tab
-            .capture_screenshot(
-                Page::CaptureScreenshotFormatOption::Png,
-                None,
-                None,
-                true,
-            )
+            .capture_screenshot(Page::CaptureScreenshotFormatOption::Png, None, None, true)
             .unwrap();
         std::fs::write(format!("{}/{name}.png", env!("CARGO_TARGET_TMPDIR")), png).unwrap();
     }
 
     fn assert_content(&self) {
         let complaints = self.complaints.lock().unwrap();
-        assert!(complaints.is_empty(), "the page complained: {complaints:#?}");
+        assert!(
+            complaints.is_empty(),
+            "the page complained: {complaints:#?}"
+        );
     }
 
     fn assert_fits(&self, window: f64) {
         // A phone widens its window to the content, so the window cannot be asked.
         let content = self.number("document.documentElement.scrollWidth");
-        assert!(content <= window, "{content} px wide in a window of {window} px");
+        assert!(
+            content <= window,
+            "{content} px wide in a window of {window} px"
+        );
     }
 }
 
@@ -198,7 +199,10 @@ fn playing_moves_time_and_buildings() {
     std::thread::sleep(Duration::from_millis(700));
     page.value("document.getElementById('play').click()");
     let (later, after) = (page.clock(), page.text(shape));
-    assert!(later > clock + 0.1, "played from {clock} s to {later} s only");
+    assert!(
+        later > clock + 0.1,
+        "played from {clock} s to {later} s only"
+    );
     assert_ne!(before, after, "the building stood still");
     std::thread::sleep(Duration::from_millis(150));
     assert_eq!(page.clock(), later, "paused, but time went on");
@@ -211,10 +215,17 @@ fn scrubbing_and_jumping_find_their_instants() {
         return;
     };
     page.value("{ const s = document.getElementById('scrub'); s.value = 3; s.dispatchEvent(new Event('input')); }");
-    assert!((page.clock() - 3.0).abs() < 0.01, "scrubbed to {}", page.clock());
+    assert!(
+        (page.clock() - 3.0).abs() < 0.01,
+        "scrubbed to {}",
+        page.clock()
+    );
     page.value("document.getElementById('next').click()");
     let first = page.clock();
-    assert!(first > 6.0 && first < 6.4, "the first impact is near 6.2 s, not at {first} s");
+    assert!(
+        first > 6.0 && first < 6.4,
+        "the first impact is near 6.2 s, not at {first} s"
+    );
     let force = page.text("document.getElementById('force-now').textContent");
     assert!(force.ends_with("kN"), "no force at the impact: {force:?}");
     page.value("document.getElementById('next').click()");
@@ -244,8 +255,12 @@ fn charts_zoom_together_and_come_back() {
     page.value("document.getElementById('zoom-impact').click()");
     std::thread::sleep(Duration::from_millis(200));
     page.picture("impact");
-    let bends = page.text("document.querySelectorAll('.chart')[1].querySelector('.line').getAttribute('d')");
-    assert!(bends.matches('L').count() > 40, "an impact should show its shape: {bends}");
+    let bends = page
+        .text("document.querySelectorAll('.chart')[1].querySelector('.line').getAttribute('d')");
+    assert!(
+        bends.matches('L').count() > 40,
+        "an impact should show its shape: {bends}"
+    );
     page.value("document.querySelector('.chart svg').dispatchEvent(new MouseEvent('dblclick'))");
     std::thread::sleep(Duration::from_millis(200));
     assert_eq!(page.text(TIME_LABELS), whole, "double-click did not reset");
@@ -291,7 +306,11 @@ fn impacts_sort_and_unfold() {
     assert_eq!(page.number(shown), 30.0);
     page.value("document.querySelectorAll('#impact-table th button')[3].click()");
     let forces = "[...document.querySelectorAll('#impact-table tbody tr')].map(r => parseFloat(r.cells[3].textContent)).every((f, i, all) => i === 0 || f <= all[i - 1])";
-    assert_eq!(page.value(forces), true, "not sorted by force, greatest first");
+    assert_eq!(
+        page.value(forces),
+        true,
+        "not sorted by force, greatest first"
+    );
     page.value("document.getElementById('all-impacts').click()");
     assert!(page.number(shown) > 30.0, "the rest stayed folded");
     page.picture("row-of-three");

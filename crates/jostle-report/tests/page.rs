@@ -24,7 +24,11 @@ fn page_of_the_example_stays_below_one_megabyte() {
         println!(
             "{name}: {} rows, {} impacts, {} bytes, {:.1} ms",
             run.history.len(),
-            run.summary.gaps.iter().map(|g| g.impact_count).sum::<usize>(),
+            run.summary
+                .gaps
+                .iter()
+                .map(|g| g.impact_count)
+                .sum::<usize>(),
             text.len(),
             started.elapsed().as_secs_f64() * 1e3
         );
@@ -38,10 +42,22 @@ fn page_loads_nothing_from_outside() {
         let text = render(&run.page()).to_lowercase();
         let namespace = "http://www.w3.org/2000/svg";
         let text = text.replace(namespace, "");
-        for outside in ["http://", "https://", "url(http", "@import", "src=", "fetch(", "href=\"//"] {
+        for outside in [
+            "http://",
+            "https://",
+            "url(http",
+            "@import",
+            "src=",
+            "fetch(",
+            "href=\"//",
+        ] {
             assert!(!text.contains(outside), "{name} contains {outside}");
         }
-        assert_eq!(text.matches("href=").count(), 1, "only the empty icon has an address");
+        assert_eq!(
+            text.matches("href=").count(),
+            1,
+            "only the empty icon has an address"
+        );
     }
 }
 
@@ -49,9 +65,16 @@ fn page_loads_nothing_from_outside() {
 fn names_with_markup_are_escaped() {
     let text = render(&row_of_three().page());
     assert!(!text.contains("North <b>"), "a name became markup");
-    assert!(text.contains("North &lt;b&gt;&amp;"), "the name is not shown");
+    assert!(
+        text.contains("North &lt;b&gt;&amp;"),
+        "the name is not shown"
+    );
     assert!(!text.contains("\"</script>"), "a name ended a script");
-    assert_eq!(text.matches("</script>").count(), 2, "one for the data, one for the code");
+    assert_eq!(
+        text.matches("</script>").count(),
+        2,
+        "one for the data, one for the code"
+    );
 }
 
 #[test]
@@ -78,18 +101,28 @@ fn missing_numbers_are_dashes() {
     }
     let text = render(&run.page());
     let shown = text.split("<script").next().unwrap();
-    assert!(!shown.contains("NaN") && !shown.contains("inf<"), "not a number is shown");
+    assert!(
+        !shown.contains("NaN") && !shown.contains("inf<"),
+        "not a number is shown"
+    );
 }
 
 #[test]
 fn verdict_says_what_happened() {
     let verdict = |run: &Run| {
         let text = render(&run.page());
-        let from = text.split("<p class=\"verdict\">").nth(1).unwrap().to_owned();
+        let from = text
+            .split("<p class=\"verdict\">")
+            .nth(1)
+            .unwrap()
+            .to_owned();
         from.split("</p>").next().unwrap().replace('\u{a0}', " ")
     };
     let quiet = verdict(&two_frames(0.4));
-    assert!(quiet.starts_with("No contact: J1 and J2 come no closer than"), "{quiet}");
+    assert!(
+        quiet.starts_with("No contact: J1 and J2 come no closer than"),
+        "{quiet}"
+    );
     let mut run = two_frames(0.1);
     let contact = run.summary.gaps[0].contacts.last_mut().unwrap();
     contact.impacts.truncate(1);
@@ -103,7 +136,11 @@ fn verdict_says_what_happened() {
         verdict(&run),
         "J1 and J2 hit once: floor 5, at 6.148 s, with 1283 kN."
     );
-    assert!(verdict(&alone()).starts_with("Solo sways up to"), "{}", verdict(&alone()));
+    assert!(
+        verdict(&alone()).starts_with("Solo sways up to"),
+        "{}",
+        verdict(&alone())
+    );
 }
 
 #[test]
@@ -112,7 +149,10 @@ fn warnings_come_first() {
     run.summary.ended_early = Some("the step at t = 3.2 s did not converge".into());
     let text = render(&run.page());
     let warning = text.find("did not converge").unwrap();
-    assert!(warning < text.find("<h1>").unwrap(), "the warning hides below the title");
+    assert!(
+        warning < text.find("<h1>").unwrap(),
+        "the warning hides below the title"
+    );
 }
 
 #[test]
@@ -131,7 +171,10 @@ fn thousands_of_impacts_fit() {
     run.summary.gaps[0].impact_count = 5000;
     let text = render(&run.page());
     assert!(text.len() < 1_300_000, "{} bytes", text.len());
-    assert!(text.contains("Show all 1000 impacts"), "long tables are folded");
+    assert!(
+        text.contains("Show all 1000 impacts"),
+        "long tables are folded"
+    );
 }
 
 #[test]
@@ -140,7 +183,11 @@ fn a_run_without_histories_still_reports() {
     run.history = jostle::History::new(Vec::new());
     run.without_contact = None;
     let text = render(&run.page());
-    assert!(text.contains("No time histories were recorded") && !text.contains("<script"), "{}", text.len());
+    assert!(
+        text.contains("No time histories were recorded") && !text.contains("<script"),
+        "{}",
+        text.len()
+    );
 }
 
 /// Writes the pages into a folder, to be looked at.
