@@ -43,7 +43,7 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         let kind = match &model.buildings[index].structure {
             Structure::Frame(frame) => format!(
                 "frame, {}, {}",
-                counted(frame.storey_heights.len(), "storey").replace("storeys", "storeys"),
+                counted(frame.storey_heights.len(), "storey"),
                 counted(frame.spans.len(), "span")
             ),
             Structure::Shear(shear) => {

@@ -90,7 +90,7 @@ impl History {
     #[must_use]
     pub fn from_rows(columns: Vec<Column>, values: Vec<f64>) -> Self {
         assert!(
-            values.len() % columns.len().max(1) == 0,
+            values.len().is_multiple_of(columns.len().max(1)),
             "every row has one value per column"
         );
         Self { columns, values }

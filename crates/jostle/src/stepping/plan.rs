@@ -138,7 +138,7 @@ fn check_step(step: f64, system: &System, motion: &GroundMotion, faults: &mut Ve
         faults.push(ModelFault {
             path: "analysis.step".into(),
             problem,
-        })
+        });
     };
     for building in &system.buildings {
         if let Some(period) =

@@ -177,9 +177,9 @@ fn node_order(skeleton: &Skeleton) -> Vec<usize> {
             .filter(|&node| stage(node) == inside)
             .collect();
         if inside == 0 {
-            interior.sort_by(by_height)
+            interior.sort_by(by_height);
         } else {
-            interior.sort_by(along_column)
+            interior.sort_by(along_column);
         }
         let mut link = 0;
         let mut links: Vec<(usize, usize)> = Vec::new();

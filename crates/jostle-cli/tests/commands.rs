@@ -1,0 +1,263 @@
+//! What the commands print and write.
+
+mod common;
+
+use std::path::Path;
+
+use common::{command, complained, folder, jostle, printed};
+use serde_json::Value;
+
+fn summary_of(folder: &Path) -> Value {
+    let text = std::fs::read_to_string(folder.join("summary.json")).expect("summary.json is there");
+    serde_json::from_str(&text).expect("summary.json is JSON")
+}
+
+#[test]
+fn run_without_a_model_runs_the_example_and_writes_everything() {
+    let folder = folder();
+    let output = jostle(folder.path(), &["run"]);
+    assert!(output.status.success(), "{}", complained(&output));
+    let text = printed(&output);
+    for part in [
+        "J1",
+        "J2",
+        "1 impact",
+        "GB 50011",
+        "jostle-out/paper/report.html",
+    ] {
+        assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");
+    }
+    assert!(
+        text.lines().count() <= 24,
+        "the summary should fit one screen:\n{text}"
+    );
+    assert!(!text.contains('\u{1b}'), "no colours in a pipe");
+    assert_eq!(complained(&output), "", "no progress bar in a pipe");
+    let results = folder.path().join("jostle-out/paper");
+    for file in [
+        "summary.json",
+        "history.parquet",
+        "impacts.parquet",
+        "report.html",
+    ] {
+        let size = std::fs::metadata(results.join(file)).expect(file).len();
+        assert!(size > 100, "{file} has {size} bytes");
+    }
+    let size = std::fs::metadata(results.join("report.html"))
+        .expect("report")
+        .len();
+    assert!(size < 1_000_000, "the report has {size} bytes");
+}
+
+#[test]
+fn summary_has_the_shape_of_the_contract() {
+    let folder = folder();
+    let output = jostle(
+        folder.path(),
+        &["run", "--json", "--pga", "70 cm/s2", "--gap", "10 mm"],
+    );
+    assert!(output.status.success(), "{}", complained(&output));
+    let summary: Value = serde_json::from_str(&printed(&output)).expect("nothing but JSON");
+    assert!(
+        !folder.path().join("jostle-out").exists(),
+        "--json alone writes no files"
+    );
+    let pointers = [
+        "/title",
+        "/jostle",
+        "/motion/name",
+        "/motion/points",
+        "/motion/step_s",
+        "/motion/pga_m_s2",
+        "/motion/scale",
+        "/buildings/0/name",
+        "/buildings/0/mass_kg",
+        "/buildings/0/periods_s/0",
+        "/buildings/0/base_shear_peak_n",
+        "/buildings/0/residual_roof_displacement_m",
+        "/buildings/0/hinges/cracked",
+        "/buildings/0/hinges/yielded",
+        "/buildings/0/floors/4/floor",
+        "/buildings/0/floors/4/height_m",
+        "/buildings/0/floors/4/displacement_max_m",
+        "/buildings/0/floors/4/displacement_max_at_s",
+        "/buildings/0/floors/4/displacement_min_m",
+        "/buildings/0/floors/4/displacement_min_at_s",
+        "/buildings/0/floors/4/total_acceleration_peak_m_s2",
+        "/buildings/0/floors/4/storey_drift_peak",
+        "/gaps/0/between/1",
+        "/gaps/0/width_m",
+        "/gaps/0/impact_count",
+        "/gaps/0/peak_force_n",
+        "/gaps/0/first_impact_s",
+        "/gaps/0/contacts/4/floors/0",
+        "/gaps/0/contacts/4/height_m",
+        "/gaps/0/contacts/4/closing_peak_m",
+        "/gaps/0/contacts/4/closing_peak_at_s",
+        "/gaps/0/contacts/4/impact_count",
+        "/gaps/0/contacts/4/peak_force_n",
+        "/gaps/0/contacts/4/peak_force_at_s",
+        "/gaps/0/contacts/4/impulse_n_s",
+        "/gaps/0/contacts/4/impacts/0/start_s",
+        "/gaps/0/contacts/4/impacts/0/end_s",
+        "/gaps/0/contacts/4/impacts/0/peak_force_n",
+        "/gaps/0/contacts/4/impacts/0/impact_speed_m_s",
+        "/gaps/0/contacts/4/impacts/0/separation_speed_m_s",
+        "/gaps/0/contacts/4/impacts/0/impulse_n_s",
+        "/energy/input_j",
+        "/energy/kinetic_j",
+        "/energy/strain_j",
+        "/energy/damped_j",
+        "/energy/hysteretic_j",
+        "/energy/contact_j",
+        "/energy/imbalance",
+        "/work/steps",
+        "/work/contact_steps",
+        "/work/factorizations",
+        "/work/solves",
+        "/work/iterations",
+        "/work/wall_s",
+    ];
+    for pointer in pointers {
+        assert!(
+            summary
+                .pointer(pointer)
+                .is_some_and(|value| !value.is_null()),
+            "{pointer} is missing"
+        );
+    }
+    // OpenSees on the same model: 2, 8 and 11 impacts on floors 3, 4 and 5.
+    let counts: Vec<_> = (0..5)
+        .map(|i| summary["gaps"][0]["contacts"][i]["impact_count"].as_u64())
+        .collect();
+    assert_eq!(counts, [0, 0, 2, 8, 11].map(Some));
+}
+
+#[test]
+fn same_input_gives_the_same_files() {
+    let folders = [folder(), folder()];
+    for folder in &folders {
+        let output = jostle(folder.path(), &["run", "--out", "r", "--no-report"]);
+        assert!(output.status.success(), "{}", complained(&output));
+        assert!(
+            !folder.path().join("r/report.html").exists(),
+            "--no-report writes no report"
+        );
+    }
+    for file in ["history.parquet", "impacts.parquet"] {
+        let [a, b] = folders
+            .each_ref()
+            .map(|folder| std::fs::read(folder.path().join("r").join(file)).expect(file));
+        assert!(a == b, "{file} should be the same, byte for byte");
+    }
+    let [mut a, mut b] = folders
+        .each_ref()
+        .map(|folder| summary_of(&folder.path().join("r")));
+    a["work"]["wall_s"] = Value::Null;
+    b["work"]["wall_s"] = Value::Null;
+    assert_eq!(a, b);
+}
+
+#[test]
+fn every_template_checks_and_runs() {
+    for template in jostle_io::TEMPLATE_NAMES {
+        let folder = folder();
+        let output = jostle(folder.path(), &["new", "mine", "--template", template]);
+        assert!(output.status.success(), "{}", complained(&output));
+        for arguments in [
+            vec!["check", "mine.toml"],
+            vec!["run", "mine.toml", "--no-report"],
+            vec!["modes", "mine.toml"],
+        ] {
+            let output = jostle(folder.path(), &arguments);
+            assert!(
+                output.status.success(),
+                "{arguments:?} of {template}: {}",
+                complained(&output)
+            );
+        }
+        let again = jostle(folder.path(), &["new", "mine"]);
+        assert_eq!(
+            again.status.code(),
+            Some(2),
+            "an existing file is not overwritten"
+        );
+        assert!(
+            complained(&again).contains("mine.toml exists already"),
+            "{}",
+            complained(&again)
+        );
+    }
+}
+
+#[test]
+fn modes_as_json_list_lateral_periods_and_all_modes() {
+    let folder = folder();
+    let output = jostle(folder.path(), &["modes", "--json", "--count", "8"]);
+    let modes: Value = serde_json::from_str(&printed(&output)).expect("nothing but JSON");
+    let building = &modes["buildings"][0];
+    assert_eq!(building["name"], "J1");
+    for (index, period) in [0.84054, 0.27110, 0.15542].into_iter().enumerate() {
+        let got = building["periods_s"][index].as_f64().expect("a period");
+        assert!(
+            (got / period - 1.0).abs() < 1e-4,
+            "lateral period {index}: {got} instead of {period}"
+        );
+    }
+    assert_eq!(building["modes"].as_array().map(Vec::len), Some(8));
+    assert!(
+        building["modes"][0]["effective_mass_ratio_x"]
+            .as_f64()
+            .is_some_and(|ratio| ratio > 0.8)
+    );
+    assert!(building["modes"][3]["effective_mass_ratio_y"].is_number());
+}
+
+#[test]
+fn schema_is_json() {
+    let output = jostle(folder().path(), &["schema"]);
+    let schema: Value = serde_json::from_str(&printed(&output)).expect("nothing but JSON");
+    assert!(schema["properties"]["building"].is_object(), "{schema}");
+}
+
+#[cfg(unix)]
+#[test]
+fn interrupt_keeps_what_was_computed() {
+    let folder = folder();
+    let paper = jostle_io::model_text("paper").expect("the example");
+    let slow = "[analysis]\nstep = \"5e-6 s\"\ncontact_step = \"5e-6 s\"\n\n[motion]";
+    let model = paper.replacen("[motion]", slow, 1);
+    assert!(model.contains(slow), "the example has a motion");
+    std::fs::write(folder.path().join("long.toml"), model).expect("a file");
+    let mut run = command(folder.path(), &["run", "long.toml", "--out", "r"]);
+    let child = run
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(
+        kill.is_ok_and(|status| status.success()),
+        "the signal is sent"
+    );
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(130), "{}", complained(&output));
+    let summary = summary_of(&folder.path().join("r"));
+    let reason = summary["ended_early"]
+        .as_str()
+        .expect("it says that it ended early")
+        .to_owned();
+    assert!(reason.starts_with("stopped at t = "), "{reason}");
+    assert!(
+        summary["work"]["steps"]
+            .as_u64()
+            .is_some_and(|steps| steps > 0)
+    );
+    assert!(
+        folder.path().join("r/history.parquet").exists()
+            && folder.path().join("r/report.html").exists()
+    );
+}
