@@ -210,11 +210,13 @@ fn episodes_of(force: &[f64]) -> Vec<Episode> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
 
     fn hump(before: usize, rows: usize, peak: f64) -> Vec<f64> {
         let mut force = vec![0.0; before];
-        force.extend((1..=rows).map(|i| peak * (i as f64 / (rows + 1) as f64 * 3.14).sin()));
+        force.extend((1..=rows).map(|i| peak * (i as f64 / (rows + 1) as f64 * PI).sin()));
         force.push(0.0);
         force
     }

@@ -2,6 +2,11 @@
 //!
 //! Needs a chromium on the machine; set `JOSTLE_SKIP_BROWSER` to do without.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test stops at the first surprise, helpers included"
+)]
+
 mod fixture;
 
 use std::path::PathBuf;
@@ -40,7 +45,6 @@ struct Opened {
 /// Opens the page of a run in a window of the given size; `None` when browser tests are switched off.
 fn open(run: &Run, width: u32, height: u32) -> Option<Opened> {
     if std::env::var_os("JOSTLE_SKIP_BROWSER").is_some() {
-        println!("skipped: JOSTLE_SKIP_BROWSER is set");
         return None;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -195,7 +199,7 @@ fn playing_moves_time_and_buildings() {
     };
     let shape = "document.querySelector('.building .columns').getAttribute('d')";
     let (clock, before) = (page.clock(), page.text(shape));
-    page.value("document.getElementById('play').click()");
+    page.value("document.body.dispatchEvent(new KeyboardEvent('keydown', {key: ' ', bubbles: true, cancelable: true}))");
     std::thread::sleep(Duration::from_millis(700));
     page.value("document.getElementById('play').click()");
     let (later, after) = (page.clock(), page.text(shape));

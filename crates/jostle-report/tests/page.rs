@@ -1,5 +1,10 @@
 //! What the page promises, read from its text.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test stops at the first surprise, helpers included"
+)]
+
 mod fixture;
 
 use std::time::Instant;
