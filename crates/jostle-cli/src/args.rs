@@ -9,7 +9,7 @@ use clap::{Parser, Subcommand};
 #[command(
     name = "jostle",
     version,
-    about,
+    about = "What happens when neighbouring buildings hit each other in an earthquake",
     after_help = "Quantities carry units: --pga 220cm/s2, --pga 0.35g, --gap 100mm.\n\
                   Exit codes: 0 done, 1 the analysis failed, 2 the input is wrong, 130 stopped by Ctrl-C."
 )]

@@ -1,0 +1,94 @@
+//! Examples of a textbook: A. K. Chopra, Dynamics of Structures.
+
+use jostle::stepping::Newmark;
+use jostle::system::BuildingSystem;
+use jostle::{Building, Damping, GroundMotion, Plan, Shear, Structure, System};
+use jostle::skeleton::Idealisation;
+use serde_json::Value;
+
+use crate::data::{document, number, numbers};
+use crate::row::Row;
+use crate::structures::{oscillator, run, uniform};
+
+/// All rows of this family.
+#[must_use]
+pub fn rows() -> Vec<Row> {
+    let mut rows = newmark_tables();
+    rows.extend(five_storeys());
+    rows
+}
+
+/// Examples 5.3 and 5.4, in kip, inches and seconds.
+fn newmark_tables() -> Vec<Row> {
+    const SOURCE: &str = "literature/C01_chopra_newmark_sdof";
+    let case = document(include_str!("../data/literature/C01_chopra_newmark_sdof.json"));
+    let input = |key: &str| number(&case, &format!("/inputs/{key}"));
+    let (m, k, step) = (input("m"), input("k"), input("dt"));
+    let mut building = oscillator("oscillator", m, k, 0.0);
+    building.equations.alpha = input("c") / m;
+    let system = System::of_buildings(vec![building]);
+    // The load p = 10 sin(πt/0.6) until 0.6 s enters as −m a_g.
+    let load = |t: f64| if t < 0.6 + 1e-9 { 10.0 * (std::f64::consts::PI * t / 0.6).sin() } else { 0.0 };
+    let mut rows = Vec::new();
+    for (name, beta) in [("average", 0.25), ("linear", 1.0 / 6.0)] {
+        let plan = Plan {
+            newmark: Newmark { beta, gamma: 0.5 },
+            ..uniform(step)
+        };
+        let published = numbers(&case, &format!("/published/{name}"));
+        let recomputed = numbers(&case, &format!("/expected/{name}"));
+        let got: Vec<f64> = (1..=published.len())
+            .map(|steps| {
+                let values = (0..=steps).map(|n| -load(n as f64 * step) / m).collect();
+                let motion = GroundMotion::sampled("load", step, values);
+                run(&system, &motion, &plan, None).state.displacement[0]
+            })
+            .collect();
+        for (k, published) in published.iter().enumerate() {
+            let quantity = format!("{name} acceleration, u at {:.1} s, as printed [in]", (k + 1) as f64 * step);
+            rows.push(Row::absolute(SOURCE, quantity, *published, got[k], 2e-4));
+        }
+        rows.push(Row::worst_of(SOURCE, format!("{name} acceleration, u, recomputed [in]"), &recomputed, &got, 1e-12));
+    }
+    rows
+}
+
+/// Section 12.8: uniform five-storey shear frame, in kip, inches and seconds.
+fn five_storeys() -> Vec<Row> {
+    const SOURCE: &str = "literature/C02_chopra_5storey_elcentro";
+    let case = document(include_str!("../data/literature/C02_chopra_5storey_elcentro.json"));
+    let building = shear_frame(&case);
+    let expected = |key: &str| numbers(&case, &format!("/expected/{key}"));
+    let modes = &building.modes;
+    let mut rows = Vec::new();
+    for (k, mode) in modes.iter().enumerate() {
+        let number = k + 1;
+        let published = numbers(&case, "/published/periods")[k];
+        rows.push(Row::relative(SOURCE, format!("T{number}, as printed [s]"), published, mode.period(), 3e-3));
+        rows.push(Row::relative(SOURCE, format!("T{number} [s]"), expected("periods")[k], mode.period(), 1e-4));
+        let ratio = mode.effective_mass_ratio_x;
+        rows.push(Row::relative(SOURCE, format!("effective mass of mode {number} [–]"), expected("eff_mass_ratio")[k], ratio, 1e-4));
+    }
+    let roof = modes[0].floors[4];
+    let shape: Vec<f64> = modes[0].floors.iter().map(|floor| floor / roof).collect();
+    rows.push(Row::worst_of(SOURCE, "shape of mode 1, roof = 1 [–]", &expected("phi1"), &shape, 1e-4));
+    rows
+}
+
+fn shear_frame(case: &Value) -> BuildingSystem {
+    let input = |key: &str| number(case, &format!("/inputs/{key}"));
+    let storeys = input("storeys") as usize;
+    let building = Building {
+        name: "frame".to_owned(),
+        structure: Structure::Shear(Shear {
+            mass: vec![input("weight_per_floor_kip") / input("g_in_s2"); storeys],
+            stiffness: vec![input("k_kip_in"); storeys],
+            storey_heights: vec![12.0 * input("h_ft"); storeys],
+        }),
+        damping: Damping::Rayleigh {
+            alpha: 0.0,
+            beta: 0.0,
+        },
+    };
+    BuildingSystem::new(&building.name, Idealisation::of(&building))
+}

@@ -1,0 +1,146 @@
+//! The page `docs/validation.md`.
+
+use std::fmt::Write;
+
+use crate::row::{Row, Tolerance};
+use crate::{Extent, Family, misses};
+
+const ILL_CONDITIONED: &str = "\
+## What to know before reading the tables
+
+- **Impacts are sensitive by nature.** A late impact follows from all earlier ones, and a graze may or may not happen.
+  Early impacts, peaks, impulses and energies are compared; counts are compared exactly where grazes play no part and
+  up to one impact where they do.
+- **Many frequencies of a frame lie close together**; single mode shapes are therefore not compared, frequencies are.
+- **Two closed forms are met by stepping**, so that their rows show the error of the step, not of the formula; the step
+  stands in the row.
+- **A row marked *known*** does not agree, for a reason that lies with the expected number; it is given below its
+  table.
+- **Not compared**: plastic hinges and contact laws that the program does not have; the tables of Zhang et al. (2019),
+  whose inputs are not available; structures measured in laboratories.
+";
+
+/// The whole page.
+#[must_use]
+pub fn page(families: &[Family], extent: Extent) -> String {
+    let rows = families.iter().map(|family| family.rows.len()).sum::<usize>();
+    let missed = misses(families).count();
+    let known = families.iter().flat_map(|family| &family.rows).filter(|row| row.known.is_some()).count();
+    let option = if extent == Extent::Full { " --full" } else { "" };
+    let mut page = format!(
+        "# Validation\n\n\
+         jostle {version} beside closed forms, independent programs and the literature: {rows} numbers, of which {} agree \
+         within their tolerance, {missed} miss and {known} differ for a known reason.\n\n\
+         This page is written by\n\n\
+         ```sh\ncargo run --release -p jostle-validation --{}\n```\n\n\
+         and checked by `cargo test -p jostle-validation`. The expected numbers and their provenance lie in \
+         `crates/jostle-validation/data`; each tolerance is the one stated there.\n\n{ILL_CONDITIONED}",
+        rows - missed - known,
+        if option.is_empty() { " " } else { option },
+        version = env!("CARGO_PKG_VERSION"),
+    )
+    .replace("jostle-validation -- \n", "jostle-validation\n");
+    page += "\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n";
+    for family in families {
+        let miss = family.rows.iter().filter(|row| row.misses()).count();
+        let known = family.rows.iter().filter(|row| row.known.is_some()).count();
+        put(&mut page, format_args!("| {} | {} | {miss} | {known} |\n", family.title, family.rows.len()));
+    }
+    for family in families {
+        put(&mut page, format_args!("\n## {}\n\n{}\n\n", family.title, family.about));
+        page += "| source | quantity | expected | got | error | tolerance | pass |\n|---|---|---:|---:|---:|---:|---|\n";
+        for row in &family.rows {
+            page += &line(row);
+        }
+        for row in family.rows.iter().filter(|row| row.known.is_some()) {
+            put(&mut page, format_args!("\n*{}*: {}.\n", row.quantity, row.known.unwrap_or_default()));
+        }
+    }
+    page
+}
+
+fn put(page: &mut String, text: std::fmt::Arguments<'_>) {
+    // Writing to a string cannot fail.
+    let _ = page.write_fmt(text);
+}
+
+fn line(row: &Row) -> String {
+    let verdict = match (row.passed(), row.known) {
+        (true, _) => "yes",
+        (false, Some(_)) => "known",
+        (false, None) => "**no**",
+    };
+    let unit = match row.tolerance {
+        Tolerance::Relative(_) => "",
+        Tolerance::Absolute(_) => " abs.",
+    };
+    format!(
+        "| {} | {} | {} | {} | {}{unit} | {}{unit} | {verdict} |\n",
+        row.source,
+        row.quantity,
+        readable(row.expected),
+        readable(row.got),
+        short(row.error),
+        short(row.tolerance.limit()),
+    )
+}
+
+/// Eight digits, plain where that is readable.
+fn readable(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if value.fract() == 0.0 && size < 1e7 {
+        return format!("{value:.0}");
+    }
+    if !(1e-3..1e7).contains(&size) {
+        return format!("{value:.7e}");
+    }
+    let before = size.log10().floor() as i32 + 1;
+    let text = format!("{value:.*}", (8 - before).max(1) as usize);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Two digits.
+fn short(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}").replace(".0e", "e") }
+}
+
+/// One missed row as a line of text.
+#[must_use]
+pub fn missed_line(family: &Family, row: &Row) -> String {
+    format!(
+        "{}: {}: {}: expected {}, got {}, error {} > {}",
+        family.title,
+        row.source,
+        row.quantity,
+        readable(row.expected),
+        readable(row.got),
+        short(row.error),
+        short(row.tolerance.limit()),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_readable() {
+        let cases = [
+            (0.0, "0"),
+            (23.0, "23"),
+            (-0.001_234_567_89, "-0.0012345679"),
+            (1_282_850.0, "1282850"),
+            (67_524_545.485, "6.7524545e7"),
+            (0.5, "0.5"),
+            (1.5e-7, "1.5000000e-7"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(readable(value), text);
+        }
+        assert_eq!(short(1e-3), "1e-3");
+        assert_eq!(short(3.14e-5), "3.1e-5");
+    }
+}

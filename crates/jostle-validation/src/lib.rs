@@ -1,0 +1,133 @@
+//! jostle against closed forms, other programs and the literature: one [`row::Row`] per number compared.
+//!
+//! Every module is one family of checks over the data stored in `data`, whose READMEs say where the numbers
+//! come from. The tolerances are those stated with the data; none is widened to let a check pass.
+
+pub mod chopra;
+pub mod closed_forms;
+pub mod collisions;
+pub mod document;
+pub mod frames;
+pub mod modes;
+pub mod oscillators;
+pub mod paper;
+pub mod pounding;
+pub mod row;
+pub mod shear_buildings;
+pub mod towers;
+
+mod data;
+mod files;
+mod structures;
+
+use row::Row;
+
+/// How much is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// What a test can wait for.
+    Reduced,
+    /// Small steps as well.
+    Full,
+}
+
+/// Checks of one kind.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// Heading.
+    pub title: &'static str,
+    /// What is compared with what.
+    pub about: &'static str,
+    /// The comparisons.
+    pub rows: Vec<Row>,
+}
+
+type Make = fn(Extent) -> Vec<Row>;
+
+/// Title, explanation and rows of every family.
+const FAMILIES: [(&str, &str, Make); 11] = [
+    (
+        "Closed forms",
+        "Statics, frequencies, damping coefficients and single Newmark steps against formulae and against an \
+         independent calculation in double precision.",
+        |_| closed_forms::rows(),
+    ),
+    (
+        "Frames",
+        "Seven frames given node by node: hinges, axially rigid and flexible members, shear deformation, P-Δ. \
+         Expected values come from an independent finite-element program. Steps start from x = v = a = 0 while the \
+         ground already moves.",
+        |_| frames::rows(),
+    ),
+    (
+        "Modes",
+        "Frequencies and masses, for two frames through model files.",
+        |_| modes::rows(),
+    ),
+    (
+        "Collisions",
+        "Two free masses under every contact law: formulae, and stepping with 200 and 2000 steps per impact. The \
+         faces start a fraction of a step apart, so that the touch lies between two steps.",
+        |_| collisions::rows(),
+    ),
+    (
+        "Oscillators",
+        "Motions known exactly: an oscillator against a rigid stop (a free body of 10³⁰ kg), and two oscillators with \
+         linear contact under a sine.",
+        |_| oscillators::rows(),
+    ),
+    (
+        "Textbook",
+        "A. K. Chopra, Dynamics of Structures: tables of Newmark's method, and the five-storey shear frame. Its \
+         earthquake response has 5 % damping in all modes, which Rayleigh damping cannot give; it is not compared.",
+        |_| chopra::rows(),
+    ),
+    (
+        "Two frames hitting each other",
+        "A five-storey and a ten-storey frame with 23 impacts in 3 s, against an independent program at a step of 20 µs.",
+        pounding::rows,
+    ),
+    (
+        "Two towers",
+        "A light, soft tower beside a heavy, stiff block under El Centro, through a model file, with four contact \
+         laws, against an event-driven integration at a relative tolerance of 10⁻¹². The stored Kelvin results are \
+         those of the law cut at F = 0.",
+        towers::rows,
+    ),
+    (
+        "Two shear buildings",
+        "Five beside ten storeys under El Centro at 220 cm/s², through a model file, against the same kind of \
+         integration.",
+        |_| shear_buildings::rows(),
+    ),
+    (
+        "The example after Zhang et al.",
+        "The built-in model: masses, periods, whether gaps close, and OpenSees on the same model (Newmark ¼, ½; 2 ms, \
+         near contact 0.2 ms; its numbers are given to three or more digits).",
+        |_| paper::rows(),
+    ),
+    (
+        "Automatic steps",
+        "The built-in model with steps chosen from a tolerance, against runs of the same program at a uniform step of \
+         10 µs. What the tolerance promises is the peak contact force and the peak displacement.",
+        |_| paper::step_rows(),
+    ),
+];
+
+/// All families, computed one after the other.
+#[must_use]
+pub fn families(extent: Extent) -> Vec<Family> {
+    let compute = |(title, about, make): (&'static str, &'static str, Make)| Family {
+        title,
+        about,
+        rows: make(extent),
+    };
+    FAMILIES.into_iter().map(compute).collect()
+}
+
+/// The rows that miss, with their families.
+pub fn misses(families: &[Family]) -> impl Iterator<Item = (&Family, &Row)> {
+    families
+        .iter()
+        .flat_map(|family| family.rows.iter().filter(|row| row.misses()).map(move |row| (family, row)))
+}

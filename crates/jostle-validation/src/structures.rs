@@ -1,0 +1,157 @@
+//! Buildings made without a model file: frames given node by node, oscillators, free bodies.
+
+use std::ops::ControlFlow;
+
+use jostle::contact::ForceLaw;
+use jostle::skeleton::{Hinge, Idealisation, Member, Node, Skeleton, Spring, Support};
+use jostle::stepping::{ContactSteps, Newmark, simulate_from};
+use jostle::system::{BuildingSystem, Contact};
+use jostle::{GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Solver, State, System};
+use serde_json::Value;
+
+use crate::data::{at, list, number};
+
+/// Height of the one mass of oscillators and bodies \[m\].
+const HEIGHT: f64 = 3.0;
+
+/// A frame given by nodes and elements.
+pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
+    let mut skeleton = Skeleton::default();
+    for node in list(frame, "/nodes") {
+        skeleton.nodes.push(Node {
+            x: number(node, "/x"),
+            y: number(node, "/y"),
+            mass: number(node, "/m"),
+            rotary_inertia: number(node, "/J"),
+            support: Support::Free,
+        });
+    }
+    for node in list(frame, "/fixed_nodes") {
+        skeleton.nodes[index(node)].support = Support::Fixed;
+    }
+    for element in list(frame, "/elements") {
+        let ends = [index(at(element, "/i")), index(at(element, "/j"))];
+        let or_rigid = |path| at(element, path).as_f64();
+        if at(element, "/type") == "beam" {
+            skeleton.members.push(Member {
+                ends,
+                flexural_rigidity: number(element, "/EI"),
+                axial_rigidity: or_rigid("/EA"),
+                shear_rigidity: or_rigid("/GAs"),
+                compression: number(element, "/P"),
+            });
+        } else {
+            skeleton.hinges.push(Hinge {
+                ends,
+                rotational_stiffness: number(element, "/Ktheta"),
+                translational_stiffness: [or_rigid("/Kx"), or_rigid("/Ky")],
+            });
+        }
+    }
+    let joints: Vec<Vec<usize>> = list(frame, "/floor_joint_nodes")
+        .iter()
+        .map(|floor| list(floor, "").iter().map(index).collect())
+        .collect();
+    let left_face: Vec<usize> = joints.iter().map(|floor| floor[0]).collect();
+    let right_face = joints.iter().map(|floor| floor[floor.len() - 1]).collect();
+    let idealisation = Idealisation {
+        skeleton,
+        floors: left_face.clone(),
+        left_face,
+        right_face,
+    };
+    BuildingSystem::new(name, idealisation)
+}
+
+fn index(value: &Value) -> usize {
+    value.as_u64().expect("a node number") as usize
+}
+
+/// One mass \[kg\], on a spring \[N/m\] unless it is free.
+fn single_mass(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem {
+    let node = |y, mass, support| Node {
+        x: 0.0,
+        y,
+        mass,
+        rotary_inertia: 0.0,
+        support,
+    };
+    let skeleton = Skeleton {
+        nodes: vec![node(0.0, 0.0, Support::Fixed), node(HEIGHT, mass, Support::Guided)],
+        springs: stiffness
+            .map(|stiffness| Spring {
+                ends: [0, 1],
+                stiffness,
+            })
+            .into_iter()
+            .collect(),
+        ..Skeleton::default()
+    };
+    let idealisation = Idealisation {
+        skeleton,
+        floors: vec![1],
+        left_face: vec![1],
+        right_face: vec![1],
+    };
+    BuildingSystem::new(name, idealisation)
+}
+
+/// A body \[kg\] that nothing holds.
+pub(crate) fn free_body(name: &str, mass: f64) -> BuildingSystem {
+    single_mass(name, mass, None)
+}
+
+/// A mass \[kg\] on a spring \[N/m\] with a damping ratio \[–\].
+pub(crate) fn oscillator(name: &str, mass: f64, stiffness: f64, ratio: f64) -> BuildingSystem {
+    let mut building = single_mass(name, mass, Some(stiffness));
+    building.equations.alpha = 2.0 * ratio * (stiffness / mass).sqrt();
+    building
+}
+
+/// Two buildings of one mass each and the contact between them.
+pub(crate) fn pair(left: BuildingSystem, right: BuildingSystem, gap: f64, law: impl Fn(f64, f64) -> ForceLaw) -> System {
+    let mut system = System::of_buildings(vec![left, right]);
+    let contact = system.contact_between((0, 1), (1, 1)).expect("both have mass");
+    system.contacts.push(Contact {
+        width: gap,
+        law: law(contact.masses[0], contact.masses[1]),
+        ..contact
+    });
+    system
+}
+
+/// A motion without acceleration \[s\].
+pub(crate) fn still(duration: f64) -> GroundMotion {
+    GroundMotion {
+        duration,
+        ..GroundMotion::sampled("still", duration, vec![0.0, 0.0])
+    }
+}
+
+/// A motion sampled from a formula.
+pub(crate) fn sampled(step: f64, steps: usize, acceleration: impl Fn(f64) -> f64) -> GroundMotion {
+    let values = (0..=steps).map(|k| acceleration(k as f64 * step)).collect();
+    GroundMotion::sampled("formula", step, values)
+}
+
+/// Steps that are the same in free flight and in contact.
+pub(crate) fn uniform(step: f64) -> Plan {
+    Plan {
+        step,
+        contact_steps: ContactSteps::Fixed(1),
+        newmark: Newmark::default(),
+        solver: Solver::Riccati,
+    }
+}
+
+/// Runs to the end of the motion, from rest with a = 0 unless another state is given.
+pub(crate) fn run(system: &System, motion: &GroundMotion, plan: &Plan, state: Option<State>) -> Outcome {
+    let settings = Settings {
+        pounding: Pounding::Included,
+        record_interval: None,
+    };
+    let state = state.unwrap_or_else(|| State::at_rest(system, 0.0));
+    let outcome = simulate_from(system, motion, plan, settings, state, |_| ControlFlow::Continue(()));
+    assert_eq!(outcome.end, RunEnd::Completed, "a validation run ends");
+    outcome
+}
