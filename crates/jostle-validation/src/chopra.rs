@@ -1,9 +1,9 @@
 //! Examples of a textbook: A. K. Chopra, Dynamics of Structures.
 
+use jostle::skeleton::Idealisation;
 use jostle::stepping::Newmark;
 use jostle::system::BuildingSystem;
 use jostle::{Building, Damping, GroundMotion, Plan, Shear, Structure, System};
-use jostle::skeleton::Idealisation;
 use serde_json::Value;
 
 use crate::data::{document, number, numbers};
@@ -21,14 +21,22 @@ pub fn rows() -> Vec<Row> {
 /// Examples 5.3 and 5.4, in kip, inches and seconds.
 fn newmark_tables() -> Vec<Row> {
     const SOURCE: &str = "literature/C01_chopra_newmark_sdof";
-    let case = document(include_str!("../data/literature/C01_chopra_newmark_sdof.json"));
+    let case = document(include_str!(
+        "../data/literature/C01_chopra_newmark_sdof.json"
+    ));
     let input = |key: &str| number(&case, &format!("/inputs/{key}"));
     let (m, k, step) = (input("m"), input("k"), input("dt"));
     let mut building = oscillator("oscillator", m, k, 0.0);
     building.equations.alpha = input("c") / m;
     let system = System::of_buildings(vec![building]);
     // The load p = 10 sin(πt/0.6) until 0.6 s enters as −m a_g.
-    let load = |t: f64| if t < 0.6 + 1e-9 { 10.0 * (std::f64::consts::PI * t / 0.6).sin() } else { 0.0 };
+    let load = |t: f64| {
+        if t < 0.6 + 1e-9 {
+            10.0 * (std::f64::consts::PI * t / 0.6).sin()
+        } else {
+            0.0
+        }
+    };
     let mut rows = Vec::new();
     for (name, beta) in [("average", 0.25), ("linear", 1.0 / 6.0)] {
         let plan = Plan {
@@ -45,10 +53,19 @@ fn newmark_tables() -> Vec<Row> {
             })
             .collect();
         for (k, published) in published.iter().enumerate() {
-            let quantity = format!("{name} acceleration, u at {:.1} s, as printed [in]", (k + 1) as f64 * step);
+            let quantity = format!(
+                "{name} acceleration, u at {:.1} s, as printed [in]",
+                (k + 1) as f64 * step
+            );
             rows.push(Row::absolute(SOURCE, quantity, *published, got[k], 2e-4));
         }
-        rows.push(Row::worst_of(SOURCE, format!("{name} acceleration, u, recomputed [in]"), &recomputed, &got, 1e-12));
+        rows.push(Row::worst_of(
+            SOURCE,
+            format!("{name} acceleration, u, recomputed [in]"),
+            &recomputed,
+            &got,
+            1e-12,
+        ));
     }
     rows
 }
@@ -56,7 +73,9 @@ fn newmark_tables() -> Vec<Row> {
 /// Section 12.8: uniform five-storey shear frame, in kip, inches and seconds.
 fn five_storeys() -> Vec<Row> {
     const SOURCE: &str = "literature/C02_chopra_5storey_elcentro";
-    let case = document(include_str!("../data/literature/C02_chopra_5storey_elcentro.json"));
+    let case = document(include_str!(
+        "../data/literature/C02_chopra_5storey_elcentro.json"
+    ));
     let building = shear_frame(&case);
     let expected = |key: &str| numbers(&case, &format!("/expected/{key}"));
     let modes = &building.modes;
@@ -64,14 +83,38 @@ fn five_storeys() -> Vec<Row> {
     for (k, mode) in modes.iter().enumerate() {
         let number = k + 1;
         let published = numbers(&case, "/published/periods")[k];
-        rows.push(Row::relative(SOURCE, format!("T{number}, as printed [s]"), published, mode.period(), 3e-3));
-        rows.push(Row::relative(SOURCE, format!("T{number} [s]"), expected("periods")[k], mode.period(), 1e-4));
+        rows.push(Row::relative(
+            SOURCE,
+            format!("T{number}, as printed [s]"),
+            published,
+            mode.period(),
+            3e-3,
+        ));
+        rows.push(Row::relative(
+            SOURCE,
+            format!("T{number} [s]"),
+            expected("periods")[k],
+            mode.period(),
+            1e-4,
+        ));
         let ratio = mode.effective_mass_ratio_x;
-        rows.push(Row::relative(SOURCE, format!("effective mass of mode {number} [–]"), expected("eff_mass_ratio")[k], ratio, 1e-4));
+        rows.push(Row::relative(
+            SOURCE,
+            format!("effective mass of mode {number} [–]"),
+            expected("eff_mass_ratio")[k],
+            ratio,
+            1e-4,
+        ));
     }
     let roof = modes[0].floors[4];
     let shape: Vec<f64> = modes[0].floors.iter().map(|floor| floor / roof).collect();
-    rows.push(Row::worst_of(SOURCE, "shape of mode 1, roof = 1 [–]", &expected("phi1"), &shape, 1e-4));
+    rows.push(Row::worst_of(
+        SOURCE,
+        "shape of mode 1, roof = 1 [–]",
+        &expected("phi1"),
+        &shape,
+        1e-4,
+    ));
     rows
 }
 

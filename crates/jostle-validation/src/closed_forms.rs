@@ -34,7 +34,9 @@ pub fn rows() -> Vec<Row> {
 pub(crate) fn static_answer(building: &BuildingSystem, mut load: Vec<f64>) -> Vec<f64> {
     let sweep = RiccatiSweep::of(building);
     let mut factor = RiccatiFactor::default();
-    sweep.factorize(1.0, 0.0, &mut factor).expect("the structure is supported");
+    sweep
+        .factorize(1.0, 0.0, &mut factor)
+        .expect("the structure is supported");
     sweep.solve(&factor, &mut load);
     load
 }
@@ -59,7 +61,13 @@ fn member(from: usize, to: usize, flexural_rigidity: f64) -> Member {
     }
 }
 
-fn building(name: &str, nodes: Vec<Node>, members: Vec<Member>, springs: Vec<Spring>, floors: Vec<usize>) -> BuildingSystem {
+fn building(
+    name: &str,
+    nodes: Vec<Node>,
+    members: Vec<Member>,
+    springs: Vec<Spring>,
+    floors: Vec<usize>,
+) -> BuildingSystem {
     let skeleton = Skeleton {
         nodes,
         members,
@@ -77,8 +85,17 @@ fn building(name: &str, nodes: Vec<Node>, members: Vec<Member>, springs: Vec<Spr
 
 fn cantilever(basic: &Value) -> Vec<Row> {
     let value = |key: &str| number(basic, &format!("/cantilever/{key}"));
-    let nodes = vec![node(0.0, 0.0, Support::Fixed), node(0.0, value("L"), Support::Free)];
-    let mast = building("mast", nodes, vec![member(0, 1, value("EI"))], Vec::new(), vec![1]);
+    let nodes = vec![
+        node(0.0, 0.0, Support::Fixed),
+        node(0.0, value("L"), Support::Free),
+    ];
+    let mast = building(
+        "mast",
+        nodes,
+        vec![member(0, 1, value("EI"))],
+        Vec::new(),
+        vec![1],
+    );
     let (x, theta) = (
         mast.equations.horizontal(1).expect("the tip moves"),
         mast.equations.rotation(1).expect("the tip turns"),
@@ -87,8 +104,20 @@ fn cantilever(basic: &Value) -> Vec<Row> {
     load[x] = value("F");
     let answer = static_answer(&mast, load);
     vec![
-        Row::relative(SOURCE, "cantilever, x of the tip [m]", value("tip_x"), answer[x], 1e-12),
-        Row::relative(SOURCE, "cantilever, θ of the tip [rad]", value("tip_theta"), answer[theta], 1e-12),
+        Row::relative(
+            SOURCE,
+            "cantilever, x of the tip [m]",
+            value("tip_x"),
+            answer[x],
+            1e-12,
+        ),
+        Row::relative(
+            SOURCE,
+            "cantilever, θ of the tip [rad]",
+            value("tip_theta"),
+            answer[theta],
+            1e-12,
+        ),
         Row::relative(
             SOURCE,
             "cantilever, base shear [N]",
@@ -111,7 +140,11 @@ fn portal(basic: &Value) -> Vec<Row> {
     for joint in &mut nodes[2..] {
         joint.mass = 0.5 * value("mass");
     }
-    let members = vec![member(0, 2, value("EIc")), member(1, 3, value("EIc")), member(2, 3, value("EIb"))];
+    let members = vec![
+        member(0, 2, value("EIc")),
+        member(1, 3, value("EIc")),
+        member(2, 3, value("EIb")),
+    ];
     let portal = building("portal", nodes, members, Vec::new(), vec![2]);
     let x = portal.equations.horizontal(2).expect("the beam moves");
     let mut load = vec![0.0; portal.equations.len()];
@@ -119,15 +152,32 @@ fn portal(basic: &Value) -> Vec<Row> {
     let stiffness = 1.0 / static_answer(&portal, load)[x];
     let frequency = portal.modes[0].circular_frequency;
     vec![
-        Row::relative(SOURCE, "portal, lateral stiffness [N/m]", value("lateral_stiffness"), stiffness, 1e-12),
-        Row::relative(SOURCE, "portal, ω₁ [rad/s]", value("omega"), frequency, 1e-12),
+        Row::relative(
+            SOURCE,
+            "portal, lateral stiffness [N/m]",
+            value("lateral_stiffness"),
+            stiffness,
+            1e-12,
+        ),
+        Row::relative(
+            SOURCE,
+            "portal, ω₁ [rad/s]",
+            value("omega"),
+            frequency,
+            1e-12,
+        ),
     ]
 }
 
 fn newmark(basic: &Value, key: &str, beta: f64) -> Vec<Row> {
     let value = |name: &str| number(basic, &format!("/{key}/{name}"));
     let (mass, omega, step) = (value("m"), value("omega"), value("dt"));
-    let system = System::of_buildings(vec![oscillator("oscillator", mass, mass * omega * omega, value("zeta"))]);
+    let system = System::of_buildings(vec![oscillator(
+        "oscillator",
+        mass,
+        mass * omega * omega,
+        value("zeta"),
+    )]);
     let plan = Plan {
         newmark: Newmark { beta, gamma: 0.5 },
         ..uniform(step)
@@ -145,10 +195,18 @@ fn newmark(basic: &Value, key: &str, beta: f64) -> Vec<Row> {
             },
         };
         let state = run(&system, &motion, &plan, None).state;
-        let got = [state.displacement[0], state.velocity[0], state.acceleration[0]];
+        let got = [
+            state.displacement[0],
+            state.velocity[0],
+            state.acceleration[0],
+        ];
         let names = ["u [m]", "v [m/s]", "a [m/s²]"];
         let expected = numbers(expected, "");
-        let method = if beta == 0.25 { "(¼, ½)" } else { "(⅙, ½)" };
+        let method = if beta == 0.25 {
+            "(¼, ½)"
+        } else {
+            "(⅙, ½)"
+        };
         (0..3)
             .map(|k| {
                 let quantity = format!("oscillator, Newmark {method}, {steps} steps, {}", names[k]);
@@ -162,15 +220,28 @@ fn newmark(basic: &Value, key: &str, beta: f64) -> Vec<Row> {
 fn free_decay(basic: &Value) -> Row {
     let value = |name: &str| number(basic, &format!("/sdof_free/{name}"));
     let (omega, x0) = (value("omega"), value("x0"));
-    let system = System::of_buildings(vec![oscillator("oscillator", 1.0, omega * omega, value("zeta"))]);
+    let system = System::of_buildings(vec![oscillator(
+        "oscillator",
+        1.0,
+        omega * omega,
+        value("zeta"),
+    )]);
     let state = State {
         displacement: vec![x0],
         acceleration: vec![-omega * omega * x0],
         ..State::at_rest(&system, 0.0)
     };
-    let got = run(&system, &still(1.0), &uniform(1e-4), Some(state)).state.displacement[0];
+    let got = run(&system, &still(1.0), &uniform(1e-4), Some(state))
+        .state
+        .displacement[0];
     // The method's period is long by (ωh)²/12, here 3·10⁻⁸.
-    Row::relative(SOURCE, "free decay, u(1 s) at h = 0.1 ms [m]", value("x_at_1s"), got, 1e-7)
+    Row::relative(
+        SOURCE,
+        "free decay, u(1 s) at h = 0.1 ms [m]",
+        value("x_at_1s"),
+        got,
+        1e-7,
+    )
 }
 
 fn rayleigh(basic: &Value) -> Vec<Row> {
@@ -180,10 +251,24 @@ fn rayleigh(basic: &Value) -> Vec<Row> {
         ratio: value("z1"),
         modes: vec![1, 2],
     };
-    frame.damp(&damping).expect("the frame has two lateral modes");
+    frame
+        .damp(&damping)
+        .expect("the frame has two lateral modes");
     vec![
-        Row::relative(SOURCE, "frame B, 5 % in lateral modes 1 and 2, α [1/s]", value("alphaM"), frame.equations.alpha, 1e-10),
-        Row::relative(SOURCE, "frame B, 5 % in lateral modes 1 and 2, β [s]", value("betaK"), frame.equations.beta, 1e-10),
+        Row::relative(
+            SOURCE,
+            "frame B, 5 % in lateral modes 1 and 2, α [1/s]",
+            value("alphaM"),
+            frame.equations.alpha,
+            1e-10,
+        ),
+        Row::relative(
+            SOURCE,
+            "frame B, 5 % in lateral modes 1 and 2, β [s]",
+            value("betaK"),
+            frame.equations.beta,
+            1e-10,
+        ),
     ]
 }
 
@@ -203,11 +288,19 @@ fn equal_storeys(storeys: usize) -> Vec<Row> {
         });
     }
     let tower = building("tower", nodes, Vec::new(), springs, (1..=storeys).collect());
-    let formula = |j: usize| 2.0 * (stiffness / mass).sqrt() * ((2 * j - 1) as f64 * PI / (4 * storeys + 2) as f64).sin();
+    let formula = |j: usize| {
+        2.0 * (stiffness / mass).sqrt() * ((2 * j - 1) as f64 * PI / (4 * storeys + 2) as f64).sin()
+    };
     (1..=storeys)
         .map(|j| {
             let quantity = format!("{storeys} equal storeys, ω of mode {j} [rad/s]");
-            Row::relative("2√(k/m) sin[(2j−1)π/(4n+2)]", quantity, formula(j), tower.modes[j - 1].circular_frequency, 1e-12)
+            Row::relative(
+                "2√(k/m) sin[(2j−1)π/(4n+2)]",
+                quantity,
+                formula(j),
+                tower.modes[j - 1].circular_frequency,
+                1e-12,
+            )
         })
         .collect()
 }

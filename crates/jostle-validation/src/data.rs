@@ -9,12 +9,16 @@ pub(crate) fn document(text: &str) -> Value {
 
 /// What stands at a path such as `/expected/F_max`.
 pub(crate) fn at<'a>(value: &'a Value, path: &str) -> &'a Value {
-    value.pointer(path).unwrap_or_else(|| panic!("stored data have {path}"))
+    value
+        .pointer(path)
+        .unwrap_or_else(|| panic!("stored data have {path}"))
 }
 
 /// The number at a path.
 pub(crate) fn number(value: &Value, path: &str) -> f64 {
-    at(value, path).as_f64().unwrap_or_else(|| panic!("{path} is a number"))
+    at(value, path)
+        .as_f64()
+        .unwrap_or_else(|| panic!("{path} is a number"))
 }
 
 /// The list of numbers at a path; what is no number is left out.
@@ -24,11 +28,18 @@ pub(crate) fn numbers(value: &Value, path: &str) -> Vec<f64> {
 
 /// The list at a path.
 pub(crate) fn list<'a>(value: &'a Value, path: &str) -> &'a [Value] {
-    at(value, path).as_array().unwrap_or_else(|| panic!("{path} is a list"))
+    at(value, path)
+        .as_array()
+        .unwrap_or_else(|| panic!("{path} is a list"))
 }
 
 /// The entries of the table at a path.
-pub(crate) fn entries<'a>(value: &'a Value, path: &str) -> impl Iterator<Item = (&'a str, &'a Value)> + use<'a> {
-    let table = at(value, path).as_object().unwrap_or_else(|| panic!("{path} is a table"));
+pub(crate) fn entries<'a>(
+    value: &'a Value,
+    path: &str,
+) -> impl Iterator<Item = (&'a str, &'a Value)> + use<'a> {
+    let table = at(value, path)
+        .as_object()
+        .unwrap_or_else(|| panic!("{path} is a table"));
     table.iter().map(|(key, entry)| (key.as_str(), entry))
 }

@@ -14,8 +14,10 @@ const ILL_CONDITIONED: &str = "\
 - **Many frequencies of a frame lie close together**; single mode shapes are therefore not compared, frequencies are.
 - **Two closed forms are met by stepping**, so that their rows show the error of the step, not of the formula; the step
   stands in the row.
-- **A row marked *known*** does not agree, for a reason that lies with the expected number; it is given below its
-  table.
+- **A row marked *known*** does not agree within its tolerance; the reason is given below its table. All of them are one
+  graze of 10 kN beside impacts of 190 kN.
+- **Small steps gain nothing for ever.** In double precision the step equations carry a relative error of about
+  10⁻¹⁵/(ωh)², so that below some 10 µs rounding outgrows the error of the method for slow structures.
 - **Not compared**: plastic hinges and contact laws that the program does not have; the tables of Zhang et al. (2019),
   whose inputs are not available; structures measured in laboratories.
 ";
@@ -23,10 +25,21 @@ const ILL_CONDITIONED: &str = "\
 /// The whole page.
 #[must_use]
 pub fn page(families: &[Family], extent: Extent) -> String {
-    let rows = families.iter().map(|family| family.rows.len()).sum::<usize>();
+    let rows = families
+        .iter()
+        .map(|family| family.rows.len())
+        .sum::<usize>();
     let missed = misses(families).count();
-    let known = families.iter().flat_map(|family| &family.rows).filter(|row| row.known.is_some()).count();
-    let option = if extent == Extent::Full { " --full" } else { "" };
+    let known = families
+        .iter()
+        .flat_map(|family| &family.rows)
+        .filter(|row| row.is_known_gap())
+        .count();
+    let option = if extent == Extent::Full {
+        " --full"
+    } else {
+        ""
+    };
     let mut page = format!(
         "# Validation\n\n\
          jostle {version} beside closed forms, independent programs and the literature: {rows} numbers, of which {} agree \
@@ -43,17 +56,30 @@ pub fn page(families: &[Family], extent: Extent) -> String {
     page += "\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n";
     for family in families {
         let miss = family.rows.iter().filter(|row| row.misses()).count();
-        let known = family.rows.iter().filter(|row| row.known.is_some()).count();
-        put(&mut page, format_args!("| {} | {} | {miss} | {known} |\n", family.title, family.rows.len()));
+        let known = family.rows.iter().filter(|row| row.is_known_gap()).count();
+        put(
+            &mut page,
+            format_args!(
+                "| {} | {} | {miss} | {known} |\n",
+                family.title,
+                family.rows.len()
+            ),
+        );
     }
     for family in families {
-        put(&mut page, format_args!("\n## {}\n\n{}\n\n", family.title, family.about));
+        put(
+            &mut page,
+            format_args!("\n## {}\n\n{}\n\n", family.title, family.about),
+        );
         page += "| source | quantity | expected | got | error | tolerance | pass |\n|---|---|---:|---:|---:|---:|---|\n";
         for row in &family.rows {
             page += &line(row);
         }
-        for row in family.rows.iter().filter(|row| row.known.is_some()) {
-            put(&mut page, format_args!("\n*{}*: {}.\n", row.quantity, row.known.unwrap_or_default()));
+        for row in family.rows.iter().filter(|row| row.is_known_gap()) {
+            put(
+                &mut page,
+                format_args!("\n*{}*: {}.\n", row.quantity, row.known.unwrap_or_default()),
+            );
         }
     }
     page
@@ -104,7 +130,11 @@ fn readable(value: f64) -> String {
 
 /// Two digits.
 fn short(value: f64) -> String {
-    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}").replace(".0e", "e") }
+    if value == 0.0 {
+        "0".to_owned()
+    } else {
+        format!("{value:.1e}").replace(".0e", "e")
+    }
 }
 
 /// One missed row as a line of text.

@@ -16,7 +16,12 @@ pub(crate) fn model(text: &str) -> Input {
 }
 
 /// Runs a model at a uniform step \[s\], or with steps from its own settings, for so long \[s\].
-pub(crate) fn run_model(input: &Input, step: Option<f64>, settings: Settings, duration: f64) -> (System, Outcome) {
+pub(crate) fn run_model(
+    input: &Input,
+    step: Option<f64>,
+    settings: Settings,
+    duration: f64,
+) -> (System, Outcome) {
     let mut motion = input.ground_motion().expect("the record is built in");
     motion.duration = duration;
     let system = System::assemble(&input.model).expect("a sound model");
@@ -24,7 +29,9 @@ pub(crate) fn run_model(input: &Input, step: Option<f64>, settings: Settings, du
         Some(step) => uniform(step),
         None => Plan::choose(&system, &motion, &input.model.analysis).expect("usable steps"),
     };
-    let outcome = simulate(&system, &motion, &plan, settings, |_| ControlFlow::Continue(()));
+    let outcome = simulate(&system, &motion, &plan, settings, |_| {
+        ControlFlow::Continue(())
+    });
     assert_eq!(outcome.end, RunEnd::Completed, "a validation run ends");
     (system, outcome)
 }

@@ -127,7 +127,11 @@ pub fn families(extent: Extent) -> Vec<Family> {
 
 /// The rows that miss, with their families.
 pub fn misses(families: &[Family]) -> impl Iterator<Item = (&Family, &Row)> {
-    families
-        .iter()
-        .flat_map(|family| family.rows.iter().filter(|row| row.misses()).map(move |row| (family, row)))
+    families.iter().flat_map(|family| {
+        family
+            .rows
+            .iter()
+            .filter(|row| row.misses())
+            .map(move |row| (family, row))
+    })
 }

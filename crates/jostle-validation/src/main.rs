@@ -15,24 +15,37 @@ usage: jostle-validation [--full] [--check] [--reference]
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let asked = |option: &str| arguments.iter().any(|argument| argument == option);
-    if let Some(unknown) = arguments.iter().find(|a| !["--full", "--check", "--reference"].contains(&a.as_str())) {
+    if let Some(unknown) = arguments
+        .iter()
+        .find(|a| !["--full", "--check", "--reference"].contains(&a.as_str()))
+    {
         complain(&format!("unknown option {unknown}\n{USAGE}"));
         return ExitCode::from(2);
     }
     if asked("--reference") {
-        let reference = serde_json::to_string_pretty(&paper::reference()).unwrap_or_default() + "\n";
+        let reference =
+            serde_json::to_string_pretty(&paper::reference()).unwrap_or_default() + "\n";
         return written(&in_crate("data/paper/reference.json"), &reference);
     }
-    let extent = if asked("--full") { Extent::Full } else { Extent::Reduced };
+    let extent = if asked("--full") {
+        Extent::Full
+    } else {
+        Extent::Reduced
+    };
     let families = families(extent);
     for (family, row) in misses(&families) {
         complain(&document::missed_line(family, row));
     }
     let page = in_crate("../../docs/validation.md");
-    if !asked("--check") && written(&page, &document::page(&families, extent)) == ExitCode::FAILURE {
+    if !asked("--check") && written(&page, &document::page(&families, extent)) == ExitCode::FAILURE
+    {
         return ExitCode::FAILURE;
     }
-    if misses(&families).next().is_some() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+    if misses(&families).next().is_some() {
+        ExitCode::FAILURE
+    } else {
+        ExitCode::SUCCESS
+    }
 }
 
 fn in_crate(path: &str) -> PathBuf {

@@ -29,7 +29,13 @@ pub fn rows() -> Vec<Row> {
         ));
         for (mode, expected) in building.modes.iter().zip(high_precision(frame)) {
             let quantity = format!("{name} from a model file, ω [rad/s]");
-            rows.push(Row::relative(SOURCE, quantity, expected, mode.circular_frequency, 1e-12));
+            rows.push(Row::relative(
+                SOURCE,
+                quantity,
+                expected,
+                mode.circular_frequency,
+                1e-12,
+            ));
         }
     }
     for name in ["B_2bay5", "C_2bay5_axial", "D_3bay10"] {
@@ -47,7 +53,13 @@ pub fn rows() -> Vec<Row> {
             // Two eigenvalue programs, which themselves agree to ten digits.
             let expected = 0.5 * (condensed[k] + full[k]);
             let quantity = format!("{name}, ω of mode {} [rad/s]", k + 1);
-            rows.push(Row::relative(SOURCE, quantity, expected, mode.circular_frequency, 1e-9));
+            rows.push(Row::relative(
+                SOURCE,
+                quantity,
+                expected,
+                mode.circular_frequency,
+                1e-9,
+            ));
         }
     }
     rows
@@ -55,7 +67,12 @@ pub fn rows() -> Vec<Row> {
 
 /// Frequencies computed with multiple precision.
 fn high_precision(frame: &Value) -> Vec<f64> {
-    let text = |omega: &Value| omega.as_str().and_then(|text| text.parse().ok()).expect("a frequency");
+    let text = |omega: &Value| {
+        omega
+            .as_str()
+            .and_then(|text| text.parse().ok())
+            .expect("a frequency")
+    };
     list(frame, "/omega_mp").iter().map(text).collect()
 }
 

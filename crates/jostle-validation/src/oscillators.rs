@@ -27,10 +27,13 @@ fn linear(stiffness: f64) -> ForceLaw {
 /// The stop is a free body of 10³⁰ kg: it moves by less than 10⁻²⁸ m, far below rounding of the rest.
 fn against_a_stop() -> Vec<Row> {
     const SOURCE: &str = "literature/B01_free_vibration_elastic_stop";
-    // (ωh)²/12 is the relative error of a period, 3·10⁻¹⁰ in contact at this step.
-    const STEP: f64 = 1e-6;
-    const TOLERANCE: f64 = 1e-9;
-    let case = document(include_str!("../data/literature/B01_free_vibration_elastic_stop.json"));
+    // The relative error of a period is (ωh)²/12, here 1.3·10⁻⁷ in contact; rounding adds about 10⁻¹⁵/(ωh)² in
+    // free flight, here 6·10⁻⁸. The closed forms are good to 10⁻⁹.
+    const STEP: f64 = 2e-5;
+    const TOLERANCE: f64 = 1e-6;
+    let case = document(include_str!(
+        "../data/literature/B01_free_vibration_elastic_stop.json"
+    ));
     let input = |key: &str| number(&case, &format!("/inputs/{key}"));
     let expected = |key: &str| number(&case, &format!("/expected/{key}"));
     let system = pair(
@@ -45,37 +48,90 @@ fn against_a_stop() -> Vec<Row> {
         ..State::at_rest(&system, 0.0)
     };
     // Until shortly after the second touch.
-    let outcome = run(&system, &still(1.2 * expected("period")), &uniform(STEP), Some(state));
+    let outcome = run(
+        &system,
+        &still(1.2 * expected("period")),
+        &uniform(STEP),
+        Some(state),
+    );
     let (first, second) = (outcome.impacts[0], outcome.impacts[1]);
     let peaks = outcome.floors[0][0];
     let values = [
         ("first touch [s]", expected("t_first_contact"), first.start),
-        ("impact speed [m/s]", expected("v_contact"), first.impact_speed),
-        ("greatest displacement [m]", expected("u_max"), peaks.displacement_max.value),
-        ("greatest indentation [m]", expected("delta_max"), first.peak_indentation),
+        (
+            "impact speed [m/s]",
+            expected("v_contact"),
+            first.impact_speed,
+        ),
+        (
+            "greatest displacement [m]",
+            expected("u_max"),
+            peaks.displacement_max.value,
+        ),
+        (
+            "greatest indentation [m]",
+            expected("delta_max"),
+            first.peak_indentation,
+        ),
         ("greatest force [N]", expected("F_max"), first.peak_force),
-        ("duration [s]", expected("contact_duration"), first.end - first.start),
-        ("least displacement [m]", expected("u_min"), peaks.displacement_min.value),
-        ("from touch to touch [s]", expected("period"), second.start - first.start),
-        ("energy [J]", expected("energy"), outcome.energy.kinetic + outcome.energy.strain + outcome.energy.contact),
+        (
+            "duration [s]",
+            expected("contact_duration"),
+            first.end - first.start,
+        ),
+        (
+            "least displacement [m]",
+            expected("u_min"),
+            peaks.displacement_min.value,
+        ),
+        (
+            "from touch to touch [s]",
+            expected("period"),
+            second.start - first.start,
+        ),
+        (
+            "energy [J]",
+            expected("energy"),
+            outcome.energy.kinetic + outcome.energy.strain + outcome.energy.contact,
+        ),
     ];
     values
         .into_iter()
-        .map(|(what, expected, got)| Row::relative(SOURCE, format!("h = 1 µs, {what}"), expected, got, TOLERANCE))
+        .map(|(what, expected, got)| {
+            Row::relative(
+                SOURCE,
+                format!("h = 20 µs, {what}"),
+                expected,
+                got,
+                TOLERANCE,
+            )
+        })
         .collect()
 }
 
 fn under_a_sine() -> Vec<Row> {
     const SOURCE: &str = "literature/B04_two_sdof_harmonic_linear_contact";
     const STEP: f64 = 5e-5;
-    let case = document(include_str!("../data/literature/B04_two_sdof_harmonic_linear_contact.json"));
+    let case = document(include_str!(
+        "../data/literature/B04_two_sdof_harmonic_linear_contact.json"
+    ));
     let input = |key: &str| number(&case, &format!("/inputs/{key}"));
     let building = |name: &str, side: usize| {
         let (mass, period) = (input(&format!("m{side}")), input(&format!("T{side}")));
         let omega = 2.0 * std::f64::consts::PI / period;
-        oscillator(name, mass, mass * omega * omega, input(&format!("zeta{side}")))
+        oscillator(
+            name,
+            mass,
+            mass * omega * omega,
+            input(&format!("zeta{side}")),
+        )
     };
-    let system = pair(building("left", 1), building("right", 2), input("gap"), |_, _| linear(input("k_contact")));
+    let system = pair(
+        building("left", 1),
+        building("right", 2),
+        input("gap"),
+        |_, _| linear(input("k_contact")),
+    );
     let motion = |duration: f64| GroundMotion {
         name: "sine".to_owned(),
         scale: 1.0,
@@ -94,20 +150,51 @@ fn under_a_sine() -> Vec<Row> {
         outcome.impacts.len() as f64,
         0.0,
     )];
-    for (k, (expected, got)) in list(&case, "/expected/impacts").iter().zip(&outcome.impacts).enumerate() {
+    for (k, (expected, got)) in list(&case, "/expected/impacts")
+        .iter()
+        .zip(&outcome.impacts)
+        .enumerate()
+    {
         let impact = |what: &str| name(&format!("impact {}, {what}", k + 1));
         if k < 5 {
-            rows.push(Row::relative(SOURCE, impact("greatest force [N]"), number(expected, "/F_max"), got.peak_force, 1e-3));
-            rows.push(Row::absolute(SOURCE, impact("touch [s]"), number(expected, "/t_start"), got.start, 1e-4));
-            rows.push(Row::relative(SOURCE, impact("impact speed [m/s]"), number(expected, "/v_in"), got.impact_speed, 1e-3));
+            rows.push(Row::relative(
+                SOURCE,
+                impact("greatest force [N]"),
+                number(expected, "/F_max"),
+                got.peak_force,
+                1e-3,
+            ));
+            rows.push(Row::absolute(
+                SOURCE,
+                impact("touch [s]"),
+                number(expected, "/t_start"),
+                got.start,
+                1e-4,
+            ));
+            rows.push(Row::relative(
+                SOURCE,
+                impact("impact speed [m/s]"),
+                number(expected, "/v_in"),
+                got.impact_speed,
+                1e-3,
+            ));
         }
     }
     let floors = [outcome.floors[0][0], outcome.floors[1][0]];
     for (side, floor) in floors.iter().enumerate() {
-        for (key, got) in [("max", floor.displacement_max.value), ("min", floor.displacement_min.value)] {
+        for (key, got) in [
+            ("max", floor.displacement_max.value),
+            ("min", floor.displacement_min.value),
+        ] {
             let name_of_peak = format!("u{}_{key}", side + 1);
             let expected = numbers(&case, &format!("/expected/peaks/{name_of_peak}"))[0];
-            rows.push(Row::relative(SOURCE, name(&format!("{name_of_peak} [m]")), expected, got, 1e-4));
+            rows.push(Row::relative(
+                SOURCE,
+                name(&format!("{name_of_peak} [m]")),
+                expected,
+                got,
+                1e-4,
+            ));
         }
     }
     rows.extend(states(SOURCE, &case, &system, motion, STEP));
@@ -115,12 +202,30 @@ fn under_a_sine() -> Vec<Row> {
 }
 
 /// Displacements at given instants, relative to the peaks.
-fn states(source: &str, case: &Value, system: &jostle::System, motion: impl Fn(f64) -> GroundMotion, step: f64) -> Vec<Row> {
+fn states(
+    source: &str,
+    case: &Value,
+    system: &jostle::System,
+    motion: impl Fn(f64) -> GroundMotion,
+    step: f64,
+) -> Vec<Row> {
     entries(case, "/expected/state_u1_u2_v1_v2")
         .map(|(time, expected)| {
-            let state = run(system, &motion(time.parse().expect("a time")), &uniform(step), None).state;
+            let state = run(
+                system,
+                &motion(time.parse().expect("a time")),
+                &uniform(step),
+                None,
+            )
+            .state;
             let expected = numbers(expected, "");
-            Row::worst_of(source, format!("h = 0.05 ms, u at {time} s [m]"), &expected[..2], &state.displacement, 1e-3)
+            Row::worst_of(
+                source,
+                format!("h = 0.05 ms, u at {time} s [m]"),
+                &expected[..2],
+                &state.displacement,
+                1e-3,
+            )
         })
         .collect()
 }

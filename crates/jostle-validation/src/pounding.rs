@@ -36,10 +36,15 @@ fn system(stored: &Value) -> System {
     for (side, building) in [&mut left, &mut right].into_iter().enumerate() {
         (building.equations.alpha, building.equations.beta) = (alpha[side], beta[side]);
     }
-    let faces = [left.idealisation.right_face.clone(), right.idealisation.left_face.clone()];
+    let faces = [
+        left.idealisation.right_face.clone(),
+        right.idealisation.left_face.clone(),
+    ];
     let mut system = System::of_buildings(vec![left, right]);
     for (&a, &b) in faces[0].iter().zip(&faces[1]) {
-        let contact = system.contact_between((0, a), (1, b)).expect("floors have mass");
+        let contact = system
+            .contact_between((0, a), (1, b))
+            .expect("floors have mass");
         system.contacts.push(Contact {
             width: number(stored, "/gap"),
             law: ForceLaw::Hertz {
@@ -58,8 +63,18 @@ fn frequencies(stored: &Value, system: &System) -> Vec<Row> {
         .zip(&system.buildings)
         .map(|(side, building)| {
             let expected = numbers(stored, &format!("/omega_{side}"));
-            let got: Vec<f64> = building.lateral_modes().take(3).map(|mode| mode.circular_frequency).collect();
-            Row::worst_of(SOURCE, format!("{side} frame, ω₁…₃ [rad/s]"), &expected, &got, 1e-9)
+            let got: Vec<f64> = building
+                .lateral_modes()
+                .take(3)
+                .map(|mode| mode.circular_frequency)
+                .collect();
+            Row::worst_of(
+                SOURCE,
+                format!("{side} frame, ω₁…₃ [rad/s]"),
+                &expected,
+                &got,
+                1e-9,
+            )
         })
         .collect()
 }
@@ -76,7 +91,12 @@ fn motion(duration: f64) -> GroundMotion {
 fn compare(stored: &Value, system: &System, step: f64, tolerance: f64) -> Vec<Row> {
     let outcome = run(system, &motion(number(stored, "/T")), &uniform(step), None);
     let name = |what: &str| format!("h = {} ms, {what}", step * 1e3);
-    let of_floor = |floor: usize| outcome.impacts.iter().filter(move |impact| impact.contact == floor);
+    let of_floor = |floor: usize| {
+        outcome
+            .impacts
+            .iter()
+            .filter(move |impact| impact.contact == floor)
+    };
     let mut rows = vec![Row::absolute(
         SOURCE,
         name("number of impacts"),
@@ -91,11 +111,29 @@ fn compare(stored: &Value, system: &System, step: f64, tolerance: f64) -> Vec<Ro
         let impulse: f64 = of_floor(floor).map(|impact| impact.impulse).sum();
         let number = floor + 1;
         if forces[floor] == 0.0 {
-            rows.push(Row::absolute(SOURCE, name(&format!("floor {number}, greatest force [N]")), 0.0, force, 0.0));
+            rows.push(Row::absolute(
+                SOURCE,
+                name(&format!("floor {number}, greatest force [N]")),
+                0.0,
+                force,
+                0.0,
+            ));
             continue;
         }
-        rows.push(Row::relative(SOURCE, name(&format!("floor {number}, greatest force [N]")), forces[floor], force, tolerance));
-        rows.push(Row::relative(SOURCE, name(&format!("floor {number}, impulse [N·s]")), impulses[floor], impulse, tolerance));
+        rows.push(Row::relative(
+            SOURCE,
+            name(&format!("floor {number}, greatest force [N]")),
+            forces[floor],
+            force,
+            tolerance,
+        ));
+        rows.push(Row::relative(
+            SOURCE,
+            name(&format!("floor {number}, impulse [N·s]")),
+            impulses[floor],
+            impulse,
+            tolerance,
+        ));
     }
     for (key, got) in [
         ("input", outcome.energy.input),
@@ -103,7 +141,13 @@ fn compare(stored: &Value, system: &System, step: f64, tolerance: f64) -> Vec<Ro
         ("contact", outcome.energy.contact),
     ] {
         let expected = number(stored, &format!("/energy_J/{key}"));
-        rows.push(Row::relative(SOURCE, name(&format!("{key} energy [J]")), expected, got, tolerance));
+        rows.push(Row::relative(
+            SOURCE,
+            name(&format!("{key} energy [J]")),
+            expected,
+            got,
+            tolerance,
+        ));
     }
     rows
 }

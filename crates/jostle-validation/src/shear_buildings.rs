@@ -31,7 +31,12 @@ pub fn rows() -> Vec<Row> {
     let mut rows = derived(&case, &system);
     rows.extend(peaks(&case, "/expected/peaks", "h = 20 µs", &outcome));
     rows.extend(impacts(&case, &outcome));
-    rows.extend(peaks(&case, "/expected/no_pounding_peaks", "passing through each other", &apart));
+    rows.extend(peaks(
+        &case,
+        "/expected/no_pounding_peaks",
+        "passing through each other",
+        &apart,
+    ));
     rows
 }
 
@@ -78,12 +83,34 @@ fn derived(case: &Value, system: &System) -> Vec<Row> {
     let mut rows = Vec::new();
     for (building, side) in system.buildings.iter().zip([1, 2]) {
         let expected = numbers(case, &format!("/derived/periods{side}"));
-        let got: Vec<f64> = building.modes.iter().map(jostle::modal::Mode::period).collect();
-        rows.push(Row::worst_of(SOURCE, format!("{}, periods [s]", building.name), &expected, &got, 1e-12));
+        let got: Vec<f64> = building
+            .modes
+            .iter()
+            .map(jostle::modal::Mode::period)
+            .collect();
+        rows.push(Row::worst_of(
+            SOURCE,
+            format!("{}, periods [s]", building.name),
+            &expected,
+            &got,
+            1e-12,
+        ));
         let rayleigh = numbers(case, &format!("/derived/rayleigh{side}"));
         let equations = &building.equations;
-        rows.push(Row::relative(SOURCE, format!("{}, α [1/s]", building.name), rayleigh[0], equations.alpha, 1e-12));
-        rows.push(Row::relative(SOURCE, format!("{}, β [s]", building.name), rayleigh[1], equations.beta, 1e-12));
+        rows.push(Row::relative(
+            SOURCE,
+            format!("{}, α [1/s]", building.name),
+            rayleigh[0],
+            equations.alpha,
+            1e-12,
+        ));
+        rows.push(Row::relative(
+            SOURCE,
+            format!("{}, β [s]", building.name),
+            rayleigh[1],
+            equations.beta,
+            1e-12,
+        ));
     }
     rows
 }
@@ -94,8 +121,18 @@ fn peaks(case: &Value, path: &str, run: &str, outcome: &Outcome) -> Vec<Row> {
         .map(|(peak, expected)| {
             let (dof, side) = peak[1..].split_once('_').expect("a name such as u3_max");
             let floor = floors[dof.parse::<usize>().expect("a floor") - 1];
-            let got = if side == "max" { floor.displacement_max } else { floor.displacement_min };
-            Row::relative(SOURCE, format!("{run}, {peak} [m]"), numbers(expected, "")[0], got.value, 1e-3)
+            let got = if side == "max" {
+                floor.displacement_max
+            } else {
+                floor.displacement_min
+            };
+            Row::relative(
+                SOURCE,
+                format!("{run}, {peak} [m]"),
+                numbers(expected, "")[0],
+                got.value,
+                1e-3,
+            )
         })
         .collect()
 }
@@ -104,14 +141,41 @@ fn impacts(case: &Value, outcome: &Outcome) -> Vec<Row> {
     let mut rows = Vec::new();
     for (floor, contact) in list(case, "/expected/contacts").iter().enumerate() {
         let name = |what: &str| format!("h = 20 µs, floor {}, {what}", floor + 1);
-        let mut got: Vec<_> = outcome.impacts.iter().filter(|impact| impact.contact == floor).collect();
+        let mut got: Vec<_> = outcome
+            .impacts
+            .iter()
+            .filter(|impact| impact.contact == floor)
+            .collect();
         got.sort_by(|a, b| a.start.total_cmp(&b.start));
         let (expected, found) = (number(contact, "/n_impacts"), got.len() as f64);
-        rows.push(Row::absolute(SOURCE, name("number of impacts, up to grazing ones"), expected, found, 1.0));
-        for (k, (expected, got)) in list(contact, "/impacts").iter().zip(got).take(3).enumerate() {
+        rows.push(Row::absolute(
+            SOURCE,
+            name("number of impacts, up to grazing ones"),
+            expected,
+            found,
+            1.0,
+        ));
+        for (k, (expected, got)) in list(contact, "/impacts")
+            .iter()
+            .zip(got)
+            .take(3)
+            .enumerate()
+        {
             let impact = |what: &str| name(&format!("impact {}, {what}", k + 1));
-            rows.push(Row::relative(SOURCE, impact("greatest force [N]"), number(expected, "/F_max"), got.peak_force, 1e-2));
-            rows.push(Row::absolute(SOURCE, impact("touch [s]"), number(expected, "/t_start"), got.start, 1e-4));
+            rows.push(Row::relative(
+                SOURCE,
+                impact("greatest force [N]"),
+                number(expected, "/F_max"),
+                got.peak_force,
+                1e-2,
+            ));
+            rows.push(Row::absolute(
+                SOURCE,
+                impact("touch [s]"),
+                number(expected, "/t_start"),
+                got.start,
+                1e-4,
+            ));
         }
     }
     rows

@@ -77,7 +77,10 @@ fn single_mass(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem 
         support,
     };
     let skeleton = Skeleton {
-        nodes: vec![node(0.0, 0.0, Support::Fixed), node(HEIGHT, mass, Support::Guided)],
+        nodes: vec![
+            node(0.0, 0.0, Support::Fixed),
+            node(HEIGHT, mass, Support::Guided),
+        ],
         springs: stiffness
             .map(|stiffness| Spring {
                 ends: [0, 1],
@@ -109,9 +112,16 @@ pub(crate) fn oscillator(name: &str, mass: f64, stiffness: f64, ratio: f64) -> B
 }
 
 /// Two buildings of one mass each and the contact between them.
-pub(crate) fn pair(left: BuildingSystem, right: BuildingSystem, gap: f64, law: impl Fn(f64, f64) -> ForceLaw) -> System {
+pub(crate) fn pair(
+    left: BuildingSystem,
+    right: BuildingSystem,
+    gap: f64,
+    law: impl Fn(f64, f64) -> ForceLaw,
+) -> System {
     let mut system = System::of_buildings(vec![left, right]);
-    let contact = system.contact_between((0, 1), (1, 1)).expect("both have mass");
+    let contact = system
+        .contact_between((0, 1), (1, 1))
+        .expect("both have mass");
     system.contacts.push(Contact {
         width: gap,
         law: law(contact.masses[0], contact.masses[1]),
@@ -145,13 +155,20 @@ pub(crate) fn uniform(step: f64) -> Plan {
 }
 
 /// Runs to the end of the motion, from rest with a = 0 unless another state is given.
-pub(crate) fn run(system: &System, motion: &GroundMotion, plan: &Plan, state: Option<State>) -> Outcome {
+pub(crate) fn run(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    state: Option<State>,
+) -> Outcome {
     let settings = Settings {
         pounding: Pounding::Included,
         record_interval: None,
     };
     let state = state.unwrap_or_else(|| State::at_rest(system, 0.0));
-    let outcome = simulate_from(system, motion, plan, settings, state, |_| ControlFlow::Continue(()));
+    let outcome = simulate_from(system, motion, plan, settings, state, |_| {
+        ControlFlow::Continue(())
+    });
     assert_eq!(outcome.end, RunEnd::Completed, "a validation run ends");
     outcome
 }

@@ -21,7 +21,9 @@ const LAWS: [(&str, &str); 4] = [
 /// All rows of this family.
 #[must_use]
 pub fn rows(extent: Extent) -> Vec<Row> {
-    let case = document(include_str!("../data/literature/D01_two_sdof_elcentro_T1.2_T0.3.json"));
+    let case = document(include_str!(
+        "../data/literature/D01_two_sdof_elcentro_T1.2_T0.3.json"
+    ));
     let step = match extent {
         Extent::Full => 1e-5,
         Extent::Reduced => 5e-5,
@@ -39,7 +41,11 @@ fn towers(case: &Value, law: &str) -> Input {
         let omega = 2.0 * std::f64::consts::PI / input(&format!("T{side}"));
         input(&format!("m{side}")) * omega * omega
     };
-    let contact = if law.starts_with("hertz") { input("k_hertz") } else { input("k_linear") };
+    let contact = if law.starts_with("hertz") {
+        input("k_hertz")
+    } else {
+        input("k_linear")
+    };
     let restitution = match law {
         "linear" | "hertz" => String::new(),
         _ => format!("restitution = {}", input("e")),
@@ -90,28 +96,76 @@ fn peaks(case: &Value, key: &str, name: &dyn Fn(&str) -> String, outcome: &Outco
     entries(case, &format!("/expected/{key}/peaks"))
         .map(|(peak, expected)| {
             let floor = floors[usize::from(peak.starts_with("u2"))];
-            let got = if peak.ends_with("max") { floor.displacement_max } else { floor.displacement_min };
-            Row::relative(SOURCE, name(&format!("{peak} [m]")), numbers(expected, "")[0], got.value, 1e-3)
+            let got = if peak.ends_with("max") {
+                floor.displacement_max
+            } else {
+                floor.displacement_min
+            };
+            Row::relative(
+                SOURCE,
+                name(&format!("{peak} [m]")),
+                numbers(expected, "")[0],
+                got.value,
+                1e-3,
+            )
         })
         .collect()
 }
 
 fn without_contact(case: &Value) -> Vec<Row> {
-    let (_, outcome) = run_model(&towers(case, "linear"), Some(1e-3), settings(Pounding::Excluded), number(case, "/inputs/t_end"));
-    peaks(case, "no_pounding", &|what| format!("passing through each other, {what}"), &outcome)
+    let (_, outcome) = run_model(
+        &towers(case, "linear"),
+        Some(1e-3),
+        settings(Pounding::Excluded),
+        number(case, "/inputs/t_end"),
+    );
+    peaks(
+        case,
+        "no_pounding",
+        &|what| format!("passing through each other, {what}"),
+        &outcome,
+    )
 }
 
 fn with_contact(case: &Value, key: &str, law: &str, step: f64) -> Vec<Row> {
     let input = towers(case, law);
-    let (_, outcome) = run_model(&input, Some(step), settings(Pounding::Included), number(case, "/inputs/t_end"));
+    let (_, outcome) = run_model(
+        &input,
+        Some(step),
+        settings(Pounding::Included),
+        number(case, "/inputs/t_end"),
+    );
     let name = |what: &str| format!("{law}, h = {} µs, {what}", step * 1e6);
     let mut rows = peaks(case, key, &name, &outcome);
     let stored = at(case, &format!("/expected/{key}/contacts/0"));
-    for (k, (expected, got)) in list(stored, "/impacts").iter().zip(&outcome.impacts).take(3).enumerate() {
+    for (k, (expected, got)) in list(stored, "/impacts")
+        .iter()
+        .zip(&outcome.impacts)
+        .take(3)
+        .enumerate()
+    {
         let impact = |what: &str| name(&format!("impact {}, {what}", k + 1));
-        rows.push(Row::relative(SOURCE, impact("greatest force [N]"), number(expected, "/F_max"), got.peak_force, 1e-2));
-        rows.push(Row::absolute(SOURCE, impact("touch [s]"), number(expected, "/t_start"), got.start, 1e-4));
-        rows.push(Row::relative(SOURCE, impact("impulse [N·s]"), number(expected, "/impulse"), got.impulse, 1e-2));
+        rows.push(Row::relative(
+            SOURCE,
+            impact("greatest force [N]"),
+            number(expected, "/F_max"),
+            got.peak_force,
+            1e-2,
+        ));
+        rows.push(Row::absolute(
+            SOURCE,
+            impact("touch [s]"),
+            number(expected, "/t_start"),
+            got.start,
+            1e-4,
+        ));
+        rows.push(Row::relative(
+            SOURCE,
+            impact("impulse [N·s]"),
+            number(expected, "/impulse"),
+            got.impulse,
+            1e-2,
+        ));
     }
     rows.push(Row::absolute(
         SOURCE,
