@@ -18,10 +18,11 @@ impl Path {
     pub(crate) fn through(skeleton: &Skeleton) -> Self {
         let mut ties = Ties::new(skeleton);
         let mut last_met = vec![None; ties.len()];
-        for (position, &node) in node_order(skeleton).iter().enumerate() {
+        for (position, &(rank, node)) in node_order(skeleton).iter().enumerate() {
             for component in [X, Y, THETA] {
                 if let Some(root) = ties.root(node, component) {
-                    last_met[root] = Some((position, component));
+                    // Within a rank like goes with like: long runs of equal work.
+                    last_met[root] = Some((rank, component, position));
                 }
             }
         }
@@ -137,7 +138,9 @@ impl Ties {
 /// Nodes in the order of the transfer path: all beams at once, step by step from their left ends; all columns
 /// between floors at once, step by step upwards; then the floors. The beams do not meet, and taking them
 /// abreast keeps a processor busy that would otherwise wait for every link of a single chain.
-fn node_order(skeleton: &Skeleton) -> Vec<usize> {
+///
+/// Every node comes with its rank: nodes abreast share one, every joint has its own.
+fn node_order(skeleton: &Skeleton) -> Vec<(usize, usize)> {
     let nodes = &skeleton.nodes;
     let mut neighbours = vec![Vec::new(); nodes.len()];
     let (mut horizontal, mut vertical) = (vec![0; nodes.len()], vec![0; nodes.len()]);
@@ -171,7 +174,8 @@ fn node_order(skeleton: &Skeleton) -> Vec<usize> {
         let (p, q) = (&nodes[*a], &nodes[*b]);
         p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(a.cmp(b))
     };
-    let mut order = Vec::new();
+    let mut order: Vec<(usize, usize)> = Vec::new();
+    let mut rank = 0;
     for inside in 0..2 {
         let mut interior: Vec<usize> = (0..nodes.len())
             .filter(|&node| stage(node) == inside)
@@ -191,10 +195,17 @@ fn node_order(skeleton: &Skeleton) -> Vec<usize> {
             links.push((link, node));
         }
         links.sort_by_key(|(link, _)| *link);
-        order.extend(links.into_iter().map(|(_, node)| node));
+        let longest = links.last().map_or(0, |(link, _)| link + 1);
+        order.extend(links.into_iter().map(|(link, node)| (rank + link, node)));
+        rank += longest;
     }
     let mut joints: Vec<usize> = (0..nodes.len()).filter(|&node| stage(node) == 2).collect();
     joints.sort_by(by_height);
-    order.extend(joints);
+    order.extend(
+        joints
+            .into_iter()
+            .enumerate()
+            .map(|(index, node)| (rank + index, node)),
+    );
     order
 }

@@ -25,6 +25,8 @@ pub struct RiccatiSweep {
     upper_starts: Vec<usize>,
     upper: Vec<(u32, f64)>,
     mass: Vec<f64>,
+    /// Columns of equal work.
+    runs: Vec<Run>,
 }
 
 /// Pivots and couplings for one step size.
@@ -92,6 +94,7 @@ impl StepEquations for RiccatiSweep {
             }
         }
         Self {
+            runs: Run::all(&starts),
             starts,
             rows,
             reached_starts,
@@ -158,30 +161,134 @@ impl StepEquations for RiccatiSweep {
     fn solve(&self, factor: &RiccatiFactor, load: &mut [f64]) {
         let n = self.mass.len();
         let load = &mut load[..n];
-        for column in 0..n {
-            let value = load[column];
-            let entries = self.starts[column]..self.starts[column + 1];
-            for (&row, &coupling) in self.rows[entries.clone()]
-                .iter()
-                .zip(&factor.couplings[entries])
-            {
-                load[row as usize] -= coupling * value;
+        for run in &self.runs {
+            let (rows, couplings) = run.entries(&self.rows, &factor.couplings);
+            match run.width {
+                0 => {}
+                1 => pass_on::<1>(run.first, rows, couplings, load),
+                2 => pass_on::<2>(run.first, rows, couplings, load),
+                3 => pass_on::<3>(run.first, rows, couplings, load),
+                4 => pass_on::<4>(run.first, rows, couplings, load),
+                5 => pass_on::<5>(run.first, rows, couplings, load),
+                6 => pass_on::<6>(run.first, rows, couplings, load),
+                width => pass_on_wide(run.first, width, rows, couplings, load),
             }
         }
         for (value, inverse_pivot) in load.iter_mut().zip(&factor.inverse_pivots) {
             *value *= inverse_pivot;
         }
-        for column in (0..n).rev() {
-            let entries = self.starts[column]..self.starts[column + 1];
-            let mut value = load[column];
-            for (&row, &coupling) in self.rows[entries.clone()]
-                .iter()
-                .zip(&factor.couplings[entries])
-            {
-                value -= coupling * load[row as usize];
+        for run in self.runs.iter().rev() {
+            let (rows, couplings) = run.entries(&self.rows, &factor.couplings);
+            match run.width {
+                0 => {}
+                1 => gather::<1>(run.first, rows, couplings, load),
+                2 => gather::<2>(run.first, rows, couplings, load),
+                3 => gather::<3>(run.first, rows, couplings, load),
+                4 => gather::<4>(run.first, rows, couplings, load),
+                5 => gather::<5>(run.first, rows, couplings, load),
+                6 => gather::<6>(run.first, rows, couplings, load),
+                width => gather_wide(run.first, width, rows, couplings, load),
             }
-            load[column] = value;
         }
+    }
+}
+
+/// Columns next to each other with equally many couplings.
+#[derive(Clone, Debug)]
+struct Run {
+    /// First column.
+    first: usize,
+    /// Couplings of every column.
+    width: usize,
+    /// Where they are in `rows` and in the couplings of a factor.
+    start: usize,
+    end: usize,
+}
+
+impl Run {
+    fn entries<'a>(&self, rows: &'a [u32], couplings: &'a [f64]) -> (&'a [u32], &'a [f64]) {
+        (
+            &rows[self.start..self.end],
+            &couplings[self.start..self.end],
+        )
+    }
+
+    /// The runs of a pattern whose columns begin at `starts`.
+    fn all(starts: &[usize]) -> Vec<Self> {
+        let mut runs: Vec<Self> = Vec::new();
+        for (column, bounds) in starts.windows(2).enumerate() {
+            let width = bounds[1] - bounds[0];
+            match runs.last_mut() {
+                Some(run) if run.width == width => run.end = bounds[1],
+                _ => runs.push(Self {
+                    first: column,
+                    width,
+                    start: bounds[0],
+                    end: bounds[1],
+                }),
+            }
+        }
+        runs
+    }
+}
+
+/// Every column passes its load on to the rows ahead of it.
+#[inline]
+fn pass_on<const W: usize>(first: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
+    let columns = rows
+        .as_chunks::<W>()
+        .0
+        .iter()
+        .zip(couplings.as_chunks::<W>().0);
+    for (offset, (rows, couplings)) in columns.enumerate() {
+        let value = load[first + offset];
+        for entry in 0..W {
+            load[rows[entry] as usize] -= couplings[entry] * value;
+        }
+    }
+}
+
+fn pass_on_wide(first: usize, width: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
+    let columns = rows.chunks_exact(width).zip(couplings.chunks_exact(width));
+    for (offset, (rows, couplings)) in columns.enumerate() {
+        let value = load[first + offset];
+        for (row, coupling) in rows.iter().zip(couplings) {
+            load[*row as usize] -= coupling * value;
+        }
+    }
+}
+
+/// Every column, last first, gathers from the rows ahead of it.
+#[inline]
+fn gather<const W: usize>(first: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
+    let columns = rows
+        .as_chunks::<W>()
+        .0
+        .iter()
+        .zip(couplings.as_chunks::<W>().0);
+    for (offset, (rows, couplings)) in columns.enumerate().rev() {
+        let (mut even, mut odd) = (load[first + offset], 0.0);
+        for entry in 0..W {
+            let part = couplings[entry] * load[rows[entry] as usize];
+            if entry % 2 == 0 {
+                even -= part;
+            } else {
+                odd += part;
+            }
+        }
+        load[first + offset] = even - odd;
+    }
+}
+
+fn gather_wide(first: usize, width: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
+    let columns = rows.chunks_exact(width).zip(couplings.chunks_exact(width));
+    for (offset, (rows, couplings)) in columns.enumerate().rev() {
+        let ahead = rows
+            .iter()
+            .zip(couplings)
+            .map(|(row, coupling)| coupling * load[*row as usize]);
+        let passed: f64 = ahead.sum();
+        load[first + offset] -= passed;
     }
 }
 

@@ -1,0 +1,63 @@
+//! Once under way a run takes no memory: a longer one allocates no more often than a shorter one.
+
+use std::ops::ControlFlow;
+
+use jostle::{
+    Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, LawKind, Model, Plan, Pounding,
+    RestitutionIs, Settings, Shear, Structure, System, simulate,
+};
+
+fn towers() -> Model {
+    let tower = |name: &str, mass: f64, stiffness: f64| Building {
+        name: name.into(),
+        structure: Structure::Shear(Shear {
+            mass: vec![mass; 4],
+            stiffness: vec![stiffness; 4],
+            storey_heights: vec![3.0; 4],
+        }),
+        damping: Damping::Ratio { ratio: 0.05, modes: vec![1, 2] },
+    };
+    let law = ContactLaw {
+        kind: LawKind::HertzDamp,
+        stiffness: 2e9,
+        restitution: 0.65,
+        restitution_is: RestitutionIs::Input,
+    };
+    Model {
+        title: "towers".into(),
+        buildings: vec![tower("soft", 4e4, 2e7), tower("stiff", 6e4, 9e7)],
+        gaps: vec![Gap { left: 0, width: 0.03, floors: FloorPairs::Common, law }],
+        analysis: Analysis::default(),
+    }
+}
+
+fn shaking(duration: f64) -> GroundMotion {
+    let points = (duration / 0.02) as u32;
+    let a = (0..=points).map(|i| 2.0 * (0.02 * f64::from(i) * 7.0).sin());
+    GroundMotion::sampled("shaking", 0.02, a.collect())
+}
+
+#[test]
+fn a_longer_run_allocates_no_more_often() {
+    let model = towers();
+    let system = System::assemble(&model).expect("a valid model");
+    let count = |duration: f64, pounding: Pounding| {
+        let motion = shaking(duration);
+        let plan = Plan::choose(&system, &motion, &model.analysis).expect("sensible steps");
+        let settings = Settings { pounding, record_interval: None };
+        let mut impacts = 0;
+        let taken = allocation_counter::measure(|| {
+            let outcome = simulate(&system, &motion, &plan, settings, |_| ControlFlow::Continue(()));
+            impacts = outcome.impacts.len();
+        });
+        (taken.count_total, impacts)
+    };
+    let (short, _) = count(5.0, Pounding::Excluded);
+    let (long, _) = count(50.0, Pounding::Excluded);
+    assert_eq!(short, long, "ten times the steps in free flight");
+    // With contact only the list of impacts grows, by doubling; factors of a new step size are made once.
+    let (short, few) = count(5.0, Pounding::Included);
+    let (long, many) = count(50.0, Pounding::Included);
+    assert!(few > 0 && many > 5 * few, "{few} and {many} impacts");
+    assert!(long <= short + 30, "{short} allocations for {few} impacts, {long} for {many}");
+}
