@@ -32,6 +32,12 @@ pub(crate) fn counted(count: usize, thing: &str) -> String {
     }
 }
 
+/// The same for large counts.
+pub(crate) fn counted_grouped(count: u64, thing: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{} {thing}{plural}", grouped(count))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

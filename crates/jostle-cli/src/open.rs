@@ -18,6 +18,8 @@ pub(crate) struct Opened {
     /// Name for messages and result folders.
     pub(crate) name: String,
     pub(crate) system: System,
+    /// Whether the ground motion comes from the command line.
+    other_record: bool,
 }
 
 /// Reads a model file, or a built-in example, and assembles it.
@@ -42,13 +44,22 @@ pub(crate) fn open(model: Option<&Path>, overrides: &Overrides) -> Result<Opened
         input,
         name,
         system,
+        other_record: overrides.record.is_some(),
     })
 }
 
 impl Opened {
     /// The ground motion and the steps to take through it.
     pub(crate) fn plan(&self) -> Result<(GroundMotion, Plan), Failure> {
-        let motion = self.input.ground_motion()?;
+        let motion = self
+            .input
+            .ground_motion()
+            .map_err(|error| match &error.faults[..] {
+                [fault] if self.other_record => {
+                    Failure::Input(format!("--record: {}", fault.problem))
+                }
+                _ => error.into(),
+            })?;
         let plan = Plan::choose(&self.system, &motion, &self.input.model.analysis)
             .map_err(|faults| point_at(&self.input, faults))?;
         Ok((motion, plan))

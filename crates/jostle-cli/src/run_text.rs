@@ -6,7 +6,7 @@ use std::path::Path;
 use jostle::separation::gb50011_frame_joint;
 use jostle::summary::{BuildingSummary, ContactSummary, GapSummary, Summary};
 
-use crate::numbers::{counted, grouped, kn, mm};
+use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::terminal::{BOLD, DIM, LOUD, styled};
 
 /// Contacts listed at most.
@@ -51,13 +51,13 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     }
     let (energy, work) = (&summary.energy, &summary.work);
     let accounting = format!(
-        "energy balance {:.0e} · {} steps of {:.3} ms ({} in contact) · {} factorisations · {} solutions · {:.3} s",
+        "energy balance {:.0e} · {} steps of {:.3} ms ({} in contact) · {} · {} · {:.3} s",
         energy.worst_imbalance,
         grouped(work.steps),
         work.step_s * 1e3,
         grouped(work.contact_steps),
-        grouped(work.factorizations),
-        grouped(work.solves),
+        counted_grouped(work.factorizations, "factorisation"),
+        counted_grouped(work.solves, "solution"),
         work.wall_s
     );
     writeln!(text, "\n{}", styled(DIM, &accounting))?;

@@ -23,13 +23,14 @@ pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
         })
         .collect();
     faults.sort_by_key(|fault| fault.span.start);
-    faults.truncate(100);
     // One slip often confuses the rest of its line: keep the first message of a line.
     let line = |span: &Span| {
         text.get(..span.start)
             .map_or(0, |t| t.matches('\n').count())
     };
     faults.dedup_by_key(|fault| line(&fault.span));
+    // A file that is no TOML at all needs no hundred messages.
+    faults.truncate(8);
     Err(faults)
 }
 
