@@ -8,17 +8,19 @@ mod coupling;
 mod energy;
 mod events;
 mod factors;
+mod impacts;
 mod lanes;
 mod newmark;
+mod outcome;
 mod plan;
 mod recorder;
 mod simulation;
+mod trial;
 
 pub use newmark::Newmark;
+pub use outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 pub use plan::{ContactSteps, Plan};
-pub use simulation::{
-    Outcome, Pounding, Progress, RunEnd, Settings, StepError, simulate, simulate_from,
-};
+pub use simulation::{simulate, simulate_from};
 
 use crate::system::BuildingSystem;
 

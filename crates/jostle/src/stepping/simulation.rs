@@ -2,139 +2,23 @@
 
 use std::ops::ControlFlow;
 
+use super::StepEquations;
 use super::clock::{Clock, Stride};
-use super::coupling::{Closed, ContactEquations};
+use super::coupling::ContactEquations;
 use super::energy::EnergyAudit;
-use super::events::{Crossing, Cubic, bisect};
 use super::factors::StepFactors;
 use super::lanes;
+use super::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 use super::plan::Plan;
 use super::recorder::Recorder;
-use super::{NotPositive, StepEquations};
-use crate::history::{Energy, Extreme, FloorPeaks, History, Impact, Work};
+use super::trial::ContactTrial;
+use crate::history::{Impact, Work};
 use crate::model::Solver;
 use crate::motion::GroundMotion;
-use crate::state::{ContactPhase, Episode, State};
+use crate::state::{ContactPhase, State};
 use crate::stiffness::DirectStiffness;
 use crate::system::System;
 use crate::transfer::riccati::RiccatiSweep;
-
-/// What a run should leave behind.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Whether buildings push each other or pass through each other.
-    pub pounding: Pounding,
-    /// Least time between recorded instants in free flight, zero for every step; every step of a closed contact
-    /// is recorded. `None` records no histories \[s\].
-    pub record_interval: Option<f64>,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            pounding: Pounding::Included,
-            record_interval: Some(0.005),
-        }
-    }
-}
-
-/// Whether contacts push.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pounding {
-    /// Buildings hit each other.
-    Included,
-    /// Buildings pass through each other; closings are still followed.
-    Excluded,
-}
-
-/// How far a run has come.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Time reached \[s\].
-    pub time: f64,
-    /// Time to reach \[s\].
-    pub duration: f64,
-}
-
-/// Everything a run leaves behind.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    /// Time histories, if asked for.
-    pub history: Option<History>,
-    /// Impacts in the order in which they ended.
-    pub impacts: Vec<Impact>,
-    /// Peaks of every floor of every building.
-    pub floors: Vec<Vec<FloorPeaks>>,
-    /// Greatest closing u_left − u_right of every contact \[m\].
-    pub closing: Vec<Extreme>,
-    /// Greatest elastic base shear of every building \[N\].
-    pub base_shear: Vec<f64>,
-    /// Energies at the end.
-    pub energy: Energy,
-    /// Work done.
-    pub work: Work,
-    /// Smallest regular step taken in contact \[s\].
-    pub contact_step: Option<f64>,
-    /// State at the end.
-    pub state: State,
-    /// Why the run ended.
-    pub end: RunEnd,
-}
-
-/// Why a run ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RunEnd {
-    /// The end of the motion was reached.
-    Completed,
-    /// The observer asked to stop.
-    Stopped,
-    /// A step failed; what came before stands.
-    Failed(StepError),
-}
-
-/// A step that could not be taken.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// A building offers no resistance.
-    #[error(
-        "\"{building}\" cannot be stepped at t = {time:.6} s: {source}; check its supports and stiffnesses"
-    )]
-    NotPositive {
-        /// Name of the building.
-        building: String,
-        /// Time \[s\].
-        time: f64,
-        /// Where.
-        source: NotPositive,
-    },
-    /// The contact forces were not found.
-    #[error(
-        "the contact forces did not converge at t = {time:.6} s ({closed} contacts closed); a smaller contact_step may help"
-    )]
-    ContactDiverged {
-        /// Time \[s\].
-        time: f64,
-        /// Number of closed contacts.
-        closed: usize,
-    },
-    /// A displacement overflowed.
-    #[error(
-        "displacements are no longer finite at t = {time:.6} s; check masses, stiffnesses and the ground motion"
-    )]
-    NotFinite {
-        /// Time \[s\].
-        time: f64,
-    },
-    /// Contacts keep closing and opening without time passing.
-    #[error(
-        "contacts close and open endlessly at t = {time:.6} s; a smaller contact_step or a softer contact may help"
-    )]
-    Chattering {
-        /// Time \[s\].
-        time: f64,
-    },
-}
 
 /// Runs a system from rest through a ground motion. `observer` is called now and then and may stop the run.
 ///
@@ -176,58 +60,33 @@ pub fn simulate_from(
     }
 }
 
-/// A contact closes or opens within a step.
-#[derive(Clone, Copy, Debug)]
-struct Event {
-    contact: usize,
-    crossing: Crossing,
-    /// Share of the step.
-    at: f64,
-}
-
-/// What a tried step would do at a contact.
-#[derive(Clone, Copy, Debug, Default)]
-struct ContactTrial {
-    indentation: f64,
-    rate: f64,
-    force: f64,
-}
-
-struct Simulation<'a, E: StepEquations> {
-    system: &'a System,
-    motion: &'a GroundMotion,
-    plan: &'a Plan,
-    pounding: bool,
-    equations: Vec<E>,
+pub(super) struct Simulation<'a, E: StepEquations> {
+    pub(super) system: &'a System,
+    pub(super) motion: &'a GroundMotion,
+    pub(super) plan: &'a Plan,
+    pub(super) pounding: bool,
+    pub(super) equations: Vec<E>,
     /// The first serves steps off the grid, the others one division of the free-flight step each.
-    factors: Vec<StepFactors<E>>,
-    divisions: Vec<u32>,
-    state: State,
-    clock: Clock,
+    pub(super) factors: Vec<StepFactors<E>>,
+    pub(super) divisions: Vec<u32>,
+    pub(super) state: State,
+    pub(super) clock: Clock,
     /// Ground acceleration now and at the end of the tried step.
-    ground: [f64; 2],
+    pub(super) ground: [f64; 2],
     /// Load that the initial state leaves unbalanced; empty once it has been applied.
-    unbalanced: Vec<f64>,
+    pub(super) unbalanced: Vec<f64>,
     /// The tried step: first the load, then y, then the displacement over the step.
-    rise: Vec<f64>,
-    trials: Vec<ContactTrial>,
-    contact_division: Vec<u32>,
-    coupling: ContactEquations,
-    finest_in_contact: u32,
-    impacts: Vec<Impact>,
-    audit: EnergyAudit,
-    work: Work,
-    recorder: Recorder,
+    pub(super) rise: Vec<f64>,
+    pub(super) trials: Vec<ContactTrial>,
+    pub(super) contact_division: Vec<u32>,
+    pub(super) coupling: ContactEquations,
+    pub(super) finest_in_contact: u32,
+    pub(super) impacts: Vec<Impact>,
+    pub(super) audit: EnergyAudit,
+    pub(super) work: Work,
+    pub(super) recorder: Recorder,
 }
 
-/// A touch is located when the faces are this close \[m\].
-const TOUCH: f64 = 1e-13;
-/// Contacts this close to touching, and closing, close together with another \[m\].
-const TOGETHER: f64 = 1e-12;
-/// An event nearer than this share of a step happens at its start.
-const AT_ONCE: f64 = 1e-4;
-/// Laws that divide by the impact speed see at least this much \[m/s\].
-const SLOWEST_IMPACT: f64 = 1e-6;
 /// Steps between calls of the observer.
 const OBSERVED_EVERY: u64 = 256;
 /// Events without progress before a run gives up.
@@ -337,9 +196,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
                 return self.accept(slot, stride.end);
             };
             self.work.repeated_steps += 1;
-            let shortest =
-                AT_ONCE * self.plan.step / f64::from(self.division().max(self.division_at(&event)));
-            if event.at * stride.length > shortest {
+            if event.at * stride.length > self.shortest_step(&event) {
                 return self.step_to(event, &stride);
             }
             self.read_contacts();
@@ -365,20 +222,13 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
     }
 
     /// Into how many parts the free-flight step is divided now.
-    fn division(&self) -> u32 {
+    pub(super) fn division(&self) -> u32 {
         let closed = self.state.contacts.iter().zip(&self.contact_division);
         closed
             .filter(|(phase, _)| matches!(phase, ContactPhase::Closed(_)))
             .map(|(_, d)| *d)
             .max()
             .unwrap_or(1)
-    }
-
-    fn division_at(&self, event: &Event) -> u32 {
-        self.plan.division(
-            &self.system.contacts[event.contact],
-            self.trials[event.contact].rate,
-        )
     }
 
     fn factors_for(&mut self, stride: &Stride) -> Result<usize, StepError> {
@@ -395,7 +245,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         self.factorize(slot, stride.length).map(|()| slot)
     }
 
-    fn factorize(&mut self, slot: usize, step: f64) -> Result<(), StepError> {
+    pub(super) fn factorize(&mut self, slot: usize, step: f64) -> Result<(), StepError> {
         self.factors[slot]
             .set_step(
                 self.plan.newmark,
@@ -411,287 +261,8 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             })
     }
 
-    /// Solves the step to `end` without accepting it: fills `rise` and `trials`.
-    fn try_step(&mut self, slot: usize, end: Clock) -> Result<(), StepError> {
-        self.ground[1] = self.motion.acceleration(end.time());
-        self.fill_loads(slot);
-        self.factors[slot].solve(self.system, &self.equations, &mut self.rise, &mut self.work);
-        self.follow_contacts(slot);
-        if self
-            .trials
-            .iter()
-            .any(|trial| !trial.indentation.is_finite())
-        {
-            return Err(StepError::NotFinite {
-                time: self.state.time,
-            });
-        }
-        self.list_closed_contacts(slot);
-        if self.coupling.closed.is_empty() {
-            Ok(())
-        } else {
-            self.find_contact_forces(slot)
-        }
-    }
-
-    /// Loads of the incremental step, contacts of its end not yet pushing (theory, Eq. N3).
-    fn fill_loads(&mut self, slot: usize) {
-        let change = self.ground[1] - self.ground[0];
-        for (building, own) in self
-            .system
-            .buildings
-            .iter()
-            .zip(&self.factors[slot].buildings)
-        {
-            let (range, equations) = (building.range(), &building.equations);
-            let motion = self.state.velocity[range.clone()]
-                .iter()
-                .zip(&self.state.acceleration[range.clone()]);
-            let masses = equations.mass.iter().zip(&equations.driven_mass);
-            for ((load, (v, a)), (mass, driven)) in
-                self.rise[range].iter_mut().zip(motion).zip(masses)
-            {
-                *load = -mass * (own.l_v * v + own.l_a * a) - driven * change;
-            }
-        }
-        for (load, missing) in self.rise.iter_mut().zip(&self.unbalanced) {
-            *load += missing;
-        }
-        for (contact, phase) in self.system.contacts.iter().zip(&self.state.contacts) {
-            let force = phase.force();
-            if force != 0.0 {
-                self.rise[contact.dofs[0]] += force;
-                self.rise[contact.dofs[1]] -= force;
-            }
-        }
-    }
-
-    /// Indentations and rates at the end of the tried step.
-    fn follow_contacts(&mut self, slot: usize) {
-        let factors = &self.factors[slot];
-        let k = &factors.coefficients;
-        let (u, v, a) = (
-            &self.state.displacement,
-            &self.state.velocity,
-            &self.state.acceleration,
-        );
-        for (contact, trial) in self.system.contacts.iter().zip(&mut self.trials) {
-            let [i, j] = contact.dofs;
-            let rise = |side: usize| {
-                let dof = contact.dofs[side];
-                self.rise[dof]
-                    - factors.buildings[contact.buildings[side]].shift
-                        * (k.d_v * v[dof] + k.d_a * a[dof])
-            };
-            let closed_by = rise(0) - rise(1);
-            trial.indentation = u[i] - u[j] - contact.width + closed_by;
-            trial.rate = k.c * closed_by + (1.0 + k.d_v) * (v[i] - v[j]) + k.d_a * (a[i] - a[j]);
-            trial.force = 0.0;
-        }
-    }
-
-    /// Lists the closed contacts, with the indentations they would have if they did not push.
-    fn list_closed_contacts(&mut self, slot: usize) {
-        self.coupling.closed.clear();
-        for (index, phase) in self.state.contacts.iter().enumerate() {
-            if let ContactPhase::Closed(episode) = phase {
-                let trial = &self.trials[index];
-                self.coupling.closed.push(Closed {
-                    contact: index,
-                    law: self.system.contacts[index].law,
-                    impact_speed: episode.impact_speed,
-                    free: trial.indentation,
-                    free_rate: trial.rate,
-                    rate_gain: self.factors[slot].coefficients.c,
-                    indentation: trial.indentation,
-                    force: 0.0,
-                    start_slope: 0.0,
-                });
-            }
-        }
-    }
-
-    /// Solves for the forces of the closed contacts and lets them push (theory, Eqs. P1–P3).
-    fn find_contact_forces(&mut self, slot: usize) -> Result<(), StepError> {
-        let factors = &mut self.factors[slot];
-        for closed in &self.coupling.closed {
-            factors.prepare_contact(closed.contact, self.system, &self.equations, &mut self.work);
-        }
-        self.coupling.compliance.clear();
-        for row in &self.coupling.closed {
-            for column in &self.coupling.closed {
-                let compliance = factors.compliance(
-                    &self.system.contacts[row.contact],
-                    column.contact,
-                    self.system,
-                );
-                self.coupling.compliance.push(compliance);
-            }
-        }
-        let time = self.state.time;
-        let closed = self.coupling.closed.len();
-        self.work.iterations += self
-            .coupling
-            .solve()
-            .ok_or(StepError::ContactDiverged { time, closed })?;
-        for closed in &self.coupling.closed {
-            if closed.force != 0.0 {
-                factors.push_apart(closed.contact, closed.force, self.system, &mut self.rise);
-            }
-        }
-        self.follow_contacts(slot);
-        for closed in &self.coupling.closed {
-            self.trials[closed.contact].force = closed.force;
-        }
-        Ok(())
-    }
-
-    /// Motion of contact `index` over the tried step.
-    fn indentation_curve(&self, index: usize, step: f64) -> Cubic {
-        let contact = &self.system.contacts[index];
-        let [i, j] = contact.dofs;
-        let (u, v) = (&self.state.displacement, &self.state.velocity);
-        let trial = &self.trials[index];
-        Cubic::new(
-            u[i] - u[j] - contact.width,
-            v[i] - v[j],
-            trial.indentation,
-            trial.rate,
-            step,
-        )
-    }
-
-    /// The first touch, or release with a jump of force, in the tried step.
-    fn first_event(&self, step: f64) -> Option<Event> {
-        if !self.pounding {
-            return None;
-        }
-        let mut first: Option<Event> = None;
-        for (contact, phase) in self.state.contacts.iter().enumerate() {
-            let trial = &self.trials[contact];
-            let turned_back = || trial.rate < 0.0 && self.closing_rate(contact) > 0.0;
-            let crossing = match phase {
-                ContactPhase::Open if trial.indentation > 0.0 || turned_back() => Crossing::Upwards,
-                ContactPhase::Closed(_)
-                    if trial.indentation < 0.0
-                        && self.system.contacts[contact].law.jumps_at_release() =>
-                {
-                    Crossing::Downwards
-                }
-                _ => continue,
-            };
-            if let Some(at) = self
-                .indentation_curve(contact, step)
-                .first_crossing(crossing)
-                && first.is_none_or(|event| at < event.at)
-            {
-                first = Some(Event {
-                    contact,
-                    crossing,
-                    at,
-                });
-            }
-        }
-        first
-    }
-
-    /// Repeats the step so that it ends on an event, or on an earlier one met on the way.
-    fn step_to(&mut self, mut event: Event, stride: &Stride) -> Result<(), StepError> {
-        let mut length = event.at * stride.length;
-        for _ in 0..12 {
-            self.factorize(0, length)?;
-            self.try_step(0, self.clock.after(length))?;
-            if let Some(other) = self
-                .first_event(length)
-                .filter(|other| other.contact != event.contact && other.at < 1.0 - 1e-9)
-            {
-                event = other;
-                length *= other.at;
-                continue;
-            }
-            let trial = self.trials[event.contact];
-            let correction = -trial.indentation / trial.rate;
-            let corrected = length + correction;
-            let wrong_way = (event.crossing == Crossing::Upwards) != (trial.rate > 0.0);
-            if trial.indentation.abs() <= TOUCH
-                || wrong_way
-                || !(corrected > 0.0 && corrected < stride.length)
-            {
-                break;
-            }
-            length = corrected;
-            self.work.repeated_steps += 1;
-        }
-        let ContactTrial {
-            indentation, rate, ..
-        } = self.trials[event.contact];
-        let reached = match event.crossing {
-            Crossing::Upwards => indentation >= -TOGETHER && rate > 0.0,
-            Crossing::Downwards => indentation <= TOGETHER && rate < 0.0,
-        };
-        self.accept(0, self.clock.after(length))?;
-        if reached {
-            self.happen(event);
-        }
-        Ok(())
-    }
-
-    /// Rate of closing of a contact at the present instant \[m/s\].
-    fn closing_rate(&self, index: usize) -> f64 {
-        let [i, j] = self.system.contacts[index].dofs;
-        self.state.velocity[i] - self.state.velocity[j]
-    }
-
-    /// Sets `trials` to the present.
-    fn read_contacts(&mut self) {
-        for (index, contact) in self.system.contacts.iter().enumerate() {
-            let [i, j] = contact.dofs;
-            self.trials[index].indentation =
-                self.state.displacement[i] - self.state.displacement[j] - contact.width;
-            self.trials[index].rate = self.closing_rate(index);
-        }
-    }
-
-    /// Closes or opens contacts at the present instant, whose indentations and rates stand in `trials`.
-    fn happen(&mut self, event: Event) {
-        let time = self.state.time;
-        if event.crossing == Crossing::Downwards {
-            if let ContactPhase::Closed(mut episode) = self.state.contacts[event.contact] {
-                self.jump(event.contact, -episode.force);
-                (episode.end, episode.separation_speed) = (time, -self.trials[event.contact].rate);
-                self.report_impact(event.contact, &episode);
-                self.state.contacts[event.contact] = ContactPhase::Open;
-            }
-            return;
-        }
-        for index in 0..self.system.contacts.len() {
-            let ContactTrial {
-                indentation, rate, ..
-            } = self.trials[index];
-            let open = self.state.contacts[index] == ContactPhase::Open;
-            if index == event.contact || (open && indentation >= -TOGETHER && rate > 0.0) {
-                let contact = &self.system.contacts[index];
-                let impact_speed = rate.max(SLOWEST_IMPACT);
-                let mut episode = Episode::new(time, impact_speed);
-                episode.force = contact.law.onset(impact_speed);
-                episode.peak_force = episode.force;
-                self.contact_division[index] = self.plan.division(contact, impact_speed);
-                self.finest_in_contact = self.finest_in_contact.max(self.contact_division[index]);
-                self.jump(index, episode.force);
-                self.state.contacts[index] = ContactPhase::Closed(episode);
-            }
-        }
-    }
-
-    /// A sudden change of a contact force changes the accelerations of the two faces (theory, Eq. H2).
-    fn jump(&mut self, index: usize, change: f64) {
-        let contact = &self.system.contacts[index];
-        self.state.acceleration[contact.dofs[0]] -= change / contact.masses[0];
-        self.state.acceleration[contact.dofs[1]] += change / contact.masses[1];
-    }
-
     /// Moves on to the end of the tried step.
-    fn accept(&mut self, slot: usize, end: Clock) -> Result<(), StepError> {
+    pub(super) fn accept(&mut self, slot: usize, end: Clock) -> Result<(), StepError> {
         self.recorder.before_step(self.system, &self.state);
         let step = self.factors[slot].coefficients.step;
         let was_closed = !self.coupling.closed.is_empty();
@@ -753,99 +324,6 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             self.audit.damped += (equations.alpha * moved + equations.beta * strained) / k.step;
         }
         Ok(())
-    }
-
-    /// Before the state moves on: what every closed contact does over the step.
-    fn gather_episodes(&mut self, step: f64) {
-        for closed in 0..self.coupling.closed.len() {
-            let index = self.coupling.closed[closed].contact;
-            let ContactPhase::Closed(mut episode) = self.state.contacts[index] else {
-                continue;
-            };
-            let (law, start) = (self.system.contacts[index].law, self.state.time);
-            let curve = self.indentation_curve(index, step);
-            let trial = self.trials[index];
-            let force = [episode.force, trial.force];
-            let mean = 0.5 * (force[0] + force[1]);
-            episode.impulse += step * mean;
-            let work = mean * (curve.end - curve.start);
-            episode.work += work;
-            self.audit.contact += work;
-            let deepest = curve.peak(start, step).map_or(curve.end, |peak| peak.value);
-            episode.peak_indentation = episode.peak_indentation.max(deepest);
-            if force[0] > 0.0 && force[1] <= 0.0 {
-                let (speed, rate) = (episode.impact_speed, |at: f64| curve.rise(at) / step);
-                let at = bisect(0.0, 1.0, |at| {
-                    law.respond(curve.value(at), rate(at), speed).force <= 0.0
-                });
-                (episode.end, episode.separation_speed) = (start + at * step, -rate(at));
-            } else if force[1] > 0.0 {
-                (episode.end, episode.separation_speed) = (start + step, -trial.rate);
-            }
-            self.state.contacts[index] = ContactPhase::Closed(episode);
-            self.coupling.closed[closed].start_slope =
-                self.force_slope(index, curve.start, curve.start_rise / step, &episode);
-        }
-    }
-
-    /// dF/dt of a contact with the present accelerations \[N/s\].
-    fn force_slope(&self, index: usize, indentation: f64, rate: f64, episode: &Episode) -> f64 {
-        let contact = &self.system.contacts[index];
-        let [i, j] = contact.dofs;
-        let acceleration = self.state.acceleration[i] - self.state.acceleration[j];
-        let response = contact.law.respond(indentation, rate, episode.impact_speed);
-        response.by_indentation * rate + response.by_rate * acceleration
-    }
-
-    /// After the state has moved on: peaks of the forces, and contacts that have opened.
-    fn finish_episodes(&mut self, step: f64, start: f64) {
-        for closed in 0..self.coupling.closed.len() {
-            let index = self.coupling.closed[closed].contact;
-            let ContactPhase::Closed(mut episode) = self.state.contacts[index] else {
-                continue;
-            };
-            let trial = self.trials[index];
-            let start_slope = self.coupling.closed[closed].start_slope;
-            let end_slope = self.force_slope(index, trial.indentation, trial.rate, &episode);
-            let mut peak = Extreme {
-                value: trial.force,
-                at: start + step,
-            };
-            if episode.force > 0.0 && trial.force > 0.0 {
-                let curve = Cubic::new(episode.force, start_slope, trial.force, end_slope, step);
-                peak = curve.peak(start, step).unwrap_or(peak);
-            }
-            if peak.value > episode.peak_force {
-                (episode.peak_force, episode.peak_force_at) = (peak.value, peak.at);
-            }
-            episode.force = trial.force;
-            let leaving = trial.indentation <= 0.0 && trial.rate <= 0.0;
-            self.state.contacts[index] =
-                if leaving && !self.system.contacts[index].law.jumps_at_release() {
-                    self.report_impact(index, &episode);
-                    ContactPhase::Open
-                } else {
-                    ContactPhase::Closed(episode)
-                };
-        }
-    }
-
-    /// Lists an episode as an impact, if it ever pushed.
-    fn report_impact(&mut self, contact: usize, episode: &Episode) {
-        if episode.peak_force > 0.0 {
-            self.impacts.push(Impact {
-                contact,
-                start: episode.since,
-                end: episode.end,
-                peak_force: episode.peak_force,
-                peak_force_at: episode.peak_force_at,
-                peak_indentation: episode.peak_indentation,
-                impact_speed: episode.impact_speed,
-                separation_speed: episode.separation_speed,
-                impulse: episode.impulse,
-                dissipated: episode.work,
-            });
-        }
     }
 }
 

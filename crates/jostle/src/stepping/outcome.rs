@@ -1,0 +1,122 @@
+//! What a run is asked for and what it leaves behind.
+
+use super::NotPositive;
+use crate::history::{Energy, Extreme, FloorPeaks, History, Impact, Work};
+use crate::state::State;
+
+/// What a run should leave behind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Whether buildings push each other or pass through each other.
+    pub pounding: Pounding,
+    /// Least time between recorded instants in free flight, zero for every step; every step of a closed contact
+    /// is recorded. `None` records no histories \[s\].
+    pub record_interval: Option<f64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            pounding: Pounding::Included,
+            record_interval: Some(0.005),
+        }
+    }
+}
+
+/// Whether contacts push.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pounding {
+    /// Buildings hit each other.
+    Included,
+    /// Buildings pass through each other; closings are still followed.
+    Excluded,
+}
+
+/// How far a run has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Time reached \[s\].
+    pub time: f64,
+    /// Time to reach \[s\].
+    pub duration: f64,
+}
+
+/// Everything a run leaves behind.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Time histories, if asked for.
+    pub history: Option<History>,
+    /// Impacts in the order in which they ended.
+    pub impacts: Vec<Impact>,
+    /// Peaks of every floor of every building.
+    pub floors: Vec<Vec<FloorPeaks>>,
+    /// Greatest closing u_left − u_right of every contact \[m\].
+    pub closing: Vec<Extreme>,
+    /// Greatest elastic base shear of every building \[N\].
+    pub base_shear: Vec<f64>,
+    /// Energies at the end.
+    pub energy: Energy,
+    /// Work done.
+    pub work: Work,
+    /// Smallest regular step taken in contact \[s\].
+    pub contact_step: Option<f64>,
+    /// State at the end.
+    pub state: State,
+    /// Why the run ended.
+    pub end: RunEnd,
+}
+
+/// Why a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RunEnd {
+    /// The end of the motion was reached.
+    Completed,
+    /// The observer asked to stop.
+    Stopped,
+    /// A step failed; what came before stands.
+    Failed(StepError),
+}
+
+/// A step that could not be taken.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// A building offers no resistance.
+    #[error(
+        "\"{building}\" cannot be stepped at t = {time:.6} s: {source}; check its supports and stiffnesses"
+    )]
+    NotPositive {
+        /// Name of the building.
+        building: String,
+        /// Time \[s\].
+        time: f64,
+        /// Where.
+        source: NotPositive,
+    },
+    /// The contact forces were not found.
+    #[error(
+        "the contact forces did not converge at t = {time:.6} s ({closed} contacts closed); a smaller contact_step may help"
+    )]
+    ContactDiverged {
+        /// Time \[s\].
+        time: f64,
+        /// Number of closed contacts.
+        closed: usize,
+    },
+    /// A displacement overflowed.
+    #[error(
+        "displacements are no longer finite at t = {time:.6} s; check masses, stiffnesses and the ground motion"
+    )]
+    NotFinite {
+        /// Time \[s\].
+        time: f64,
+    },
+    /// Contacts keep closing and opening without time passing.
+    #[error(
+        "contacts close and open endlessly at t = {time:.6} s; a smaller contact_step or a softer contact may help"
+    )]
+    Chattering {
+        /// Time \[s\].
+        time: f64,
+    },
+}
