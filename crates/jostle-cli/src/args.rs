@@ -52,7 +52,7 @@ pub(crate) struct ModelArgs {
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) model: ModelArgs,
-    /// Folder for the results [default: jostle-out/<model>; with --json, none]
+    /// Folder for the results [default: jostle-out/MODEL; with --json, none]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Neither a report nor the second run without contact that it compares with
