@@ -1,6 +1,7 @@
 //! Time of the stepping kernels on frames as tall as they come; work counts are printed beside.
 //!
 //! `cargo bench -p jostle`
+#![allow(clippy::print_stdout, reason = "a benchmark prints its work counts")]
 
 use std::ops::ControlFlow;
 

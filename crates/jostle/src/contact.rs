@@ -114,7 +114,8 @@ impl ContactLaw {
         let kelvin = |ratio: f64, tension| ForceLaw::Kelvin {
             stiffness: k,
             damping: 2.0 * ratio * (k * effective_mass(left_mass, right_mass)).sqrt(),
-            tension,
+            // Without damping there is nothing to pull with.
+            tension: tension && ratio > 0.0,
         };
         match self.kind {
             LawKind::Linear => kelvin(0.0, false),
@@ -199,11 +200,11 @@ impl ForceLaw {
         }
     }
 
-    /// Force at the instant of touch, before any indentation \[N\].
+    /// Force at the instant of touch, before any indentation, at the closing rate `rate` ≥ 0 \[N\].
     #[must_use]
-    pub fn onset(&self, impact_speed: f64) -> f64 {
+    pub fn onset(&self, rate: f64) -> f64 {
         match *self {
-            Self::Kelvin { damping, .. } => damping * impact_speed,
+            Self::Kelvin { damping, .. } => damping * rate,
             Self::Hertz { .. } => 0.0,
         }
     }

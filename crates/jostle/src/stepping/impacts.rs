@@ -147,7 +147,7 @@ impl<E: StepEquations> Simulation<'_, E> {
                 let contact = &self.system.contacts[index];
                 let impact_speed = rate.max(SLOWEST_IMPACT);
                 let mut episode = Episode::new(time, impact_speed);
-                episode.force = contact.law.onset(impact_speed);
+                episode.force = contact.law.onset(rate.max(0.0));
                 episode.peak_force = episode.force;
                 self.contact_division[index] = self.plan.division(contact, impact_speed);
                 self.finest_in_contact = self.finest_in_contact.max(self.contact_division[index]);
