@@ -1,0 +1,517 @@
+use jostle::{
+    Axial, Damping, FloorPairs, Frame, LawKind, Model, RestitutionIs, Shear, Structure, System,
+};
+
+use crate::support::{frame, framed, law, row, tower};
+
+/// A frame beside a tower, sound.
+fn sound() -> Model {
+    row(
+        vec![
+            framed("frame", frame(3, &[4.0, 6.0])),
+            tower("tower", 4, 3e4, 0.6),
+        ],
+        0.05,
+        law(LawKind::HertzDamp, 0.65),
+    )
+}
+
+fn frame_of(model: &mut Model) -> &mut Frame {
+    match &mut model.buildings[0].structure {
+        Structure::Frame(frame) => frame,
+        Structure::Shear(_) => panic!("the first building is a frame"),
+    }
+}
+
+fn shear_of(model: &mut Model) -> &mut Shear {
+    match &mut model.buildings[1].structure {
+        Structure::Shear(shear) => shear,
+        Structure::Frame(_) => panic!("the second building is a tower"),
+    }
+}
+
+fn ratio(ratio: f64, modes: &[usize]) -> Damping {
+    Damping::Ratio {
+        ratio,
+        modes: modes.to_vec(),
+    }
+}
+
+/// What is broken, where it is reported, and part of what is said.
+type Case = (fn(&mut Model), &'static str, &'static str);
+
+const CASES: &[Case] = &[
+    (
+        |m| {
+            m.gaps.clear();
+            m.buildings.clear();
+        },
+        "building",
+        "at least one building",
+    ),
+    (
+        |m| m.buildings[0].name = " ".into(),
+        "building[0].name",
+        "must not be empty",
+    ),
+    (
+        |m| m.buildings[0].name = "tower".into(),
+        "building[0].name",
+        "another building is called \"tower\"",
+    ),
+    (
+        |m| m.buildings[0].name = "tower".into(),
+        "building[1].name",
+        "another building is called \"tower\"",
+    ),
+    (
+        |m| frame_of(m).storey_heights[1] = 0.0,
+        "building[0].storey_height[1]",
+        "must be greater than zero, found 0 m",
+    ),
+    (
+        |m| frame_of(m).storey_heights[2] = f64::NAN,
+        "building[0].storey_height[2]",
+        "must be greater than zero",
+    ),
+    (
+        |m| shear_of(m).storey_heights[3] = -3.0,
+        "building[1].storey_height[3]",
+        "found -3 m",
+    ),
+    (
+        |m| m.buildings[0].damping = ratio(1.0, &[1]),
+        "building[0].damping.ratio",
+        "between 0 and 1",
+    ),
+    (
+        |m| m.buildings[0].damping = ratio(-0.05, &[1]),
+        "building[0].damping.ratio",
+        "found -0.05",
+    ),
+    (
+        |m| m.buildings[0].damping = ratio(f64::NAN, &[1]),
+        "building[0].damping.ratio",
+        "between 0 and 1",
+    ),
+    (
+        |m| m.buildings[1].damping = ratio(0.05, &[]),
+        "building[1].damping.modes",
+        "one lateral mode, or two",
+    ),
+    (
+        |m| m.buildings[1].damping = ratio(0.05, &[0]),
+        "building[1].damping.modes",
+        "counted from 1; found [0]",
+    ),
+    (
+        |m| m.buildings[1].damping = ratio(0.05, &[2, 2]),
+        "building[1].damping.modes",
+        "two different ones in rising order",
+    ),
+    (
+        |m| m.buildings[1].damping = ratio(0.05, &[1, 2, 3]),
+        "building[1].damping.modes",
+        "found [1, 2, 3]",
+    ),
+    (
+        |m| {
+            m.buildings[0].damping = Damping::Rayleigh {
+                alpha: -1.0,
+                beta: 0.0,
+            }
+        },
+        "building[0].damping.alpha",
+        "must not be negative, found -1 1/s",
+    ),
+    (
+        |m| {
+            m.buildings[0].damping = Damping::Rayleigh {
+                alpha: 0.0,
+                beta: f64::INFINITY,
+            }
+        },
+        "building[0].damping.beta",
+        "must not be negative, found inf s",
+    ),
+    (
+        |m| {
+            let f = frame_of(m);
+            f.storey_heights.clear();
+            f.columns.clear();
+            f.beams.clear();
+            f.beam_mass.clear();
+            f.floor_mass.clear();
+        },
+        "building[0].storeys",
+        "at least one storey",
+    ),
+    (
+        |m| {
+            let f = frame_of(m);
+            f.spans.clear();
+            f.beam_segments.clear();
+        },
+        "building[0].spans",
+        "at least one span",
+    ),
+    (
+        |m| frame_of(m).spans[1] = -6.0,
+        "building[0].spans[1]",
+        "must be greater than zero, found -6 m",
+    ),
+    (
+        |m| {
+            frame_of(m).columns.pop();
+        },
+        "building[0].column",
+        "has 2 entries for 3 storeys",
+    ),
+    (
+        |m| {
+            frame_of(m).beams.pop();
+        },
+        "building[0].beam",
+        "has 2 entries for 3 storeys",
+    ),
+    (
+        |m| frame_of(m).beam_mass.push(1.0),
+        "building[0].beam_mass",
+        "has 4 entries for 3 storeys",
+    ),
+    (
+        |m| frame_of(m).floor_mass.clear(),
+        "building[0].floor_mass",
+        "has 0 entries for 3 storeys",
+    ),
+    (
+        |m| frame_of(m).columns[2].flexural_rigidity = 0.0,
+        "building[0].column[2].EI",
+        "found 0 N.m2",
+    ),
+    (
+        |m| frame_of(m).beams[0].flexural_rigidity = f64::INFINITY,
+        "building[0].beam[0].EI",
+        "must be greater than zero",
+    ),
+    (
+        |m| frame_of(m).columns[0].line_mass = -1.0,
+        "building[0].column[0].mass",
+        "found -1 kg/m",
+    ),
+    (
+        |m| frame_of(m).beams[1].line_mass = -1.0,
+        "building[0].beam[1].mass",
+        "found -1 kg/m",
+    ),
+    (
+        |m| frame_of(m).columns[1].axial_rigidity = Some(0.0),
+        "building[0].column[1].EA",
+        "found 0 N",
+    ),
+    (
+        |m| {
+            let f = frame_of(m);
+            f.axial = Axial {
+                columns_flexible: true,
+                beams_flexible: false,
+            };
+            f.columns[1].axial_rigidity = None;
+        },
+        "building[0].column[1].EA",
+        "is needed because the member is axially flexible",
+    ),
+    (
+        |m| {
+            let f = frame_of(m);
+            f.axial = Axial {
+                columns_flexible: false,
+                beams_flexible: true,
+            };
+            f.beams[2].axial_rigidity = None;
+        },
+        "building[0].beam[2].EA",
+        "is needed because the member is axially flexible",
+    ),
+    (
+        |m| frame_of(m).beam_mass[1] = -1.0,
+        "building[0].beam_mass[1]",
+        "must not be negative, found -1 kg/m",
+    ),
+    (
+        |m| frame_of(m).floor_mass[1] = -1.0,
+        "building[0].floor_mass[1]",
+        "must not be negative, found -1 kg",
+    ),
+    (
+        |m| {
+            let f = frame_of(m);
+            f.beam_mass.fill(0.0);
+            f.columns.iter_mut().for_each(|c| c.line_mass = 0.0);
+        },
+        "building[0].floor_mass",
+        "every floor needs some mass",
+    ),
+    (
+        |m| frame_of(m).column_segments = 0,
+        "building[0].column_segments",
+        "between 1 and 64, found 0",
+    ),
+    (
+        |m| frame_of(m).column_segments = 65,
+        "building[0].column_segments",
+        "between 1 and 64, found 65",
+    ),
+    (
+        |m| {
+            frame_of(m).beam_segments.pop();
+        },
+        "building[0].beam_segments",
+        "has 1 entries for 2 spans",
+    ),
+    (
+        |m| frame_of(m).beam_segments[1] = 0,
+        "building[0].beam_segments[1]",
+        "between 1 and 64, found 0",
+    ),
+    (
+        |m| frame_of(m).joint.rotational_stiffness = Some(0.0),
+        "building[0].joint.rotational_stiffness",
+        "found 0 N.m/rad",
+    ),
+    (
+        |m| {
+            let s = shear_of(m);
+            s.mass.clear();
+            s.stiffness.clear();
+            s.storey_heights.clear();
+        },
+        "building[1].mass",
+        "at least one floor",
+    ),
+    (
+        |m| {
+            shear_of(m).stiffness.pop();
+        },
+        "building[1].stiffness",
+        "has 3 entries for 4 floors",
+    ),
+    (
+        |m| {
+            shear_of(m).storey_heights.pop();
+        },
+        "building[1].storey_height",
+        "has 3 entries for 4 floors",
+    ),
+    (
+        |m| shear_of(m).mass[0] = 0.0,
+        "building[1].mass[0]",
+        "found 0 kg",
+    ),
+    (
+        |m| shear_of(m).stiffness[2] = -1.0,
+        "building[1].stiffness[2]",
+        "found -1 N/m",
+    ),
+    (
+        |m| m.gaps[0].width = -1e-3,
+        "gap[0].width",
+        "found -0.001 m; touching buildings have a gap of zero",
+    ),
+    (
+        |m| m.gaps[0].width = f64::NAN,
+        "gap[0].width",
+        "must not be negative",
+    ),
+    (
+        |m| m.gaps[0].left = 1,
+        "gap[0].between",
+        "two neighbouring buildings",
+    ),
+    (
+        |m| {
+            let twin = m.gaps[0].clone();
+            m.gaps.push(twin);
+        },
+        "gap[1].between",
+        "more than one gap",
+    ),
+    (
+        |m| m.gaps[0].law.stiffness = 0.0,
+        "gap[0].stiffness",
+        "found 0 N/m^1.5",
+    ),
+    (
+        |m| {
+            m.gaps[0].law = law(LawKind::Linear, 1.0);
+            m.gaps[0].law.stiffness = -1.0;
+        },
+        "gap[0].stiffness",
+        "found -1 N/m",
+    ),
+    (
+        |m| m.gaps[0].law.restitution = 0.0,
+        "gap[0].restitution",
+        "greater than 0 and at most 1, found 0",
+    ),
+    (
+        |m| m.gaps[0].law.restitution = 1.1,
+        "gap[0].restitution",
+        "found 1.1",
+    ),
+    (
+        |m| m.gaps[0].law.restitution = f64::NAN,
+        "gap[0].restitution",
+        "found NaN",
+    ),
+    (
+        |m| {
+            m.gaps[0].law = law(LawKind::KelvinNoTension, 0.1);
+            m.gaps[0].law.restitution_is = RestitutionIs::Realised;
+        },
+        "gap[0].restitution",
+        "cannot be realised by kelvin-no-tension below 0.1353",
+    ),
+    (
+        |m| {
+            shear_of(m).storey_heights.fill(3.0);
+        },
+        "gap[0].floors",
+        "no floors of \"frame\" and \"tower\" lie at equal height",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Listed(vec![]),
+        "gap[0].floors",
+        "is empty; list the pairs",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Listed(vec![(1, 1), (4, 4)]),
+        "gap[0].floors[1]",
+        "floor 4 does not exist: \"frame\" has floors 1 to 3",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Listed(vec![(0, 1)]),
+        "gap[0].floors[0]",
+        "floor 0 does not exist",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Listed(vec![(1, 2)]),
+        "gap[0].floors[0]",
+        "floor 1 of \"frame\" is at 3.200 m and floor 2 of \"tower\" at 6.400 m",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Listed(vec![(1, 1), (1, 1)]),
+        "gap[0].floors[1]",
+        "the pair [1, 1] is listed twice",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Heights(vec![]),
+        "gap[0].floors",
+        "is empty; list the heights",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Heights(vec![3.2, 4.0]),
+        "gap[0].floors[1]",
+        "\"frame\" has no floor or lumped mass at 4.000 m (nearest: 3.200 m)",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Heights(vec![1.6]),
+        "gap[0].floors[0]",
+        "\"tower\" has no floor or lumped mass at 1.600 m",
+    ),
+    (
+        |m| m.analysis.step = Some(0.0),
+        "analysis.step",
+        "between 1e-7 s and 0.1 s, found 0 s",
+    ),
+    (
+        |m| m.analysis.step = Some(f64::NAN),
+        "analysis.step",
+        "between 1e-7 s and 0.1 s",
+    ),
+    (
+        |m| m.analysis.contact_step = Some(0.2),
+        "analysis.contact_step",
+        "found 0.2 s",
+    ),
+    (
+        |m| {
+            m.analysis.step = Some(1e-3);
+            m.analysis.contact_step = Some(2e-3);
+        },
+        "analysis.contact_step",
+        "must not exceed step",
+    ),
+    (
+        |m| m.analysis.tolerance = 0.0,
+        "analysis.tolerance",
+        "must lie between 1e-6 and 0.1",
+    ),
+    (
+        |m| m.analysis.energy_tolerance = 2.0,
+        "analysis.energy_tolerance",
+        "must lie between 1e-15 and 1",
+    ),
+];
+
+#[test]
+fn a_sound_model_is_accepted() {
+    assert_eq!(sound().check(), Ok(()));
+    assert!(System::assemble(&sound()).is_ok(), "it can be assembled");
+}
+
+#[test]
+fn bad_models_are_refused_at_the_field_and_in_words() {
+    for (number, (spoil, path, text)) in CASES.iter().enumerate() {
+        let mut model = sound();
+        spoil(&mut model);
+        let faults = model
+            .check()
+            .expect_err(&format!("case {number}, {path}: {text}"));
+        let found = faults
+            .iter()
+            .any(|fault| fault.path == *path && fault.problem.contains(text));
+        assert!(
+            found,
+            "case {number}: expected {path}: {text}\nfound {faults:#?}"
+        );
+        assert_eq!(
+            System::assemble(&model).err(),
+            Some(faults),
+            "case {number}: assembly refuses it alike"
+        );
+    }
+}
+
+#[test]
+fn all_faults_are_reported_at_once() {
+    let mut model = sound();
+    frame_of(&mut model).spans[0] = 0.0;
+    shear_of(&mut model).mass[3] = -1.0;
+    model.gaps[0].width = -1.0;
+    model.analysis.tolerance = 1.0;
+    let faults = model.check().expect_err("four faults");
+    let paths: Vec<&str> = faults.iter().map(|fault| fault.path.as_str()).collect();
+    assert_eq!(
+        paths,
+        [
+            "building[0].spans[0]",
+            "building[1].mass[3]",
+            "gap[0].width",
+            "analysis.tolerance"
+        ]
+    );
+}
+
+#[test]
+fn damping_at_a_mode_that_does_not_exist_is_refused() {
+    let mut model = sound();
+    model.buildings[1].damping = ratio(0.05, &[1, 40]);
+    let faults = System::assemble(&model).expect_err("the tower has four modes");
+    assert_eq!(faults[0].path, "building[1].damping.modes");
+    assert!(
+        faults[0].problem.contains("lateral mode 40 does not exist"),
+        "{}",
+        faults[0].problem
+    );
+}

@@ -1,0 +1,14 @@
+//! Do we solve the equations right? Each file is named after what it claims.
+
+mod a_row_of_three_buildings;
+mod bad_models_are_refused;
+mod energy_balances;
+mod extremes_are_survived;
+mod forces_never_pull;
+mod mirrored_model_mirrors_the_answer;
+mod newmark_is_second_order;
+mod no_impact_is_lost_or_counted_twice;
+mod riccati_equals_direct_stiffness;
+mod same_input_same_bits;
+mod support;
+mod wide_gap_leaves_buildings_independent;
