@@ -22,7 +22,7 @@ pub(crate) fn stiffnesses(skeleton: &Skeleton) -> impl Iterator<Item = ElementSt
     let members = skeleton
         .members
         .iter()
-        .map(|member| member_stiffness(member, &skeleton.nodes));
+        .map(|member| of_member(member, &skeleton.nodes));
     members
         .chain(skeleton.hinges.iter().map(hinge_stiffness))
         .chain(skeleton.springs.iter().map(spring_stiffness))
@@ -37,7 +37,7 @@ impl Member {
 }
 
 /// Bernoulli or Timoshenko beam, axially rigid or not, with chord P-Delta (theory, Eq. K1).
-fn member_stiffness(member: &Member, nodes: &[Node]) -> ElementStiffness {
+pub(crate) fn of_member(member: &Member, nodes: &[Node]) -> ElementStiffness {
     let vertical = member.is_vertical(nodes);
     let [a, b] = member.ends;
     // From the left or the lower end.

@@ -2,6 +2,7 @@
 
 pub mod contact;
 pub mod equations;
+pub mod gravity;
 pub mod history;
 pub mod modal;
 pub mod model;

@@ -1,0 +1,193 @@
+//! Gravity: static displacements under self weight, and the axial compression it leaves in columns.
+
+use crate::element::{self, Y};
+use crate::skeleton::Skeleton;
+use crate::stepping::{NotPositive, StepEquations};
+use crate::system::BuildingSystem;
+use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
+
+/// Standard gravity \[m/s²\].
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// Static displacement of every degree of freedom of a building under its own weight \[m, rad\].
+///
+/// `gravity` ≥ 0 \[m/s²\]. Where members keep their length, what rests on them does not sink.
+///
+/// # Errors
+/// [`NotPositive`] when the building can move without deforming.
+pub fn static_displacement(
+    building: &BuildingSystem,
+    gravity: f64,
+) -> Result<Vec<f64>, NotPositive> {
+    let sweep = RiccatiSweep::of(building);
+    let mut factor = RiccatiFactor::default();
+    sweep.factorize(1.0, 0.0, &mut factor)?;
+    let mut displacement: Vec<f64> = building
+        .equations
+        .vertical_mass
+        .iter()
+        .map(|mass| -mass * gravity)
+        .collect();
+    sweep.solve(&factor, &mut displacement);
+    Ok(displacement)
+}
+
+/// Axial compression of every member under gravity, zero in horizontal ones \[N\].
+///
+/// By equilibrium of the column lines: a column carries the masses above on its line, and what the beams that
+/// end there hang on it. So it is the same whether columns keep their length or not.
+///
+/// # Errors
+/// [`NotPositive`] when the building can move without deforming.
+pub fn compressions(building: &BuildingSystem, gravity: f64) -> Result<Vec<f64>, NotPositive> {
+    let displacement = static_displacement(building, gravity)?;
+    let skeleton = &building.idealisation.skeleton;
+    let hung = hung_on_nodes(skeleton, building, &displacement, gravity);
+    Ok(skeleton
+        .members
+        .iter()
+        .map(|member| {
+            let nodes = &skeleton.nodes;
+            if !member.is_vertical(nodes) {
+                return 0.0;
+            }
+            let [a, b] = member.ends.map(|end| nodes[end]);
+            let top = a.y.max(b.y);
+            let on_line = nodes
+                .iter()
+                .zip(&hung)
+                .filter(|(node, _)| (node.x - a.x).abs() < SAME_LINE);
+            on_line
+                .filter(|(node, _)| node.y > top - SAME_LINE)
+                .map(|(_, weight)| weight)
+                .sum()
+        })
+        .collect())
+}
+
+/// Nodes closer than this lie on one column line \[m\].
+const SAME_LINE: f64 = 1e-6;
+
+/// Downward force on every node from its own mass and from the beams that end there, columns excluded \[N\].
+fn hung_on_nodes(
+    skeleton: &Skeleton,
+    building: &BuildingSystem,
+    displacement: &[f64],
+    gravity: f64,
+) -> Vec<f64> {
+    let mut hung: Vec<f64> = skeleton
+        .nodes
+        .iter()
+        .map(|node| node.mass * gravity)
+        .collect();
+    for member in skeleton
+        .members
+        .iter()
+        .filter(|member| !member.is_vertical(&skeleton.nodes))
+    {
+        for (a, b, value) in element::of_member(member, &skeleton.nodes).entries {
+            if a.1 == Y {
+                // The member holds the node up with −K u.
+                hung[a.0] += building
+                    .equations
+                    .dof(b)
+                    .map_or(0.0, |dof| value * displacement[dof]);
+            }
+        }
+    }
+    hung
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Axial, Building, Damping, Frame, Joint, Section, Structure};
+    use crate::skeleton::Idealisation;
+
+    fn frame(columns_flexible: bool) -> BuildingSystem {
+        let section = |line_mass| Section {
+            flexural_rigidity: 1e8,
+            axial_rigidity: Some(8e9),
+            line_mass,
+        };
+        let building = Building {
+            name: "frame".into(),
+            structure: Structure::Frame(Frame {
+                storey_heights: vec![3.0; 3],
+                spans: vec![4.0, 6.0],
+                columns: vec![section(600.0); 3],
+                beams: vec![section(0.0); 3],
+                beam_mass: vec![4000.0; 3],
+                floor_mass: vec![0.0; 3],
+                column_segments: 3,
+                beam_segments: vec![4, 5],
+                axial: Axial {
+                    columns_flexible,
+                    beams_flexible: false,
+                },
+                joint: Joint {
+                    rotational_stiffness: Some(5e8),
+                },
+            }),
+            damping: Damping::Rayleigh {
+                alpha: 0.0,
+                beta: 0.0,
+            },
+        };
+        BuildingSystem::new("frame", Idealisation::of(&building))
+    }
+
+    #[test]
+    fn columns_carry_all_that_lies_above_them() {
+        for flexible in [false, true] {
+            let building = frame(flexible);
+            let skeleton = &building.idealisation.skeleton;
+            let carried = compressions(&building, 10.0).expect("it stands");
+            for cut in [0.1, 1.5, 3.1, 7.4] {
+                let through = skeleton.members.iter().zip(&carried).filter(|(member, _)| {
+                    let [a, b] = member.ends.map(|end| skeleton.nodes[end].y);
+                    a.min(b) < cut && a.max(b) > cut
+                });
+                let above: f64 = skeleton
+                    .nodes
+                    .iter()
+                    .filter(|node| node.y > cut)
+                    .map(|node| 10.0 * node.mass)
+                    .sum();
+                let sum: f64 = through.map(|(_, force)| force).sum();
+                assert!(
+                    (sum / above - 1.0).abs() < 1e-9,
+                    "at {cut} m: {sum} N instead of {above} N"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_column_shortens_under_what_it_carries() {
+        // With flexible columns the compression is also EA times the shortening.
+        let building = frame(true);
+        let skeleton = &building.idealisation.skeleton;
+        let sunk = static_displacement(&building, 10.0).expect("it stands");
+        let carried = compressions(&building, 10.0).expect("it stands");
+        for (member, force) in skeleton
+            .members
+            .iter()
+            .zip(&carried)
+            .filter(|(_, force)| **force != 0.0)
+        {
+            let at = |end: usize| {
+                building
+                    .equations
+                    .vertical(member.ends[end])
+                    .map_or(0.0, |dof| sunk[dof])
+            };
+            let [a, b] = member.ends.map(|end| skeleton.nodes[end].y);
+            let shortened = (at(0) - at(1)) * (b - a).signum() / (b - a).abs() * 8e9;
+            assert!(
+                (shortened / force - 1.0).abs() < 1e-9,
+                "{shortened} N and {force} N"
+            );
+        }
+    }
+}
