@@ -14,11 +14,11 @@ pub mod stepping;
 pub mod stiffness;
 pub mod summary;
 pub mod system;
+pub mod transfer;
 
 mod check;
 mod element;
 mod summarise;
-mod transfer;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};

@@ -1,4 +1,5 @@
-//! The transfer room: the path from the free ends of a frame to its base, and the Riccati recursion along it.
+//! The transfer room: elements as transfer matrices, the path from the free ends of a frame to its base, and
+//! the ways to solve a step along it.
 //!
 //! ```text
 //!   y,qy ↑   θ,m ↺                 roof  ●──∿──○──○──∿──●       ● joint   ○ lumped mass
@@ -12,5 +13,35 @@
 //!                                       ▔▔▔            ▔▔▔
 //! ```
 
+//!
+//! *Elements*: [`LumpedMass`], [`BeamSegment`] and [`PlanarHinge`] make a [`Transfer`], which takes the
+//! [`StateVector`] of one cut to the next (theory, Eqs. T1 to T5).
+//!
+//! *Solvers*, all for K̂ y = r with K̂ = κ K + g M of one building: [`crate::RiccatiSweep`], the one that runs
+//! use; [`ElementwiseRiccati`], the same recursion as Horner and Pilkey wrote it, element by element;
+//! [`ProductEquations`], the total transfer equation as published for pounding frames, whose digits
+//! [`digits_left`] counts.
+
+mod beam;
+mod condensed_beam;
+mod digits;
+mod elementwise;
+mod hinge;
+mod layout;
+mod lumped_mass;
+mod product;
+mod state_vector;
+mod transfer_matrix;
+
 pub(crate) mod path;
 pub(crate) mod riccati;
+
+pub use beam::{BeamSegment, Heading};
+pub use digits::digits_left;
+pub use elementwise::{ElementwiseFactor, ElementwiseRiccati};
+pub use hinge::PlanarHinge;
+pub use layout::NotAFrame;
+pub use lumped_mass::{LumpedMass, apart, one_in_two_out, two_in_one_out, two_in_two_out};
+pub use product::{ProductEquations, ProductFactor, ProductRefusal, measured_loss};
+pub use state_vector::StateVector;
+pub use transfer_matrix::Transfer;

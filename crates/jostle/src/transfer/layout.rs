@@ -1,0 +1,350 @@
+//! Column lines and beams, found in the geometry of a skeleton.
+
+use super::{BeamSegment, Heading, LumpedMass, PlanarHinge, Transfer};
+use crate::element::{THETA, X, Y};
+use crate::equations::Equations;
+use crate::skeleton::{Skeleton, Support};
+use crate::system::BuildingSystem;
+
+/// Two heights or places nearer than this are the same \[m\].
+const SAME: f64 = 1e-6;
+
+/// A skeleton that no chain of transfer matrices runs through.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotAFrame {
+    /// No node is fixed.
+    #[error("no node is fixed; transfer starts at fixed bases")]
+    NoBase,
+    /// A node stands where no column line or beam passes.
+    #[error("node {node} lies on no column line and on no beam")]
+    LooseNode {
+        /// Index of the node.
+        node: usize,
+    },
+    /// An element belongs to no column line and to no beam.
+    #[error("{element} belongs to no column line and to no beam between neighbouring column lines")]
+    LooseElement {
+        /// Which: "member 3", "hinge 0", "spring 1".
+        element: String,
+    },
+    /// A column line branches upwards.
+    #[error("more than one element leads up from node {node}")]
+    Branches {
+        /// Index of the node.
+        node: usize,
+    },
+    /// A beam whose ends are not at one height.
+    #[error("the beam from node {from} to node {to} is not level")]
+    NotLevel {
+        /// Left end.
+        from: usize,
+        /// Right end.
+        to: usize,
+    },
+    /// A node that is held above its base, other than the floors of a shear building.
+    #[error("node {node} is guided, which only floors of a shear building may be")]
+    Guided {
+        /// Index of the node.
+        node: usize,
+    },
+    /// The last column line is traversed downwards and must begin at a beam.
+    #[error("no beam meets the head of the last column line at node {node}")]
+    HeadWithoutBeam {
+        /// Index of the node.
+        node: usize,
+    },
+}
+
+/// An element of a line and the way in which it is traversed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Link {
+    Member(usize),
+    Hinge(usize),
+    Spring(usize),
+}
+
+/// A column line: nodes from the base up, and the link below each of them but the first.
+#[derive(Clone, Debug)]
+pub(super) struct ColumnLine {
+    pub(super) nodes: Vec<usize>,
+    pub(super) links: Vec<Link>,
+}
+
+/// A beam between neighbouring column lines: all nodes from the left joint to the right one, and the links
+/// between them.
+#[derive(Clone, Debug)]
+pub(super) struct BeamLine {
+    /// Index of the column line on the left.
+    pub(super) bay: usize,
+    /// Places of the joints in the column lines on the left and on the right.
+    pub(super) joints: [usize; 2],
+    pub(super) nodes: Vec<usize>,
+    pub(super) links: Vec<Link>,
+}
+
+/// What a skeleton is made of, from the point of view of transfer.
+#[derive(Clone, Debug)]
+pub(super) struct Layout {
+    /// From left to right.
+    pub(super) columns: Vec<ColumnLine>,
+    /// Bay by bay, from the lowest up.
+    pub(super) beams: Vec<BeamLine>,
+    /// Per column line and place: the beam that ends there and the one that begins there.
+    pub(super) meeting: Vec<Vec<[Option<usize>; 2]>>,
+    /// Per node and component: the degree of freedom whose load the node carries and whose displacement it
+    /// tells. A displacement that several nodes share belongs to the first of them.
+    pub(super) carried: Vec<[Option<usize>; 3]>,
+    pub(super) skeleton: Skeleton,
+}
+
+impl Layout {
+    pub(super) fn of(building: &BuildingSystem) -> Result<Self, NotAFrame> {
+        let skeleton = &building.idealisation.skeleton;
+        let elements = elements(skeleton);
+        let mut around = vec![Vec::new(); skeleton.nodes.len()];
+        for &(link, [a, b]) in &elements {
+            around[a].push((link, b));
+            around[b].push((link, a));
+        }
+        let columns = column_lines(skeleton, &around)?;
+        let beams = beam_lines(skeleton, &around, &columns)?;
+        let mut meeting: Vec<Vec<[Option<usize>; 2]>> = columns
+            .iter()
+            .map(|line| vec![[None; 2]; line.nodes.len()])
+            .collect();
+        for (index, beam) in beams.iter().enumerate() {
+            meeting[beam.bay][beam.joints[0]][1] = Some(index);
+            meeting[beam.bay + 1][beam.joints[1]][0] = Some(index);
+        }
+        let layout = Self {
+            columns,
+            beams,
+            meeting,
+            carried: carried(&building.equations, skeleton.nodes.len()),
+            skeleton: skeleton.clone(),
+        };
+        layout.check_all_found(&elements)?;
+        Ok(layout)
+    }
+
+    /// Transfer through a link, every stiffness multiplied by κ.
+    pub(super) fn transfer(&self, link: Link, heading: Heading, stiffness_factor: f64) -> Transfer {
+        match link {
+            Link::Member(index) => {
+                let member = &self.skeleton.members[index];
+                let [a, b] = member.ends.map(|end| self.skeleton.nodes[end]);
+                let segment = BeamSegment {
+                    length: (b.x - a.x).abs().max((b.y - a.y).abs()),
+                    flexural_rigidity: member.flexural_rigidity,
+                    axial_rigidity: member.axial_rigidity,
+                    shear_rigidity: member.shear_rigidity,
+                    compression: member.compression,
+                };
+                segment.stiffened(stiffness_factor).transfer(heading)
+            }
+            Link::Hinge(index) => {
+                let hinge = &self.skeleton.hinges[index];
+                let [horizontal_stiffness, vertical_stiffness] = hinge.translational_stiffness;
+                let hinge = PlanarHinge {
+                    rotational_stiffness: Some(hinge.rotational_stiffness),
+                    horizontal_stiffness,
+                    vertical_stiffness,
+                };
+                hinge.stiffened(stiffness_factor).transfer()
+            }
+            // Floors of a shear building neither rise nor turn: a hinge that gives way sideways only.
+            Link::Spring(index) => PlanarHinge {
+                horizontal_stiffness: Some(
+                    stiffness_factor * self.skeleton.springs[index].stiffness,
+                ),
+                ..PlanarHinge::default()
+            }
+            .transfer(),
+        }
+    }
+
+    /// Transfer through the lumped mass of a node, without loads.
+    pub(super) fn mass(&self, node: usize, mass_factor: f64) -> Transfer {
+        let node = &self.skeleton.nodes[node];
+        let mass = LumpedMass {
+            mass: node.mass,
+            rotary_inertia: node.rotary_inertia,
+        };
+        mass.transfer(mass_factor, [0.0; 3])
+    }
+
+    /// Height of a node above the base \[m\].
+    pub(super) fn height(&self, node: usize) -> f64 {
+        self.skeleton.nodes[node].y
+    }
+
+    fn check_all_found(&self, elements: &[(Link, [usize; 2])]) -> Result<(), NotAFrame> {
+        let mut met = vec![false; self.skeleton.nodes.len()];
+        let mut passed = Vec::new();
+        let columns = self.columns.iter().map(|line| (&line.nodes, &line.links));
+        let beams = self.beams.iter().map(|line| (&line.nodes, &line.links));
+        for (nodes, links) in columns.chain(beams) {
+            nodes.iter().for_each(|&node| met[node] = true);
+            passed.extend(links.iter().copied());
+        }
+        if let Some(node) = met.iter().position(|met| !met) {
+            return Err(NotAFrame::LooseNode { node });
+        }
+        let loose = elements.iter().find(|(link, _)| !passed.contains(link));
+        if let Some((link, _)) = loose {
+            return Err(NotAFrame::LooseElement {
+                element: match link {
+                    Link::Member(index) => format!("member {index}"),
+                    Link::Hinge(index) => format!("hinge {index}"),
+                    Link::Spring(index) => format!("spring {index}"),
+                },
+            });
+        }
+        for (index, node) in self.skeleton.nodes.iter().enumerate() {
+            let at_spring = |(link, ends): &(Link, [usize; 2])| {
+                matches!(link, Link::Spring(_)) && ends.contains(&index)
+            };
+            let at_other = |(link, ends): &(Link, [usize; 2])| {
+                !matches!(link, Link::Spring(_)) && ends.contains(&index)
+            };
+            let guided = node.support == Support::Guided;
+            let sound = match node.support {
+                Support::Fixed => true,
+                Support::Guided => !elements.iter().any(at_other),
+                Support::Free => !elements.iter().any(at_spring),
+            };
+            if !sound {
+                return Err(if guided {
+                    NotAFrame::Guided { node: index }
+                } else {
+                    NotAFrame::LooseNode { node: index }
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Every element with its ends.
+fn elements(skeleton: &Skeleton) -> Vec<(Link, [usize; 2])> {
+    let members = skeleton.members.iter().enumerate();
+    let hinges = skeleton.hinges.iter().enumerate();
+    let springs = skeleton.springs.iter().enumerate();
+    members
+        .map(|(index, member)| (Link::Member(index), member.ends))
+        .chain(hinges.map(|(index, hinge)| (Link::Hinge(index), hinge.ends)))
+        .chain(springs.map(|(index, spring)| (Link::Spring(index), spring.ends)))
+        .collect()
+}
+
+fn carried(equations: &Equations, nodes: usize) -> Vec<[Option<usize>; 3]> {
+    let mut taken = vec![false; equations.len()];
+    (0..nodes)
+        .map(|node| {
+            [X, Y, THETA].map(|component| {
+                let dof = equations.dof((node, component))?;
+                (!std::mem::replace(&mut taken[dof], true)).then_some(dof)
+            })
+        })
+        .collect()
+}
+
+/// From every fixed node up as far as it goes.
+fn column_lines(
+    skeleton: &Skeleton,
+    around: &[Vec<(Link, usize)>],
+) -> Result<Vec<ColumnLine>, NotAFrame> {
+    let nodes = &skeleton.nodes;
+    let mut bases: Vec<usize> = (0..nodes.len())
+        .filter(|&node| nodes[node].support == Support::Fixed)
+        .collect();
+    if bases.is_empty() {
+        return Err(NotAFrame::NoBase);
+    }
+    bases.sort_by(|&a, &b| nodes[a].x.total_cmp(&nodes[b].x));
+    let mut columns = Vec::new();
+    for base in bases {
+        let mut line = ColumnLine {
+            nodes: vec![base],
+            links: Vec::new(),
+        };
+        let mut at = base;
+        loop {
+            let mut up = around[at].iter().filter(|(_, to)| {
+                nodes[*to].y > nodes[at].y + SAME && (nodes[*to].x - nodes[at].x).abs() <= SAME
+            });
+            let Some(&(link, to)) = up.next() else { break };
+            if up.next().is_some() {
+                return Err(NotAFrame::Branches { node: at });
+            }
+            line.links.push(link);
+            line.nodes.push(to);
+            at = to;
+        }
+        columns.push(line);
+    }
+    Ok(columns)
+}
+
+/// From every joint to the right, until the next column line.
+fn beam_lines(
+    skeleton: &Skeleton,
+    around: &[Vec<(Link, usize)>],
+    columns: &[ColumnLine],
+) -> Result<Vec<BeamLine>, NotAFrame> {
+    let nodes = &skeleton.nodes;
+    let mut place = vec![None; nodes.len()];
+    for (column, line) in columns.iter().enumerate() {
+        for (index, &node) in line.nodes.iter().enumerate() {
+            place[node] = Some((column, index));
+        }
+    }
+    let mut beams = Vec::new();
+    for (column, line) in columns.iter().enumerate() {
+        for (joint, &from) in line.nodes.iter().enumerate().skip(1) {
+            for &(link, to) in &around[from] {
+                if line.nodes.contains(&to) {
+                    continue;
+                }
+                let (mut links, mut path) = (vec![link], vec![from, to]);
+                let mut at = to;
+                while place[at].is_none() {
+                    let back = links[links.len() - 1];
+                    let mut ahead = around[at].iter().filter(|(link, _)| *link != back);
+                    let (Some(&(link, next)), None) = (ahead.next(), ahead.next()) else {
+                        break;
+                    };
+                    if path.contains(&next) {
+                        break;
+                    }
+                    links.push(link);
+                    path.push(next);
+                    at = next;
+                }
+                // Beams that end at the column line on the left are found from there.
+                if nodes[at].x < nodes[from].x - SAME {
+                    continue;
+                }
+                if path
+                    .iter()
+                    .any(|&node| (nodes[node].y - nodes[from].y).abs() > SAME)
+                {
+                    return Err(NotAFrame::NotLevel { from, to: at });
+                }
+                let end = place[at].filter(|(right, _)| *right == column + 1);
+                let known = |beam: &BeamLine| beam.bay == column && beam.nodes[0] == from;
+                // Beams that run side by side are left over, and so is what leads nowhere.
+                if let Some((_, end)) = end.filter(|_| !beams.iter().any(known)) {
+                    beams.push(BeamLine {
+                        bay: column,
+                        joints: [joint, end],
+                        nodes: path,
+                        links,
+                    });
+                }
+            }
+        }
+    }
+    Ok(beams)
+}

@@ -1,0 +1,157 @@
+//! Frames, loads and steps that the claims are tried on.
+
+use jostle::skeleton::Idealisation;
+use jostle::stepping::StepEquations;
+use jostle::system::BuildingSystem;
+use jostle::{Axial, Building, Damping, Frame, Joint, Section, Structure};
+
+/// Young's modulus of the concrete \[Pa\].
+const MODULUS: f64 = 3e10;
+/// Depth of the square columns unless said otherwise \[m\].
+pub(crate) const COLUMN: f64 = 0.5;
+
+/// How a frame departs from the plain one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Variant {
+    AxiallyRigid,
+    FlexibleColumns,
+    FlexibleBeams,
+    FlexibleMembers,
+    Timoshenko,
+    NoHinges,
+    PDelta,
+}
+
+pub(crate) const VARIANTS: [Variant; 7] = [
+    Variant::AxiallyRigid,
+    Variant::FlexibleColumns,
+    Variant::FlexibleBeams,
+    Variant::FlexibleMembers,
+    Variant::Timoshenko,
+    Variant::NoHinges,
+    Variant::PDelta,
+];
+
+/// Storeys of 3.2 m, four segments per storey and per beam, floors that carry 6 kPa over 3 m, hinges at the beam
+/// ends.
+pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64) -> BuildingSystem {
+    let section = |width: f64, depth: f64| Section {
+        flexural_rigidity: MODULUS * width * depth.powi(3) / 12.0,
+        axial_rigidity: Some(MODULUS * width * depth),
+        line_mass: 2500.0 * width * depth,
+    };
+    let beam = section(0.3, 0.6);
+    let flexible = [Variant::FlexibleMembers, Variant::Timoshenko].contains(&variant);
+    let building = Building {
+        name: format!("{variant:?}"),
+        structure: Structure::Frame(Frame {
+            storey_heights: vec![3.2; storeys],
+            spans: spans.to_vec(),
+            columns: vec![section(depth, depth); storeys],
+            beams: vec![beam; storeys],
+            beam_mass: vec![beam.line_mass + 6000.0 * 3.0 / 9.81; storeys],
+            floor_mass: vec![0.0; storeys],
+            column_segments: 4,
+            beam_segments: vec![4; spans.len()],
+            axial: Axial {
+                columns_flexible: flexible || variant == Variant::FlexibleColumns,
+                beams_flexible: flexible || variant == Variant::FlexibleBeams,
+            },
+            joint: Joint {
+                rotational_stiffness: (variant != Variant::NoHinges).then_some(1.0),
+            },
+        }),
+        damping: Damping::Rayleigh {
+            alpha: 0.0,
+            beta: 0.0,
+        },
+    };
+    let mut idealisation = Idealisation::of(&building);
+    let skeleton = &mut idealisation.skeleton;
+    // Hinges of 50 times 6 EI/L of their bay.
+    let lines: Vec<f64> = std::iter::once(0.0)
+        .chain(spans.iter().scan(0.0, |x, span| {
+            *x += span;
+            Some(*x)
+        }))
+        .collect();
+    for (index, hinge) in skeleton.hinges.iter_mut().enumerate() {
+        // Two per beam, bay by bay.
+        let span = spans[index / 2 % spans.len()];
+        assert!(
+            lines.contains(&skeleton.nodes[hinge.ends[0]].x),
+            "hinges are at joints"
+        );
+        hinge.rotational_stiffness = 50.0 * 6.0 * beam.flexural_rigidity / span;
+    }
+    for member in &mut skeleton.members {
+        let [a, b] = member.ends.map(|end| skeleton.nodes[end]);
+        let vertical = a.x == b.x;
+        match variant {
+            Variant::Timoshenko => {
+                // G = E/2.4, A_s = 5/6 A.
+                member.shear_rigidity = member.axial_rigidity.map(|ea| ea / 2.4 * 5.0 / 6.0);
+            }
+            Variant::PDelta if vertical => {
+                let storeys_above = storeys - (a.y.min(b.y) / 3.2 + 1e-9).floor() as usize;
+                member.compression = 3e5 * storeys_above as f64;
+            }
+            _ => {}
+        }
+    }
+    BuildingSystem::new(&building.name, idealisation)
+}
+
+/// κ and g of a Newmark step \[s\] with Rayleigh damping.
+pub(crate) fn step_factors(
+    [beta, gamma]: [f64; 2],
+    step: f64,
+    [mass, stiffness]: [f64; 2],
+) -> (f64, f64) {
+    let (a, c) = (1.0 / (beta * step * step), gamma / (beta * step));
+    (1.0 + stiffness * c, a + mass * c)
+}
+
+/// Forces as they occur in a step: ground acceleration, unequal inertia, a few nodal loads.
+pub(crate) fn step_load(building: &BuildingSystem, mass_factor: f64) -> Vec<f64> {
+    let equations = &building.equations;
+    let scatter = |k: usize, s: f64| (s * (k as f64 + 1.0)).sin();
+    (0..equations.len())
+        .map(|k| {
+            let inertia = 1e-3 * mass_factor * equations.mass[k] * scatter(k, 1.37);
+            -2.0 * equations.driven_mass[k] + inertia + 1e4 * scatter(k, 0.71)
+        })
+        .collect()
+}
+
+/// Displacements by one of the solvers.
+pub(crate) fn solution<E: StepEquations>(
+    building: &BuildingSystem,
+    (kappa, g): (f64, f64),
+    load: &[f64],
+) -> Vec<f64> {
+    let solver = E::of(building);
+    let mut factor = E::Factor::default();
+    solver
+        .factorize(kappa, g, &mut factor)
+        .expect("the frame stands");
+    let mut answer = load.to_vec();
+    solver.solve(&factor, &mut answer);
+    answer
+}
+
+/// Greatest difference, relative to the greatest expected magnitude; infinite where there is no number.
+pub(crate) fn difference(got: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(got.len(), expected.len(), "as many values as expected");
+    let largest = expected
+        .iter()
+        .fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let apart = got.iter().zip(expected).map(|(g, e)| (g - e).abs());
+    apart.fold(0.0_f64, |most, apart| {
+        if apart.is_nan() {
+            f64::INFINITY
+        } else {
+            most.max(apart)
+        }
+    }) / largest
+}
