@@ -18,6 +18,15 @@ pub(super) struct Event {
     pub(super) at: f64,
 }
 
+/// Where a step that was to end on an event has ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Landing {
+    /// Where it began: another event happened there first, and time stands still.
+    AtStart,
+    /// Later, on the event or as near as it could be found.
+    Later,
+}
+
 /// A touch is located when the faces are this close \[m\].
 const TOUCH: f64 = 1e-13;
 /// Contacts this close to touching, and closing, close together with another \[m\].
@@ -52,14 +61,25 @@ impl<E: StepEquations> Simulation<'_, E> {
                 .first_crossing(crossing)
                 && first.is_none_or(|event| at < event.at)
             {
-                first = Some(Event {
+                let event = Event {
                     contact,
                     crossing,
                     at,
-                });
+                };
+                if !self.undoes_a_touch(&event, step) {
+                    first = Some(event);
+                }
             }
         }
         first
+    }
+
+    /// Whether a contact would open at the very instant at which it closed. Where bodies rest against each other,
+    /// steps of different length may disagree about which contact closes; it must stay closed for a step.
+    fn undoes_a_touch(&self, event: &Event, step: f64) -> bool {
+        matches!(self.state.contacts[event.contact], ContactPhase::Closed(episode)
+            if event.crossing == Crossing::Downwards && episode.since == self.state.time)
+            && event.at * step <= self.shortest_step(event)
     }
 
     /// An event nearer than this happens at the start of the step \[s\].
@@ -70,7 +90,11 @@ impl<E: StepEquations> Simulation<'_, E> {
     }
 
     /// Repeats the step so that it ends on an event, or on an earlier one met on the way.
-    pub(super) fn step_to(&mut self, mut event: Event, stride: &Stride) -> Result<(), StepError> {
+    pub(super) fn step_to(
+        &mut self,
+        mut event: Event,
+        stride: &Stride,
+    ) -> Result<Landing, StepError> {
         let mut length = event.at * stride.length;
         for _ in 0..12 {
             self.factorize(0, length)?;
@@ -79,6 +103,12 @@ impl<E: StepEquations> Simulation<'_, E> {
                 .first_event(length)
                 .filter(|other| other.contact != event.contact && other.at < 1.0 - 1e-9)
             {
+                if other.at * length <= self.shortest_step(&other) {
+                    // It happens before anything moves: no step so short could be taken.
+                    self.read_contacts();
+                    self.happen(other);
+                    return Ok(Landing::AtStart);
+                }
                 event = other;
                 length *= other.at;
                 continue;
@@ -107,7 +137,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         if reached {
             self.happen(event);
         }
-        Ok(())
+        Ok(Landing::Later)
     }
 
     /// Rate of closing of a contact at the present instant \[m/s\].
@@ -241,7 +271,7 @@ impl<E: StepEquations> Simulation<'_, E> {
 
     /// Lists an episode as an impact, if it ever pushed.
     pub(super) fn report_impact(&mut self, contact: usize, episode: &Episode) {
-        if episode.peak_force > 0.0 {
+        if episode.peak_force > 0.0 && episode.end > episode.since {
             self.impacts.push(Impact {
                 contact,
                 start: episode.since,

@@ -7,6 +7,7 @@ use super::clock::{Clock, Stride};
 use super::coupling::ContactEquations;
 use super::energy::EnergyAudit;
 use super::factors::StepFactors;
+use super::impacts::Landing;
 use super::lanes;
 use super::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 use super::plan::Plan;
@@ -197,7 +198,10 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             };
             self.work.repeated_steps += 1;
             if event.at * stride.length > self.shortest_step(&event) {
-                return self.step_to(event, &stride);
+                match self.step_to(event, &stride)? {
+                    Landing::Later => return Ok(()),
+                    Landing::AtStart => continue,
+                }
             }
             self.read_contacts();
             self.happen(event);
