@@ -1,11 +1,11 @@
 //! Zero gaps, rigid contacts, dull and lively restitution, touches on the grid, lasting contact.
 
 use jostle::stepping::ContactSteps;
-use jostle::{Analysis, GroundMotion, LawKind, Outcome, Plan, RestitutionIs, System};
+use jostle::{Analysis, Column, GroundMotion, LawKind, Outcome, Plan, RestitutionIs, System};
 
 use crate::support::{
-    LAWS, assembled, frame, framed, largest, law, moving, row, run, run_from, shaking, slider,
-    sliders, steps, still, tower, two_frames,
+    LAWS, Random, assembled, column, frame, framed, largest, law, moving, row, run, run_from,
+    shaking, slider, sliders, steps, still, tower, two_frames,
 };
 
 fn automatic(system: &System, motion: &GroundMotion) -> Plan {
@@ -393,4 +393,43 @@ fn runs_end_where_the_motion_ends() {
         (0, 0),
         "nothing happens in no time"
     );
+}
+
+/// In a crowd of closed contacts one event can come so soon after another that it must happen at once: a step
+/// between them would be so short that accelerations, changes of displacement over h², are lost in rounding.
+#[test]
+fn no_step_is_too_short_to_be_taken() {
+    let mut random = Random(2);
+    for number in 0..150 {
+        let towers = (0..5).map(|k| {
+            let (storeys, mass) = (random.whole(1, 5), 10_f64.powf(random.between(3.0, 6.0)));
+            tower(
+                &format!("tower {k}"),
+                storeys,
+                mass,
+                random.between(0.1, 1.5),
+            )
+        });
+        let towers = towers.collect();
+        let mut law = law(LawKind::Kelvin, random.between(0.3, 0.95));
+        law.stiffness *= 10_f64.powf(random.between(0.0, 2.5));
+        let system = assembled(&row(towers, 0.0, law));
+        let division = random.whole(1, 8) as u32;
+        let outcome = run(&system, &shaking(2.0), &steps(1e-3, division));
+        let shortest = column(&outcome, Column::Time)
+            .windows(2)
+            .fold(f64::INFINITY, |shortest: f64, pair| {
+                shortest.min(pair[1] - pair[0])
+            });
+        assert!(
+            shortest >= 5e-5 * 1e-3 / f64::from(division),
+            "row {number}: a step of {shortest:e} s, division {division}"
+        );
+        for impact in &outcome.impacts {
+            assert!(
+                impact.start < impact.end && impact.impulse > 0.0,
+                "row {number}: {impact:?}"
+            );
+        }
+    }
 }
