@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use jostle::{
-    Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, LawKind, Model, Plan, Pounding,
-    RestitutionIs, Settings, Shear, Structure, System, simulate,
+    Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, LawKind, Model, Plan,
+    Pounding, RestitutionIs, Settings, Shear, Structure, System, simulate,
 };
 
 fn towers() -> Model {
@@ -15,7 +15,10 @@ fn towers() -> Model {
             stiffness: vec![stiffness; 4],
             storey_heights: vec![3.0; 4],
         }),
-        damping: Damping::Ratio { ratio: 0.05, modes: vec![1, 2] },
+        damping: Damping::Ratio {
+            ratio: 0.05,
+            modes: vec![1, 2],
+        },
     };
     let law = ContactLaw {
         kind: LawKind::HertzDamp,
@@ -26,7 +29,12 @@ fn towers() -> Model {
     Model {
         title: "towers".into(),
         buildings: vec![tower("soft", 4e4, 2e7), tower("stiff", 6e4, 9e7)],
-        gaps: vec![Gap { left: 0, width: 0.03, floors: FloorPairs::Common, law }],
+        gaps: vec![Gap {
+            left: 0,
+            width: 0.03,
+            floors: FloorPairs::Common,
+            law,
+        }],
         analysis: Analysis::default(),
     }
 }
@@ -44,10 +52,15 @@ fn a_longer_run_allocates_no_more_often() {
     let count = |duration: f64, pounding: Pounding| {
         let motion = shaking(duration);
         let plan = Plan::choose(&system, &motion, &model.analysis).expect("sensible steps");
-        let settings = Settings { pounding, record_interval: None };
+        let settings = Settings {
+            pounding,
+            record_interval: None,
+        };
         let mut impacts = 0;
         let taken = allocation_counter::measure(|| {
-            let outcome = simulate(&system, &motion, &plan, settings, |_| ControlFlow::Continue(()));
+            let outcome = simulate(&system, &motion, &plan, settings, |_| {
+                ControlFlow::Continue(())
+            });
             impacts = outcome.impacts.len();
         });
         (taken.count_total, impacts)
@@ -59,5 +72,8 @@ fn a_longer_run_allocates_no_more_often() {
     let (short, few) = count(5.0, Pounding::Included);
     let (long, many) = count(50.0, Pounding::Included);
     assert!(few > 0 && many > 5 * few, "{few} and {many} impacts");
-    assert!(long <= short + 30, "{short} allocations for {few} impacts, {long} for {many}");
+    assert!(
+        long <= short + 30,
+        "{short} allocations for {few} impacts, {long} for {many}"
+    );
 }
