@@ -102,8 +102,8 @@ const FAMILIES: [(&str, &str, Make); 11] = [
     ),
     (
         "The example after Zhang et al.",
-        "The built-in model: masses, periods, whether gaps close, and OpenSees on the same model (Newmark ¼, ½; 2 ms, \
-         near contact 0.2 ms; its numbers are given to three or more digits).",
+        "The built-in model: masses, periods, whether gaps close, and OpenSees on the same model with the \
+         same method and steps (Newmark ¼, ½; 2 ms, near contact 0.2 ms; its numbers are given to three or more digits).",
         |_| paper::rows(),
     ),
     (
