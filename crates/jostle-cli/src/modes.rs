@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use jostle::modal::Mode;
+use jostle::modal::{self, Mode};
 use jostle::system::BuildingSystem;
 use jostle_io::Overrides;
 use serde_json::{Value, json};
@@ -15,24 +15,34 @@ use crate::terminal::{self, BOLD, DIM, styled};
 pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
     let opened = open(args.model.as_deref(), &Overrides::default())?;
     let count = args.count as usize;
+    let mut listed = Vec::new();
+    for building in &opened.system.buildings {
+        let modes = modal::modes(building, count).map_err(|problem| {
+            Failure::Analysis(format!("no modes of \"{}\": {problem}", building.name))
+        })?;
+        listed.push((building, modes));
+    }
     if args.json {
-        let buildings: Vec<Value> = opened
-            .system
-            .buildings
+        let buildings: Vec<Value> = listed
             .iter()
-            .map(|building| as_json(building, count))
+            .map(|(building, modes)| as_json(building, modes, count))
             .collect();
         return terminal::print(&format!("{:#}", json!({ "buildings": buildings })));
     }
     let mut text = String::new();
-    for building in &opened.system.buildings {
+    for (building, modes) in &listed {
         // Writing to a string cannot fail.
-        let _ = describe(&mut text, building, count);
+        let _ = describe(&mut text, building, modes);
     }
+    let _ = writeln!(
+        text,
+        "T marks lateral modes (≥ 1 % of the mass). None is missing: frequencies by counting negative pivots of the\n\
+         Riccati recursion (Wittrick and Williams), shapes by inverse iteration."
+    );
     terminal::print(&text)
 }
 
-fn as_json(building: &BuildingSystem, count: usize) -> Value {
+fn as_json(building: &BuildingSystem, modes: &[Mode], count: usize) -> Value {
     let mode = |mode: &Mode| {
         json!({
             "period_s": mode.period(),
@@ -46,7 +56,7 @@ fn as_json(building: &BuildingSystem, count: usize) -> Value {
     json!({
         "name": building.name,
         "periods_s": building.lateral_modes().take(count).map(Mode::period).collect::<Vec<_>>(),
-        "modes": building.modes.iter().take(count).map(mode).collect::<Vec<_>>(),
+        "modes": modes.iter().map(mode).collect::<Vec<_>>(),
     })
 }
 
@@ -67,7 +77,7 @@ fn shape(mode: &Mode) -> Vec<f64> {
     mode.floors.iter().map(|value| value * scale).collect()
 }
 
-fn describe(text: &mut String, building: &BuildingSystem, count: usize) -> std::fmt::Result {
+fn describe(text: &mut String, building: &BuildingSystem, modes: &[Mode]) -> std::fmt::Result {
     writeln!(text, "{}", styled(BOLD, &building.name))?;
     writeln!(
         text,
@@ -75,7 +85,7 @@ fn describe(text: &mut String, building: &BuildingSystem, count: usize) -> std::
         building.floors.len()
     )?;
     let (mut lateral, mut carried) = (0, 0.0);
-    for (index, mode) in building.modes.iter().take(count).enumerate() {
+    for (index, mode) in modes.iter().enumerate() {
         let shape: Vec<String> = shape(mode)
             .iter()
             .map(|value| format!("{value:+.2}"))
@@ -102,11 +112,11 @@ fn describe(text: &mut String, building: &BuildingSystem, count: usize) -> std::
             mode.effective_mass_ratio_y * 100.0
         )?;
     }
-    let all = building.modes.len();
     writeln!(
         text,
-        "  {} of {all} modes listed, with {:.1} % of the mass horizontally; T marks lateral modes (≥ 1 %)\n",
-        count.min(all),
+        "  {} of {} modes listed, with {:.1} % of the mass horizontally\n",
+        modes.len(),
+        modal::number_of_modes(building),
         carried * 100.0
     )
 }

@@ -29,7 +29,8 @@ pub struct BuildingSystem {
     pub offset: usize,
     /// Floors from the ground up.
     pub floors: Vec<Floor>,
-    /// Natural modes, longest period first; empty when the building can move without deforming.
+    /// Lateral modes, longest period first; empty when the building can move without deforming.
+    /// [`modal::modes`] finds those of all kinds.
     pub modes: Vec<Mode>,
 }
 
@@ -269,7 +270,7 @@ impl BuildingSystem {
             floors,
             modes: Vec::new(),
         };
-        building.modes = modal::modes(&building).unwrap_or_default();
+        building.modes = modal::lateral_modes(&building).unwrap_or_default();
         building
     }
 

@@ -5,6 +5,8 @@
 //! are all that need be kept. Unlike the product of transfer matrices no growing and decaying solutions are
 //! ever mixed, so that nothing is lost at small steps or in tall frames.
 
+use std::convert::Infallible;
+
 use crate::stepping::{NotPositive, StepEquations};
 use crate::system::BuildingSystem;
 
@@ -39,11 +41,101 @@ pub struct RiccatiFactor {
     work: Vec<f64>,
 }
 
+/// Signs of the pivots of a shifted factorisation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Inertia {
+    /// Negative pivots.
+    pub(crate) negative: usize,
+    /// Greatest change of a diagonal entry, relative to the stiffness and inertia it is made of: the factor by
+    /// which elimination magnifies rounding. At most 1 for positive definite matrices.
+    pub(crate) growth: f64,
+}
+
+impl RiccatiFactor {
+    /// Pivots along the path.
+    pub(crate) fn pivots(&self) -> &[f64] {
+        &self.pivots
+    }
+}
+
 impl RiccatiSweep {
     /// Couplings kept per factor: one solution costs two multiply-adds for each.
     #[must_use]
     pub fn couplings(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Factorises K − `shift`·M whatever the signs of its pivots, and returns how many are negative: as many as
+    /// there are eigenvalues ω² below the shift (Sylvester; theory, Eq. M3).
+    pub(crate) fn factorize_shifted(&self, shift: f64, factor: &mut RiccatiFactor) -> Inertia {
+        let mut inertia = Inertia {
+            negative: 0,
+            growth: 0.0,
+        };
+        let never_fails = self.eliminate(1.0, -shift, factor, |row, own, pivot| {
+            let scale = self.stiffness_diagonal[row] + shift.abs() * self.mass[row];
+            inertia.growth = (own - pivot).abs().max(inertia.growth * scale) / scale;
+            // A part behind the cut resonates with its end held: any small pivot does, its sign is immaterial.
+            let least = f64::EPSILON * scale;
+            let pivot = if pivot.abs() < least { least } else { pivot };
+            inertia.negative += usize::from(pivot < 0.0);
+            Ok::<_, Infallible>(pivot)
+        });
+        match never_fails {
+            Ok(()) => inertia,
+            Err(never) => match never {},
+        }
+    }
+
+    /// L D Lᵀ of `stiffness_factor`·K + `mass_factor`·M; every pivot is what `accept` makes of (row, entry of the
+    /// matrix on the diagonal, pivot).
+    fn eliminate<E>(
+        &self,
+        stiffness_factor: f64,
+        mass_factor: f64,
+        factor: &mut RiccatiFactor,
+        mut accept: impl FnMut(usize, f64, f64) -> Result<f64, E>,
+    ) -> Result<(), E> {
+        let n = self.mass.len();
+        factor.couplings.resize(self.rows.len(), 0.0);
+        factor.pivots.resize(n, 0.0);
+        factor.inverse_pivots.resize(n, 0.0);
+        factor.work.clear();
+        factor.work.resize(n, 0.0);
+        factor.next.clear();
+        factor.next.extend_from_slice(&self.starts[..n]);
+        let RiccatiFactor {
+            couplings,
+            inverse_pivots,
+            pivots,
+            next,
+            work,
+        } = factor;
+        for row in 0..n {
+            let own =
+                stiffness_factor * self.stiffness_diagonal[row] + mass_factor * self.mass[row];
+            for &(column, value) in &self.upper[self.upper_starts[row]..self.upper_starts[row + 1]]
+            {
+                work[column as usize] = stiffness_factor * value;
+            }
+            let mut pivot = own;
+            for &column in &self.reached[self.reached_starts[row]..self.reached_starts[row + 1]] {
+                let column = column as usize;
+                let value = std::mem::take(&mut work[column]);
+                let known = self.starts[column]..next[column];
+                for (&below, &coupling) in self.rows[known.clone()].iter().zip(&couplings[known]) {
+                    work[below as usize] -= coupling * value;
+                }
+                let coupling = value * inverse_pivots[column];
+                pivot -= coupling * value;
+                couplings[next[column]] = coupling;
+                next[column] += 1;
+            }
+            let pivot = accept(row, own, pivot)?;
+            pivots[row] = pivot;
+            inverse_pivots[row] = 1.0 / pivot;
+        }
+        Ok(())
     }
 }
 
@@ -112,49 +204,14 @@ impl StepEquations for RiccatiSweep {
         mass_factor: f64,
         factor: &mut RiccatiFactor,
     ) -> Result<(), NotPositive> {
-        let n = self.mass.len();
-        factor.couplings.resize(self.rows.len(), 0.0);
-        factor.pivots.resize(n, 0.0);
-        factor.inverse_pivots.resize(n, 0.0);
-        factor.work.clear();
-        factor.work.resize(n, 0.0);
-        factor.next.clear();
-        factor.next.extend_from_slice(&self.starts[..n]);
-        let RiccatiFactor {
-            couplings,
-            inverse_pivots,
-            pivots,
-            next,
-            work,
-        } = factor;
-        for row in 0..n {
-            let own =
-                stiffness_factor * self.stiffness_diagonal[row] + mass_factor * self.mass[row];
-            for &(column, value) in &self.upper[self.upper_starts[row]..self.upper_starts[row + 1]]
-            {
-                work[column as usize] = stiffness_factor * value;
+        let accept = |row: usize, own: f64, pivot: f64| {
+            if pivot > 1e-14 * own.abs() && pivot.is_finite() {
+                Ok(pivot)
+            } else {
+                Err(NotPositive { dof: row })
             }
-            let mut pivot = own;
-            for &column in &self.reached[self.reached_starts[row]..self.reached_starts[row + 1]] {
-                let column = column as usize;
-                let value = std::mem::take(&mut work[column]);
-                let known = self.starts[column]..next[column];
-                for (&below, &coupling) in self.rows[known.clone()].iter().zip(&couplings[known]) {
-                    work[below as usize] -= coupling * value;
-                }
-                let coupling = value * inverse_pivots[column];
-                pivot -= coupling * value;
-                couplings[next[column]] = coupling;
-                next[column] += 1;
-            }
-            if !(pivot > 1e-14 * own.abs() && pivot.is_finite()) {
-                work.fill(0.0);
-                return Err(NotPositive { dof: row });
-            }
-            pivots[row] = pivot;
-            inverse_pivots[row] = 1.0 / pivot;
-        }
-        Ok(())
+        };
+        self.eliminate(stiffness_factor, mass_factor, factor, accept)
     }
 
     #[inline]
