@@ -26,6 +26,8 @@ pub(crate) enum Command {
     Check(ModelArgs),
     /// Natural periods, participation and shapes
     Modes(ModesArgs),
+    /// Size and accuracy of the step equations in every form, on your own buildings
+    Method(MethodArgs),
     /// Write a commented starter file
     New(NewArgs),
     /// Print the JSON Schema of model files
@@ -73,6 +75,15 @@ pub(crate) struct ModesArgs {
     /// Print JSON and nothing else
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct MethodArgs {
+    /// Model file, or the name of a built-in example; without it, the built-in "paper"
+    pub(crate) model: Option<PathBuf>,
+    /// Folder for a page with tables and plots, method.html
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]

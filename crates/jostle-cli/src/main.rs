@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod failure;
+mod method;
 mod modes;
 mod numbers;
 mod open;
@@ -22,6 +23,7 @@ fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::check(&args),
         Command::Modes(args) => modes::modes(&args),
+        Command::Method(args) => method::method(&args),
         Command::New(args) => starter::new(&args),
         Command::Schema => terminal::print(&jostle_io::model_schema()),
     };

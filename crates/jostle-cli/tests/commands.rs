@@ -261,3 +261,22 @@ fn interrupt_keeps_what_was_computed() {
             && folder.path().join("r/report.html").exists()
     );
 }
+
+#[test]
+fn method_shows_where_the_product_fails_and_riccati_does_not() {
+    let folder = folder();
+    let output = jostle(folder.path(), &["method", "--out", "m"]);
+    assert!(output.status.success(), "{}", complained(&output));
+    let text = printed(&output);
+    // (n − 1)(6m + 3) unknowns: two and three spans, five and ten storeys.
+    assert!(
+        text.contains("66 unknowns") && text.contains("189 unknowns"),
+        "{text}"
+    );
+    assert!(
+        text.contains("lost"),
+        "at small steps the product has no digit left:\n{text}"
+    );
+    let page = std::fs::read_to_string(folder.path().join("m/method.html")).expect("a page");
+    assert!(page.contains("total transfer equation"));
+}

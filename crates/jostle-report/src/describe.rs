@@ -294,6 +294,7 @@ fn analysis(page: &Page) -> Facts {
             match settings.solver {
                 Solver::Riccati => "Riccati transfer matrices".into(),
                 Solver::Stiffness => "direct stiffness".into(),
+                Solver::Product => "product of transfer matrices".into(),
             },
         ),
         (

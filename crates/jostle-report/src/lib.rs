@@ -7,10 +7,13 @@ mod describe;
 mod encode;
 mod envelope;
 mod format;
+mod method;
 mod page;
 mod payload;
 mod tables;
 mod verdict;
+
+pub use method::render_method;
 
 use jostle::summary::GapSummary;
 use jostle::{Gap, GroundMotion, History, Model, Summary};

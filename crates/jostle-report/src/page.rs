@@ -6,7 +6,7 @@ use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, peak_closing, verdict};
 use crate::{Page, describe, format, payload, tables};
 
-const STYLE: &str = include_str!("../assets/style.css");
+pub(crate) const STYLE: &str = include_str!("../assets/style.css");
 /// The scripts, in the order of their dependence; together they are one module.
 const SCRIPTS: [&str; 5] = [
     include_str!("../assets/data.js"),
@@ -16,7 +16,7 @@ const SCRIPTS: [&str; 5] = [
     include_str!("../assets/main.js"),
 ];
 /// Nothing may be loaded: everything is in the file.
-const POLICY: &str =
+pub(crate) const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 /// The style attribute that gives an element the colour of a building.

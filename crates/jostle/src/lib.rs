@@ -4,6 +4,7 @@ pub mod contact;
 pub mod equations;
 pub mod gravity;
 pub mod history;
+pub mod method;
 pub mod modal;
 pub mod model;
 pub mod motion;

@@ -1,0 +1,214 @@
+//! The page of `jostle method`: what the method comes to for every building, and the digits each solver keeps.
+
+use jostle::method::{MethodSurvey, StepAccuracy};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::page::{POLICY, STYLE};
+
+/// Errors below this are rounding and drawn at the lower edge \[–\].
+const FINEST: f64 = 1e-16;
+/// From this error on nothing is right \[–\].
+const LOST: f64 = 1.0;
+/// Plot area: left, top, width, height.
+const AREA: [f64; 4] = [64.0, 14.0, 640.0, 300.0];
+
+/// The whole page of a survey.
+#[must_use]
+pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                title { (title) " – the method" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header class="head" {
+                    div {
+                        p class="kicker" { "The method on this model" }
+                        h1 { (title) }
+                        p { "How large the equations of one step are in each form, and how many digits each form keeps as the step shrinks. Impacts need steps below a millisecond." }
+                    }
+                }
+                main {
+                    @for survey in surveys { (building(survey)) }
+                    p class="quiet" {
+                        "Errors are the largest difference of a displacement from direct stiffness, relative to the largest displacement, for one step under uneven loads. "
+                        "Product: the total transfer equation of Zhang et al. (2019). Element by element: Riccati in flexibility form. Riccati: the form in production."
+                    }
+                }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn building(survey: &MethodSurvey) -> Markup {
+    html! {
+        section {
+            h2 { (survey.name) }
+            p { (elements(survey)) }
+            div class="scroll" {
+                table {
+                    thead { tr { th { "form" } th { "unknowns" } th { "kept per step size" } th { "multiply-adds per solution" } } }
+                    tbody {
+                        tr {
+                            td { "total transfer equation (product)" }
+                            @if survey.product_unknowns > 0 {
+                                td { (survey.product_unknowns) }
+                                td { (survey.product_unknowns.pow(2)) " entries" }
+                                td { (survey.product_unknowns.pow(2)) " and two passes through the elements" }
+                            } @else {
+                                td colspan="3" { "no transfer path through this building" }
+                            }
+                        }
+                        tr {
+                            td { "Riccati recursion" }
+                            td { (survey.degrees_of_freedom) }
+                            td { (survey.couplings) " couplings" }
+                            td { (2 * survey.couplings + survey.degrees_of_freedom) }
+                        }
+                        tr {
+                            td { "direct stiffness" }
+                            td { (survey.degrees_of_freedom) }
+                            td { (survey.stiffness_entries) " entries of K, before factorising" }
+                            td { "as its ordering falls out" }
+                        }
+                    }
+                }
+            }
+            figure { (plot(survey)) figcaption class="quiet" { "Relative error of one step. Above the line at 1 nothing is right." } }
+            div class="scroll" {
+                table {
+                    thead { tr { th { "step" } th { "product" } th { "digits expected of it" } th { "element by element" } th { "Riccati" } } }
+                    tbody {
+                        @for row in &survey.accuracy {
+                            tr {
+                                td { (step_name(row.step)) }
+                                td { (error_text(row.product)) }
+                                td { (format!("{:.0}", row.product_digits_expected.max(0.0))) }
+                                td { (error_text(row.elementwise)) }
+                                td { (error_text(row.riccati)) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn elements(survey: &MethodSurvey) -> String {
+    let mut parts = vec![format!("{} lumped masses", survey.lumped_masses)];
+    for (count, name) in [
+        (survey.members, "massless beams"),
+        (survey.hinges, "hinges"),
+        (survey.springs, "storey springs"),
+    ] {
+        if count > 0 {
+            parts.push(format!("{count} {name}"));
+        }
+    }
+    format!(
+        "{}; {} displacements after rigid connections.",
+        parts.join(", "),
+        survey.degrees_of_freedom
+    )
+}
+
+fn step_name(step: f64) -> String {
+    format!("{} ms", step * 1e3)
+}
+
+fn error_text(error: f64) -> String {
+    if !error.is_finite() {
+        "overflow".to_owned()
+    } else if error > LOST {
+        format!("{error:.0e} (lost)")
+    } else {
+        format!("{error:.0e}")
+    }
+}
+
+/// Places a step and an error in the plot; `None` where there is no number to show.
+fn place(step: f64, error: f64) -> [f64; 2] {
+    let share_x = (step.log10() + 5.0) / (0.02_f64.log10() + 5.0);
+    let shown = if error.is_finite() {
+        error.clamp(FINEST, 1e3)
+    } else {
+        1e3
+    };
+    let share_y = (3.0 - shown.log10()) / 19.0;
+    let [left, top, width, height] = AREA;
+    [left + share_x * width, top + share_y * height]
+}
+
+fn plot(survey: &MethodSurvey) -> Markup {
+    let [left, top, width, height] = AREA;
+    let series: [(&str, &str, fn(&StepAccuracy) -> f64); 3] = [
+        ("product", "--c:var(--c1)", |row| row.product),
+        ("element by element", "--c:var(--c2)", |row| row.elementwise),
+        ("Riccati", "--c:var(--c0)", |row| row.riccati),
+    ];
+    let path = |value: fn(&StepAccuracy) -> f64| {
+        let points = survey
+            .accuracy
+            .iter()
+            .map(|row| place(row.step, value(row)));
+        let text: Vec<String> = points.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+        format!("M{}", text.join(" L"))
+    };
+    html! {
+        svg viewBox="0 0 720 360" role="img" aria-label={ "Relative error of one step of " (survey.name) " against the step size" } {
+            g class="grid" {
+                @for exponent in [-16, -12, -8, -4, 0] {
+                    @let y = place(0.02, 10f64.powi(exponent))[1];
+                    line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
+                    text x=(left - 8.0) y=(y + 4.0) text-anchor="end" { "10" tspan dy="-4" font-size="9" { (exponent) } }
+                }
+                @for step in [2e-2, 1e-2, 1e-3, 1e-4, 1e-5] {
+                    @let x = place(step, 1.0)[0];
+                    line x1=(x) x2=(x) y1=(top) y2=(top + height) {}
+                    text x=(x) y=(top + height + 18.0) text-anchor="middle" { (step * 1e3) }
+                }
+                text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { "step [ms]" }
+            }
+            line class="line dashed" style="--c:var(--ink)" x1=(left) x2=(left + width) y1=(place(0.02, LOST)[1]) y2=(place(0.02, LOST)[1]) {}
+            @for (index, (name, colour, value)) in series.into_iter().enumerate() {
+                path class="line" style=(colour) d=(path(value)) {}
+                line class="line" style=(colour) x1=(left + 18.0) x2=(left + 42.0)
+                    y1=(top + 144.0 + 18.0 * index as f64) y2=(top + 144.0 + 18.0 * index as f64) {}
+                text x=(left + 50.0) y=(top + 148.0 + 18.0 * index as f64) { (name) }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lost_and_overflown_errors_are_named() {
+        assert_eq!(error_text(2e-13), "2e-13");
+        assert_eq!(error_text(30.0), "3e1 (lost)");
+        assert_eq!(error_text(f64::INFINITY), "overflow");
+    }
+
+    #[test]
+    fn every_point_lies_in_the_plot() {
+        for step in [1e-5, 2e-2] {
+            for error in [0.0, 1e-20, 1.0, 1e300, f64::INFINITY, f64::NAN] {
+                let [x, y] = place(step, error);
+                assert!((AREA[0]..=AREA[0] + AREA[2] + 1e-9).contains(&x), "{x}");
+                assert!(
+                    (AREA[1] - 1e-9..=AREA[1] + AREA[3] + 1e-9).contains(&y),
+                    "{y} for {error}"
+                );
+            }
+        }
+    }
+}
