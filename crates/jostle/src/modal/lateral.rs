@@ -33,7 +33,7 @@ pub fn lateral_modes(building: &BuildingSystem) -> Result<Vec<Mode>, NotPositive
     let hidden = LATERAL_SHARE * equations.total_mass();
     loop {
         let exhausted = krylov.extend(&mut flexibility);
-        let due = krylov.diagonal.len() % LOOK_EVERY == 0;
+        let due = krylov.diagonal.len().is_multiple_of(LOOK_EVERY);
         if exhausted || (due && krylov.may_hide() < hidden) {
             break;
         }
