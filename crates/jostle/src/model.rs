@@ -171,7 +171,7 @@ impl Default for Analysis {
     }
 }
 
-/// Which equations advance a step; both give the same answer to rounding.
+/// Which equations advance a step; all give the same answer as far as their rounding allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Solver {
     /// Riccati transfer recursion along beams, column lines and storeys.
@@ -179,6 +179,9 @@ pub enum Solver {
     Riccati,
     /// Direct stiffness assembled and factorised by a general sparse library: the independent check.
     Stiffness,
+    /// Total transfer equation: products of transfer matrices, as published for pounding frames. Loses digits
+    /// at small steps and in tall buildings; ask [`crate::transfer::ProductEquations::check_step`] first.
+    Product,
 }
 
 /// One fault of a model.

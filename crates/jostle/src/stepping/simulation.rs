@@ -19,6 +19,7 @@ use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::stiffness::DirectStiffness;
 use crate::system::System;
+use crate::transfer::ProductEquations;
 use crate::transfer::riccati::RiccatiSweep;
 
 /// Runs a system from rest through a ground motion. `observer` is called now and then and may stop the run.
@@ -57,6 +58,9 @@ pub fn simulate_from(
         }
         Solver::Stiffness => {
             Simulation::<DirectStiffness>::new(system, motion, plan, settings, state).run(observer)
+        }
+        Solver::Product => {
+            Simulation::<ProductEquations>::new(system, motion, plan, settings, state).run(observer)
         }
     }
 }

@@ -1,69 +1,77 @@
-//! How many digits a product of transfer matrices leaves (theory, Eq. R0).
+//! How many digits a product of transfer matrices leaves.
 
-use super::layout::Layout;
+use super::layout::{Layout, Link};
 use super::{Heading, StateVector};
 use crate::system::BuildingSystem;
 
 /// Digits that a step should keep.
 pub(super) const DIGITS_WANTED: f64 = 6.0;
+/// Digits that are right before anything has grown.
+const DIGITS: f64 = 15.7;
+/// Digits lost per decade of growth up a column line.
+const PER_COLUMN_DECADE: f64 = 1.2;
+/// Digits lost per decade of growth along a beam.
+const PER_BEAM_DECADE: f64 = 0.4;
 
-/// Decimal digits of the largest displacement that the total transfer equation is expected to get right in one
-/// step with K̂ = κ K + g M; negative when even the order of magnitude is lost.
+/// Decimal digits of the largest displacement that the total transfer equation will about get right in one step
+/// with K̂ = κ K + g M; negative when even the order of magnitude is lost, zero for what is no frame.
+///
+/// In the product the forces at the head of a line are differences of solutions that have grown along it (theory,
+/// Eq. R0). How far they grow is found by passing forces of one newton and one newton metre up the line:
+///
+/// ```text
+/// digits = 15.7 − 1.2 c − 0.4 b,   c, b: decades of growth up the worst column line and along the worst beam
+/// ```
+/// The three numbers are fitted to frames of 5 to 20 storeys and steps of 20 ms to 0.1 ms, damped and undamped,
+/// with errors from 10⁻¹⁴ to 10²; there the error is foretold within one and a half decades.
+///
+/// ```
+/// use jostle::skeleton::Idealisation;
+/// use jostle::system::BuildingSystem;
+/// use jostle::transfer::digits_left;
+/// use jostle::{Building, Damping, Shear, Structure};
+/// let tower = Building {
+///     name: "tower".into(),
+///     structure: Structure::Shear(Shear {
+///         mass: vec![2e5; 30],
+///         stiffness: vec![2e8; 30],
+///         storey_heights: vec![3.0; 30],
+///     }),
+///     damping: Damping::Rayleigh { alpha: 0.0, beta: 0.0 },
+/// };
+/// let tower = BuildingSystem::new("tower", Idealisation::of(&tower));
+/// let at = |step: f64| digits_left(&tower, 1.0, 4.0 / (step * step));
+/// assert!(at(2e-2) > 0.0 && at(2e-3) < -30.0);
+/// ```
 #[must_use]
 pub fn digits_left(building: &BuildingSystem, stiffness_factor: f64, mass_factor: f64) -> f64 {
     let Ok(layout) = Layout::of(building) else {
         return 0.0;
     };
-    let mut worst = 0.0_f64;
-    let (mut c, mut b) = (0.0, 0.0);
-    for line in &layout.columns {
-        let g = growth(
-            &layout,
-            &line.links,
-            &line.nodes,
-            Heading::Up,
-            stiffness_factor,
-            mass_factor,
-        );
-        c = f64::max(c, g);
-    }
-    for beam in &layout.beams {
-        let g = growth(
-            &layout,
-            &beam.links,
-            &beam.nodes,
-            Heading::Right,
-            stiffness_factor,
-            mass_factor,
-        );
-        b = f64::max(b, g);
-    }
-    worst = worst.max(c + b);
-    16.0 - worst
-}
-
-fn growth(
-    layout: &Layout,
-    links: &[super::layout::Link],
-    nodes: &[usize],
-    heading: Heading,
-    k: f64,
-    g: f64,
-) -> f64 {
-    let mut z = StateVector::at_base([1.0, 1.0, 1.0]).to_array();
-    let mut sum = 0.0;
-    for (&link, &node) in links.iter().zip(&nodes[1..]) {
-        z = layout
-            .mass(node, g)
-            .apply(
-                layout
-                    .transfer(link, heading, k)
-                    .apply(StateVector::from_array(z)),
-            )
-            .to_array();
-        let n = z.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        sum += n.log10();
-        z.iter_mut().for_each(|v| *v /= n);
-    }
-    sum
+    let decades = |links: &[Link], nodes: &[usize], heading: Heading| {
+        // Renewed after every lumped mass, so that nothing overflows.
+        let (mut decades, mut state) = (0.0, StateVector::at_base([1.0; 3]));
+        for (&link, &node) in links.iter().zip(&nodes[1..]) {
+            let below = layout
+                .transfer(link, heading, stiffness_factor)
+                .apply(state);
+            let above = layout.mass(node, mass_factor).apply(below);
+            let forces = above.forces().into_iter().map(f64::abs);
+            let grown = forces.fold(f64::MIN_POSITIVE, f64::max);
+            decades += grown.log10();
+            state = StateVector::from_array(above.to_array().map(|value| value / grown));
+        }
+        decades
+    };
+    let columns = layout
+        .columns
+        .iter()
+        .map(|line| decades(&line.links, &line.nodes, Heading::Up));
+    let beams = layout
+        .beams
+        .iter()
+        .map(|line| decades(&line.links, &line.nodes, Heading::Right));
+    DIGITS
+        - PER_COLUMN_DECADE * columns.fold(0.0, f64::max)
+        - PER_BEAM_DECADE * beams.fold(0.0, f64::max)
 }

@@ -188,9 +188,6 @@ impl Layout {
             nodes.iter().for_each(|&node| met[node] = true);
             passed.extend(links.iter().copied());
         }
-        if let Some(node) = met.iter().position(|met| !met) {
-            return Err(NotAFrame::LooseNode { node });
-        }
         let loose = elements.iter().find(|(link, _)| !passed.contains(link));
         if let Some((link, _)) = loose {
             return Err(NotAFrame::LooseElement {
@@ -200,6 +197,9 @@ impl Layout {
                     Link::Spring(index) => format!("spring {index}"),
                 },
             });
+        }
+        if let Some(node) = met.iter().position(|met| !met) {
+            return Err(NotAFrame::LooseNode { node });
         }
         for (index, node) in self.skeleton.nodes.iter().enumerate() {
             let at_spring = |(link, ends): &(Link, [usize; 2])| {

@@ -1,4 +1,7 @@
-//! Do products of transfer matrices and the Riccati recursions agree, and where do they part?
+//! Transfer matrices against closed forms, against the other solvers, and where their product fails.
 
+mod closed_forms;
 mod four_ways_one_answer;
+mod misfits_are_refused;
+mod products_lose_digits;
 mod support;

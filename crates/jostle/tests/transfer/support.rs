@@ -3,7 +3,7 @@
 use jostle::skeleton::Idealisation;
 use jostle::stepping::StepEquations;
 use jostle::system::BuildingSystem;
-use jostle::{Axial, Building, Damping, Frame, Joint, Section, Structure};
+use jostle::{Axial, Building, Damping, Frame, Joint, Section, Shear, Structure};
 
 /// Young's modulus of the concrete \[Pa\].
 const MODULUS: f64 = 3e10;
@@ -100,6 +100,23 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
         }
     }
     BuildingSystem::new(&building.name, idealisation)
+}
+
+/// A shear building of unequal floors and storeys.
+pub(crate) fn tower(storeys: usize) -> BuildingSystem {
+    let building = Building {
+        name: "tower".to_owned(),
+        structure: Structure::Shear(Shear {
+            mass: (0..storeys).map(|k| 2e5 + 1e4 * k as f64).collect(),
+            stiffness: (0..storeys).map(|k| 3e8 - 1e7 * k as f64).collect(),
+            storey_heights: vec![3.0; storeys],
+        }),
+        damping: Damping::Rayleigh {
+            alpha: 0.0,
+            beta: 0.0,
+        },
+    };
+    BuildingSystem::new(&building.name, Idealisation::of(&building))
 }
 
 /// κ and g of a Newmark step \[s\] with Rayleigh damping.
