@@ -171,9 +171,7 @@ fn contact_summary(index: usize, system: &System, outcome: &Outcome) -> ContactS
         peak_force_n: strongest.map_or(0.0, |impact| impact.peak_force),
         peak_force_at_s: strongest.map(|impact| impact.peak_force_at),
         // An empty sum would be −0.
-        impulse_n_s: impacts
-            .iter()
-            .fold(0.0, |sum, impact| sum + impact.impulse),
+        impulse_n_s: impacts.iter().fold(0.0, |sum, impact| sum + impact.impulse),
         impacts: impacts.into_iter().map(ImpactSummary::from).collect(),
     }
 }
