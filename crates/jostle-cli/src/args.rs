@@ -63,6 +63,9 @@ pub(crate) struct RunArgs {
     /// Print summary.json and nothing else
     #[arg(long)]
     pub(crate) json: bool,
+    /// Run even where solver = "product" is expected to lose its digits
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, clap::Args)]

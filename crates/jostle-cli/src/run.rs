@@ -30,6 +30,19 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         ));
     }
     let (motion, plan) = opened.plan()?;
+    if let Err(refusal) = plan
+        .check_digits(&opened.system)
+        .map_err(|error| error.to_string())
+    {
+        if !args.force {
+            let problem = format!("{refusal}; --force runs it all the same");
+            return Err(opened.input.fault("analysis.solver", problem).into());
+        }
+        terminal::remark(&format!(
+            "{} {refusal}",
+            terminal::styled(terminal::LOUD, "warning:")
+        ));
+    }
     let out = folder(args, &opened);
     if let Some(out) = &out {
         std::fs::create_dir_all(out).map_err(|error| {

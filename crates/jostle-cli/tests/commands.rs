@@ -280,3 +280,28 @@ fn method_shows_where_the_product_fails_and_riccati_does_not() {
     let page = std::fs::read_to_string(folder.path().join("m/method.html")).expect("a page");
     assert!(page.contains("total transfer equation"));
 }
+
+#[test]
+fn the_product_is_refused_where_it_would_lose_its_digits() {
+    let folder = folder();
+    let paper = jostle_io::model_text("paper").expect("the example");
+    let model = paper.replacen(
+        "[motion]",
+        "[analysis]\nsolver = \"product\"\n\n[motion]",
+        1,
+    );
+    std::fs::write(folder.path().join("m.toml"), model).expect("a file");
+    let refused = jostle(folder.path(), &["run", "m.toml"]);
+    assert_eq!(refused.status.code(), Some(2));
+    for part in ["analysis.solver", "digits", "riccati", "--force"] {
+        assert!(
+            complained(&refused).contains(part),
+            "{}",
+            complained(&refused)
+        );
+    }
+    // Forced, it runs into nonsense, and says so: by its energies, and by failing where numbers overflow.
+    let forced = jostle(folder.path(), &["run", "m.toml", "--force", "--no-report"]);
+    let said = printed(&forced) + &complained(&forced);
+    assert!(said.contains("do not trust this run"), "{said}");
+}

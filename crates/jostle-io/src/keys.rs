@@ -90,8 +90,8 @@ pub(crate) const LATER_LAWS: &[&str] = &[
     "bilinear",
     "restitution",
 ];
-pub(crate) const SOLVERS: &[&str] = &["riccati", "stiffness"];
-pub(crate) const LATER_SOLVERS: &[&str] = &["product", "modal"];
+pub(crate) const SOLVERS: &[&str] = &["riccati", "stiffness", "product"];
+pub(crate) const LATER_SOLVERS: &[&str] = &["modal"];
 pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
 pub(crate) const RESTITUTION_IS: &[&str] = &["input", "realised"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
@@ -228,7 +228,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),
     default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Relative tolerance on peak force and displacement with automatic steps."),
     default(S::Analysis, "energy_tolerance", Quantity(D::Dimensionless), "1e-6", "Relative energy imbalance above which a run warns."),
-    default(S::Analysis, "solver", Choice(SOLVERS), "\"riccati\"", "Equations that advance a step: Riccati transfer, or direct stiffness as a check."),
+    default(S::Analysis, "solver", Choice(SOLVERS), "\"riccati\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, or the published product of transfer matrices."),
 ];
 
 /// The keys of some sections, in order.

@@ -28,6 +28,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
     if let Some(field) = reader.get(&view, "solver") {
         analysis.solver = match reader.choice(&field, SOLVERS, LATER_SOLVERS) {
             Some("stiffness") => Solver::Stiffness,
+            Some("product") => Solver::Product,
             _ => Solver::Riccati,
         };
     }

@@ -5,6 +5,7 @@ use crate::contact::ForceLaw;
 use crate::model::{Analysis, ModelFault, Solver};
 use crate::motion::GroundMotion;
 use crate::system::{BuildingSystem, Contact, System};
+use crate::transfer::{ProductEquations, ProductRefusal};
 
 /// How a run will step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +86,33 @@ impl Plan {
             newmark: Newmark::default(),
             solver: analysis.solver,
         })
+    }
+
+    /// The shortest step to expect: after a typical impact, back to the grid \[s\].
+    #[must_use]
+    pub fn shortest_step(&self, system: &System) -> f64 {
+        let finest = system
+            .contacts
+            .iter()
+            .map(|contact| self.division(contact, TYPICAL_SPEED))
+            .max();
+        finest.map_or(self.step, |division| 0.25 * self.step / f64::from(division))
+    }
+
+    /// Whether the chosen solver keeps enough digits for every step to expect (theory, Eq. R0). Only the product
+    /// of transfer matrices can fail.
+    ///
+    /// # Errors
+    /// [`ProductRefusal`], with the building and the remedy.
+    pub fn check_digits(&self, system: &System) -> Result<(), ProductRefusal> {
+        if self.solver != Solver::Product {
+            return Ok(());
+        }
+        let step = self.shortest_step(system);
+        system
+            .buildings
+            .iter()
+            .try_for_each(|building| ProductEquations::check_step(building, self.newmark, step))
     }
 
     /// Division of a free-flight step for a contact that closes at `impact_speed` \[m/s\].
