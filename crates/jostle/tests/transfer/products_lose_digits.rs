@@ -7,7 +7,9 @@ use jostle::stiffness::DirectStiffness;
 use jostle::transfer::{ProductEquations, ProductRefusal, digits_left, measured_loss};
 use jostle::{GroundMotion, Plan, RiccatiSweep, RunEnd, Settings, Solver, System, simulate};
 
-use crate::support::{COLUMN, Variant, difference, frame, solution, step_factors, step_load};
+use crate::support::{
+    COLUMN, Variant, difference, frame, solution, step_factors, step_load, tower,
+};
 
 const UNDAMPED: [f64; 2] = [0.0, 0.0];
 const DAMPED: [f64; 2] = [0.35, 0.0025];
@@ -175,6 +177,20 @@ fn the_estimate_holds_for_other_frames() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn the_estimate_holds_for_shear_buildings() {
+    for storeys in [2, 4, 6, 9, 12, 16, 20] {
+        let building = tower(storeys);
+        let (kappa, g) = step_factors([0.25, 0.5], 2e-2, DAMPED);
+        let loss = measured_loss(&building, kappa, g, &step_load(&building, g)).expect("it stands");
+        let pessimism = -digits_left(&building, kappa, g) - loss.log10();
+        assert!(
+            (-1.5..=3.5).contains(&pessimism),
+            "{storeys} storeys: {loss:e}, {pessimism:.1}"
+        );
     }
 }
 
