@@ -226,7 +226,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step in free flight."),
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),
-    default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Relative tolerance on peak force and displacement with automatic steps."),
+    default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Relative tolerance on the greatest contact force of a gap and on peak displacements, with automatic steps."),
     default(S::Analysis, "energy_tolerance", Quantity(D::Dimensionless), "1e-6", "Relative energy imbalance above which a run warns."),
     default(S::Analysis, "solver", Choice(SOLVERS), "\"riccati\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, or the published product of transfer matrices."),
 ];

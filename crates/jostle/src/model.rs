@@ -151,7 +151,8 @@ pub struct Analysis {
     pub step: Option<f64>,
     /// Step while a contact is closed; `None` chooses it from `tolerance` \[s\].
     pub contact_step: Option<f64>,
-    /// Relative tolerance on peak contact force and displacement with automatic steps, 1e-6…0.1 \[–\].
+    /// Relative tolerance with automatic steps on the greatest contact force of a gap and on peak displacements,
+    /// 1e-6…0.1; weak grazes beside strong impacts may miss it \[–\].
     pub tolerance: f64,
     /// Relative energy imbalance above which a run warns, > 0 \[–\].
     pub energy_tolerance: f64,
