@@ -72,7 +72,11 @@ impl Spectrum {
             .factorize(circular_frequency * circular_frequency)
             .negative;
         LogDeterminant {
-            sign: if negative.is_multiple_of(2) { 1.0 } else { -1.0 },
+            sign: if negative.is_multiple_of(2) {
+                1.0
+            } else {
+                -1.0
+            },
             logarithm: self.factor.pivots().iter().map(|d| d.abs().ln()).sum(),
         }
     }
