@@ -198,15 +198,14 @@ fn a_portal_resists_as_in_any_textbook() {
             [0.0; 3],
             "a head without a column above"
         );
-        let nothing = StateVector {
-            qy: 0.0,
-            ..StateVector::default()
-        };
         let arriving = beam.apply(beam_start);
-        let from_above = StateVector::from_array({
-            let [x, y, theta] = arriving.displacements();
-            [x, y, theta, nothing.m, nothing.qx, nothing.qy]
-        });
+        // Nor does anything come from above the right joint.
+        let from_above = StateVector {
+            m: 0.0,
+            qx: 0.0,
+            qy: 0.0,
+            ..arriving
+        };
         let down = two_in_one_out(&joint, from_above, arriving);
         (below, column.transfer(Heading::Down).apply(down))
     };
