@@ -191,6 +191,14 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
         Damping::Rayleigh { alpha, beta } => format!("Rayleigh, {}", coefficients(*alpha, *beta)),
         Damping::Ratio { ratio, modes } => {
             let modes: Vec<String> = modes.iter().map(usize::to_string).collect();
+            if modes.is_empty() {
+                let used = rayleigh
+                    .map_or_else(String::new, |(a, b)| format!(" ({})", coefficients(a, b)));
+                return format!(
+                    "{}\u{a0}% at the first and third lateral modes, as far as they exist{used}",
+                    format::plain(ratio * 100.0, 3)
+                );
+            }
             let used =
                 rayleigh.map_or_else(String::new, |(a, b)| format!(" ({})", coefficients(a, b)));
             format!(

@@ -105,7 +105,8 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
             faults.require((0.0..1.0).contains(ratio), format!("{field}.ratio"), || {
                 format!("must lie between 0 and 1 (0.05 is 5 % of critical), found {ratio}")
             });
-            let usable = matches!(modes[..], [a] if a >= 1)
+            let usable = modes.is_empty()
+                || matches!(modes[..], [a] if a >= 1)
                 || matches!(modes[..], [a, b] if a >= 1 && b > a);
             faults.require(usable, format!("{field}.modes"), || {
                 format!("takes one lateral mode, or two different ones in rising order, counted from 1; found {modes:?}")

@@ -108,7 +108,7 @@ pub enum Damping {
     Ratio {
         /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
         ratio: f64,
-        /// Lateral modes that have it.
+        /// Lateral modes that have it; none stands for the first and the third, or as many as there are.
         modes: Vec<usize>,
     },
     /// The coefficients themselves.

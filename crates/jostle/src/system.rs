@@ -300,6 +300,12 @@ impl BuildingSystem {
                         )
                     })
                 };
+                let usual: &[usize] = match lateral.len() {
+                    0 | 1 => &[1],
+                    2 => &[1, 2],
+                    _ => &[1, 3],
+                };
+                let modes = if modes.is_empty() { usual } else { modes };
                 match modes.iter().map(frequency).collect::<Result<Vec<_>, _>>()?[..] {
                     [single] => (2.0 * ratio * single, 0.0),
                     [low, high] => (

@@ -188,15 +188,6 @@ pub(super) fn has_length(
     }
 }
 
-/// 5 % of critical damping in the first and third lateral mode, as far as there are so many.
-fn default_modes(floors: usize) -> Vec<usize> {
-    match floors {
-        0 | 1 => vec![1],
-        2 => vec![1, 2],
-        _ => vec![1, 3],
-    }
-}
-
 fn read_damping(
     reader: &mut Reader<'_>,
     view: &View<'_>,
@@ -205,7 +196,7 @@ fn read_damping(
 ) -> Damping {
     let usual = Damping::Ratio {
         ratio: 0.05,
-        modes: default_modes(floors),
+        modes: Vec::new(),
     };
     let Some(field) = reader.get(view, "damping") else {
         return usual;
@@ -222,6 +213,10 @@ fn read_damping(
     let ratio = number(reader, "ratio", Dimension::Dimensionless);
     let modes = reader.get(&view, "modes").map(|field| {
         let modes = read_modes(reader, &field);
+        if modes.is_empty() {
+            *reader.bad(&field, "names no mode") =
+                Some("name one or two lateral modes, such as [1, 3], or leave it out".into());
+        }
         if let (true, Some(highest)) = (is_shear, modes.iter().max().filter(|m| **m > floors)) {
             reader.bad(&field, format!("mode {highest} does not exist; a shear building has as many modes as floors, here {floors}"));
         }
@@ -239,7 +234,7 @@ fn read_damping(
     }
     Damping::Ratio {
         ratio: ratio.unwrap_or(0.05),
-        modes: modes.unwrap_or_else(|| default_modes(floors)),
+        modes: modes.unwrap_or_default(),
     }
 }
 

@@ -95,7 +95,7 @@ const CASES: &[Case] = &[
         "between 0 and 1",
     ),
     (
-        |m| m.buildings[1].damping = ratio(0.05, &[]),
+        |m| m.buildings[1].damping = ratio(0.05, &[2, 1]),
         "building[1].damping.modes",
         "one lateral mode, or two",
     ),
@@ -514,4 +514,18 @@ fn damping_at_a_mode_that_does_not_exist_is_refused() {
         "{}",
         faults[0].problem
     );
+}
+
+#[test]
+fn unnamed_modes_are_the_first_and_the_third_as_far_as_they_exist() {
+    for (floors, named) in [(1, vec![1]), (2, vec![1, 2]), (4, vec![1, 3])] {
+        let coefficients = |modes: &[usize]| {
+            let mut tower = tower("tower", floors, 3e4, 0.6);
+            tower.damping = ratio(0.05, modes);
+            let system = System::assemble(&row(vec![tower], 0.05, law(LawKind::Hertz, 1.0)));
+            let equations = &system.expect("a sound model").buildings[0].equations;
+            (equations.alpha, equations.beta)
+        };
+        assert_eq!(coefficients(&[]), coefficients(&named), "{floors} floors");
+    }
 }
