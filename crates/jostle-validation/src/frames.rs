@@ -200,7 +200,8 @@ fn newmark(
     };
     let with = match solver {
         Solver::Riccati => "Riccati",
-        _ => "direct stiffness",
+        Solver::Stiffness => "direct stiffness",
+        Solver::Product => "product",
     };
     entries(expected, "")
         .map(|(steps, expected)| {
