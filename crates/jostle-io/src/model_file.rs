@@ -340,9 +340,23 @@ fn warnings(model: &Model, root: &Node) -> Vec<String> {
     };
     if let Some(Value::List(list)) = listed.map(|node| &node.value) {
         for (node, building) in list.iter().zip(&model.buildings) {
-            if let Value::Table(table) = &node.value
-                && table.get("storey_height").is_none()
+            let Value::Table(table) = &node.value else {
+                continue;
+            };
+            let one_value = table
+                .get("mass")
+                .is_some_and(|mass| !matches!(mass.value, Value::List(_)));
+            if one_value
+                && building.floors() == 1
+                && table.get("storeys").is_none()
+                && table.get("floors").is_none()
             {
+                warnings.push(format!(
+                    "\"{}\" has one floor, because its mass is a single value; for more, add storeys or list the masses",
+                    building.name
+                ));
+            }
+            if table.get("storey_height").is_none() {
                 warnings.push(format!(
                     "\"{}\" has no storey_height: storeys of {} m are assumed, for drifts and for floors at equal height",
                     building.name,

@@ -5,6 +5,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::page::{POLICY, STYLE};
 
+/// Which error of a row to show.
+type ErrorOf = fn(&StepAccuracy) -> f64;
+
 /// Errors below this are rounding and drawn at the lower edge \[–\].
 const FINEST: f64 = 1e-16;
 /// From this error on nothing is right \[–\].
@@ -148,12 +151,12 @@ fn place(step: f64, error: f64) -> [f64; 2] {
 
 fn plot(survey: &MethodSurvey) -> Markup {
     let [left, top, width, height] = AREA;
-    let series: [(&str, &str, fn(&StepAccuracy) -> f64); 3] = [
+    let series: [(&str, &str, ErrorOf); 3] = [
         ("product", "--c:var(--c1)", |row| row.product),
         ("element by element", "--c:var(--c2)", |row| row.elementwise),
         ("Riccati", "--c:var(--c0)", |row| row.riccati),
     ];
-    let path = |value: fn(&StepAccuracy) -> f64| {
+    let path = |value: ErrorOf| {
         let points = survey
             .accuracy
             .iter()

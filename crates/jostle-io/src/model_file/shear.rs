@@ -11,7 +11,11 @@ pub(super) const DEFAULT_STOREY_HEIGHT: f64 = 3.0;
 
 /// Reads the keys of a shear building; after a fault, harmless values stand in.
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Shear {
-    let count = storeys(reader, view, &["mass", "stiffness", "storey_height"]);
+    let count = if is_single_floor(reader, view) {
+        Some(1)
+    } else {
+        storeys(reader, view, &["mass", "stiffness", "storey_height"])
+    };
     let mut list = |key, dimension, example: Option<&str>, stand_in: f64| {
         let values = match (reader.get(view, key), example) {
             (Some(field), _) => per_storey(reader, &field, dimension, count),
@@ -37,4 +41,16 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Shear {
             DEFAULT_STOREY_HEIGHT,
         ),
     }
+}
+
+/// Whether nothing speaks of more than one floor: one mass, one stiffness, no count and no list.
+fn is_single_floor(reader: &mut Reader<'_>, view: &View<'_>) -> bool {
+    let counted = view.has("storeys") || view.has("floors");
+    let mut single = |key| {
+        reader
+            .get(view, key)
+            .is_none_or(|field| field.entries().is_none())
+    };
+    let lists_nothing = single("mass") && single("stiffness") && single("storey_height");
+    !counted && view.has("mass") && view.has("stiffness") && lists_nothing
 }
