@@ -408,13 +408,8 @@ fn hundreds_of_faults_are_counted() {
 #[test]
 fn single_values_make_one_floor_and_say_so() {
     let text = "title = \"t\"\n[motion]\nrecord = \"el-centro\"\n[[building]]\nname = \"a\"\nkind = \"shear\"\nmass = \"75 t\"\nstiffness = \"2 MN/m\"\nstorey_height = \"3 m\"\n";
-    let input = jostle_io::read_model_text(
-        "m.toml",
-        text,
-        jostle_io::Format::Toml,
-        std::path::Path::new(""),
-    )
-    .expect("a valid model");
+    let input =
+        read_model_text("m.toml", text, Format::Toml, Path::new("")).expect("a valid model");
     assert_eq!(input.model.buildings[0].floors(), 1);
     assert!(
         input
