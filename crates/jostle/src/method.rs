@@ -2,7 +2,7 @@
 //! step keeps as the step shrinks.
 
 use crate::skeleton::Skeleton;
-use crate::stepping::{Newmark, NotPositive, StepEquations};
+use crate::stepping::{Newmark, NotPositive, StepEquations, solve_once};
 use crate::stiffness::DirectStiffness;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::RiccatiSweep;
@@ -83,16 +83,16 @@ fn accuracy(building: &BuildingSystem, step: f64) -> Result<StepAccuracy, NotPos
         .of_building(&building.equations);
     let (kappa, g) = (coefficients.stiffness_factor, coefficients.mass_factor);
     let load = uneven_load(building);
-    let reference = solution::<DirectStiffness>(building, kappa, g, &load)?;
+    let reference = solve_once::<DirectStiffness>(building, kappa, g, &load)?;
     let error = |answer: Result<Vec<f64>, NotPositive>| {
         answer.map_or(f64::INFINITY, |y| relative_error(&y, &reference))
     };
     Ok(StepAccuracy {
         step,
-        product: error(solution::<ProductEquations>(building, kappa, g, &load)),
+        product: error(solve_once::<ProductEquations>(building, kappa, g, &load)),
         product_digits_expected: digits_left(building, kappa, g),
-        elementwise: error(solution::<ElementwiseRiccati>(building, kappa, g, &load)),
-        riccati: error(solution::<RiccatiSweep>(building, kappa, g, &load)),
+        elementwise: error(solve_once::<ElementwiseRiccati>(building, kappa, g, &load)),
+        riccati: error(solve_once::<RiccatiSweep>(building, kappa, g, &load)),
     })
 }
 
@@ -108,20 +108,6 @@ fn uneven_load(building: &BuildingSystem) -> Vec<f64> {
             }
         })
         .collect()
-}
-
-fn solution<E: StepEquations>(
-    building: &BuildingSystem,
-    kappa: f64,
-    g: f64,
-    load: &[f64],
-) -> Result<Vec<f64>, NotPositive> {
-    let equations = E::of(building);
-    let mut factor = E::Factor::default();
-    equations.factorize(kappa, g, &mut factor)?;
-    let mut answer = load.to_vec();
-    equations.solve(&factor, &mut answer);
-    Ok(answer)
 }
 
 fn relative_error(answer: &[f64], reference: &[f64]) -> f64 {

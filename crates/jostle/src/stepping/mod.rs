@@ -47,6 +47,24 @@ pub trait StepEquations: Sized {
     fn solve(&self, factor: &Self::Factor, load: &mut [f64]);
 }
 
+/// Displacements under one load, factorised for it alone: K̂⁻¹ `load` with K̂ = κ K + g M.
+///
+/// # Errors
+/// [`NotPositive`] when K̂ is not positive definite.
+pub fn solve_once<E: StepEquations>(
+    building: &BuildingSystem,
+    stiffness_factor: f64,
+    mass_factor: f64,
+    load: &[f64],
+) -> Result<Vec<f64>, NotPositive> {
+    let equations = E::of(building);
+    let mut factor = E::Factor::default();
+    equations.factorize(stiffness_factor, mass_factor, &mut factor)?;
+    let mut answer = load.to_vec();
+    equations.solve(&factor, &mut answer);
+    Ok(answer)
+}
+
 /// A step matrix was not positive definite: the building can move without resistance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the step equations are not positive definite at degree of freedom {dof}")]

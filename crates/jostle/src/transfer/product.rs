@@ -17,7 +17,7 @@ use super::digits::{DIGITS_WANTED, digits_left};
 use super::layout::{Layout, NotAFrame};
 use super::riccati::RiccatiSweep;
 use super::{Heading, StateVector, Transfer, apart, one_in_two_out, two_in_one_out};
-use crate::stepping::{Newmark, NotPositive, StepEquations};
+use crate::stepping::{Newmark, NotPositive, StepEquations, solve_once};
 use crate::system::BuildingSystem;
 
 /// The total transfer equation of one building, K̂ y = r with K̂ = κ K + g M solved by products of transfer
@@ -118,8 +118,8 @@ pub fn measured_loss(
     mass_factor: f64,
     load: &[f64],
 ) -> Result<f64, NotPositive> {
-    let exact = solution::<RiccatiSweep>(building, stiffness_factor, mass_factor, load)?;
-    let product = solution::<ProductEquations>(building, stiffness_factor, mass_factor, load)?;
+    let exact = solve_once::<RiccatiSweep>(building, stiffness_factor, mass_factor, load)?;
+    let product = solve_once::<ProductEquations>(building, stiffness_factor, mass_factor, load)?;
     let largest = exact
         .iter()
         .fold(0.0_f64, |largest, y| largest.max(y.abs()));
@@ -133,20 +133,6 @@ pub fn measured_loss(
         });
     }
     Ok(if apart > 0.0 { apart / largest } else { 0.0 })
-}
-
-fn solution<E: StepEquations>(
-    building: &BuildingSystem,
-    stiffness_factor: f64,
-    mass_factor: f64,
-    load: &[f64],
-) -> Result<Vec<f64>, NotPositive> {
-    let equations = E::of(building);
-    let mut factor = E::Factor::default();
-    equations.factorize(stiffness_factor, mass_factor, &mut factor)?;
-    let mut answer = load.to_vec();
-    equations.solve(&factor, &mut answer);
-    Ok(answer)
 }
 
 impl StepEquations for ProductEquations {
