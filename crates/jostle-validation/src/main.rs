@@ -19,7 +19,7 @@ fn main() -> ExitCode {
         .iter()
         .find(|a| !["--full", "--check", "--reference"].contains(&a.as_str()))
     {
-        complain(&format!("unknown option {unknown}\n{USAGE}"));
+        say(&format!("unknown option {unknown}\n{USAGE}"));
         return ExitCode::from(2);
     }
     if asked("--reference") {
@@ -34,8 +34,13 @@ fn main() -> ExitCode {
     };
     let families = families(extent);
     for (family, row) in misses(&families) {
-        complain(&document::missed_line(family, row));
+        say(&document::missed_line(family, row));
     }
+    let compared: usize = families.iter().map(|family| family.rows.len()).sum();
+    say(&format!(
+        "{compared} numbers compared, {} miss",
+        misses(&families).count()
+    ));
     let page = in_crate("../../docs/validation.md");
     if !asked("--check") && written(&page, &document::page(&families, extent)) == ExitCode::FAILURE
     {
@@ -56,13 +61,13 @@ fn written(path: &Path, text: &str) -> ExitCode {
     match write_atomically(path, text.as_bytes()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            complain(&error.to_string());
+            say(&error.to_string());
             ExitCode::FAILURE
         }
     }
 }
 
 #[allow(clippy::print_stderr, reason = "this is a command")]
-fn complain(text: &str) {
+fn say(text: &str) {
     eprintln!("{text}");
 }
