@@ -38,7 +38,7 @@ impl Faults {
     }
 }
 
-/// Index of the one field of a list that a scalar in the file fills: lists are shown by entry.
+/// The entries of a list with their paths, `path[0]`, `path[1]`, ….
 fn each<'a, T>(list: &'a [T], path: &'a str) -> impl Iterator<Item = (String, &'a T)> + 'a {
     list.iter()
         .enumerate()

@@ -76,7 +76,7 @@ impl Cubic {
             -1.0
         };
         let arrived = |at: f64| sign * self.value(at) > 0.0;
-        // No turning point can arrive earlier than the end when both slopes agree with the chord.
+        // Between two turning points the value crosses zero at most once.
         let mut before = 0.0;
         for at in self.turning_points().chain([1.0]) {
             let there = if at == 1.0 {

@@ -133,7 +133,9 @@ impl<E: StepEquations> Simulation<'_, E> {
             Crossing::Upwards => indentation >= -TOGETHER && rate > 0.0,
             Crossing::Downwards => indentation <= TOGETHER && rate < 0.0,
         };
-        self.accept(0, self.clock.after(length))?;
+        // The step that was last tried, should the corrections not have come to an end.
+        let tried = self.factors[0].coefficients.step;
+        self.accept(0, self.clock.after(tried))?;
         if reached {
             self.happen(event);
         }
