@@ -1,0 +1,254 @@
+//! Velocity pulses of faults nearby.
+
+use std::f64::consts::{PI, TAU};
+
+use super::points;
+use crate::Accelerogram;
+use crate::fault::{MotionFault, within};
+
+/// Shape of a pulse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PulseShape {
+    /// The pulse of Mavroeidis and Papageorgiou.
+    Mavroeidis(Mavroeidis),
+    /// A cycloidal pulse of Makris.
+    Makris(Makris),
+}
+
+/// `v = A/2 [1 + cos(2πf t/γ)] cos(2πf t + ν)` for `|t| ≤ γ/(2f)`, t from its centre.
+///
+/// G. P. Mavroeidis, A. S. Papageorgiou (2003), Bull. Seismol. Soc. Am. 93, 1099–1131, Eq. (3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mavroeidis {
+    /// Oscillations in the pulse, γ > 1 \[–\].
+    pub gamma: f64,
+    /// Phase ν \[rad\].
+    pub phase: f64,
+}
+
+/// Cycloidal pulses: `A`, a forward motion that stays; `B`, forth and back; `C(n)`, n cycles.
+///
+/// ```text
+/// A     v = V/2 (1 − cos ωt),                  0 ≤ t ≤ T
+/// B     v = V sin ωt,                          0 ≤ t ≤ T
+/// C_n   v = V [sin(ωt + φ) − sin φ],           0 ≤ t ≤ (n + ½ − φ/π) T
+/// ```
+///
+/// N. Makris (1997), Earthquake Engng Struct. Dyn. 26, 571–591. φ lets the displacement of `C_n` end at zero:
+/// `cos[(2n+1)π − φ] + [(2n+1)π − 2φ] sin φ − cos φ = 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Makris {
+    /// Forward.
+    A,
+    /// Forward and back.
+    B,
+    /// n cycles, n from 1 to 20.
+    C(u32),
+}
+
+impl PulseShape {
+    /// Length in periods \[–\].
+    fn length(&self) -> f64 {
+        match self {
+            Self::Mavroeidis(pulse) => pulse.gamma,
+            Self::Makris(Makris::A | Makris::B) => 1.0,
+            Self::Makris(Makris::C(n)) => f64::from(*n) + 0.5 - cycloid_phase(*n) / PI,
+        }
+    }
+
+    /// Acceleration, in units of V ω, at a phase from the beginning \[rad\].
+    fn acceleration(&self, theta: f64) -> f64 {
+        match self {
+            Self::Mavroeidis(Mavroeidis { gamma, phase }) => {
+                let x = theta - PI * gamma;
+                let (slow, fast) = (x / gamma, x + phase);
+                -0.5 * (slow.sin() / gamma * fast.cos() + (1.0 + slow.cos()) * fast.sin())
+            }
+            Self::Makris(Makris::A) => 0.5 * theta.sin(),
+            Self::Makris(Makris::B) => theta.cos(),
+            Self::Makris(Makris::C(n)) => (theta + cycloid_phase(*n)).cos(),
+        }
+    }
+
+    /// Velocity, in units of V, at a phase from the beginning \[rad\].
+    fn velocity(&self, theta: f64) -> f64 {
+        match self {
+            Self::Mavroeidis(Mavroeidis { gamma, phase }) => {
+                let x = theta - PI * gamma;
+                0.5 * (1.0 + (x / gamma).cos()) * (x + phase).cos()
+            }
+            Self::Makris(Makris::A) => 0.5 * (1.0 - theta.cos()),
+            Self::Makris(Makris::B) => theta.sin(),
+            Self::Makris(Makris::C(n)) => {
+                let phi = cycloid_phase(*n);
+                (theta + phi).sin() - phi.sin()
+            }
+        }
+    }
+
+    /// Final displacement, in units of V/ω.
+    fn offset(&self) -> f64 {
+        match self {
+            // Simpson's rule on an entire function over few cycles: exact to rounding.
+            Self::Mavroeidis(Mavroeidis { gamma, .. }) => {
+                let (parts, end) = (4096, TAU * gamma);
+                let weight = |i: i32| match i {
+                    0 | 4096 => 1.0,
+                    _ if i % 2 == 1 => 4.0,
+                    _ => 2.0,
+                };
+                let h = end / f64::from(parts);
+                let sum: f64 = (0..=parts)
+                    .map(|i| weight(i) * self.velocity(h * f64::from(i)))
+                    .sum();
+                sum * h / 3.0
+            }
+            Self::Makris(Makris::A) => PI,
+            Self::Makris(_) => 0.0,
+        }
+    }
+
+    fn check(&self) -> Result<(), MotionFault> {
+        match self {
+            Self::Mavroeidis(Mavroeidis { gamma, phase }) => {
+                within(
+                    "gamma",
+                    "above 1 and up to 50",
+                    *gamma,
+                    *gamma > 1.0 && *gamma <= 50.0,
+                )?;
+                within("the phase", "a finite number", *phase, true)
+            }
+            Self::Makris(Makris::C(n)) => {
+                let good = (1..=20).contains(n);
+                within(
+                    "the number of cycles",
+                    "between 1 and 20",
+                    f64::from(*n),
+                    good,
+                )
+            }
+            Self::Makris(_) => Ok(()),
+        }
+    }
+}
+
+/// Smallest positive φ of a pulse `C_n` \[rad\], by bisection: the function is negative at zero, positive at π/6.
+fn cycloid_phase(n: u32) -> f64 {
+    let whole = (2.0 * f64::from(n) + 1.0) * PI;
+    let f = |phi: f64| (whole - phi).cos() + (whole - 2.0 * phi) * phi.sin() - phi.cos();
+    let (mut low, mut high) = (0.0, PI / 6.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if f(middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// A pulse with a peak velocity, > 0 \[m/s\] (the amplitude A or V of its formula), and a period, at least ten steps
+/// \[s\], after a rest `before` and with a rest `after` it, ≥ 0 \[s\].
+///
+/// Jumps of the acceleration take one step; a change below 1 % of it lets velocity and displacement end exactly as
+/// the formula says.
+///
+/// # Errors
+/// [`MotionFault`] when a number is out of range.
+pub fn near_fault_pulse(
+    shape: &PulseShape,
+    velocity: f64,
+    period: f64,
+    step: f64,
+    [before, after]: [f64; 2],
+) -> Result<Accelerogram, MotionFault> {
+    shape.check()?;
+    within("the peak velocity", "above zero", velocity, velocity > 0.0)?;
+    within(
+        "the period of a pulse",
+        "at or above ten steps",
+        period,
+        period >= 10.0 * step,
+    )?;
+    let length = shape.length() * period;
+    // Steps that divide the pulse; the rest of a step is time added behind it.
+    let n = points(step, (length / step).ceil() * step)?;
+    let omega = TAU / period;
+    let value = |i: usize| {
+        let t = step * i as f64;
+        if t <= length * (1.0 + 1e-12) {
+            velocity * omega * shape.acceleration(omega * t)
+        } else {
+            0.0
+        }
+    };
+    let end = [0.0, velocity / omega * shape.offset()];
+    let pulse = Accelerogram::new(step, (0..n).map(value).collect())?;
+    // The jump at either end happens within a step outside.
+    pulse
+        .padded(step, step)?
+        .ending_with(end)
+        .padded(before, after)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integration::{displacement, velocity};
+
+    #[test]
+    fn phases_of_cycles_are_those_published() {
+        // N. Makris, S.-P. Chang (2000), Earthquake Engng Struct. Dyn. 29, 85–107: 0.0697 π and 0.0410 π.
+        assert!(
+            (cycloid_phase(1) / PI - 0.0697).abs() < 5e-5,
+            "{}",
+            cycloid_phase(1) / PI
+        );
+        assert!(
+            (cycloid_phase(2) / PI - 0.0410).abs() < 5e-5,
+            "{}",
+            cycloid_phase(2) / PI
+        );
+    }
+
+    #[test]
+    fn velocities_are_those_of_the_formula() {
+        for shape in [
+            PulseShape::Mavroeidis(Mavroeidis {
+                gamma: 1.7,
+                phase: 0.6,
+            }),
+            PulseShape::Mavroeidis(Mavroeidis {
+                gamma: 3.0,
+                phase: PI,
+            }),
+            PulseShape::Makris(Makris::A),
+            PulseShape::Makris(Makris::B),
+            PulseShape::Makris(Makris::C(1)),
+            PulseShape::Makris(Makris::C(2)),
+        ] {
+            let (peak, period, step) = (0.8, 2.0, 0.005);
+            let motion = near_fault_pulse(&shape, peak, period, step, [1.0, 2.0]).unwrap();
+            let v = velocity(&motion);
+            let omega = TAU / period;
+            let worst = v.iter().enumerate().fold(0.0_f64, |worst, (i, v)| {
+                let t = step * i as f64 - 1.0 - step;
+                let inside = t >= 0.0 && t <= shape.length() * period;
+                let exact = if inside {
+                    peak * shape.velocity(omega * t)
+                } else {
+                    0.0
+                };
+                worst.max((v - exact).abs())
+            });
+            // A jump of V ω takes a step of 0.005 s: V ω h/2 = 0.006 m/s.
+            assert!(worst < 0.01, "{shape:?}: {worst}");
+            assert!(v[v.len() - 1].abs() < 1e-9, "{shape:?} ends at rest");
+            let end = displacement(&motion)[v.len() - 1];
+            let wanted = peak / omega * shape.offset();
+            assert!((end - wanted).abs() < 1e-9, "{shape:?}: {end} for {wanted}");
+        }
+    }
+}
