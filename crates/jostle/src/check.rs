@@ -1,8 +1,8 @@
 //! Every fault of a model, in one go.
 
-use crate::contact::{CLIPPED_KELVIN_LEAST_RESTITUTION, LawKind, RestitutionIs};
+use crate::contact::{ContactLaw, LawKind};
 use crate::model::{
-    Building, Damping, FloorPairs, Frame, Gap, Model, ModelFault, Shear, Structure,
+    Base, Building, Damping, FloorPairs, Frame, Gap, Hinges, Model, ModelFault, Shear, Structure,
 };
 
 /// Floors closer in height than this can touch \[m\].
@@ -99,6 +99,20 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
         Structure::Frame(frame) => check_frame(faults, path, frame),
         Structure::Shear(shear) => check_shear(faults, path, shear),
     }
+    check_base(
+        faults,
+        &format!("{path}.base"),
+        &building.base,
+        matches!(building.structure, Structure::Shear(_)),
+    );
+    if let Some(hinges) = &building.hinges {
+        check_hinges(
+            faults,
+            &format!("{path}.hinges"),
+            hinges,
+            &building.structure,
+        );
+    }
     match &building.damping {
         Damping::Ratio { ratio, modes } => {
             let field = format!("{path}.damping");
@@ -116,6 +130,88 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
             faults.not_negative(*alpha, format!("{path}.damping.alpha"), "1/s");
             faults.not_negative(*beta, format!("{path}.damping.beta"), "s");
         }
+    }
+}
+
+fn check_base(faults: &mut Faults, path: &str, base: &Base, is_shear: bool) {
+    let directions = [
+        (
+            "horizontal",
+            base.horizontal_stiffness,
+            base.horizontal_damping,
+            ["N/m", "N.s/m"],
+        ),
+        (
+            "vertical",
+            base.vertical_stiffness,
+            base.vertical_damping,
+            ["N/m", "N.s/m"],
+        ),
+        (
+            "rotational",
+            base.rotational_stiffness,
+            base.rotational_damping,
+            ["N.m/rad", "N.m.s/rad"],
+        ),
+    ];
+    for (name, stiffness, damping, [stiffness_unit, damping_unit]) in directions {
+        if let Some(stiffness) = stiffness {
+            faults.positive(
+                stiffness,
+                format!("{path}.{name}_stiffness"),
+                stiffness_unit,
+            );
+        }
+        faults.not_negative(damping, format!("{path}.{name}_damping"), damping_unit);
+        faults.require(
+            stiffness.is_some() || damping == 0.0,
+            format!("{path}.{name}_damping"),
+            || format!("has nothing to do where the base is rigid; add {name}_stiffness"),
+        );
+        faults.require(
+            !is_shear || name == "horizontal" || stiffness.is_none(),
+            format!("{path}.{name}_stiffness"),
+            || "is for frames only: the floors of a shear building neither rise nor turn".into(),
+        );
+    }
+    faults.not_negative(base.mass, format!("{path}.mass"), "kg");
+    faults.require(
+        base.mass == 0.0 || !base.is_fixed(),
+        format!("{path}.mass"),
+        || "does not move on a fixed base; add a stiffness, or leave it out".into(),
+    );
+}
+
+/// Hinges are sound by themselves; here they are held against the structure that they belong to.
+fn check_hinges(faults: &mut Faults, path: &str, hinges: &Hinges, structure: &Structure) {
+    match (hinges, structure) {
+        (Hinges::Frame(hinges), Structure::Frame(frame)) => {
+            let storeys = frame.storey_heights.len();
+            let members = [
+                ("column", &hinges.columns, frame.spans.len() + 1),
+                ("beam", &hinges.beams, frame.spans.len()),
+            ];
+            for (name, hinges, abreast) in members {
+                let fits = hinges.len() == storeys && hinges.iter().all(|row| row.len() == abreast);
+                faults.require(hinges.is_empty() || fits, format!("{path}.{name}"), || {
+                    format!("needs {abreast} hinges in each of {storeys} storeys, or none at all")
+                });
+            }
+        }
+        (Hinges::Storeys(springs), Structure::Shear(shear)) => {
+            let storeys = shear.stiffness.len();
+            faults.require(springs.len() == storeys, path, || {
+                format!("has {} springs for {storeys} storeys", springs.len())
+            });
+            for (spring, stiffness) in springs.iter().zip(&shear.stiffness) {
+                let initial = spring.backbone().initial();
+                let same = (initial - stiffness).abs() <= 1e-9 * stiffness;
+                faults.require(same, path, || {
+                    format!("starts with {initial} N/m in a storey of {stiffness} N/m; they must be equal")
+                });
+            }
+        }
+        _ => faults.add(path, "are those of another kind of building"),
     }
 }
 
@@ -154,6 +250,9 @@ fn check_frame(faults: &mut Faults, path: &str, frame: &Frame) {
                     faults.add(format!("{field}.EA"), "is needed because the member is axially flexible; add EA, or width and depth");
                 }
                 None => {}
+            }
+            if let Some(rigidity) = section.shear_rigidity {
+                faults.positive(rigidity, format!("{field}.GA"), "N");
             }
         }
     }
@@ -199,12 +298,14 @@ fn check_frame(faults: &mut Faults, path: &str, frame: &Frame) {
             format!("must lie between 1 and 64, found {segments}")
         });
     }
-    if let Some(stiffness) = frame.joint.rotational_stiffness {
-        faults.positive(
-            stiffness,
-            format!("{path}.joint.rotational_stiffness"),
-            "N.m/rad",
-        );
+    for (name, stiffness, unit) in [
+        ("rotational", frame.joint.rotational_stiffness, "N.m/rad"),
+        ("horizontal", frame.joint.horizontal_stiffness, "N/m"),
+        ("vertical", frame.joint.vertical_stiffness, "N/m"),
+    ] {
+        if let Some(stiffness) = stiffness {
+            faults.positive(stiffness, format!("{path}.joint.{name}_stiffness"), unit);
+        }
     }
 }
 
@@ -240,6 +341,12 @@ fn check_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
             )
         },
     );
+    let separation = gap.minimum_separation;
+    faults.require(
+        separation.is_finite() && separation >= 0.0,
+        format!("{path}.minimum_separation"),
+        || format!("must not be negative, found {separation} s"),
+    );
     let (Some(left), Some(right)) = (
         model.buildings.get(gap.left),
         model.buildings.get(gap.left + 1),
@@ -264,14 +371,39 @@ fn check_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
         faults.require(e > 0.0 && e <= 1.0, format!("{path}.restitution"), || {
             format!("must be greater than 0 and at most 1, found {e}")
         });
-        let out_of_reach = gap.law.kind == LawKind::KelvinNoTension
-            && gap.law.restitution_is == RestitutionIs::Realised
-            && e <= CLIPPED_KELVIN_LEAST_RESTITUTION + 1e-6;
-        faults.require(!out_of_reach, format!("{path}.restitution"), || {
-            format!("cannot be realised by kelvin-no-tension below {CLIPPED_KELVIN_LEAST_RESTITUTION:.4}; use hertz-damp, or a larger value")
+        let least = gap.law.least_restitution();
+        faults.require(e > least, format!("{path}.restitution"), || {
+            format!(
+                "cannot be realised by {} below {least:.4}; use hertz-damp, or a larger value",
+                gap.law.kind.name()
+            )
         });
     }
+    check_shape(faults, path, &gap.law);
     check_floors(faults, &format!("{path}.floors"), gap, left, right);
+}
+
+/// What only some laws have.
+fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
+    match law.kind {
+        LawKind::Bilinear(shape) => {
+            let a = shape.yield_share;
+            faults.require(a > 0.0 && a < 0.5, format!("{path}.yield_share"), || {
+                format!("must lie between 0 and 0.5, found {a}")
+            });
+            if let Some(speed) = shape.design_speed {
+                faults.positive(speed, format!("{path}.design_speed"), "m/s");
+            }
+        }
+        LawKind::Rubber(bumper) => {
+            faults.positive(bumper.thickness, format!("{path}.thickness"), "m");
+            let n = bumper.exponent;
+            faults.require((1.0..=6.0).contains(&n), format!("{path}.exponent"), || {
+                format!("must lie between 1 and 6, found {n}")
+            });
+        }
+        _ => {}
+    }
 }
 
 fn check_floors(faults: &mut Faults, path: &str, gap: &Gap, left: &Building, right: &Building) {
@@ -366,6 +498,14 @@ fn check_analysis(faults: &mut Faults, model: &Model) {
             format!("must not exceed step, found {contact_step} s for a step of {step} s")
         });
     }
+    let integrator = analysis.integrator;
+    let stable = integrator.gamma >= 0.5 && 2.0 * integrator.beta >= integrator.gamma - 1e-12;
+    faults.require(stable, "analysis.integrator", || {
+        format!(
+            "is unstable for stiff parts of the structure: gamma must be at least 0.5 and beta at least gamma/2, found gamma = {} and beta = {}",
+            integrator.gamma, integrator.beta
+        )
+    });
     for (name, value, range) in [
         ("tolerance", analysis.tolerance, 1e-6..=0.1),
         ("energy_tolerance", analysis.energy_tolerance, 1e-15..=1.0),

@@ -10,22 +10,33 @@ pub(crate) const THETA: usize = 2;
 /// Which end, and which displacement there.
 pub(crate) type Place = (usize, usize);
 
-/// Symmetric stiffness of an element between displacements of its ends.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct ElementStiffness {
-    /// Entries (node, component), (node, component), value \[N/m, N, N·m\]; both triangles.
-    pub(crate) entries: Vec<(Place, Place, f64)>,
+/// Which matrix of a building an entry belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// K: stiffness that takes part in stiffness-proportional damping.
+    Elastic,
+    /// K′: stiffness that does not: P-Delta, and the springs of a base.
+    Undamped,
+    /// C′: dashpots of their own.
+    Dashpot,
 }
 
-/// Stiffness of every element of a skeleton.
+/// Symmetric matrix of an element between displacements of its ends.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ElementStiffness {
+    /// Part, (node, component), (node, component), value \[N/m, N, N·m; times s for dashpots\]; both triangles.
+    pub(crate) entries: Vec<(Part, Place, Place, f64)>,
+}
+
+/// Stiffness and dashpots of every element of a skeleton.
 pub(crate) fn stiffnesses(skeleton: &Skeleton) -> impl Iterator<Item = ElementStiffness> + '_ {
     let members = skeleton
         .members
         .iter()
         .map(|member| of_member(member, &skeleton.nodes));
     members
-        .chain(skeleton.hinges.iter().map(hinge_stiffness))
-        .chain(skeleton.springs.iter().map(spring_stiffness))
+        .chain(skeleton.hinges.iter().map(of_hinge))
+        .chain(skeleton.springs.iter().map(of_spring))
 }
 
 impl Member {
@@ -70,45 +81,81 @@ pub(crate) fn of_member(member: &Member, nodes: &[Node]) -> ElementStiffness {
     let mut stiffness = ElementStiffness::default();
     for (p, row) in bending.iter().enumerate() {
         for (q, value) in row.iter().enumerate() {
-            stiffness
-                .entries
-                .push((places[p], places[q], scale * value * signs[p] * signs[q]));
+            stiffness.entries.push((
+                Part::Elastic,
+                places[p],
+                places[q],
+                scale * value * signs[p] * signs[q],
+            ));
         }
     }
-    stiffness.couple((i, transverse), (j, transverse), -member.compression / l);
+    stiffness.couple(
+        Part::Undamped,
+        (i, transverse),
+        (j, transverse),
+        -member.compression / l,
+    );
     if let Some(ea) = member.axial_rigidity {
-        stiffness.couple((i, axial), (j, axial), ea / l);
+        stiffness.couple(Part::Elastic, (i, axial), (j, axial), ea / l);
     }
     stiffness
 }
 
 /// Planar hinge (theory, Eq. K2).
-fn hinge_stiffness(hinge: &Hinge) -> ElementStiffness {
+pub(crate) fn of_hinge(hinge: &Hinge) -> ElementStiffness {
     let [i, j] = hinge.ends;
     let mut stiffness = ElementStiffness::default();
-    stiffness.couple((i, THETA), (j, THETA), hinge.rotational_stiffness);
-    for (component, value) in [X, Y].into_iter().zip(hinge.translational_stiffness) {
-        if let Some(value) = value {
-            stiffness.couple((i, component), (j, component), value);
-        }
+    let [horizontal, vertical] = hinge.translational_stiffness;
+    // What yields has a tangent instead, see `Equations::springs`.
+    let turning = hinge
+        .rotational_stiffness
+        .filter(|_| hinge.hysteresis.is_none());
+    let directions = [(X, horizontal), (Y, vertical), (THETA, turning)];
+    for (component, value) in directions {
+        let (a, b) = ((i, component), (j, component));
+        stiffness.couple(
+            part_of(hinge.proportional_damping),
+            a,
+            b,
+            value.unwrap_or(0.0),
+        );
+        stiffness.couple(Part::Dashpot, a, b, hinge.dashpots[component]);
     }
     stiffness
 }
 
 /// Storey spring (theory, Eq. K3).
-fn spring_stiffness(spring: &Spring) -> ElementStiffness {
+pub(crate) fn of_spring(spring: &Spring) -> ElementStiffness {
     let [i, j] = spring.ends;
     let mut stiffness = ElementStiffness::default();
-    stiffness.couple((i, X), (j, X), spring.stiffness);
+    if spring.hysteresis.is_none() {
+        let part = part_of(spring.proportional_damping);
+        stiffness.couple(part, (i, X), (j, X), spring.stiffness);
+    }
+    stiffness.couple(Part::Undamped, (i, X), (j, X), -spring.softening);
+    stiffness.couple(Part::Dashpot, (i, X), (j, X), spring.dashpot);
     stiffness
+}
+
+/// Where the stiffness of a hinge or a spring belongs.
+pub(crate) fn part_of(proportional_damping: bool) -> Part {
+    if proportional_damping {
+        Part::Elastic
+    } else {
+        Part::Undamped
+    }
 }
 
 impl ElementStiffness {
     /// A spring between two displacements.
-    fn couple(&mut self, a: Place, b: Place, value: f64) {
+    fn couple(&mut self, part: Part, a: Place, b: Place, value: f64) {
         if value != 0.0 {
-            self.entries
-                .extend([(a, a, value), (b, b, value), (a, b, -value), (b, a, -value)]);
+            self.entries.extend([
+                (part, a, a, value),
+                (part, b, b, value),
+                (part, a, b, -value),
+                (part, b, a, -value),
+            ]);
         }
     }
 }

@@ -1,15 +1,18 @@
 //! Gravity: static displacements under self weight, and the axial compression it leaves in columns.
 
 use crate::element::{self, Y};
+use crate::model::Gravity;
 use crate::skeleton::Skeleton;
-use crate::stepping::{NotPositive, StepEquations};
+use crate::statics::{self, WalkError};
+use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 
 /// Standard gravity \[m/s²\].
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// Static displacement of every degree of freedom of a building under its own weight \[m, rad\].
+/// Static displacement of every degree of freedom of a building under its own weight \[m, rad\], as long as nothing
+/// cracks; [`statics::settle`] goes further.
 ///
 /// `gravity` ≥ 0 \[m/s²\]. Where members keep their length, what rests on them does not sink.
 ///
@@ -21,7 +24,11 @@ pub fn static_displacement(
 ) -> Result<Vec<f64>, NotPositive> {
     let sweep = RiccatiSweep::of(building);
     let mut factor = RiccatiFactor::default();
-    sweep.factorize(1.0, 0.0, &mut factor)?;
+    sweep.factorize(
+        &StepMatrix::STATIC,
+        &building.equations.initial_tangents(),
+        &mut factor,
+    )?;
     let mut displacement: Vec<f64> = building
         .equations
         .vertical_mass
@@ -35,12 +42,13 @@ pub fn static_displacement(
 /// Axial compression of every member under gravity, zero in horizontal ones \[N\].
 ///
 /// By equilibrium of the column lines: a column carries the masses above on its line, and what the beams that
-/// end there hang on it. So it is the same whether columns keep their length or not.
+/// end there hang on it, hinges cracked as the weight leaves them. So it is the same whether columns keep their length
+/// or not.
 ///
 /// # Errors
-/// [`NotPositive`] when the building can move without deforming.
-pub fn compressions(building: &BuildingSystem, gravity: f64) -> Result<Vec<f64>, NotPositive> {
-    let displacement = static_displacement(building, gravity)?;
+/// [`WalkError`] when the building cannot carry its weight.
+pub fn compressions(building: &BuildingSystem, gravity: f64) -> Result<Vec<f64>, WalkError> {
+    let displacement = statics::settle(building, gravity)?.displacement;
     let skeleton = &building.idealisation.skeleton;
     let hung = hung_on_nodes(skeleton, building, &displacement, gravity);
     Ok(skeleton
@@ -65,6 +73,88 @@ pub fn compressions(building: &BuildingSystem, gravity: f64) -> Result<Vec<f64>,
         .collect())
 }
 
+/// A building that cannot stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Collapse {
+    /// It can move without deforming.
+    #[error("the building can move without resistance")]
+    Movable,
+    /// Its hinges cannot carry its weight.
+    #[error(
+        "the hinges cannot carry the weight of the building: a mechanism forms before all of it is on; are yield moments and masses right?"
+    )]
+    Overloaded,
+    /// P-Delta has used up its stiffness.
+    #[error(
+        "the building buckles under its own weight: P-Delta exceeds its lateral stiffness; are its masses and sections right?"
+    )]
+    Buckles,
+}
+
+impl Collapse {
+    /// The field of a building that brought it about.
+    #[must_use]
+    pub fn field(&self) -> &'static str {
+        match self {
+            Self::Movable | Self::Overloaded => "gravity",
+            Self::Buckles => "p_delta",
+        }
+    }
+}
+
+impl BuildingSystem {
+    /// Lets the weight lean on the columns and sets the displacements at rest, as far as each is asked for.
+    ///
+    /// The compression of every member is that of the building standing straight (theory, Eq. K1): axial forces
+    /// that shaking adds are not followed.
+    ///
+    /// # Errors
+    /// [`Collapse`]; the building is then as it was.
+    pub fn put_under_gravity(&mut self, gravity: Gravity) -> Result<(), Collapse> {
+        if !gravity.p_delta && !gravity.preload {
+            return Ok(());
+        }
+        static_displacement(self, STANDARD_GRAVITY).map_err(|_| Collapse::Movable)?;
+        let mut settled = self.clone();
+        if gravity.p_delta {
+            let carried =
+                compressions(&settled, STANDARD_GRAVITY).map_err(|_| Collapse::Overloaded)?;
+            let mut idealisation = settled.idealisation.clone();
+            let skeleton = &mut idealisation.skeleton;
+            for (member, compression) in skeleton.members.iter_mut().zip(carried) {
+                member.compression = compression;
+            }
+            let nodes = &skeleton.nodes;
+            for spring in &mut skeleton.springs {
+                let [a, b] = spring.ends.map(|end| nodes[end].y);
+                // The spring of a base has no height to lean on.
+                if (a - b).abs() > SAME_LINE {
+                    let above = nodes.iter().filter(|node| node.y > a.max(b) - SAME_LINE);
+                    let weight = STANDARD_GRAVITY * above.map(|node| node.mass).sum::<f64>();
+                    spring.softening = weight / (a - b).abs();
+                }
+            }
+            let leaning = Self::new(&self.name, idealisation);
+            let mut factor = RiccatiFactor::default();
+            RiccatiSweep::of(&leaning)
+                .factorize(
+                    &StepMatrix::STATIC,
+                    &leaning.equations.initial_tangents(),
+                    &mut factor,
+                )
+                .map_err(|_| Collapse::Buckles)?;
+            settled = leaning;
+        }
+        if gravity.preload {
+            let at_rest =
+                statics::settle(&settled, STANDARD_GRAVITY).map_err(|_| Collapse::Overloaded)?;
+            (settled.rest, settled.rest_springs) = (at_rest.displacement, at_rest.springs);
+        }
+        *self = settled;
+        Ok(())
+    }
+}
+
 /// Nodes closer than this lie on one column line \[m\].
 const SAME_LINE: f64 = 1e-6;
 
@@ -85,7 +175,7 @@ fn hung_on_nodes(
         .iter()
         .filter(|member| !member.is_vertical(&skeleton.nodes))
     {
-        for (a, b, value) in element::of_member(member, &skeleton.nodes).entries {
+        for (_, a, b, value) in element::of_member(member, &skeleton.nodes).entries {
             if a.1 == Y {
                 // The member holds the node up with −K u.
                 hung[a.0] += building
@@ -109,6 +199,7 @@ mod tests {
             flexural_rigidity: 1e8,
             axial_rigidity: Some(8e9),
             line_mass,
+            shear_rigidity: None,
         };
         let building = Building {
             name: "frame".into(),
@@ -127,12 +218,16 @@ mod tests {
                 },
                 joint: Joint {
                     rotational_stiffness: Some(5e8),
+                    ..Joint::default()
                 },
             }),
             damping: Damping::Rayleigh {
                 alpha: 0.0,
                 beta: 0.0,
             },
+            base: Default::default(),
+            gravity: Default::default(),
+            hinges: None,
         };
         BuildingSystem::new("frame", Idealisation::of(&building))
     }

@@ -1,5 +1,7 @@
 //! What a run leaves behind: time histories, impacts, peaks, energies and the work it took.
 
+use crate::hysteresis::{HysteresisMemory, Stage};
+
 /// Time histories at the recorded instants: one row per instant, one column per quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
@@ -51,11 +53,11 @@ pub enum EnergyTerm {
     Input,
     /// Kinetic energy relative to the ground.
     Kinetic,
-    /// Strain energy of members.
+    /// Strain energy of members, and what springs that yield would give back.
     Strain,
     /// Dissipated by viscous damping.
     Damped,
-    /// Taken by hinges.
+    /// Dissipated by springs that yield.
     Hysteretic,
     /// Taken by contacts: dissipated plus, during an impact, stored.
     Contact,
@@ -164,8 +166,10 @@ pub struct Impact {
     pub peak_indentation: f64,
     /// Closing rate at touch \[m/s\].
     pub impact_speed: f64,
-    /// Opening rate at the end \[m/s\].
+    /// Opening rate at the end, zero for an impact that the end of the run cuts off \[m/s\].
     pub separation_speed: f64,
+    /// Whether it ended within the run.
+    pub finished: bool,
     /// Time integral of the force \[N·s\].
     pub impulse: f64,
     /// Work taken by the contact \[J\].
@@ -255,4 +259,64 @@ pub struct Work {
     pub solves: u64,
     /// Newton iterations on the contact forces.
     pub iterations: u64,
+    /// Iterations on springs that yield; one per tried step when nothing changes.
+    pub outer_iterations: u64,
+    /// Steps halved because those did not converge.
+    pub halved_steps: u64,
+}
+
+/// What a spring that yields has borne.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SpringTotals {
+    /// Greatest force, either sign \[N·m or N\].
+    pub peak_force: f64,
+    /// Work done on it, what it would give back included \[J\].
+    pub work: f64,
+}
+
+/// Deformation and force of every spring that yields at the instants of a [`History`], in single precision.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpringHistory {
+    springs: usize,
+    values: Vec<[f32; 2]>,
+}
+
+impl SpringHistory {
+    pub(crate) fn new(springs: usize) -> Self {
+        Self {
+            springs,
+            values: Vec::new(),
+        }
+    }
+
+    pub(crate) fn push(&mut self, memories: &[HysteresisMemory]) {
+        let row = memories.iter();
+        self.values
+            .extend(row.map(|memory| [memory.deformation() as f32, memory.force() as f32]));
+    }
+
+    pub(crate) fn reserve(&mut self, rows: usize) {
+        self.values.reserve(rows * self.springs);
+    }
+
+    /// Deformation \[rad or m\] and force \[N·m or N\] of a spring, counted from the left building on, at every
+    /// instant.
+    pub fn of(&self, spring: usize) -> impl Iterator<Item = [f32; 2]> + '_ {
+        self.values
+            .iter()
+            .skip(spring)
+            .step_by(self.springs.max(1))
+            .copied()
+    }
+}
+
+/// A spring that cracks or yields for the first time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringEvent {
+    /// Index among the springs of all buildings, from left to right.
+    pub spring: usize,
+    /// What it has come to.
+    pub stage: Stage,
+    /// Time \[s\].
+    pub time: f64,
 }

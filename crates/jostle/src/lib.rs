@@ -1,9 +1,11 @@
 //! Seismic pounding of neighbouring buildings by the transfer matrix method for multibody systems.
 
 pub mod contact;
+pub mod counting;
 pub mod equations;
 pub mod gravity;
 pub mod history;
+pub mod hysteresis;
 pub mod method;
 pub mod modal;
 pub mod model;
@@ -11,6 +13,7 @@ pub mod motion;
 pub mod separation;
 pub mod skeleton;
 pub mod state;
+pub mod statics;
 pub mod stepping;
 pub mod stiffness;
 pub mod summary;
@@ -19,18 +22,19 @@ pub mod transfer;
 
 mod check;
 mod element;
+mod member_end;
 mod summarise;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use model::{
-    Analysis, Axial, Building, Damping, FloorPairs, Frame, Gap, Joint, Model, ModelFault, Section,
-    Shear, Solver, Structure,
+    Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Gravity, Hinges,
+    Joint, Model, ModelFault, Section, Shear, Solver, Structure,
 };
 pub use motion::{GroundMotion, Wave};
 pub use state::State;
-pub use stepping::{Outcome, Plan, Pounding, RunEnd, Settings, StepError, simulate};
-pub use summarise::Run;
+pub use stepping::{Integrator, Outcome, Plan, Pounding, RunEnd, Settings, StepError, simulate};
+pub use summarise::{Run, springs_of};
 pub use summary::Summary;
 pub use system::System;
 pub use transfer::riccati::{RiccatiFactor, RiccatiSweep};

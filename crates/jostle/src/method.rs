@@ -2,7 +2,7 @@
 //! step keeps as the step shrinks.
 
 use crate::skeleton::Skeleton;
-use crate::stepping::{Newmark, NotPositive, StepEquations, solve_once};
+use crate::stepping::{Integrator, NotPositive, StepEquations, solve_once};
 use crate::stiffness::DirectStiffness;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::RiccatiSweep;
@@ -78,21 +78,21 @@ impl MethodSurvey {
 }
 
 fn accuracy(building: &BuildingSystem, step: f64) -> Result<StepAccuracy, NotPositive> {
-    let coefficients = Newmark::default()
+    let coefficients = Integrator::default()
         .coefficients(step)
         .of_building(&building.equations);
-    let (kappa, g) = (coefficients.stiffness_factor, coefficients.mass_factor);
+    let matrix = coefficients.matrix();
     let load = uneven_load(building);
-    let reference = solve_once::<DirectStiffness>(building, kappa, g, &load)?;
+    let reference = solve_once::<DirectStiffness>(building, &matrix, &load)?;
     let error = |answer: Result<Vec<f64>, NotPositive>| {
         answer.map_or(f64::INFINITY, |y| relative_error(&y, &reference))
     };
     Ok(StepAccuracy {
         step,
-        product: error(solve_once::<ProductEquations>(building, kappa, g, &load)),
-        product_digits_expected: digits_left(building, kappa, g),
-        elementwise: error(solve_once::<ElementwiseRiccati>(building, kappa, g, &load)),
-        riccati: error(solve_once::<RiccatiSweep>(building, kappa, g, &load)),
+        product: error(solve_once::<ProductEquations>(building, &matrix, &load)),
+        product_digits_expected: digits_left(building, &matrix),
+        elementwise: error(solve_once::<ElementwiseRiccati>(building, &matrix, &load)),
+        riccati: error(solve_once::<RiccatiSweep>(building, &matrix, &load)),
     })
 }
 
@@ -152,6 +152,9 @@ mod tests {
                 alpha: 0.0,
                 beta: 0.0,
             },
+            base: Default::default(),
+            gravity: Default::default(),
+            hinges: None,
         };
         let survey = MethodSurvey::of(&BuildingSystem::new("three", Idealisation::of(&building)))
             .expect("it stands");

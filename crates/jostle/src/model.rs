@@ -4,6 +4,8 @@
 //! path of the field it concerns, so that a reader can point at the line of the file.
 
 use crate::contact::ContactLaw;
+use crate::hysteresis::Hysteresis;
+use crate::stepping::Integrator;
 
 /// Buildings in a row, the gaps between neighbours, and the settings of the analysis.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +20,7 @@ pub struct Model {
     pub analysis: Analysis,
 }
 
-/// One building: its structure and its damping.
+/// One building: its structure, its damping and where it yields.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Building {
     /// Name, unique in the model.
@@ -27,6 +29,76 @@ pub struct Building {
     pub structure: Structure,
     /// Viscous damping.
     pub damping: Damping,
+    /// What the columns stand on.
+    pub base: Base,
+    /// What its weight does.
+    pub gravity: Gravity,
+    /// Where and how it cracks and yields; `None` stays elastic.
+    pub hinges: Option<Hinges>,
+}
+
+/// Springs and dashpots under every column of a frame, or under a shear building as a whole. All rigid is the
+/// default: the building is fixed to the ground.
+///
+/// The dashpots are all the damping there is here: Rayleigh damping of the building does not act on a base.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Base {
+    /// Moment per rotation, > 0; `None` is rigid; frames only \[N·m/rad\].
+    pub rotational_stiffness: Option<f64>,
+    /// Force per horizontal displacement, > 0; `None` is rigid \[N/m\].
+    pub horizontal_stiffness: Option<f64>,
+    /// Force per vertical displacement, > 0; `None` is rigid; frames only \[N/m\].
+    pub vertical_stiffness: Option<f64>,
+    /// Moment per angular velocity, ≥ 0; needs a rotational stiffness \[N·m·s/rad\].
+    pub rotational_damping: f64,
+    /// Force per horizontal velocity, ≥ 0; needs a horizontal stiffness \[N·s/m\].
+    pub horizontal_damping: f64,
+    /// Force per vertical velocity, ≥ 0; needs a vertical stiffness \[N·s/m\].
+    pub vertical_damping: f64,
+    /// Mass of the footing, ≥ 0; moves only where the base gives way \[kg\].
+    pub mass: f64,
+}
+
+impl Base {
+    /// Whether nothing gives way.
+    #[must_use]
+    pub fn is_fixed(&self) -> bool {
+        self.rotational_stiffness.is_none()
+            && self.horizontal_stiffness.is_none()
+            && self.vertical_stiffness.is_none()
+    }
+}
+
+/// What the weight of a building does, besides standing there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Gravity {
+    /// The run starts from the displacements under self weight.
+    pub preload: bool,
+    /// The weight above leans on the sway of every column: P-Delta in chord form.
+    pub p_delta: bool,
+}
+
+/// Where and how a building cracks and yields.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Hinges {
+    /// Rotational hinges at the ends of the members of a frame.
+    Frame(FrameHinges),
+    /// Springs of the storeys of a shear building, from the ground up, in displacement \[m\] and force \[N\]; their
+    /// initial stiffness is that of the storey.
+    Storeys(Vec<Hysteresis>),
+}
+
+/// Rotational hinges at both ends of the members of a frame, in rotation \[rad\] and moment \[N·m\].
+///
+/// The positive side of a beam stretches its bottom, that of a column its right face, at either end. Both ends of
+/// a member have the same hinge; what is positive there as a rotation of the node has to be sorted out where the
+/// hinge is put into the frame ([`Hysteresis::mirrored`]).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FrameHinges {
+    /// Hinges of the columns by storey and column line; empty when columns stay elastic.
+    pub columns: Vec<Vec<Hysteresis>>,
+    /// Hinges of the beams by floor and bay; empty when beams stay elastic.
+    pub beams: Vec<Vec<Hysteresis>>,
 }
 
 /// How a building resists lateral motion.
@@ -70,6 +142,8 @@ pub struct Section {
     pub flexural_rigidity: f64,
     /// Axial rigidity EA, > 0; used when the member is axially flexible \[N\].
     pub axial_rigidity: Option<f64>,
+    /// Shear rigidity G A_s, > 0; `None` neglects shear deformation \[N\].
+    pub shear_rigidity: Option<f64>,
     /// Self mass of columns, ≥ 0 \[kg/m\].
     pub line_mass: f64,
 }
@@ -88,6 +162,10 @@ pub struct Axial {
 pub struct Joint {
     /// Rotational stiffness, > 0; `None` is rigid \[N·m/rad\].
     pub rotational_stiffness: Option<f64>,
+    /// Horizontal stiffness, > 0; `None` is rigid \[N/m\].
+    pub horizontal_stiffness: Option<f64>,
+    /// Vertical stiffness, > 0; `None` is rigid \[N/m\].
+    pub vertical_stiffness: Option<f64>,
 }
 
 /// Shear building: floor masses joined by storey springs.
@@ -131,6 +209,8 @@ pub struct Gap {
     pub floors: FloorPairs,
     /// Contact law of every contact of this gap.
     pub law: ContactLaw,
+    /// Impacts of one contact that follow each other sooner count as one, ≥ 0 \[s\].
+    pub minimum_separation: f64,
 }
 
 /// Which points of two neighbours can touch.
@@ -158,6 +238,8 @@ pub struct Analysis {
     pub energy_tolerance: f64,
     /// Which equations advance a step.
     pub solver: Solver,
+    /// How a step is integrated.
+    pub integrator: Integrator,
 }
 
 impl Default for Analysis {
@@ -168,6 +250,7 @@ impl Default for Analysis {
             tolerance: 1e-3,
             energy_tolerance: 1e-6,
             solver: Solver::Riccati,
+            integrator: Integrator::default(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The bar-and-mass idealisation of one building: lumped masses joined by massless beams, hinges and springs.
 
-use crate::model::{Building, Frame, Section, Shear, Structure};
+use crate::hysteresis::Hysteresis;
+use crate::model::{Base, Building, Frame, FrameHinges, Hinges, Joint, Section, Shear, Structure};
 
 /// Lumped masses and the massless elements between them, in the plane.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -56,24 +57,81 @@ pub struct Member {
     pub compression: f64,
 }
 
-/// Planar elastic hinge.
+/// Planar elastic hinge, with dashpots beside its springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hinge {
     /// The two coincident nodes.
     pub ends: [usize; 2],
-    /// Moment per relative rotation, > 0 \[N·m/rad\].
-    pub rotational_stiffness: f64,
+    /// Moment per relative rotation, > 0; `None` is rigid \[N·m/rad\].
+    pub rotational_stiffness: Option<f64>,
+    /// What the rotational spring remembers, if it yields; it then replaces `rotational_stiffness`, which must not
+    /// be rigid. Positive is the rotation of the first end against the second.
+    pub hysteresis: Option<Hysteresis>,
     /// Force per relative horizontal and vertical displacement; `None` is rigid \[N/m\].
     pub translational_stiffness: [Option<f64>; 2],
+    /// Force and moment per relative velocity in x, y, θ, ≥ 0; not used where the hinge is rigid
+    /// \[N·s/m, N·s/m, N·m·s/rad\].
+    pub dashpots: [f64; 3],
+    /// Whether stiffness-proportional damping of the building acts here too; never on a spring that yields.
+    pub proportional_damping: bool,
 }
 
-/// Horizontal spring.
+impl Hinge {
+    /// Gives way in rotation only, by a rule that remembers.
+    #[must_use]
+    pub fn yielding(ends: [usize; 2], hysteresis: Hysteresis) -> Self {
+        Self {
+            hysteresis: Some(hysteresis),
+            proportional_damping: false,
+            ..Self::rotational(ends, hysteresis.backbone().initial())
+        }
+    }
+
+    /// Gives way in rotation only and takes part in the damping of the building.
+    #[must_use]
+    pub fn rotational(ends: [usize; 2], stiffness: f64) -> Self {
+        Self {
+            ends,
+            rotational_stiffness: Some(stiffness),
+            hysteresis: None,
+            translational_stiffness: [None, None],
+            dashpots: [0.0; 3],
+            proportional_damping: true,
+        }
+    }
+}
+
+/// Horizontal spring, with a dashpot beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
     /// Ends.
     pub ends: [usize; 2],
     /// Force per relative horizontal displacement, ≥ 0 \[N/m\].
     pub stiffness: f64,
+    /// What the spring remembers, if it yields; it then replaces `stiffness`. Positive is the displacement of the
+    /// second end against the first.
+    pub hysteresis: Option<Hysteresis>,
+    /// P/h: what the weight above takes from the stiffness, ≥ 0 \[N/m\].
+    pub softening: f64,
+    /// Force per relative velocity, ≥ 0 \[N·s/m\].
+    pub dashpot: f64,
+    /// Whether stiffness-proportional damping of the building acts here too.
+    pub proportional_damping: bool,
+}
+
+impl Spring {
+    /// An elastic spring that takes part in the damping of the building.
+    #[must_use]
+    pub fn elastic(ends: [usize; 2], stiffness: f64) -> Self {
+        Self {
+            ends,
+            stiffness,
+            hysteresis: None,
+            softening: 0.0,
+            dashpot: 0.0,
+            proportional_damping: true,
+        }
+    }
 }
 
 /// A skeleton and where its floors and faces are.
@@ -81,12 +139,16 @@ pub struct Spring {
 pub struct Idealisation {
     /// Masses and elements.
     pub skeleton: Skeleton,
+    /// The lowest node of the first column line, fixed or not.
+    pub foot: Option<usize>,
     /// Node that stands for every floor, from the ground up: the joint of the first column line.
     pub floors: Vec<usize>,
     /// Nodes of the left face from the ground up that can be hit.
     pub left_face: Vec<usize>,
     /// Nodes of the right face from the ground up that can be hit.
     pub right_face: Vec<usize>,
+    /// Where the springs sit that yield, in the order of [`crate::equations::Equations::springs`].
+    pub spring_places: Vec<SpringPlace>,
 }
 
 impl Idealisation {
@@ -94,8 +156,20 @@ impl Idealisation {
     #[must_use]
     pub fn of(building: &Building) -> Self {
         match &building.structure {
-            Structure::Frame(frame) => idealise_frame(frame),
-            Structure::Shear(shear) => idealise_shear(shear),
+            Structure::Frame(frame) => {
+                let hinges = match &building.hinges {
+                    Some(Hinges::Frame(hinges)) => hinges,
+                    _ => &FrameHinges::default(),
+                };
+                idealise_frame(frame, &building.base, hinges)
+            }
+            Structure::Shear(shear) => {
+                let springs: &[Hysteresis] = match &building.hinges {
+                    Some(Hinges::Storeys(springs)) => springs,
+                    _ => &[],
+                };
+                idealise_shear(shear, &building.base, springs)
+            }
         }
     }
 }
@@ -145,7 +219,7 @@ impl Skeleton {
                 ends: [ends[0], ends[1]],
                 flexural_rigidity: section.flexural_rigidity,
                 axial_rigidity: section.axial_rigidity.filter(|_| flexible),
-                shear_rigidity: None,
+                shear_rigidity: section.shear_rigidity,
                 compression: 0.0,
             });
         }
@@ -153,35 +227,138 @@ impl Skeleton {
     }
 
     /// The node itself, or behind an elastic hinge a new one at the same place.
-    fn hinged(&mut self, joint: usize, rotational_stiffness: Option<f64>) -> usize {
-        let Some(rotational_stiffness) = rotational_stiffness else {
+    fn hinged(&mut self, joint: usize, properties: &Joint) -> usize {
+        if *properties == Joint::default() {
             return joint;
-        };
+        }
         let end = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
         self.hinges.push(Hinge {
             ends: [joint, end],
-            rotational_stiffness,
-            translational_stiffness: [None, None],
+            rotational_stiffness: properties.rotational_stiffness,
+            hysteresis: None,
+            translational_stiffness: [
+                properties.horizontal_stiffness,
+                properties.vertical_stiffness,
+            ],
+            dashpots: [0.0; 3],
+            proportional_damping: true,
         });
         end
     }
+
+    /// Puts a hinge that yields between a joint and the end of a member, and returns the node at the member. Positive
+    /// is the rotation that stretches the bottom of a beam and the right face of a column: along the member, from
+    /// left to right or upwards, it turns counter-clockwise there.
+    fn yielding(&mut self, joint: usize, hysteresis: Hysteresis, end: MemberEnd) -> usize {
+        let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
+        let ends = match end {
+            MemberEnd::First => [node, joint],
+            MemberEnd::Last => [joint, node],
+        };
+        self.hinges.push(Hinge::yielding(ends, hysteresis));
+        node
+    }
+
+    /// The lowest point of a column: a node fixed to the ground, or behind the springs and dashpots of a base a
+    /// new one that carries the mass of the footing.
+    fn add_foot(&mut self, x: f64, base: &Base) -> usize {
+        let ground = self.add_node(x, 0.0);
+        self.nodes[ground].support = Support::Fixed;
+        if base.is_fixed() {
+            return ground;
+        }
+        let foot = self.add_node(x, 0.0);
+        self.nodes[foot].mass = base.mass;
+        self.hinges.push(Hinge {
+            ends: [ground, foot],
+            rotational_stiffness: base.rotational_stiffness,
+            hysteresis: None,
+            translational_stiffness: [base.horizontal_stiffness, base.vertical_stiffness],
+            dashpots: [
+                base.horizontal_damping,
+                base.vertical_damping,
+                base.rotational_damping,
+            ],
+            proportional_damping: false,
+        });
+        foot
+    }
 }
 
-fn idealise_frame(frame: &Frame) -> Idealisation {
+/// Which end of a member a hinge is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MemberEnd {
+    /// The lower end of a column, the left end of a beam.
+    First,
+    /// The upper end of a column, the right end of a beam.
+    Last,
+}
+
+/// Where a spring that yields sits; floors, storeys, column lines and bays count from 1, from the ground up and from
+/// the left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpringPlace {
+    /// At an end of a column.
+    Column {
+        /// Storey.
+        storey: usize,
+        /// Column line.
+        line: usize,
+        /// Which end.
+        end: MemberEnd,
+    },
+    /// At an end of a beam.
+    Beam {
+        /// Floor.
+        floor: usize,
+        /// Bay.
+        bay: usize,
+        /// Which end.
+        end: MemberEnd,
+    },
+    /// A whole storey of a shear building.
+    Storey {
+        /// Storey.
+        storey: usize,
+    },
+}
+
+impl std::fmt::Display for SpringPlace {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Column { storey, line, end } => {
+                let end = match end {
+                    MemberEnd::First => "foot",
+                    MemberEnd::Last => "head",
+                };
+                write!(formatter, "column {line}, storey {storey}, {end}")
+            }
+            Self::Beam { floor, bay, end } => {
+                let end = match end {
+                    MemberEnd::First => "left",
+                    MemberEnd::Last => "right",
+                };
+                write!(formatter, "beam {bay}, floor {floor}, {end}")
+            }
+            Self::Storey { storey } => write!(formatter, "storey {storey}"),
+        }
+    }
+}
+
+fn idealise_frame(frame: &Frame, base: &Base, hinges: &FrameHinges) -> Idealisation {
     let mut skeleton = Skeleton::default();
     let mut lines: Vec<f64> = vec![0.0];
     for span in &frame.spans {
         lines.push(lines[lines.len() - 1] + span);
     }
-    let mut below: Vec<usize> = lines.iter().map(|x| skeleton.add_node(*x, 0.0)).collect();
-    for &base in &below {
-        skeleton.nodes[base].support = Support::Fixed;
-    }
+    let mut below: Vec<usize> = lines.iter().map(|x| skeleton.add_foot(*x, base)).collect();
     let mut idealisation = Idealisation {
         skeleton: Skeleton::default(),
+        foot: Some(below[0]),
         floors: Vec::new(),
         left_face: Vec::new(),
         right_face: Vec::new(),
+        spring_places: Vec::new(),
     };
     let mut height = 0.0;
     for (storey, storey_height) in frame.storey_heights.iter().enumerate() {
@@ -192,9 +369,20 @@ fn idealise_frame(frame: &Frame) -> Idealisation {
             .collect();
         let column = &frame.columns[storey];
         for (line, (&from, &to)) in below.iter().zip(&joints).enumerate() {
+            let mut ends = [from, to];
+            if let Some(hysteresis) = hinges.columns.get(storey).and_then(|row| row.get(line)) {
+                for (node, end) in ends.iter_mut().zip([MemberEnd::First, MemberEnd::Last]) {
+                    *node = skeleton.yielding(*node, *hysteresis, end);
+                    idealisation.spring_places.push(SpringPlace::Column {
+                        storey: storey + 1,
+                        line: line + 1,
+                        end,
+                    });
+                }
+            }
             let interior = skeleton.add_line(
-                from,
-                to,
+                ends[0],
+                ends[1],
                 frame.column_segments,
                 column.line_mass,
                 column,
@@ -209,14 +397,23 @@ fn idealise_frame(frame: &Frame) -> Idealisation {
             }
         }
         for (bay, ends) in joints.windows(2).enumerate() {
-            let stiffness = frame.joint.rotational_stiffness;
-            let (from, to) = (
-                skeleton.hinged(ends[0], stiffness),
-                skeleton.hinged(ends[1], stiffness),
-            );
+            let mut ends = [
+                skeleton.hinged(ends[0], &frame.joint),
+                skeleton.hinged(ends[1], &frame.joint),
+            ];
+            if let Some(hysteresis) = hinges.beams.get(storey).and_then(|row| row.get(bay)) {
+                for (node, end) in ends.iter_mut().zip([MemberEnd::First, MemberEnd::Last]) {
+                    *node = skeleton.yielding(*node, *hysteresis, end);
+                    idealisation.spring_places.push(SpringPlace::Beam {
+                        floor: storey + 1,
+                        bay: bay + 1,
+                        end,
+                    });
+                }
+            }
             skeleton.add_line(
-                from,
-                to,
+                ends[0],
+                ends[1],
                 frame.beam_segments[bay],
                 frame.beam_mass[storey],
                 &frame.beams[storey],
@@ -233,12 +430,25 @@ fn idealise_frame(frame: &Frame) -> Idealisation {
     idealisation
 }
 
-fn idealise_shear(shear: &Shear) -> Idealisation {
+fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealisation {
     let mut skeleton = Skeleton::default();
     let mut below = skeleton.add_node(0.0, 0.0);
     skeleton.nodes[below].support = Support::Fixed;
+    // Floors do not turn, so that only the horizontal spring of a base has something to do.
+    if let Some(stiffness) = base.horizontal_stiffness {
+        let foot = skeleton.add_node(0.0, 0.0);
+        skeleton.nodes[foot].mass = base.mass;
+        skeleton.nodes[foot].support = Support::Guided;
+        skeleton.springs.push(Spring {
+            dashpot: base.horizontal_damping,
+            proportional_damping: false,
+            ..Spring::elastic([below, foot], stiffness)
+        });
+        below = foot;
+    }
+    let foot = below;
     let mut height = 0.0;
-    let mut floors = Vec::new();
+    let (mut floors, mut spring_places) = (Vec::new(), Vec::new());
     for ((mass, stiffness), storey_height) in shear
         .mass
         .iter()
@@ -249,17 +459,26 @@ fn idealise_shear(shear: &Shear) -> Idealisation {
         let floor = skeleton.add_node(0.0, height);
         skeleton.nodes[floor].mass = *mass;
         skeleton.nodes[floor].support = Support::Guided;
+        let hysteresis = springs.get(floors.len()).copied();
         skeleton.springs.push(Spring {
-            ends: [below, floor],
-            stiffness: *stiffness,
+            hysteresis,
+            proportional_damping: hysteresis.is_none(),
+            ..Spring::elastic([below, floor], *stiffness)
         });
         floors.push(floor);
+        if hysteresis.is_some() {
+            spring_places.push(SpringPlace::Storey {
+                storey: floors.len(),
+            });
+        }
         below = floor;
     }
     Idealisation {
         skeleton,
+        foot: Some(foot),
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,
+        spring_places,
     }
 }

@@ -1,5 +1,7 @@
 //! Everything that moves.
 
+use crate::contact::Memory;
+use crate::hysteresis::HysteresisMemory;
 use crate::system::System;
 
 /// The state of a row of buildings at one instant; a clone is a checkpoint.
@@ -15,6 +17,8 @@ pub struct State {
     pub velocity: Vec<f64>,
     /// Acceleration relative to the ground \[m/s², rad/s²\].
     pub acceleration: Vec<f64>,
+    /// Springs that yield, of all buildings from left to right.
+    pub springs: Vec<HysteresisMemory>,
     /// Contacts, in the order of the system.
     pub contacts: Vec<ContactPhase>,
 }
@@ -35,6 +39,8 @@ pub struct Episode {
     pub since: f64,
     /// Closing rate at touch, > 0 \[m/s\].
     pub impact_speed: f64,
+    /// What the law remembers.
+    pub memory: Memory,
     /// Force now \[N\].
     pub force: f64,
     /// Last instant of force and the opening rate then; meaningful once the force has vanished \[s, m/s\].
@@ -56,10 +62,11 @@ pub struct Episode {
 impl Episode {
     /// The contact closes now.
     #[must_use]
-    pub(crate) fn new(since: f64, impact_speed: f64) -> Self {
+    pub(crate) fn new(since: f64, impact_speed: f64, memory: Memory) -> Self {
         Self {
             since,
             impact_speed,
+            memory,
             force: 0.0,
             end: since,
             separation_speed: 0.0,
@@ -84,13 +91,23 @@ impl ContactPhase {
 }
 
 impl State {
-    /// All buildings at rest and all contacts open, while the ground already accelerates.
+    /// All buildings at rest, under their weight where they carry it, and all contacts open, while the ground
+    /// already accelerates.
     #[must_use]
     pub fn at_rest(system: &System, ground_acceleration: f64) -> Self {
         let n = system.len();
-        let mut acceleration = vec![0.0; n];
+        let (mut displacement, mut acceleration) = (vec![0.0; n], vec![0.0; n]);
+        let mut springs = Vec::new();
         for building in &system.buildings {
             let equations = &building.equations;
+            for (value, rest) in displacement[building.range()]
+                .iter_mut()
+                .zip(&building.rest)
+            {
+                *value = *rest;
+            }
+            springs.extend(&building.rest_springs);
+            springs.resize(building.spring_range().end, HysteresisMemory::default());
             let masses = equations.driven_mass.iter().zip(&equations.mass);
             for (value, (driven, mass)) in acceleration[building.range()].iter_mut().zip(masses) {
                 if *mass > 0.0 {
@@ -100,9 +117,10 @@ impl State {
         }
         Self {
             time: 0.0,
-            displacement: vec![0.0; n],
+            displacement,
             velocity: vec![0.0; n],
             acceleration,
+            springs,
             contacts: vec![ContactPhase::Open; system.contacts.len()],
         }
     }

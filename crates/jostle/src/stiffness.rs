@@ -6,16 +6,17 @@ use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{MatMut, Side};
 
-use crate::element;
-use crate::stepping::{NotPositive, StepEquations};
+use crate::element::{self, Part};
+use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 
-/// Element entries of K̂ = κ K + g M of one building.
+/// Element entries of the step matrix of one building.
 #[derive(Clone, Debug)]
 pub struct DirectStiffness {
     order: usize,
-    stiffness: Vec<(usize, usize, f64)>,
+    stiffness: Vec<(Part, usize, usize, f64)>,
     mass: Vec<f64>,
+    springs: Vec<[Option<usize>; 2]>,
 }
 
 /// A factorised step matrix.
@@ -30,33 +31,51 @@ impl StepEquations for DirectStiffness {
         let entries = element::stiffnesses(&building.idealisation.skeleton)
             .flat_map(|element| element.entries);
         let stiffness = entries
-            .filter_map(|(a, b, value)| Some((equations.dof(a)?, equations.dof(b)?, value)))
-            .filter(|(row, column, _)| row >= column)
+            .filter_map(|(part, a, b, value)| {
+                Some((part, equations.dof(a)?, equations.dof(b)?, value))
+            })
+            .filter(|(_, row, column, _)| row >= column)
             .collect();
         Self {
             order: equations.len(),
             stiffness,
             mass: equations.mass.clone(),
+            springs: equations.springs.iter().map(|spring| spring.dofs).collect(),
         }
     }
 
     fn factorize(
         &self,
-        stiffness_factor: f64,
-        mass_factor: f64,
+        matrix: &StepMatrix,
+        tangents: &[f64],
         factor: &mut DirectFactor,
     ) -> Result<(), NotPositive> {
-        let members = self.stiffness.iter().map(|&(row, col, value)| Triplet {
-            row,
-            col,
-            val: stiffness_factor * value,
-        });
+        let members = self
+            .stiffness
+            .iter()
+            .map(|&(part, row, col, value)| Triplet {
+                row,
+                col,
+                val: matrix.weight(part) * value,
+            });
         let inertia = self.mass.iter().enumerate().map(|(dof, mass)| Triplet {
             row: dof,
             col: dof,
-            val: mass_factor * mass,
+            val: matrix.mass * mass,
         });
-        let triplets: Vec<_> = members.chain(inertia).collect();
+        let mut triplets: Vec<_> = members.chain(inertia).collect();
+        for (dofs, &tangent) in self.springs.iter().zip(tangents) {
+            for row in dofs.iter().flatten() {
+                for col in dofs.iter().flatten().filter(|col| row >= col) {
+                    let val = if row == col { tangent } else { -tangent };
+                    triplets.push(Triplet {
+                        row: *row,
+                        col: *col,
+                        val,
+                    });
+                }
+            }
+        }
         let failed = NotPositive { dof: 0 };
         let matrix =
             SparseColMat::<usize, f64>::try_new_from_triplets(self.order, self.order, &triplets)

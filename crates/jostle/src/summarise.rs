@@ -1,13 +1,16 @@
 //! From the outcome of a run to the numbers of `summary.json`.
 
-use crate::contact::RestitutionIs;
+use crate::contact::{LawKind, RestitutionIs};
+use crate::counting::{CountedImpact, counted, find_simultaneous};
 use crate::history::Impact;
+use crate::hysteresis::{Side, Stage};
+use crate::member_end::{ductility, end_stiffnesses};
 use crate::model::{Gap, Model};
 use crate::motion::GroundMotion;
 use crate::stepping::{Outcome, Plan, RunEnd};
 use crate::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
-    ImpactSummary, MotionSummary, Summary, WorkSummary,
+    ImpactSummary, MotionSummary, SpringSummary, Summary, WorkSummary,
 };
 use crate::system::{BuildingSystem, System};
 
@@ -85,8 +88,9 @@ fn building_summary(index: usize, system: &System, outcome: &Outcome) -> Buildin
         .floors
         .iter()
         .zip(&outcome.floors[index])
+        .zip(residual_drifts(building, outcome))
         .enumerate()
-        .map(|(k, (floor, peaks))| FloorSummary {
+        .map(|(k, ((floor, peaks), residual_drift))| FloorSummary {
             floor: k + 1,
             height_m: floor.height,
             displacement_max_m: peaks.displacement_max.value,
@@ -95,6 +99,7 @@ fn building_summary(index: usize, system: &System, outcome: &Outcome) -> Buildin
             displacement_min_at_s: peaks.displacement_min.at,
             total_acceleration_peak_m_s2: peaks.total_acceleration,
             storey_drift_peak: peaks.storey_drift,
+            residual_drift,
         });
     BuildingSummary {
         name: building.name.clone(),
@@ -108,8 +113,79 @@ fn building_summary(index: usize, system: &System, outcome: &Outcome) -> Buildin
         floors: floors.collect(),
         base_shear_peak_n: outcome.base_shear[index],
         residual_roof_displacement_m: roof_displacement(building, outcome),
-        hinges: HingeSummary::default(),
+        hinges: hinge_summary(building, outcome),
     }
+}
+
+fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
+    let all = springs_of(building, outcome);
+    let mut summary = HingeSummary {
+        total: all.len(),
+        cracked: all.iter().filter(|s| s.cracked_s.is_some()).count(),
+        yielded: all.iter().filter(|s| s.yielded_s.is_some()).count(),
+        first_yield_s: None,
+        ductility: all.iter().map(|s| s.ductility).fold(0.0, f64::max),
+        dissipated_j: all.iter().map(|s| s.dissipated_j).sum(),
+        list: all.into_iter().filter(|s| s.cracked_s.is_some()).collect(),
+    };
+    let never = f64::INFINITY;
+    summary.list.sort_by(|a, b| {
+        let key = |s: &SpringSummary| [s.yielded_s.unwrap_or(never), s.cracked_s.unwrap_or(never)];
+        let (a, b) = (key(a), key(b));
+        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+    });
+    summary.first_yield_s = summary.list.first().and_then(|first| first.yielded_s);
+    summary
+}
+
+/// What every spring of a building that can yield has borne, in the order of
+/// [`Idealisation::spring_places`](crate::skeleton::Idealisation::spring_places).
+#[must_use]
+pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSummary> {
+    let springs = building.equations.springs.iter().enumerate();
+    let behind = end_stiffnesses(&building.idealisation.skeleton);
+    let when = |spring: usize, reached: Stage, stage: Stage| {
+        let mut events = outcome.spring_events.iter();
+        // A spring may yield in the step in which it cracks, and crack under weight alone.
+        let event = events.find(|event| event.spring == spring && event.stage >= stage);
+        (reached >= stage).then(|| event.map_or(0.0, |event| event.time))
+    };
+    let summary = |(index, spring): (usize, &crate::equations::YieldingSpring)| {
+        let global = building.spring_offset + index;
+        let (memory, rule) = (&outcome.state.springs[global], &spring.hysteresis);
+        let totals = &outcome.springs[global];
+        let place = building.idealisation.spring_places.get(index);
+        SpringSummary {
+            place: place.map_or_else(|| format!("spring {index}"), ToString::to_string),
+            index,
+            cracked_s: when(global, rule.stage(memory), Stage::Cracked),
+            yielded_s: when(global, rule.stage(memory), Stage::Yielded),
+            deformation_max: memory.greatest(Side::Positive),
+            deformation_min: memory.greatest(Side::Negative),
+            ductility: Side::BOTH
+                .map(|side| {
+                    let member = behind.get(index).copied().flatten();
+                    ductility(rule, memory.greatest(side), side, member)
+                })
+                .into_iter()
+                .fold(0.0, f64::max),
+            peak_force: totals.peak_force,
+            dissipated_j: totals.work - rule.recoverable_energy(memory),
+        }
+    };
+    springs.map(summary).collect()
+}
+
+/// Drift ratios of the storeys at the end \[–\].
+fn residual_drifts(building: &BuildingSystem, outcome: &Outcome) -> Vec<f64> {
+    let u = &outcome.state.displacement;
+    let mut below = building.foot.map_or(0.0, |dof| u[dof]);
+    let mut drift = |floor: &crate::system::Floor| {
+        let rise = u[floor.dof] - below;
+        below = u[floor.dof];
+        rise / floor.storey_height
+    };
+    building.floors.iter().map(&mut drift).collect()
 }
 
 fn roof_displacement(building: &BuildingSystem, outcome: &Outcome) -> f64 {
@@ -126,17 +202,27 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
     let own: Vec<usize> = (0..system.contacts.len())
         .filter(|&contact| system.contacts[contact].gap == index)
         .collect();
+    let mut counted: Vec<Vec<CountedImpact>> = own
+        .iter()
+        .map(|&contact| counted_impacts(contact, gap, outcome))
+        .collect();
+    let poundings = find_simultaneous(&mut counted);
     let contacts: Vec<ContactSummary> = own
         .iter()
-        .map(|&contact| contact_summary(contact, system, outcome))
+        .zip(&counted)
+        .map(|(&contact, impacts)| contact_summary(contact, impacts, system, outcome))
         .collect();
     let impacts = contacts.iter().flat_map(|contact| &contact.impacts);
     GapSummary {
         between: [gap.left, gap.left + 1].map(|building| system.buildings[building].name.clone()),
         width_m: gap.width,
-        law: gap.law.kind.name().to_owned(),
+        law: gap.law.kind.full_name(),
         free_restitution: gap.law.free_restitution(),
         impact_count: contacts.iter().map(|contact| contact.impact_count).sum(),
+        minimum_separation_s: gap.minimum_separation,
+        pounding_count: poundings.count,
+        multiple_pounding_count: poundings.multiple,
+        most_at_once: poundings.most_at_once,
         peak_force_n: contacts
             .iter()
             .map(|contact| contact.peak_force_n)
@@ -151,15 +237,25 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
     }
 }
 
-fn contact_summary(index: usize, system: &System, outcome: &Outcome) -> ContactSummary {
+fn counted_impacts(index: usize, gap: &Gap, outcome: &Outcome) -> Vec<CountedImpact> {
     let mut impacts: Vec<&Impact> = outcome
         .impacts
         .iter()
         .filter(|impact| impact.contact == index)
         .collect();
     impacts.sort_by(|a, b| a.start.total_cmp(&b.start));
-    let strongest = impacts
-        .iter()
+    counted(impacts, gap.minimum_separation)
+}
+
+fn contact_summary(
+    index: usize,
+    impacts: &[CountedImpact],
+    system: &System,
+    outcome: &Outcome,
+) -> ContactSummary {
+    let all = || impacts.iter().map(|counted| &counted.impact);
+    let strongest = all()
+        .filter(|impact| impact.peak_force > 0.0)
         .max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
     let contact = &system.contacts[index];
     ContactSummary {
@@ -171,13 +267,14 @@ fn contact_summary(index: usize, system: &System, outcome: &Outcome) -> ContactS
         peak_force_n: strongest.map_or(0.0, |impact| impact.peak_force),
         peak_force_at_s: strongest.map(|impact| impact.peak_force_at),
         // An empty sum would be −0.
-        impulse_n_s: impacts.iter().fold(0.0, |sum, impact| sum + impact.impulse),
-        impacts: impacts.into_iter().map(ImpactSummary::from).collect(),
+        impulse_n_s: all().fold(0.0, |sum, impact| sum + impact.impulse),
+        impacts: impacts.iter().map(ImpactSummary::from).collect(),
     }
 }
 
-impl From<&Impact> for ImpactSummary {
-    fn from(impact: &Impact) -> Self {
+impl From<&CountedImpact> for ImpactSummary {
+    fn from(counted: &CountedImpact) -> Self {
+        let impact = &counted.impact;
         Self {
             start_s: impact.start,
             end_s: impact.end,
@@ -189,6 +286,9 @@ impl From<&Impact> for ImpactSummary {
             realised_restitution: impact.realised_restitution(),
             impulse_n_s: impact.impulse,
             dissipated_j: impact.dissipated,
+            finished: impact.finished,
+            touches: counted.touches,
+            simultaneous: counted.simultaneous,
         }
     }
 }
@@ -216,6 +316,8 @@ fn work_summary(run: &Run) -> WorkSummary {
         factorizations: work.factorizations,
         solves: work.solves,
         iterations: work.iterations,
+        outer_iterations: work.outer_iterations,
+        halved_steps: work.halved_steps,
         step_s: run.plan.step,
         contact_step_s: run.outcome.contact_step,
         wall_s: run.wall,
@@ -225,27 +327,64 @@ fn work_summary(run: &Run) -> WorkSummary {
 /// Reasons not to trust the numbers.
 fn warnings(run: &Run) -> Vec<String> {
     let tolerance = run.model.analysis.energy_tolerance;
-    let worst = run.outcome.energy.worst_imbalance;
-    if worst <= tolerance {
-        return Vec::new();
+    let energy = &run.outcome.energy;
+    let worst = energy.worst_imbalance;
+    let mut warnings = Vec::new();
+    // An integrator that dissipates takes energy on its own account: see the notes.
+    if worst > tolerance && !run.plan.integrator.dissipates() {
+        warnings.push(format!(
+            "the energies do not balance: {worst:.1e} of the energy is unaccounted for (tolerance {tolerance:.1e}); do not trust this run"
+        ));
     }
-    vec![format!(
-        "the energies do not balance: {worst:.1e} of the energy is unaccounted for (tolerance {tolerance:.1e}); do not trust this run"
-    )]
+    // The trapezoidal rule may gain energy in impacts of few steps; the balance cannot see it.
+    let given = -energy.contact / energy.input.abs().max(f64::MIN_POSITIVE);
+    if given > MOST_GIVEN {
+        warnings.push(format!(
+            "contacts gave {:.1} % of the energy put in, where they should only take some: the contact step is too coarse; use contact_step = \"auto\" or a smaller one",
+            given * 100.0
+        ));
+    }
+    warnings
 }
+
+/// Energy that contacts may give, relative to the input, by the error of the steps.
+const MOST_GIVEN: f64 = 0.01;
 
 /// Things worth knowing about the numbers.
 fn notes(run: &Run) -> Vec<String> {
     let mut notes = Vec::new();
     for law in run.model.gaps.iter().map(|gap| &gap.law) {
         let (asked, free) = (law.restitution, law.free_restitution());
-        let published = law.restitution_is == RestitutionIs::Input && law.kind.is_dissipative();
+        let published =
+            law.restitution_is == RestitutionIs::Input && law.kind.has_published_damping();
         if published && (free - asked).abs() > 0.005 {
             notes.push(format!(
                 "{} with restitution {asked} lets free masses rebound with {free:.3}; restitution_is = \"realised\" makes it {asked}",
                 law.kind.name()
             ));
         }
+    }
+    if run.plan.integrator.dissipates() {
+        let taken = run.outcome.energy.imbalance();
+        notes.push(format!(
+            "the integrator damps the motion by itself: {:.2} % of the input energy is its share",
+            100.0 * taken
+        ));
+        if !run.system.contacts.is_empty() {
+            notes.push(
+                "an integrator that damps the motion takes from the rebound of every impact: restitution and impact counts come out too small; use average acceleration to judge pounding".to_owned(),
+            );
+        }
+    }
+    if run
+        .model
+        .gaps
+        .iter()
+        .any(|gap| gap.law.kind == LawKind::Restitution)
+    {
+        notes.push(
+            "the restitution law changes velocities at once: its impacts have an impulse, but neither force nor duration; forces are those of lasting contact".to_owned(),
+        );
     }
     notes.dedup();
     notes

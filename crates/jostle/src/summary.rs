@@ -67,13 +67,48 @@ pub struct BuildingSummary {
     pub hinges: HingeSummary,
 }
 
-/// How many hinges left the elastic range.
-#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq, Eq)]
+/// How many hinges, or storeys of a shear building, left the elastic range, and how far.
+#[derive(Clone, Debug, Default, Serialize, PartialEq)]
 pub struct HingeSummary {
+    /// All there are.
+    pub total: usize,
     /// Cracked or beyond.
     pub cracked: usize,
     /// Yielded.
     pub yielded: usize,
+    /// When the first one yielded; `None` if none did \[s\].
+    pub first_yield_s: Option<f64>,
+    /// Greatest ductility of any of them \[–\].
+    pub ductility: f64,
+    /// Energy that they dissipated \[J\].
+    pub dissipated_j: f64,
+    /// Those that left the elastic range, in the order in which they yielded, then as they cracked.
+    pub list: Vec<SpringSummary>,
+}
+
+/// One hinge, or one storey of a shear building.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct SpringSummary {
+    /// Where it is, in words.
+    pub place: String,
+    /// Number among the springs of the building that can yield, from 0.
+    pub index: usize,
+    /// When it cracked; 0 where the weight alone does it \[s\].
+    pub cracked_s: Option<f64>,
+    /// When it yielded; 0 where the weight alone does it \[s\].
+    pub yielded_s: Option<f64>,
+    /// Greatest deformation of the positive side (bottom of a beam, right face of a column stretched), ≥ 0
+    /// \[rad; m for storeys\].
+    pub deformation_max: f64,
+    /// Greatest deformation of the negative side, ≥ 0 \[rad; m for storeys\].
+    pub deformation_min: f64,
+    /// Greatest rotation of the member end over that at yield: of the hinge and of the member bent in double
+    /// curvature together; for storeys the greatest deformation over that of yield \[–\].
+    pub ductility: f64,
+    /// Greatest force, either sign \[N·m; N for storeys\].
+    pub peak_force: f64,
+    /// Energy dissipated \[J\].
+    pub dissipated_j: f64,
 }
 
 /// Peaks of one floor.
@@ -95,6 +130,8 @@ pub struct FloorSummary {
     pub total_acceleration_peak_m_s2: f64,
     /// Greatest drift ratio of the storey below, either sign \[–\].
     pub storey_drift_peak: f64,
+    /// Drift ratio of the storey below at the end, positive to the right \[–\].
+    pub residual_drift: f64,
 }
 
 /// One gap and its contacts.
@@ -112,6 +149,14 @@ pub struct GapSummary {
     pub contacts: Vec<ContactSummary>,
     /// Impacts of all contacts.
     pub impact_count: usize,
+    /// Impacts of one contact that follow each other sooner count as one \[s\].
+    pub minimum_separation_s: f64,
+    /// Spans of time in which at least one contact is in impact.
+    pub pounding_count: usize,
+    /// Those of them in which two or more contacts were in impact at the same instant.
+    pub multiple_pounding_count: usize,
+    /// Most contacts in impact at one instant.
+    pub most_at_once: usize,
     /// Greatest force of any contact \[N\].
     pub peak_force_n: f64,
     /// Instant of the first impact \[s\].
@@ -159,7 +204,7 @@ pub struct ImpactSummary {
     pub peak_indentation_m: f64,
     /// Closing rate at touch \[m/s\].
     pub impact_speed_m_s: f64,
-    /// Opening rate at the end \[m/s\].
+    /// Opening rate at the end, zero when the run ended first \[m/s\].
     pub separation_speed_m_s: f64,
     /// Separation ÷ impact speed \[–\].
     pub realised_restitution: f64,
@@ -167,6 +212,12 @@ pub struct ImpactSummary {
     pub impulse_n_s: f64,
     /// Energy taken by the contact \[J\].
     pub dissipated_j: f64,
+    /// Whether it was over when the run ended.
+    pub finished: bool,
+    /// Closed episodes counted as this one impact.
+    pub touches: usize,
+    /// Greatest number of contacts of the gap in impact at one instant of it, itself included.
+    pub simultaneous: usize,
 }
 
 /// Energies at the end of the run \[J\].
@@ -205,6 +256,10 @@ pub struct WorkSummary {
     pub solves: u64,
     /// Newton iterations.
     pub iterations: u64,
+    /// Iterations on springs that yield, one for every step tried with them.
+    pub outer_iterations: u64,
+    /// Steps halved because those did not converge.
+    pub halved_steps: u64,
     /// Step in free flight \[s\].
     pub step_s: f64,
     /// Smallest regular step in contact; `null` when nothing touched \[s\].

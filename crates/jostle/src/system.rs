@@ -3,9 +3,11 @@
 use crate::check::LEVEL_TOLERANCE;
 use crate::contact::{ForceLaw, effective_mass};
 use crate::equations::Equations;
+use crate::hysteresis::HysteresisMemory;
 use crate::modal::{self, Mode};
 use crate::model::{Building, Damping, FloorPairs, Gap, Model, ModelFault};
 use crate::skeleton::Idealisation;
+use crate::state::State;
 
 /// Buildings in a row and the contacts between them, ready to be stepped.
 #[derive(Clone, Debug)]
@@ -29,6 +31,15 @@ pub struct BuildingSystem {
     pub offset: usize,
     /// Floors from the ground up.
     pub floors: Vec<Floor>,
+    /// Displacements under self weight, from which a run starts; empty where weight is left out \[m, rad\].
+    pub rest: Vec<f64>,
+    /// What springs that yield remember then.
+    pub rest_springs: Vec<HysteresisMemory>,
+    /// First spring that yields of this building in the list of a [`crate::State`].
+    pub spring_offset: usize,
+    /// Degree of freedom of the foot of the first column line in the vectors of a [`crate::State`], where the base
+    /// gives way sideways.
+    pub foot: Option<usize>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
     /// [`modal::modes`] finds those of all kinds.
     pub modes: Vec<Mode>,
@@ -86,6 +97,13 @@ impl System {
         let mut faults = Vec::new();
         for (index, building) in model.buildings.iter().enumerate() {
             let mut assembled = BuildingSystem::new(&building.name, Idealisation::of(building));
+            if let Err(problem) = assembled.put_under_gravity(building.gravity) {
+                faults.push(ModelFault {
+                    path: format!("building[{index}].{}", problem.field()),
+                    problem: problem.to_string(),
+                });
+                continue;
+            }
             if let Err(problem) = assembled.damp(&building.damping) {
                 faults.push(ModelFault {
                     path: format!("building[{index}].damping.modes"),
@@ -111,11 +129,14 @@ impl System {
     /// A row of assembled buildings that do not touch; contacts may be added to the list.
     #[must_use]
     pub fn of_buildings(mut buildings: Vec<BuildingSystem>) -> Self {
-        let mut offset = 0;
+        let (mut offset, mut spring_offset) = (0, 0);
         for building in &mut buildings {
+            building.spring_offset = spring_offset;
+            spring_offset += building.equations.springs.len();
             for floor in &mut building.floors {
                 floor.dof = floor.dof - building.offset + offset;
             }
+            building.foot = building.foot.map(|dof| dof - building.offset + offset);
             building.offset = offset;
             offset += building.equations.len();
         }
@@ -262,12 +283,19 @@ impl BuildingSystem {
             }
             below = height;
         }
+        let foot = idealisation
+            .foot
+            .and_then(|node| equations.horizontal(node));
         let mut building = Self {
             name: name.to_owned(),
             idealisation,
             equations,
             offset: 0,
+            foot,
             floors,
+            rest: Vec::new(),
+            rest_springs: Vec::new(),
+            spring_offset: 0,
             modes: Vec::new(),
         };
         building.modes = modal::lateral_modes(&building).unwrap_or_default();
@@ -317,6 +345,24 @@ impl BuildingSystem {
             }
         };
         Ok(())
+    }
+
+    /// Elastic and hysteretic base shear, positive when the building leans to the right \[N\].
+    #[must_use]
+    pub fn base_shear(&self, state: &State) -> f64 {
+        let elastic = self.equations.base_shear(&state.displacement[self.range()]);
+        let springs = self.equations.springs.iter();
+        let yielding = springs
+            .zip(&state.springs[self.spring_range()])
+            .filter(|(spring, _)| spring.carries_base_shear)
+            .map(|(_, memory)| memory.force());
+        elastic + yielding.sum::<f64>()
+    }
+
+    /// Springs that yield of this building in the list of a [`crate::State`].
+    #[must_use]
+    pub fn spring_range(&self) -> std::ops::Range<usize> {
+        self.spring_offset..self.spring_offset + self.equations.springs.len()
     }
 
     /// Degrees of freedom of this building in the vectors of a [`crate::State`].

@@ -1,7 +1,7 @@
 //! The modes that horizontal shaking excites, by Lanczos' method.
 
 use super::{LATERAL_SHARE, Mode, tridiagonal};
-use crate::stepping::{NotPositive, StepEquations};
+use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 
@@ -72,7 +72,11 @@ impl Flexibility {
         let mass = &building.equations.mass;
         let sweep = RiccatiSweep::of(building);
         let mut factor = RiccatiFactor::default();
-        sweep.factorize(1.0, 0.0, &mut factor)?;
+        sweep.factorize(
+            &StepMatrix::STATIC,
+            &building.equations.initial_tangents(),
+            &mut factor,
+        )?;
         let massive: Vec<usize> = (0..mass.len()).filter(|&dof| mass[dof] > 0.0).collect();
         Ok(Self {
             root: massive.iter().map(|&dof| mass[dof].sqrt()).collect(),

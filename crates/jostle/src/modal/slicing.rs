@@ -72,13 +72,19 @@ impl Search<'_> {
             return;
         }
         // With all others held, a degree of freedom is no slower than the first mode.
-        let stiffness = &building.equations.stiffness.diagonal;
+        let equations = &building.equations;
         let slowest = self
             .mass
             .iter()
-            .zip(stiffness)
+            .zip(
+                equations
+                    .stiffness
+                    .diagonal
+                    .iter()
+                    .zip(&equations.undamped.diagonal),
+            )
             .filter(|(mass, _)| **mass > 0.0)
-            .map(|(mass, stiffness)| stiffness / mass)
+            .map(|(mass, (stiffness, undamped))| (stiffness + undamped) / mass)
             .fold(f64::INFINITY, f64::min);
         let (mut low, mut at) = ((0.0, 0), 2.0 * slowest);
         while self.found.len() < wanted && at.is_finite() {

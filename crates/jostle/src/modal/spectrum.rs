@@ -1,6 +1,6 @@
 //! How many modes lie below a frequency, and the determinant that vanishes at each of them.
 
-use crate::stepping::{NotPositive, StepEquations};
+use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::{Inertia, RiccatiFactor, RiccatiSweep};
 
@@ -26,7 +26,11 @@ impl Spectrum {
     pub fn of(building: &BuildingSystem) -> Result<Self, NotPositive> {
         let sweep = RiccatiSweep::of(building);
         let mut factor = RiccatiFactor::default();
-        sweep.factorize(1.0, 0.0, &mut factor)?;
+        sweep.factorize(
+            &StepMatrix::STATIC,
+            &building.equations.initial_tangents(),
+            &mut factor,
+        )?;
         Ok(Self { sweep, factor })
     }
 

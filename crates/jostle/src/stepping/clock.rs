@@ -64,6 +64,12 @@ impl Clock {
         }
     }
 
+    /// Whether this is an instant of the grid that divides every free-flight step into `division` parts.
+    pub(crate) fn is_on_grid(&self, division: u32) -> bool {
+        let part = self.step / f64::from(division);
+        self.offset == (self.offset / part + 1e-9).floor() * part
+    }
+
     /// The instant `length` later, off the grid.
     pub(crate) fn after(&self, length: f64) -> Self {
         let offset = self.offset + length;

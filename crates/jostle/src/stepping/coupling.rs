@@ -1,6 +1,7 @@
 //! Closed contacts: the few forces that join the buildings in a step (theory, Eqs. P1–P3).
 
-use crate::contact::{ContactResponse, ForceLaw};
+use crate::contact::{ContactResponse, ForceLaw, Memory};
+use crate::history::Extreme;
 
 /// One closed contact in the step to be solved.
 #[derive(Clone, Copy, Debug)]
@@ -8,7 +9,7 @@ pub(crate) struct Closed {
     /// Index in the system.
     pub(crate) contact: usize,
     pub(crate) law: ForceLaw,
-    pub(crate) impact_speed: f64,
+    pub(crate) memory: Memory,
     /// Indentation and rate at the end of the step if no closed contact pushed.
     pub(crate) free: f64,
     pub(crate) free_rate: f64,
@@ -19,6 +20,10 @@ pub(crate) struct Closed {
     pub(crate) force: f64,
     /// dF/dt at the start of the step \[N/s\].
     pub(crate) start_slope: f64,
+    /// Where the indentation is greatest, if the motion turns in the step.
+    pub(crate) turn: Option<Extreme>,
+    /// Relative acceleration of the faces at the start of the step \[m/s²\].
+    pub(crate) start_acceleration: f64,
 }
 
 /// Newton's method on the indentations of the closed contacts: δ + W f(δ, δ̇) = δ_free.
@@ -42,6 +47,10 @@ const ITERATIONS: usize = 60;
 impl ContactEquations {
     /// Finds indentations and forces; returns the iterations, or `None` when they do not converge.
     pub(crate) fn solve(&mut self) -> Option<u64> {
+        self.newton().or_else(|| self.settle())
+    }
+
+    fn newton(&mut self) -> Option<u64> {
         let n = self.closed.len();
         for closed in &mut self.closed {
             closed.indentation = closed.free;
@@ -92,9 +101,7 @@ impl ContactEquations {
         self.responses.clear();
         for closed in &mut self.closed {
             let rate = closed.free_rate + closed.rate_gain * (closed.indentation - closed.free);
-            let response = closed
-                .law
-                .respond(closed.indentation, rate, closed.impact_speed);
+            let response = closed.law.follow(closed.indentation, rate, &closed.memory);
             closed.force = response.force;
             self.responses.push(response);
         }

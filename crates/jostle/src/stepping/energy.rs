@@ -1,6 +1,7 @@
 //! The energy audit (theory, Eq. E1): sums over steps that must balance if every step is in equilibrium.
 
 use crate::history::Energy;
+use crate::state::State;
 use crate::system::System;
 
 /// Work done on and lost by the buildings so far, and the largest error of the balance.
@@ -9,13 +10,16 @@ pub(crate) struct EnergyAudit {
     pub(crate) input: f64,
     pub(crate) damped: f64,
     pub(crate) contact: f64,
+    /// Work done on springs that yield, what they would give back included.
+    pub(crate) springs: f64,
     initial: f64,
     largest: f64,
     worst: f64,
 }
 
-/// Kinetic and strain energy of all buildings \[J\].
-fn stored(system: &System, displacement: &[f64], velocity: &[f64]) -> (f64, f64) {
+/// Kinetic and strain energy of all buildings, and what springs that yield would give back \[J\].
+fn stored(system: &System, state: &State) -> (f64, f64, f64) {
+    let (displacement, velocity) = (&state.displacement, &state.velocity);
     let (mut kinetic, mut strain) = (0.0, 0.0);
     for building in &system.buildings {
         let moving = building
@@ -24,39 +28,39 @@ fn stored(system: &System, displacement: &[f64], velocity: &[f64]) -> (f64, f64)
             .iter()
             .zip(&velocity[building.range()]);
         kinetic += 0.5 * moving.map(|(m, v)| m * v * v).sum::<f64>();
-        strain += 0.5
-            * building
-                .equations
-                .stiffness
-                .quadratic_form(&displacement[building.range()]);
+        strain += 0.5 * building.equations.strain(&displacement[building.range()]);
     }
-    (kinetic, strain)
+    let springs = system
+        .buildings
+        .iter()
+        .flat_map(|building| &building.equations.springs);
+    let recoverable = springs
+        .zip(&state.springs)
+        .map(|(spring, memory)| spring.hysteresis.recoverable_energy(memory));
+    (kinetic, strain, recoverable.sum())
 }
 
 impl EnergyAudit {
     /// Starts from a state that may already hold energy.
-    pub(crate) fn starting_from(system: &System, displacement: &[f64], velocity: &[f64]) -> Self {
-        let (kinetic, strain) = stored(system, displacement, velocity);
+    pub(crate) fn starting_from(system: &System, state: &State) -> Self {
+        let (kinetic, strain, recoverable) = stored(system, state);
         Self {
-            initial: kinetic + strain,
+            initial: kinetic + strain + recoverable,
+            springs: recoverable,
             ..Self::default()
         }
     }
 
     /// The balance now. Energy present at the start counts as input.
-    pub(crate) fn balance(
-        &mut self,
-        system: &System,
-        displacement: &[f64],
-        velocity: &[f64],
-    ) -> Energy {
-        let (kinetic, strain) = stored(system, displacement, velocity);
+    pub(crate) fn balance(&mut self, system: &System, state: &State) -> Energy {
+        let (kinetic, strain, recoverable) = stored(system, state);
+        let strain = strain + recoverable;
         let mut energy = Energy {
             input: self.input + self.initial,
             kinetic,
             strain,
             damped: self.damped,
-            hysteretic: 0.0,
+            hysteretic: self.springs - recoverable,
             contact: self.contact,
             worst_imbalance: 0.0,
         };

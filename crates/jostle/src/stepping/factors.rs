@@ -1,6 +1,6 @@
 //! Factorised step equations of all buildings for one step size, and what they say about contacts.
 
-use super::newmark::{BuildingCoefficients, Coefficients, Newmark};
+use super::integrator::{BuildingCoefficients, Coefficients, Integrator};
 use super::{NotPositive, StepEquations};
 use crate::history::Work;
 use crate::system::{Contact, System};
@@ -10,9 +10,13 @@ pub(crate) struct StepFactors<E: StepEquations> {
     pub(crate) coefficients: Coefficients,
     pub(crate) buildings: Vec<BuildingCoefficients>,
     factors: Vec<E::Factor>,
+    /// Stiffness of every spring that yields for which the factors hold.
+    tangents: Vec<f64>,
+    /// Springs of one building whose stiffness has changed.
+    changed: Vec<usize>,
     /// K̂⁻¹ g of every contact, where already asked for.
     columns: Vec<Option<Columns>>,
-    ready: Vec<bool>,
+    ready: Vec<[bool; 2]>,
 }
 
 /// Displacements of the left and the right building under a unit push to the right.
@@ -28,33 +32,89 @@ impl<E: StepEquations> StepFactors<E> {
             buildings: vec![BuildingCoefficients::default(); system.buildings.len()],
             factors: vec![E::Factor::default(); system.buildings.len()],
             columns: system.contacts.iter().map(|_| None).collect(),
-            ready: vec![false; system.contacts.len()],
+            tangents: Vec::new(),
+            changed: Vec::new(),
+            ready: vec![[false; 2]; system.contacts.len()],
         }
     }
 
     /// Factorises for a step size; `Err` names the building.
     pub(crate) fn set_step(
         &mut self,
-        newmark: Newmark,
+        integrator: Integrator,
         step: f64,
         system: &System,
         equations: &[E],
+        tangents: &[f64],
         work: &mut Work,
     ) -> Result<(), (usize, NotPositive)> {
-        self.coefficients = newmark.coefficients(step);
+        // Of no use until all buildings are done.
+        self.tangents.clear();
+        self.coefficients = integrator.coefficients(step);
         for (index, building) in system.buildings.iter().enumerate() {
             let own = self.coefficients.of_building(&building.equations);
             equations[index]
                 .factorize(
-                    own.stiffness_factor,
-                    own.mass_factor,
+                    &own.matrix(),
+                    &tangents[building.spring_range()],
                     &mut self.factors[index],
                 )
                 .map_err(|failure| (index, failure))?;
             self.buildings[index] = own;
             work.factorizations += 1;
         }
-        self.ready.fill(false);
+        self.tangents.extend_from_slice(tangents);
+        self.ready.fill([false; 2]);
+        Ok(())
+    }
+
+    /// Takes over other tangents; only what they change is factorised anew. `Err` names the building.
+    pub(crate) fn retune(
+        &mut self,
+        system: &System,
+        equations: &[E],
+        tangents: &[f64],
+        work: &mut Work,
+    ) -> Result<(), (usize, NotPositive)> {
+        let known = self.tangents.len() == tangents.len();
+        for (index, building) in system.buildings.iter().enumerate() {
+            let springs = building.spring_range();
+            if springs.is_empty() {
+                continue;
+            }
+            let (own, wanted) = (self.buildings[index].matrix(), &tangents[springs.clone()]);
+            let factor = &mut self.factors[index];
+            let done = if known {
+                let held = &mut self.tangents[springs];
+                self.changed.clear();
+                let apart = |(spring, (held, wanted)): (usize, (&f64, &f64))| {
+                    (held != wanted).then_some(spring)
+                };
+                let pairs = held.iter().zip(wanted).enumerate();
+                self.changed.extend(pairs.filter_map(apart));
+                if self.changed.is_empty() {
+                    continue;
+                }
+                held.copy_from_slice(wanted);
+                equations[index].update(&own, wanted, &self.changed, factor)
+            } else {
+                equations[index].factorize(&own, wanted, factor)
+            };
+            if let Err(failure) = done {
+                self.tangents.clear();
+                return Err((index, failure));
+            }
+            work.factorizations += 1;
+            for (ready, contact) in self.ready.iter_mut().zip(&system.contacts) {
+                for side in 0..2 {
+                    ready[side] &= contact.buildings[side] != index;
+                }
+            }
+        }
+        if !known {
+            self.tangents.clear();
+            self.tangents.extend_from_slice(tangents);
+        }
         Ok(())
     }
 
@@ -80,7 +140,7 @@ impl<E: StepEquations> StepFactors<E> {
         equations: &[E],
         work: &mut Work,
     ) {
-        if self.ready[index] {
+        if self.ready[index] == [true; 2] {
             return;
         }
         let contact = &system.contacts[index];
@@ -95,13 +155,16 @@ impl<E: StepEquations> StepFactors<E> {
             .into_iter()
             .enumerate()
         {
+            if self.ready[index][side] {
+                continue;
+            }
             let building = contact.buildings[side];
             column.fill(0.0);
             column[contact.dofs[side] - system.buildings[building].offset] = 1.0;
             equations[building].solve(&self.factors[building], column);
             work.solves += 1;
         }
-        self.ready[index] = true;
+        self.ready[index] = [true; 2];
     }
 
     /// g_cᵀ K̂⁻¹ g_d: how far a unit force of contact d opens contact c (theory, Eq. P1) \[m/N\].

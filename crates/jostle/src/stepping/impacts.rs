@@ -33,8 +33,12 @@ const TOUCH: f64 = 1e-13;
 const TOGETHER: f64 = 1e-12;
 /// An event nearer than this share of a step happens at its start.
 const AT_ONCE: f64 = 1e-4;
-/// Laws that divide by the impact speed see at least this much \[m/s\].
-const SLOWEST_IMPACT: f64 = 1e-6;
+/// Episodes that reach no deeper are grazes, not impacts: a touch is located to a thousandth of this \[m\].
+const GRAZE: f64 = 1e-10;
+/// Impact speeds are reported as at least this, so that ratios to them are finite \[m/s\].
+const SLOWEST_IMPACT: f64 = 1e-9;
+/// Blows at one instant before bodies in touch are left to push each other.
+const MOST_BLOWS: usize = 10_000;
 
 impl<E: StepEquations> Simulation<'_, E> {
     /// The first touch, or release with a jump of force, in the tried step.
@@ -165,28 +169,67 @@ impl<E: StepEquations> Simulation<'_, E> {
             if let ContactPhase::Closed(mut episode) = self.state.contacts[event.contact] {
                 self.jump(event.contact, -episode.force);
                 (episode.end, episode.separation_speed) = (time, -self.trials[event.contact].rate);
-                self.report_impact(event.contact, &episode);
+                self.report_impact(event.contact, &episode, true);
                 self.state.contacts[event.contact] = ContactPhase::Open;
             }
             return;
         }
+        let struck = self.strike(event.contact);
         for index in 0..self.system.contacts.len() {
-            let ContactTrial {
-                indentation, rate, ..
-            } = self.trials[index];
-            let open = self.state.contacts[index] == ContactPhase::Open;
-            if index == event.contact || (open && indentation >= -TOGETHER && rate > 0.0) {
-                let contact = &self.system.contacts[index];
-                let impact_speed = rate.max(SLOWEST_IMPACT);
-                let mut episode = Episode::new(time, impact_speed);
-                episode.force = contact.law.onset(rate.max(0.0));
-                episode.peak_force = episode.force;
-                self.contact_division[index] = self.plan.division(contact, impact_speed);
-                self.finest_in_contact = self.finest_in_contact.max(self.contact_division[index]);
-                self.jump(index, episode.force);
-                self.state.contacts[index] = ContactPhase::Closed(episode);
+            if (index == event.contact && !struck) || self.is_closing(index) {
+                self.close(index);
             }
         }
+    }
+
+    /// Whether an open contact touches and closes now.
+    fn is_closing(&self, index: usize) -> bool {
+        let ContactTrial {
+            indentation, rate, ..
+        } = self.trials[index];
+        self.state.contacts[index] == ContactPhase::Open && indentation >= -TOGETHER && rate > 0.0
+    }
+
+    /// Lets momentum laws act on a contact and on all others that touch and close, one after the other, until none
+    /// closes any more. Whether the given contact was struck.
+    fn strike(&mut self, first: usize) -> bool {
+        let mut struck = false;
+        let mut next = Some(first);
+        for _ in 0..MOST_BLOWS {
+            let Some(index) = next else { break };
+            let rate = self.trials[index].rate;
+            if let Some(restitution) = self.system.contacts[index].law.rebound(rate) {
+                struck |= index == first;
+                self.blow(index, restitution, rate);
+                self.read_contacts();
+            } else if index != first {
+                break;
+            }
+            next = (0..self.system.contacts.len()).find(|&other| {
+                self.is_closing(other)
+                    && self.system.contacts[other]
+                        .law
+                        .rebound(self.trials[other].rate)
+                        .is_some()
+            });
+        }
+        struck
+    }
+
+    /// A contact begins to push.
+    fn close(&mut self, index: usize) {
+        let contact = &self.system.contacts[index];
+        let rate = self.trials[index].rate.max(0.0);
+        let mut episode = Episode::new(
+            self.state.time,
+            rate.max(SLOWEST_IMPACT),
+            contact.law.touch(rate),
+        );
+        episode.force = contact.law.onset(rate);
+        episode.peak_force = episode.force;
+        self.choose_division(index, rate);
+        self.jump(index, episode.force);
+        self.state.contacts[index] = ContactPhase::Closed(episode);
     }
 
     /// A sudden change of a contact force changes the accelerations of the two faces (theory, Eq. H2).
@@ -212,18 +255,21 @@ impl<E: StepEquations> Simulation<'_, E> {
             let work = mean * (curve.end - curve.start);
             episode.work += work;
             self.audit.contact += work;
-            let deepest = curve.peak(start, step).map_or(curve.end, |peak| peak.value);
+            let turn = curve.peak(start, step);
+            self.coupling.closed[closed].turn = turn;
+            let deepest = turn.map_or(curve.end, |peak| peak.value);
             episode.peak_indentation = episode.peak_indentation.max(deepest);
             if force[0] > 0.0 && force[1] <= 0.0 {
-                let (speed, rate) = (episode.impact_speed, |at: f64| curve.rise(at) / step);
+                let (memory, rate) = (episode.memory, |at: f64| curve.rise(at) / step);
                 let at = bisect(0.0, 1.0, |at| {
-                    law.respond(curve.value(at), rate(at), speed).force <= 0.0
+                    law.follow(curve.value(at), rate(at), &memory).force <= 0.0
                 });
                 (episode.end, episode.separation_speed) = (start + at * step, -rate(at));
             } else if force[1] > 0.0 {
                 (episode.end, episode.separation_speed) = (start + step, -trial.rate);
             }
             self.state.contacts[index] = ContactPhase::Closed(episode);
+            self.coupling.closed[closed].start_acceleration = self.relative_acceleration(index);
             self.coupling.closed[closed].start_slope =
                 self.force_slope(index, curve.start, curve.start_rise / step, &episode);
         }
@@ -231,10 +277,9 @@ impl<E: StepEquations> Simulation<'_, E> {
 
     /// dF/dt of a contact with the present accelerations \[N/s\].
     fn force_slope(&self, index: usize, indentation: f64, rate: f64, episode: &Episode) -> f64 {
-        let contact = &self.system.contacts[index];
-        let [i, j] = contact.dofs;
-        let acceleration = self.state.acceleration[i] - self.state.acceleration[j];
-        let response = contact.law.respond(indentation, rate, episode.impact_speed);
+        let acceleration = self.relative_acceleration(index);
+        let law = &self.system.contacts[index].law;
+        let response = law.follow(indentation, rate, &episode.memory);
         response.by_indentation * rate + response.by_rate * acceleration
     }
 
@@ -253,17 +298,36 @@ impl<E: StepEquations> Simulation<'_, E> {
                 at: start + step,
             };
             if episode.force > 0.0 && trial.force > 0.0 {
-                let curve = Cubic::new(episode.force, start_slope, trial.force, end_slope, step);
-                peak = curve.peak(start, step).unwrap_or(peak);
+                let law = &self.system.contacts[index].law;
+                let turn = self.coupling.closed[closed]
+                    .turn
+                    .filter(|_| law.has_corner_at_turn());
+                if let Some(turn) = turn {
+                    // A cubic would cut the corner or overshoot it.
+                    peak = Extreme {
+                        value: law.follow(turn.value, 0.0, &episode.memory).force,
+                        at: turn.at,
+                    };
+                } else {
+                    let curve =
+                        Cubic::new(episode.force, start_slope, trial.force, end_slope, step);
+                    peak = curve.peak(start, step).unwrap_or(peak);
+                }
             }
             if peak.value > episode.peak_force {
                 (episode.peak_force, episode.peak_force_at) = (peak.value, peak.at);
             }
+            self.control_division(closed, step, &episode);
             episode.force = trial.force;
+            let law = &self.system.contacts[index].law;
+            if let Some(turn) = self.coupling.closed[closed].turn {
+                law.remember(turn.value, 0.0, &mut episode.memory);
+            }
+            law.remember(trial.indentation, trial.rate, &mut episode.memory);
             let leaving = trial.indentation <= 0.0 && trial.rate <= 0.0;
             self.state.contacts[index] =
                 if leaving && !self.system.contacts[index].law.jumps_at_release() {
-                    self.report_impact(index, &episode);
+                    self.report_impact(index, &episode, true);
                     ContactPhase::Open
                 } else {
                     ContactPhase::Closed(episode)
@@ -271,9 +335,11 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Lists an episode as an impact, if it ever pushed.
-    pub(super) fn report_impact(&mut self, contact: usize, episode: &Episode) {
-        if episode.peak_force > 0.0 && episode.end > episode.since {
+    /// Lists an episode as an impact, if it ever pushed and was more than a graze. One that the end of the run cuts
+    /// off is not `finished`.
+    pub(super) fn report_impact(&mut self, contact: usize, episode: &Episode, finished: bool) {
+        let pushed = episode.peak_force > 0.0 && episode.end > episode.since;
+        if pushed && episode.peak_indentation > GRAZE {
             self.impacts.push(Impact {
                 contact,
                 start: episode.since,
@@ -282,7 +348,13 @@ impl<E: StepEquations> Simulation<'_, E> {
                 peak_force_at: episode.peak_force_at,
                 peak_indentation: episode.peak_indentation,
                 impact_speed: episode.impact_speed,
-                separation_speed: episode.separation_speed,
+                // Bodies that still approach, or lean on each other, have not separated.
+                separation_speed: if finished {
+                    episode.separation_speed.max(0.0)
+                } else {
+                    0.0
+                },
+                finished,
                 impulse: episode.impulse,
                 dissipated: episode.work,
             });

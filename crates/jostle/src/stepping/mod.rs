@@ -3,28 +3,34 @@
 //! [`simulate`] walks a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved alone;
 //! they meet only in `coupling`. A step in which a contact closes is repeated so that it ends on the touch.
 
+mod blow;
 mod clock;
+mod control;
 mod coupling;
 mod energy;
 mod events;
 mod factors;
 mod impacts;
+mod integrator;
 mod lanes;
-mod newmark;
 mod outcome;
 mod plan;
 mod recorder;
+mod settle;
 mod simulation;
+mod springs;
+mod step_matrix;
 mod trial;
 
-pub use newmark::Newmark;
+pub use integrator::Integrator;
 pub use outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 pub use plan::{ContactSteps, Plan};
 pub use simulation::{simulate, simulate_from};
+pub use step_matrix::StepMatrix;
 
 use crate::system::BuildingSystem;
 
-/// The equations of one step of one building, K̂ = κ K + g M, and how to solve them.
+/// The equations of one step of one building, with the matrix a [`StepMatrix`] asks for, and how to solve them.
 pub trait StepEquations: Sized {
     /// What is kept of a factorisation.
     type Factor: Default + Clone;
@@ -32,34 +38,52 @@ pub trait StepEquations: Sized {
     /// Prepares whatever does not depend on the step size.
     fn of(building: &BuildingSystem) -> Self;
 
-    /// Factorises `stiffness_factor`·K + `mass_factor`·M, reusing the memory of `factor`.
+    /// Factorises a matrix, reusing the memory of `factor`. `tangents` has the present stiffness of every spring
+    /// that yields.
     ///
     /// # Errors
     /// [`NotPositive`] when the matrix is not positive definite.
     fn factorize(
         &self,
-        stiffness_factor: f64,
-        mass_factor: f64,
+        matrix: &StepMatrix,
+        tangents: &[f64],
         factor: &mut Self::Factor,
     ) -> Result<(), NotPositive>;
+
+    /// Factorises anew what the tangents of some springs have changed. `factor` must be one of the same matrix that
+    /// differs in nothing else.
+    ///
+    /// # Errors
+    /// [`NotPositive`]; the factor is then of no use until [`StepEquations::factorize`] succeeds.
+    fn update(
+        &self,
+        matrix: &StepMatrix,
+        tangents: &[f64],
+        changed: &[usize],
+        factor: &mut Self::Factor,
+    ) -> Result<(), NotPositive> {
+        let _ = changed;
+        self.factorize(matrix, tangents, factor)
+    }
 
     /// Replaces a load by the displacement it causes.
     fn solve(&self, factor: &Self::Factor, load: &mut [f64]);
 }
 
-/// Displacements under one load, factorised for it alone: K̂⁻¹ `load` with K̂ = κ K + g M.
+/// Displacements under one load, factorised for it alone: K̂⁻¹ `load`. Springs that yield have their initial
+/// stiffness.
 ///
 /// # Errors
 /// [`NotPositive`] when K̂ is not positive definite.
 pub fn solve_once<E: StepEquations>(
     building: &BuildingSystem,
-    stiffness_factor: f64,
-    mass_factor: f64,
+    matrix: &StepMatrix,
     load: &[f64],
 ) -> Result<Vec<f64>, NotPositive> {
     let equations = E::of(building);
     let mut factor = E::Factor::default();
-    equations.factorize(stiffness_factor, mass_factor, &mut factor)?;
+    let tangents = building.equations.initial_tangents();
+    equations.factorize(matrix, &tangents, &mut factor)?;
     let mut answer = load.to_vec();
     equations.solve(&factor, &mut answer);
     Ok(answer)

@@ -1,7 +1,9 @@
 //! What a run is asked for and what it leaves behind.
 
 use super::NotPositive;
-use crate::history::{Energy, Extreme, FloorPeaks, History, Impact, Work};
+use crate::history::{
+    Energy, Extreme, FloorPeaks, History, Impact, SpringEvent, SpringHistory, SpringTotals, Work,
+};
 use crate::state::State;
 
 /// What a run should leave behind.
@@ -54,6 +56,12 @@ pub struct Outcome {
     pub closing: Vec<Extreme>,
     /// Greatest elastic base shear of every building \[N\].
     pub base_shear: Vec<f64>,
+    /// Cracks and first yields, in the order in which they came.
+    pub spring_events: Vec<SpringEvent>,
+    /// Every spring that yields, from the left building to the right.
+    pub springs: Vec<SpringTotals>,
+    /// Their loops, if histories were asked for.
+    pub spring_history: Option<SpringHistory>,
     /// Energies at the end.
     pub energy: Energy,
     /// Work done.
@@ -102,6 +110,30 @@ pub enum StepError {
         time: f64,
         /// Number of closed contacts.
         closed: usize,
+    },
+    /// The forces of yielding springs were not found.
+    #[error(
+        "the yielding springs of \"{building}\" did not converge at t = {time:.6} s even with the shortest steps; a smaller step or tolerance may help"
+    )]
+    SpringsDiverged {
+        /// Name of the building.
+        building: String,
+        /// Time \[s\].
+        time: f64,
+    },
+    /// A storey leans beyond what any building survives.
+    #[error(
+        "\"{building}\" collapses at t = {time:.3} s: storey {storey} leans by {:.0} % of its height", 100.0 * drift
+    )]
+    Collapse {
+        /// Name of the building.
+        building: String,
+        /// Storey, from 1.
+        storey: usize,
+        /// Storey drift over storey height \[–\].
+        drift: f64,
+        /// Time \[s\].
+        time: f64,
     },
     /// A displacement overflowed.
     #[error(

@@ -1,7 +1,6 @@
 //! Step sizes: fixed, or chosen from the tolerance (theory, Eqs. G1 and G2).
 
-use super::newmark::Newmark;
-use crate::contact::ForceLaw;
+use super::integrator::Integrator;
 use crate::model::{Analysis, ModelFault, Solver};
 use crate::motion::GroundMotion;
 use crate::system::{BuildingSystem, Contact, System};
@@ -14,8 +13,8 @@ pub struct Plan {
     pub step: f64,
     /// Steps while a contact is closed.
     pub contact_steps: ContactSteps,
-    /// Integrator.
-    pub newmark: Newmark,
+    /// How a step is integrated.
+    pub integrator: Integrator,
     /// Which equations.
     pub solver: Solver,
 }
@@ -25,18 +24,30 @@ pub struct Plan {
 pub enum ContactSteps {
     /// Always the same.
     Fixed(u32),
-    /// The next power of two that gives at least this many steps per elastic impact at the actual impact speed.
-    PerImpact(f64),
+    /// Powers of two. An impact as strong as any before begins with at least so many steps per elastic collision at the
+    /// actual impact speed; afterwards the estimated error of the force is kept below the tolerance.
+    PerImpact {
+        /// Steps of the strongest impact \[–\].
+        steps: f64,
+        /// Estimated error, relative to the greatest force of the gap \[–\].
+        tolerance: f64,
+    },
 }
 
 /// Free-flight steps per first lateral period, at a tolerance of 1e-3.
-const STEPS_PER_FIRST_PERIOD: f64 = 250.0;
+const STEPS_PER_FIRST_PERIOD: f64 = 400.0;
 /// Free-flight steps per third lateral period, at a tolerance of 1e-3.
-const STEPS_PER_THIRD_PERIOD: f64 = 75.0;
+const STEPS_PER_THIRD_PERIOD: f64 = 120.0;
 /// Free-flight steps per period of an analytic ground motion, at a tolerance of 1e-3.
 const STEPS_PER_MOTION_PERIOD: f64 = 100.0;
 /// Steps per elastic impact, at a tolerance of 1e-3.
 const STEPS_PER_IMPACT: f64 = 60.0;
+/// Share of the tolerance that the contact itself may use up; the rest is for what leads up to it.
+const CONTACT_SHARE: f64 = 0.5;
+/// Steps per half cycle of a contact that remain however weak it is.
+const FEWEST_ADAPTED: f64 = 10.0;
+/// How much finer steps begin where the force starts steeply.
+const STEEP_START: f64 = 32.0;
 /// Free-flight step where nothing else limits it \[s\].
 const LONGEST_STEP: f64 = 0.02;
 /// Fewest fixed steps per first period and per impact that still mean something.
@@ -75,7 +86,10 @@ impl Plan {
                         .clamp(1.0, f64::from(FINEST)) as u32,
                 )
             }
-            None => ContactSteps::PerImpact(STEPS_PER_IMPACT / refinement),
+            None => ContactSteps::PerImpact {
+                steps: STEPS_PER_IMPACT / refinement,
+                tolerance: CONTACT_SHARE * analysis.tolerance,
+            },
         };
         if !faults.is_empty() {
             return Err(faults);
@@ -83,7 +97,7 @@ impl Plan {
         Ok(Self {
             step,
             contact_steps,
-            newmark: Newmark::default(),
+            integrator: analysis.integrator,
             solver: analysis.solver,
         })
     }
@@ -112,7 +126,40 @@ impl Plan {
         system
             .buildings
             .iter()
-            .try_for_each(|building| ProductEquations::check_step(building, self.newmark, step))
+            .try_for_each(|building| ProductEquations::check_step(building, self.integrator, step))
+    }
+
+    /// The division with which a contact that closes at `impact_speed` \[m/s\] begins, when the force to expect is this
+    /// share of the greatest of its gap: errors count relative to the latter, and fall with the square of the step.
+    #[must_use]
+    pub fn first_division(&self, contact: &Contact, impact_speed: f64, share: f64) -> u32 {
+        match self.contact_steps {
+            ContactSteps::Fixed(division) => division,
+            ContactSteps::PerImpact { steps, tolerance } => Self {
+                contact_steps: ContactSteps::PerImpact {
+                    steps: STEEP_START.powi(i32::from(contact.law.starts_steeply()))
+                        * (steps * share.sqrt()).max(FEWEST_ADAPTED),
+                    tolerance,
+                },
+                ..*self
+            }
+            .division(contact, impact_speed),
+        }
+    }
+
+    /// The next finer division.
+    #[must_use]
+    pub(crate) fn finer(&self, division: u32) -> u32 {
+        (2 * division).min(FINEST)
+    }
+
+    /// The coarsest division worth having at a contact stiffness F′ \[N/m\]: steps must still see it.
+    #[must_use]
+    pub(crate) fn coarsest(&self, contact: &Contact, slope: f64) -> u32 {
+        let half_cycle = std::f64::consts::PI * (contact.effective_mass() / slope).sqrt();
+        (self.step * FEWEST_ADAPTED / half_cycle)
+            .ceil()
+            .clamp(1.0, f64::from(FINEST)) as u32
     }
 
     /// Division of a free-flight step for a contact that closes at `impact_speed` \[m/s\].
@@ -120,7 +167,7 @@ impl Plan {
     pub fn division(&self, contact: &Contact, impact_speed: f64) -> u32 {
         match self.contact_steps {
             ContactSteps::Fixed(division) => division,
-            ContactSteps::PerImpact(steps) => {
+            ContactSteps::PerImpact { steps, .. } => {
                 let duration = contact
                     .law
                     .elastic_duration(contact.effective_mass(), impact_speed.max(1e-3));
@@ -193,7 +240,7 @@ fn check_contact_step(contact_step: f64, system: &System, faults: &mut Vec<Model
     let shortest = system
         .contacts
         .iter()
-        .filter(|contact| has_stiffness(&contact.law))
+        .filter(|contact| contact.law.stiffness() > 0.0)
         .map(|contact| {
             contact
                 .law
@@ -208,11 +255,5 @@ fn check_contact_step(contact_step: f64, system: &System, faults: &mut Vec<Model
                 shortest / FEWEST_PER_IMPACT
             ),
         });
-    }
-}
-
-fn has_stiffness(law: &ForceLaw) -> bool {
-    match law {
-        ForceLaw::Kelvin { stiffness, .. } | ForceLaw::Hertz { stiffness, .. } => *stiffness > 0.0,
     }
 }

@@ -2,13 +2,15 @@
 
 use super::energy::EnergyAudit;
 use super::events::Cubic;
-use crate::history::{Column, Energy, EnergyTerm, Extreme, FloorPeaks, History};
+use crate::history::{Column, Energy, EnergyTerm, Extreme, FloorPeaks, History, SpringHistory};
 use crate::state::State;
 use crate::system::System;
 
 /// Takes histories and peaks.
 pub(crate) struct Recorder {
     history: Option<History>,
+    /// Loops of springs that yield, row by row with the history.
+    pub(crate) springs: Option<SpringHistory>,
     interval: f64,
     due: f64,
     pub(crate) floors: Vec<Vec<FloorPeaks>>,
@@ -46,6 +48,13 @@ impl Recorder {
             + system.contacts.len();
         Self {
             history: interval.map(|_| History::new(columns(system))),
+            springs: interval
+                .map(|_| {
+                    let buildings = system.buildings.iter();
+                    buildings.map(|b| b.equations.springs.len()).sum()
+                })
+                .filter(|count| *count > 0)
+                .map(SpringHistory::new),
             interval: interval.unwrap_or(0.0),
             due: 0.0,
             floors: system
@@ -63,6 +72,9 @@ impl Recorder {
     pub(crate) fn reserve(&mut self, rows: usize) {
         if let Some(history) = &mut self.history {
             history.reserve(rows);
+        }
+        if let Some(springs) = &mut self.springs {
+            springs.reserve(rows);
         }
     }
 
@@ -93,7 +105,7 @@ impl Recorder {
         let start = state.time - step;
         let mut before = self.before.iter();
         for (index, building) in system.buildings.iter().enumerate() {
-            let mut below = 0.0;
+            let mut below = building.foot.map_or(0.0, |dof| u[dof]);
             for (peaks, floor) in self.floors[index].iter_mut().zip(&building.floors) {
                 let now = (u[floor.dof], v[floor.dof]);
                 if let Some(&then) = before.next() {
@@ -116,7 +128,7 @@ impl Recorder {
                     .max(((now.0 - below) / floor.storey_height).abs());
                 below = now.0;
             }
-            let shear = building.equations.base_shear(&u[building.range()]);
+            let shear = building.base_shear(state);
             self.base_shear[index] = self.base_shear[index].max(shear.abs());
         }
         for (contact, closing) in system.contacts.iter().zip(&mut self.closing) {
@@ -147,7 +159,10 @@ impl Recorder {
             return;
         }
         self.due = state.time + self.interval * (1.0 - 1e-9);
-        let energy = audit.balance(system, &state.displacement, &state.velocity);
+        let energy = audit.balance(system, state);
+        if let Some(springs) = &mut self.springs {
+            springs.push(&state.springs);
+        }
         let mut row = history.push_row().iter_mut();
         let mut put = |value: f64| {
             if let Some(place) = row.next() {

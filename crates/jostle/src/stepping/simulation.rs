@@ -3,16 +3,20 @@
 use std::ops::ControlFlow;
 
 use super::StepEquations;
+use super::blow::BlowFactor;
 use super::clock::{Clock, Stride};
 use super::coupling::ContactEquations;
 use super::energy::EnergyAudit;
 use super::factors::StepFactors;
 use super::impacts::Landing;
+use super::integrator::Integrator;
 use super::lanes;
 use super::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 use super::plan::Plan;
 use super::recorder::Recorder;
+use super::springs::YieldingSprings;
 use super::trial::ContactTrial;
+use crate::gravity::STANDARD_GRAVITY;
 use crate::history::{Impact, Work};
 use crate::model::Solver;
 use crate::motion::GroundMotion;
@@ -82,9 +86,16 @@ pub(super) struct Simulation<'a, E: StepEquations> {
     pub(super) unbalanced: Vec<f64>,
     /// The tried step: first the load, then y, then the displacement over the step.
     pub(super) rise: Vec<f64>,
+    /// D′ of one building, for what K′ and C′ make of it.
+    pub(super) drift: Vec<f64>,
+    pub(super) yielding: YieldingSprings,
     pub(super) trials: Vec<ContactTrial>,
     pub(super) contact_division: Vec<u32>,
+    /// Greatest force of every gap so far, measured or expected of an impact under way \[N\].
+    pub(super) strongest: Vec<f64>,
     pub(super) coupling: ContactEquations,
+    /// For sudden changes of velocity, factorised when first needed.
+    pub(super) blows: Vec<Option<BlowFactor<E>>>,
     pub(super) finest_in_contact: u32,
     pub(super) impacts: Vec<Impact>,
     pub(super) audit: EnergyAudit,
@@ -94,8 +105,12 @@ pub(super) struct Simulation<'a, E: StepEquations> {
 
 /// Steps between calls of the observer.
 const OBSERVED_EVERY: u64 = 256;
+/// How much of a step is tried before it is given up.
+const SHORTEST_TRIED: f64 = 1e-6;
 /// Events without progress before a run gives up.
 const MOST_EVENTS_AT_ONCE: usize = 1000;
+/// Storey drift from which a building that yields or leans has collapsed \[–\].
+const COLLAPSE_DRIFT: f64 = 0.25;
 
 impl<'a, E: StepEquations> Simulation<'a, E> {
     fn new(
@@ -122,14 +137,18 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             divisions: vec![0],
             clock: Clock::new(plan.step),
             ground: [ground, ground],
-            unbalanced: unbalanced_load(system, &state, ground),
+            unbalanced: unbalanced_load(system, &state, ground, plan.integrator),
             rise: vec![0.0; system.len()],
+            drift: vec![0.0; system.len()],
             trials: vec![ContactTrial::default(); system.contacts.len()],
             contact_division: vec![1; system.contacts.len()],
+            strongest: vec![0.0; system.contacts.iter().map(|c| c.gap + 1).max().unwrap_or(0)],
             coupling: ContactEquations::default(),
+            blows: system.buildings.iter().map(|_| None).collect(),
             finest_in_contact: 0,
             impacts: Vec::new(),
-            audit: EnergyAudit::starting_from(system, &state.displacement, &state.velocity),
+            audit: EnergyAudit::starting_from(system, &state),
+            yielding: YieldingSprings::starting_from(system, &state),
             work: Work::default(),
             recorder,
             state,
@@ -168,12 +187,10 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
     fn close_books(mut self, end: RunEnd) -> Outcome {
         for index in 0..self.system.contacts.len() {
             if let ContactPhase::Closed(episode) = self.state.contacts[index] {
-                self.report_impact(index, &episode);
+                self.report_impact(index, &episode, false);
             }
         }
-        let energy =
-            self.audit
-                .balance(self.system, &self.state.displacement, &self.state.velocity);
+        let energy = self.audit.balance(self.system, &self.state);
         let contact_step = Some(self.finest_in_contact)
             .filter(|d| *d > 0)
             .map(|d| self.plan.step / f64::from(d));
@@ -182,7 +199,10 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             floors: std::mem::take(&mut self.recorder.floors),
             closing: std::mem::take(&mut self.recorder.closing),
             base_shear: std::mem::take(&mut self.recorder.base_shear),
+            spring_history: self.recorder.springs.take(),
             history: self.recorder.into_history(),
+            spring_events: self.yielding.events,
+            springs: self.yielding.totals,
             energy,
             work: self.work,
             contact_step,
@@ -194,9 +214,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
     /// One accepted step, ending on the grid or on the first event in between.
     fn step(&mut self) -> Result<(), StepError> {
         for _ in 0..MOST_EVENTS_AT_ONCE {
-            let stride = self.next_stride();
-            let slot = self.factors_for(&stride)?;
-            self.try_step(slot, stride.end)?;
+            let (slot, stride) = self.try_next_stride()?;
             let Some(event) = self.first_event(stride.length) else {
                 return self.accept(slot, stride.end);
             };
@@ -213,6 +231,34 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         Err(StepError::Chattering {
             time: self.state.time,
         })
+    }
+
+    /// Tries the next step; where contact forces or springs that yield do not converge, half of it, and so on.
+    fn try_next_stride(&mut self) -> Result<(usize, Stride), StepError> {
+        let mut stride = self.next_stride();
+        let shortest = stride.length * SHORTEST_TRIED;
+        loop {
+            let tried = match self.factors_for(&stride) {
+                Ok(slot) => self.try_step(slot, stride.end).map(|()| slot),
+                Err(error) => Err(error),
+            };
+            match tried {
+                Err(
+                    StepError::ContactDiverged { .. }
+                    | StepError::SpringsDiverged { .. }
+                    | StepError::NotPositive { .. },
+                ) if stride.length > shortest => {
+                    self.work.halved_steps += 1;
+                    let length = 0.5 * stride.length;
+                    stride = Stride {
+                        length,
+                        regular: false,
+                        end: self.clock.after(length),
+                    };
+                }
+                tried => return tried.map(|slot| (slot, stride)),
+            }
+        }
     }
 
     /// The regular step from here, cut at the end of the motion.
@@ -250,16 +296,22 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         self.factors.push(StepFactors::blank(self.system));
         self.divisions.push(division);
         let slot = self.factors.len() - 1;
-        self.factorize(slot, stride.length).map(|()| slot)
+        let factorized = self.factorize(slot, stride.length);
+        if factorized.is_err() {
+            self.factors.pop();
+            self.divisions.pop();
+        }
+        factorized.map(|()| slot)
     }
 
     pub(super) fn factorize(&mut self, slot: usize, step: f64) -> Result<(), StepError> {
         self.factors[slot]
             .set_step(
-                self.plan.newmark,
+                self.plan.integrator,
                 step,
                 self.system,
                 &self.equations,
+                &self.yielding.tangents,
                 &mut self.work,
             )
             .map_err(|(building, source)| StepError::NotPositive {
@@ -276,10 +328,11 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         let was_closed = !self.coupling.closed.is_empty();
         let curves_start = self.state.time;
         self.gather_episodes(step);
+        self.carry_unbalanced(slot);
         self.advance(slot)?;
         self.clock = end;
         self.state.time = end.time();
-        self.unbalanced.clear();
+        self.commit_springs();
         self.ground[0] = self.ground[1];
         self.finish_episodes(step, curves_start);
         self.work.steps += 1;
@@ -293,7 +346,47 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             was_closed,
             &mut self.audit,
         );
+        self.check_collapse()
+    }
+
+    /// Elastic buildings may lean as far as they like: their numbers are those of their model.
+    fn check_collapse(&self) -> Result<(), StepError> {
+        for (building, floors) in self.system.buildings.iter().zip(&self.recorder.floors) {
+            if building.equations.springs.is_empty() {
+                continue;
+            }
+            let worst = floors
+                .iter()
+                .enumerate()
+                .max_by(|a, b| a.1.storey_drift.total_cmp(&b.1.storey_drift));
+            if let Some((storey, peaks)) = worst.filter(|(_, p)| p.storey_drift > COLLAPSE_DRIFT) {
+                return Err(StepError::Collapse {
+                    building: building.name.clone(),
+                    storey: storey + 1,
+                    drift: peaks.storey_drift,
+                    time: self.state.time,
+                });
+            }
+        }
         Ok(())
+    }
+
+    /// What will be out of balance at the end of the step (theory, Eq. N4): nothing, unless equilibrium is shifted.
+    fn carry_unbalanced(&mut self, slot: usize) {
+        if self.plan.integrator.balances_at_ends() {
+            self.unbalanced.clear();
+            return;
+        }
+        let factors = &self.factors[slot];
+        let k = factors.coefficients;
+        for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
+            for (dof, mass) in building.range().zip(&building.equations.mass) {
+                let (v, a) = (self.state.velocity[dof], self.state.acceleration[dof]);
+                let change = self.rise[dof] - own.shift * (k.d_v * v + k.d_a * a);
+                let gained = k.a * change + k.b_v * v + k.b_a * a;
+                self.unbalanced[dof] = k.carried * self.unbalanced[dof] + k.left * mass * gained;
+            }
+        }
     }
 
     /// Displacements, velocities and accelerations at the end of the step, and the work done over it.
@@ -330,13 +423,25 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
                 0.0
             };
             self.audit.damped += (equations.alpha * moved + equations.beta * strained) / k.step;
+            if !equations.plain {
+                self.audit.damped += equations.dashpots.quadratic_form(rises) / k.step;
+            }
+            if !building.rest.is_empty() {
+                let sunk = lanes::dot(&equations.vertical_mass, rises);
+                self.audit.input -= STANDARD_GRAVITY * sunk;
+            }
         }
         Ok(())
     }
 }
 
-/// p − M a − C v − K u; empty when the state is in equilibrium to rounding.
-fn unbalanced_load(system: &System, state: &State, ground: f64) -> Vec<f64> {
+/// p − M a − C v − K u; empty when the state is in equilibrium to rounding and will stay so at the ends of steps.
+fn unbalanced_load(
+    system: &System,
+    state: &State,
+    ground: f64,
+    integrator: Integrator,
+) -> Vec<f64> {
     let mut load = vec![0.0; system.len()];
     let mut largest = 0.0_f64;
     for building in &system.buildings {
@@ -352,9 +457,20 @@ fn unbalanced_load(system: &System, state: &State, ground: f64) -> Vec<f64> {
             .collect();
         let mut resisted = vec![0.0; elastic.len()];
         equations.stiffness.multiply_add(&elastic, &mut resisted);
+        equations.undamped.multiply_add(u, &mut resisted);
+        equations.dashpots.multiply_add(v, &mut resisted);
+        let springs = equations.springs.iter();
+        for (spring, memory) in springs.zip(&state.springs[building.spring_range()]) {
+            spring.push(memory.force(), &mut resisted);
+        }
         for (k, dof) in range.enumerate() {
             let inertia = equations.mass[k] * (state.acceleration[dof] + equations.alpha * v[k]);
-            let driven = equations.driven_mass[k] * ground;
+            let weight = if building.rest.is_empty() {
+                0.0
+            } else {
+                STANDARD_GRAVITY * equations.vertical_mass[k]
+            };
+            let driven = equations.driven_mass[k] * ground + weight;
             load[dof] = -driven - inertia - resisted[k];
             largest = largest
                 .max(driven.abs())
@@ -362,8 +478,25 @@ fn unbalanced_load(system: &System, state: &State, ground: f64) -> Vec<f64> {
                 .max(resisted[k].abs());
         }
     }
-    if load.iter().all(|missing| missing.abs() <= 1e-15 * largest) {
-        load.clear();
+    // Statics leave rounding behind.
+    let rounding = if system
+        .buildings
+        .iter()
+        .any(|building| !building.rest.is_empty())
+    {
+        1e-9
+    } else {
+        1e-15
+    };
+    if load
+        .iter()
+        .all(|missing| missing.abs() <= rounding * largest)
+    {
+        if integrator.balances_at_ends() {
+            load.clear();
+        } else {
+            load.fill(0.0);
+        }
     }
     load
 }

@@ -21,7 +21,16 @@ impl<E: StepEquations> Simulation<'_, E> {
     pub(super) fn try_step(&mut self, slot: usize, end: Clock) -> Result<(), StepError> {
         self.ground[1] = self.motion.acceleration(end.time());
         self.fill_loads(slot);
-        self.factors[slot].solve(self.system, &self.equations, &mut self.rise, &mut self.work);
+        if self.yielding.is_empty() {
+            self.factors[slot].solve(self.system, &self.equations, &mut self.rise, &mut self.work);
+            self.solve_contacts(slot)
+        } else {
+            self.find_spring_forces(slot)
+        }
+    }
+
+    /// Lets the closed contacts push on the solution without them that stands in `rise`.
+    pub(super) fn solve_contacts(&mut self, slot: usize) -> Result<(), StepError> {
         self.follow_contacts(slot);
         if self
             .trials
@@ -60,8 +69,10 @@ impl<E: StepEquations> Simulation<'_, E> {
                 *load = -mass * (own.l_v * v + own.l_a * a) - driven * change;
             }
         }
+        self.add_undamped_loads(slot);
+        let weight = self.factors[slot].coefficients.unbalanced;
         for (load, missing) in self.rise.iter_mut().zip(&self.unbalanced) {
-            *load += missing;
+            *load += weight * missing;
         }
         for (contact, phase) in self.system.contacts.iter().zip(&self.state.contacts) {
             let force = phase.force();
@@ -69,6 +80,33 @@ impl<E: StepEquations> Simulation<'_, E> {
                 self.rise[contact.dofs[0]] += force;
                 self.rise[contact.dofs[1]] -= force;
             }
+        }
+    }
+
+    /// s K′ D′ − (1 − s c) C′ D′ of the buildings that have such parts (theory, Eq. N3).
+    fn add_undamped_loads(&mut self, slot: usize) {
+        let factors = &self.factors[slot];
+        let k = factors.coefficients;
+        for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
+            let (range, equations) = (building.range(), &building.equations);
+            if equations.plain {
+                continue;
+            }
+            let drift = &mut self.drift[..range.len()];
+            let load = &mut self.rise[range.clone()];
+            let motion = self.state.velocity[range.clone()]
+                .iter()
+                .zip(&self.state.acceleration[range]);
+            let weighted =
+                |weight: f64| move |(v, a): (&f64, &f64)| weight * (k.d_v * v + k.d_a * a);
+            for (drift, motion) in drift.iter_mut().zip(motion.clone()) {
+                *drift = weighted(own.shift)(motion);
+            }
+            equations.undamped.multiply_add(drift, load);
+            for (drift, motion) in drift.iter_mut().zip(motion) {
+                *drift = weighted(-own.dashpot_load)(motion);
+            }
+            equations.dashpots.multiply_add(drift, load);
         }
     }
 
@@ -105,13 +143,15 @@ impl<E: StepEquations> Simulation<'_, E> {
                 self.coupling.closed.push(Closed {
                     contact: index,
                     law: self.system.contacts[index].law,
-                    impact_speed: episode.impact_speed,
+                    memory: episode.memory,
                     free: trial.indentation,
                     free_rate: trial.rate,
                     rate_gain: self.factors[slot].coefficients.c,
                     indentation: trial.indentation,
                     force: 0.0,
                     start_slope: 0.0,
+                    turn: None,
+                    start_acceleration: 0.0,
                 });
             }
         }

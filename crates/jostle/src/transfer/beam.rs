@@ -43,8 +43,8 @@ impl BeamSegment {
         }
     }
 
-    /// The segment with every stiffness multiplied by κ (theory, Eq. D2), that of P-Delta included: what κ K of
-    /// the step equations asks for.
+    /// The segment with every elastic stiffness multiplied by κ (theory, Eq. D2): what κ K of the step equations
+    /// asks for. The compression stays, for damping does not act on P-Delta.
     #[must_use]
     pub fn stiffened(&self, factor: f64) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl BeamSegment {
             flexural_rigidity: factor * self.flexural_rigidity,
             axial_rigidity: self.axial_rigidity.map(|ea| factor * ea),
             shear_rigidity: self.shear_rigidity.map(|ga| factor * ga),
-            compression: factor * self.compression,
+            compression: self.compression,
         }
     }
 
@@ -123,7 +123,7 @@ impl BeamSegment {
     /// ```text
     /// e = U (s D_I, 0) − (s D_O, 0)
     /// ```
-    /// The direction in which the member is rigid carries no such load. P must be zero unless it is damped too.
+    /// The direction in which the member is rigid carries no such load. P must be zero: it is not damped.
     ///
     /// ```
     /// use jostle::transfer::{BeamSegment, Heading, StateVector};

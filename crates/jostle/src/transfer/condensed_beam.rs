@@ -1,7 +1,8 @@
 //! A beam condensed onto the joints at its ends, in stiffness form (theory, Eq. R3).
 
 use super::layout::{BeamLine, Layout, Link};
-use crate::element::{ElementStiffness, X, Y};
+use crate::element::{self, Part, X};
+use crate::stepping::StepMatrix;
 
 /// Displacements of the two joints: x, y, θ on the left, then on the right.
 const ENDS: usize = 6;
@@ -14,7 +15,7 @@ pub(super) struct CondensedBeam {
     /// Per node and component: number of the displacement; the joints have 0 to 5. Rigid connections share it.
     number: Vec<[usize; 3]>,
     inside: usize,
-    stiffness: Vec<(usize, usize, f64)>,
+    stiffness: Vec<(Part, usize, usize, f64)>,
     mass: Vec<f64>,
     keeps_length: bool,
 }
@@ -33,8 +34,7 @@ pub(super) struct BeamFactor {
 }
 
 impl CondensedBeam {
-    /// `elements` holds members, hinges and springs in the order of the skeleton.
-    pub(super) fn of(layout: &Layout, beam: &BeamLine, elements: &[ElementStiffness]) -> Self {
+    pub(super) fn of(layout: &Layout, beam: &BeamLine) -> Self {
         let skeleton = &layout.skeleton;
         let last = beam.nodes.len() - 1;
         let mut nodes = vec![beam.nodes[0], beam.nodes[last]];
@@ -62,8 +62,12 @@ impl CondensedBeam {
                 }
                 Link::Hinge(index) => {
                     let hinge = &skeleton.hinges[*index];
-                    for component in [X, Y] {
-                        if hinge.translational_stiffness[component].is_none() {
+                    let [horizontal, vertical] = hinge.translational_stiffness;
+                    for (component, stiffness) in [horizontal, vertical, hinge.rotational_stiffness]
+                        .into_iter()
+                        .enumerate()
+                    {
+                        if stiffness.is_none() {
                             tie(hinge.ends[0], hinge.ends[1], component);
                         }
                     }
@@ -82,14 +86,16 @@ impl CondensedBeam {
         };
         let mut stiffness = Vec::new();
         for link in &beam.links {
-            let index = match link {
-                Link::Member(index) => *index,
-                Link::Hinge(index) => skeleton.members.len() + index,
-                Link::Spring(index) => skeleton.members.len() + skeleton.hinges.len() + index,
+            let element = match link {
+                Link::Member(index) => {
+                    element::of_member(&skeleton.members[*index], &skeleton.nodes)
+                }
+                Link::Hinge(index) => element::of_hinge(&skeleton.hinges[*index]),
+                Link::Spring(index) => element::of_spring(&skeleton.springs[*index]),
             };
-            for &(a, b, value) in &elements[index].entries {
+            for (part, a, b, value) in element.entries {
                 if let (Some(a), Some(b)) = (place(a.0, a.1), place(b.0, b.1)) {
-                    stiffness.push((number(a), number(b), value));
+                    stiffness.push((part, number(a), number(b), value));
                 }
             }
         }
@@ -116,14 +122,14 @@ impl CondensedBeam {
     }
 
     /// Eliminates the inside; `None` where it can move without resistance.
-    pub(super) fn condense(&self, stiffness_factor: f64, mass_factor: f64) -> Option<BeamFactor> {
+    pub(super) fn condense(&self, matrix: &StepMatrix) -> Option<BeamFactor> {
         let (n, all) = (self.inside, ENDS + self.inside);
         let mut full = vec![0.0; all * all];
-        for &(row, column, value) in &self.stiffness {
-            full[row * all + column] += stiffness_factor * value;
+        for &(part, row, column, value) in &self.stiffness {
+            full[row * all + column] += matrix.weight(part) * value;
         }
         for (k, mass) in self.mass.iter().enumerate() {
-            full[k * all + k] += mass_factor * mass;
+            full[k * all + k] += matrix.mass * mass;
         }
         let mut factor = BeamFactor {
             keeps_length: self.keeps_length,

@@ -2,6 +2,7 @@
 
 use super::layout::{Layout, Link};
 use super::{Heading, StateVector};
+use crate::stepping::StepMatrix;
 use crate::system::BuildingSystem;
 
 /// Digits that a step should keep.
@@ -16,7 +17,7 @@ const PER_SPRING_DECADE: f64 = 0.95;
 const PER_BEAM_DECADE: f64 = 0.4;
 
 /// Decimal digits of the largest displacement that the total transfer equation will about get right in one step
-/// with K̂ = κ K + g M; negative when even the order of magnitude is lost, zero for what is no frame.
+/// with this matrix; negative when even the order of magnitude is lost, zero for what is no frame.
 ///
 /// In the product the forces at the head of a line are differences of solutions that have grown along it (theory,
 /// Eq. R0). How far they grow is found by passing forces of one newton and one newton metre up the line:
@@ -30,6 +31,7 @@ const PER_BEAM_DECADE: f64 = 0.4;
 ///
 /// ```
 /// use jostle::skeleton::Idealisation;
+/// use jostle::stepping::StepMatrix;
 /// use jostle::system::BuildingSystem;
 /// use jostle::transfer::digits_left;
 /// use jostle::{Building, Damping, Shear, Structure};
@@ -41,13 +43,16 @@ const PER_BEAM_DECADE: f64 = 0.4;
 ///         storey_heights: vec![3.0; 8],
 ///     }),
 ///     damping: Damping::Rayleigh { alpha: 0.0, beta: 0.0 },
+///     base: Default::default(),
+///     gravity: Default::default(),
+///     hinges: None,
 /// };
 /// let tower = BuildingSystem::new("tower", Idealisation::of(&tower));
-/// let at = |step: f64| digits_left(&tower, 1.0, 4.0 / (step * step));
+/// let at = |step: f64| digits_left(&tower, &StepMatrix::new(1.0, 4.0 / (step * step)));
 /// assert!(at(2e-2) > 7.0 && at(1e-3) < -10.0);
 /// ```
 #[must_use]
-pub fn digits_left(building: &BuildingSystem, stiffness_factor: f64, mass_factor: f64) -> f64 {
+pub fn digits_left(building: &BuildingSystem, matrix: &StepMatrix) -> f64 {
     let Ok(layout) = Layout::of(building) else {
         return 0.0;
     };
@@ -55,10 +60,8 @@ pub fn digits_left(building: &BuildingSystem, stiffness_factor: f64, mass_factor
         // Renewed after every lumped mass, so that nothing overflows.
         let (mut decades, mut state) = (0.0, StateVector::at_base([1.0; 3]));
         for (&link, &node) in links.iter().zip(&nodes[1..]) {
-            let below = layout
-                .transfer(link, heading, stiffness_factor)
-                .apply(state);
-            let above = layout.mass(node, mass_factor).apply(below);
+            let below = layout.transfer(link, heading, matrix).apply(state);
+            let above = layout.mass(node, matrix.mass).apply(below);
             let forces = above.forces().into_iter().map(f64::abs);
             let grown = forces.fold(f64::MIN_POSITIVE, f64::max);
             decades += grown.log10();

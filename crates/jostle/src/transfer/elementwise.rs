@@ -16,8 +16,7 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 use super::condensed_beam::{BeamFactor, CondensedBeam};
 use super::layout::{Layout, Link, NotAFrame};
 use super::{Heading, Transfer};
-use crate::element;
-use crate::stepping::{NotPositive, StepEquations};
+use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 
 /// Place of the force that belongs to the displacements x, y, θ, among m, qx, qy.
@@ -92,11 +91,10 @@ impl StepEquations for ElementwiseRiccati {
         let (mut passes, mut beams) = (Vec::new(), Vec::new());
         if let Ok(layout) = &layout {
             passes = moves(layout);
-            let stiffness: Vec<_> = element::stiffnesses(&layout.skeleton).collect();
             beams = layout
                 .beams
                 .iter()
-                .map(|beam| CondensedBeam::of(layout, beam, &stiffness))
+                .map(|beam| CondensedBeam::of(layout, beam))
                 .collect();
         }
         Self {
@@ -110,8 +108,8 @@ impl StepEquations for ElementwiseRiccati {
     /// Fails for a building that is no frame, and where a beam can move without resistance.
     fn factorize(
         &self,
-        stiffness_factor: f64,
-        mass_factor: f64,
+        matrix: &StepMatrix,
+        _tangents: &[f64],
         factor: &mut ElementwiseFactor,
     ) -> Result<(), NotPositive> {
         let Ok(layout) = &self.layout else {
@@ -119,7 +117,7 @@ impl StepEquations for ElementwiseRiccati {
         };
         factor.beams.clear();
         for beam in &self.beams {
-            let condensed = beam.condense(stiffness_factor, mass_factor);
+            let condensed = beam.condense(matrix);
             factor.beams.push(condensed.ok_or(NotPositive { dof: 0 })?);
         }
         factor.passes.clear();
@@ -128,11 +126,11 @@ impl StepEquations for ElementwiseRiccati {
         for pass in &self.passes {
             let kept = match pass {
                 Pass::Link { column, link } => {
-                    let element = layout.transfer(*link, Heading::Up, stiffness_factor);
+                    let element = layout.transfer(*link, Heading::Up, matrix);
                     Kept::Element(Box::new(KeptElement::pass(*column, None, element, &mut s)))
                 }
                 Pass::Mass { column, node } => {
-                    let element = layout.mass(*node, mass_factor);
+                    let element = layout.mass(*node, matrix.mass);
                     Kept::Element(Box::new(KeptElement::pass(
                         *column,
                         Some(*node),

@@ -1,9 +1,10 @@
 //! Column lines and beams, found in the geometry of a skeleton.
 
 use super::{BeamSegment, Heading, LumpedMass, PlanarHinge, Transfer};
-use crate::element::{THETA, X, Y};
+use crate::element::{self, THETA, X, Y};
 use crate::equations::Equations;
 use crate::skeleton::{Skeleton, Support};
+use crate::stepping::StepMatrix;
 use crate::system::BuildingSystem;
 
 /// Two heights or places nearer than this are the same \[m\].
@@ -16,6 +17,11 @@ pub enum NotAFrame {
     /// No node is fixed.
     #[error("no node is fixed; transfer starts at fixed bases")]
     NoBase,
+    /// A spring yields, and its stiffness changes from step to step.
+    #[error(
+        "it has hinges or storeys that yield; this form of the method is for elastic buildings"
+    )]
+    Yields,
     /// A node stands where no column line or beam passes.
     #[error("node {node} lies on no column line and on no beam")]
     LooseNode {
@@ -101,6 +107,9 @@ pub(super) struct Layout {
 impl Layout {
     pub(super) fn of(building: &BuildingSystem) -> Result<Self, NotAFrame> {
         let skeleton = &building.idealisation.skeleton;
+        if !building.equations.springs.is_empty() {
+            return Err(NotAFrame::Yields);
+        }
         let elements = elements(skeleton);
         let mut around = vec![Vec::new(); skeleton.nodes.len()];
         for &(link, [a, b]) in &elements {
@@ -128,8 +137,8 @@ impl Layout {
         Ok(layout)
     }
 
-    /// Transfer through a link, every stiffness multiplied by κ.
-    pub(super) fn transfer(&self, link: Link, heading: Heading, stiffness_factor: f64) -> Transfer {
+    /// Transfer through a link, with the stiffness that the step matrix gives it.
+    pub(super) fn transfer(&self, link: Link, heading: Heading, matrix: &StepMatrix) -> Transfer {
         match link {
             Link::Member(index) => {
                 let member = &self.skeleton.members[index];
@@ -141,26 +150,34 @@ impl Layout {
                     shear_rigidity: member.shear_rigidity,
                     compression: member.compression,
                 };
-                segment.stiffened(stiffness_factor).transfer(heading)
+                segment.stiffened(matrix.stiffness).transfer(heading)
             }
             Link::Hinge(index) => {
                 let hinge = &self.skeleton.hinges[index];
-                let [horizontal_stiffness, vertical_stiffness] = hinge.translational_stiffness;
-                let hinge = PlanarHinge {
-                    rotational_stiffness: Some(hinge.rotational_stiffness),
-                    horizontal_stiffness,
-                    vertical_stiffness,
+                let weight = matrix.weight(element::part_of(hinge.proportional_damping));
+                let in_step = |stiffness: Option<f64>, component: usize| {
+                    stiffness.map(|k| weight * k + matrix.dashpots * hinge.dashpots[component])
                 };
-                hinge.stiffened(stiffness_factor).transfer()
+                PlanarHinge {
+                    rotational_stiffness: in_step(hinge.rotational_stiffness, THETA),
+                    horizontal_stiffness: in_step(hinge.translational_stiffness[X], X),
+                    vertical_stiffness: in_step(hinge.translational_stiffness[Y], Y),
+                }
+                .transfer()
             }
             // Floors of a shear building neither rise nor turn: a hinge that gives way sideways only.
-            Link::Spring(index) => PlanarHinge {
-                horizontal_stiffness: Some(
-                    stiffness_factor * self.skeleton.springs[index].stiffness,
-                ),
-                ..PlanarHinge::default()
+            Link::Spring(index) => {
+                let spring = &self.skeleton.springs[index];
+                let weight = matrix.weight(element::part_of(spring.proportional_damping));
+                PlanarHinge {
+                    horizontal_stiffness: Some(
+                        weight * spring.stiffness - spring.softening
+                            + matrix.dashpots * spring.dashpot,
+                    ),
+                    ..PlanarHinge::default()
+                }
+                .transfer()
             }
-            .transfer(),
         }
     }
 
@@ -271,8 +288,12 @@ fn column_lines(
         };
         let mut at = base;
         loop {
-            let mut up = around[at].iter().filter(|(_, to)| {
-                nodes[*to].y > nodes[at].y + SAME && (nodes[*to].x - nodes[at].x).abs() <= SAME
+            // Springs of a base lead from the ground to a foot at the same place.
+            let on_ground = nodes[at].support == Support::Fixed;
+            let mut up = around[at].iter().filter(|(link, to)| {
+                let above = nodes[*to].y > nodes[at].y + SAME;
+                let foot = on_ground && !matches!(link, Link::Member(_));
+                (above || foot) && (nodes[*to].x - nodes[at].x).abs() <= SAME
             });
             let Some(&(link, to)) = up.next() else { break };
             if up.next().is_some() {

@@ -96,8 +96,10 @@ impl Ties {
             );
         }
         for hinge in &skeleton.hinges {
-            for component in [X, Y] {
-                if hinge.translational_stiffness[component].is_none() {
+            let [horizontal, vertical] = hinge.translational_stiffness;
+            let directions = [horizontal, vertical, hinge.rotational_stiffness];
+            for (component, stiffness) in directions.into_iter().enumerate() {
+                if stiffness.is_none() {
                     ties.merge(
                         Self::place(hinge.ends[0], component),
                         Self::place(hinge.ends[1], component),
@@ -148,7 +150,21 @@ fn node_order(skeleton: &Skeleton) -> Vec<(usize, usize)> {
         .members
         .iter()
         .map(|member| (member.ends, member.is_vertical(nodes)));
-    let hinges = skeleton.hinges.iter().map(|hinge| (hinge.ends, false));
+    // A hinge belongs to the member whose end it is: the one that has nothing else there.
+    let mut at_end = vec![[0; 2]; nodes.len()];
+    for member in &skeleton.members {
+        for end in member.ends {
+            at_end[end][usize::from(member.is_vertical(nodes))] += 1;
+        }
+    }
+    let hinges = skeleton.hinges.iter().map(|hinge| {
+        let [mut beam, mut column] = [false; 2];
+        for end in hinge.ends {
+            beam |= at_end[end] == [1, 0];
+            column |= at_end[end] == [0, 1];
+        }
+        (hinge.ends, column && !beam)
+    });
     for ([a, b], is_vertical) in members.chain(hinges) {
         neighbours[a].push(b);
         neighbours[b].push(a);

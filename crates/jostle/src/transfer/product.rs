@@ -17,7 +17,7 @@ use super::digits::{DIGITS_WANTED, digits_left};
 use super::layout::{Layout, NotAFrame};
 use super::riccati::RiccatiSweep;
 use super::{Heading, StateVector, Transfer, apart, one_in_two_out, two_in_one_out};
-use crate::stepping::{Newmark, NotPositive, StepEquations, solve_once};
+use crate::stepping::{Integrator, NotPositive, StepEquations, StepMatrix, solve_once};
 use crate::system::BuildingSystem;
 
 /// The total transfer equation of one building, K̂ y = r with K̂ = κ K + g M solved by products of transfer
@@ -65,18 +65,14 @@ pub enum ProductRefusal {
 }
 
 impl ProductEquations {
-    /// Whether a building can be stepped by products of transfer matrices with K̂ = κ K + g M.
+    /// Whether a building can be stepped by products of transfer matrices with this matrix.
     ///
     /// # Errors
     /// The building is no frame, or too few digits would be left.
-    pub fn check(
-        building: &BuildingSystem,
-        stiffness_factor: f64,
-        mass_factor: f64,
-    ) -> Result<(), ProductRefusal> {
+    pub fn check(building: &BuildingSystem, matrix: &StepMatrix) -> Result<(), ProductRefusal> {
         let layout = Layout::of(building)?;
         head_of_last_line(&layout)?;
-        let digits_left = digits_left(building, stiffness_factor, mass_factor);
+        let digits_left = digits_left(building, matrix);
         if digits_left < DIGITS_WANTED {
             return Err(ProductRefusal::DigitsLost {
                 building: building.name.clone(),
@@ -93,11 +89,13 @@ impl ProductEquations {
     /// As [`ProductEquations::check`].
     pub fn check_step(
         building: &BuildingSystem,
-        newmark: Newmark,
+        integrator: Integrator,
         step: f64,
     ) -> Result<(), ProductRefusal> {
-        let step = newmark.coefficients(step).of_building(&building.equations);
-        Self::check(building, step.stiffness_factor, step.mass_factor)
+        let step = integrator
+            .coefficients(step)
+            .of_building(&building.equations);
+        Self::check(building, &step.matrix())
     }
 
     /// Number of equations that remain: (n − 1)(6m + 3) for a frame, 3 for a single column line.
@@ -114,12 +112,11 @@ impl ProductEquations {
 /// [`NotPositive`] when the building offers no resistance.
 pub fn measured_loss(
     building: &BuildingSystem,
-    stiffness_factor: f64,
-    mass_factor: f64,
+    matrix: &StepMatrix,
     load: &[f64],
 ) -> Result<f64, NotPositive> {
-    let exact = solve_once::<RiccatiSweep>(building, stiffness_factor, mass_factor, load)?;
-    let product = solve_once::<ProductEquations>(building, stiffness_factor, mass_factor, load)?;
+    let exact = solve_once::<RiccatiSweep>(building, matrix, load)?;
+    let product = solve_once::<ProductEquations>(building, matrix, load)?;
     let largest = exact
         .iter()
         .fold(0.0_f64, |largest, y| largest.max(y.abs()));
@@ -153,14 +150,14 @@ impl StepEquations for ProductEquations {
     /// matrix that is not positive definite is not noticed.
     fn factorize(
         &self,
-        stiffness_factor: f64,
-        mass_factor: f64,
+        matrix: &StepMatrix,
+        _tangents: &[f64],
         factor: &mut ProductFactor,
     ) -> Result<(), NotPositive> {
         let Ok(layout) = &self.layout else {
             return Err(NotPositive { dof: 0 });
         };
-        let mass = |node: usize| layout.mass(node, mass_factor);
+        let mass = |node: usize| layout.mass(node, matrix.mass);
         factor.columns.clear();
         for (column, line) in layout.columns.iter().enumerate() {
             let heading = if is_last(layout, column) {
@@ -171,9 +168,7 @@ impl StepEquations for ProductEquations {
             let places = line.links.iter().zip(&line.nodes[1..]);
             factor.columns.push(
                 places
-                    .map(|(&link, &node)| {
-                        [layout.transfer(link, heading, stiffness_factor), mass(node)]
-                    })
+                    .map(|(&link, &node)| [layout.transfer(link, heading, matrix), mass(node)])
                     .collect(),
             );
         }
@@ -183,10 +178,7 @@ impl StepEquations for ProductEquations {
             factor.beams.push(
                 places
                     .map(|(&link, &node)| {
-                        [
-                            layout.transfer(link, Heading::Right, stiffness_factor),
-                            mass(node),
-                        ]
+                        [layout.transfer(link, Heading::Right, matrix), mass(node)]
                     })
                     .collect(),
             );

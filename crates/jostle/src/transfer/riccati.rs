@@ -7,7 +7,8 @@
 
 use std::convert::Infallible;
 
-use crate::stepping::{NotPositive, StepEquations};
+use crate::equations::{Equations, SparseSymmetric};
+use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 
 /// The recursion through one building: the pattern of the couplings, found once.
@@ -21,14 +22,42 @@ pub struct RiccatiSweep {
     reached_starts: Vec<usize>,
     /// Columns that couple to a row, in an order in which they can be eliminated.
     reached: Vec<u32>,
-    /// Diagonal of K.
-    stiffness_diagonal: Vec<f64>,
-    /// Rows of K above the diagonal: start, column, value.
-    upper_starts: Vec<usize>,
-    upper: Vec<(u32, f64)>,
+    /// Where the couplings of those columns to the row are kept.
+    positions: Vec<u32>,
+    /// The displacement that each one is eliminated into; itself for the last.
+    parent: Vec<u32>,
+    /// Diagonal of the parts of the step matrix.
+    diagonal: Vec<Parts>,
+    /// Rows of the step matrix before the diagonal: start, column, parts.
+    before_starts: Vec<usize>,
+    before: Vec<(u32, Parts)>,
     mass: Vec<f64>,
+    springs: Vec<SpringPlace>,
+    initial_tangents: Vec<f64>,
     /// Columns of equal work.
     runs: Vec<Run>,
+}
+
+/// Where the tangent of a spring that yields enters the step matrix.
+#[derive(Clone, Copy, Debug)]
+struct SpringPlace {
+    diagonal: [Option<usize>; 2],
+    /// Index among the entries before the diagonal.
+    between: Option<usize>,
+}
+
+/// What makes up an entry of the step matrix.
+#[derive(Clone, Copy, Debug, Default)]
+struct Parts {
+    elastic: f64,
+    undamped: f64,
+    dashpot: f64,
+}
+
+impl Parts {
+    fn in_step(&self, matrix: &StepMatrix) -> f64 {
+        matrix.stiffness * self.elastic + self.undamped + matrix.dashpots * self.dashpot
+    }
 }
 
 /// Pivots and couplings for one step size.
@@ -37,7 +66,11 @@ pub struct RiccatiFactor {
     couplings: Vec<f64>,
     inverse_pivots: Vec<f64>,
     pivots: Vec<f64>,
-    next: Vec<usize>,
+    /// The step matrix: diagonal, and entries before it by rows.
+    diagonal: Vec<f64>,
+    before: Vec<f64>,
+    /// Rows to eliminate anew.
+    touched: Vec<bool>,
     work: Vec<f64>,
 }
 
@@ -72,8 +105,12 @@ impl RiccatiSweep {
             negative: 0,
             growth: 0.0,
         };
-        let never_fails = self.eliminate(1.0, -shift, factor, |row, own, pivot| {
-            let scale = self.stiffness_diagonal[row] + shift.abs() * self.mass[row];
+        let matrix = StepMatrix::new(1.0, -shift);
+        self.compose(&matrix, &self.initial_tangents, factor);
+        factor.touched.fill(true);
+        let never_fails = self.eliminate(factor, |row, own, pivot| {
+            let scale = self.diagonal[row].in_step(&StepMatrix::STATIC).abs()
+                + shift.abs() * self.mass[row];
             inertia.growth = (own - pivot).abs().max(inertia.growth * scale) / scale;
             // A part behind the cut resonates with its end held: any small pivot does, its sign is immaterial.
             let least = f64::EPSILON * scale;
@@ -87,49 +124,70 @@ impl RiccatiSweep {
         }
     }
 
-    /// L D Lᵀ of `stiffness_factor`·K + `mass_factor`·M; every pivot is what `accept` makes of (row, entry of the
-    /// matrix on the diagonal, pivot).
-    fn eliminate<E>(
-        &self,
-        stiffness_factor: f64,
-        mass_factor: f64,
-        factor: &mut RiccatiFactor,
-        mut accept: impl FnMut(usize, f64, f64) -> Result<f64, E>,
-    ) -> Result<(), E> {
+    /// The entries of a step matrix.
+    fn compose(&self, matrix: &StepMatrix, tangents: &[f64], factor: &mut RiccatiFactor) {
         let n = self.mass.len();
         factor.couplings.resize(self.rows.len(), 0.0);
         factor.pivots.resize(n, 0.0);
         factor.inverse_pivots.resize(n, 0.0);
-        factor.work.clear();
+        factor.touched.resize(n, false);
         factor.work.resize(n, 0.0);
-        factor.next.clear();
-        factor.next.extend_from_slice(&self.starts[..n]);
+        factor.diagonal.clear();
+        let diagonal = self.diagonal.iter().zip(&self.mass);
+        factor
+            .diagonal
+            .extend(diagonal.map(|(parts, mass)| parts.in_step(matrix) + matrix.mass * mass));
+        factor.before.clear();
+        let before = self.before.iter();
+        factor
+            .before
+            .extend(before.map(|(_, parts)| parts.in_step(matrix)));
+        for (spring, tangent) in self.springs.iter().zip(tangents) {
+            for dof in spring.diagonal.into_iter().flatten() {
+                factor.diagonal[dof] += tangent;
+            }
+            if let Some(entry) = spring.between {
+                factor.before[entry] -= tangent;
+            }
+        }
+    }
+
+    /// L D Lᵀ of the touched rows of the matrix in `factor`; every pivot is what `accept` makes of (row, entry of the
+    /// matrix on the diagonal, pivot).
+    fn eliminate<E>(
+        &self,
+        factor: &mut RiccatiFactor,
+        mut accept: impl FnMut(usize, f64, f64) -> Result<f64, E>,
+    ) -> Result<(), E> {
         let RiccatiFactor {
             couplings,
             inverse_pivots,
             pivots,
-            next,
+            diagonal,
+            before,
+            touched,
             work,
         } = factor;
-        for row in 0..n {
-            let own =
-                stiffness_factor * self.stiffness_diagonal[row] + mass_factor * self.mass[row];
-            for &(column, value) in &self.upper[self.upper_starts[row]..self.upper_starts[row + 1]]
-            {
-                work[column as usize] = stiffness_factor * value;
+        work.fill(0.0);
+        for row in (0..self.mass.len()).filter(|&row| touched[row]) {
+            let own = diagonal[row];
+            let entries = self.before_starts[row]..self.before_starts[row + 1];
+            for ((column, _), value) in self.before[entries.clone()].iter().zip(&before[entries]) {
+                work[*column as usize] = *value;
             }
             let mut pivot = own;
-            for &column in &self.reached[self.reached_starts[row]..self.reached_starts[row + 1]] {
-                let column = column as usize;
+            let reached = self.reached_starts[row]..self.reached_starts[row + 1];
+            let columns = self.reached[reached.clone()].iter();
+            for (&column, &position) in columns.zip(&self.positions[reached]) {
+                let (column, position) = (column as usize, position as usize);
                 let value = std::mem::take(&mut work[column]);
-                let known = self.starts[column]..next[column];
+                let known = self.starts[column]..position;
                 for (&below, &coupling) in self.rows[known.clone()].iter().zip(&couplings[known]) {
                     work[below as usize] -= coupling * value;
                 }
                 let coupling = value * inverse_pivots[column];
                 pivot -= coupling * value;
-                couplings[next[column]] = coupling;
-                next[column] += 1;
+                couplings[position] = coupling;
             }
             let pivot = accept(row, own, pivot)?;
             pivots[row] = pivot;
@@ -139,14 +197,22 @@ impl RiccatiSweep {
     }
 }
 
+/// A pivot that leaves digits to what comes after it.
+fn sound(row: usize, own: f64, pivot: f64) -> Result<f64, NotPositive> {
+    if pivot > 1e-14 * own.abs() && pivot.is_finite() {
+        Ok(pivot)
+    } else {
+        Err(NotPositive { dof: row })
+    }
+}
+
 impl StepEquations for RiccatiSweep {
     type Factor = RiccatiFactor;
 
     fn of(building: &BuildingSystem) -> Self {
         let equations = &building.equations;
         let n = equations.len();
-        let stiffness = &equations.stiffness;
-        let (upper_starts, upper) = by_rows(n, stiffness);
+        let (before_starts, before) = rows_before_diagonal(equations);
         // The displacement that each one is eliminated into: the parent in the elimination tree.
         let mut parent = vec![usize::MAX; n];
         let mut met_by = vec![usize::MAX; n];
@@ -155,7 +221,7 @@ impl StepEquations for RiccatiSweep {
         for row in 0..n {
             met_by[row] = row;
             let first = reached.len();
-            for &(column, _) in &upper[upper_starts[row]..upper_starts[row + 1]] {
+            for &(column, _) in &before[before_starts[row]..before_starts[row + 1]] {
                 let mut at = column as usize;
                 branch.clear();
                 while met_by[at] != row {
@@ -179,39 +245,83 @@ impl StepEquations for RiccatiSweep {
         }
         let mut next = starts.clone();
         let mut rows = vec![0; starts[n]];
+        let mut positions = Vec::with_capacity(reached.len());
         for row in 0..n {
             for &column in &reached[reached_starts[row]..reached_starts[row + 1]] {
                 rows[next[column as usize]] = row as u32;
+                positions.push(next[column as usize] as u32);
                 next[column as usize] += 1;
             }
         }
+        let springs = equations.springs.iter().map(|spring| SpringPlace {
+            diagonal: spring.dofs,
+            between: match spring.dofs {
+                [Some(a), Some(b)] => {
+                    let entries = before_starts[a.max(b)]..before_starts[a.max(b) + 1];
+                    let place = before[entries.clone()]
+                        .iter()
+                        .position(|(column, _)| *column as usize == a.min(b));
+                    place.map(|place| entries.start + place)
+                }
+                _ => None,
+            },
+        });
         Self {
             runs: Run::all(&starts),
+            springs: springs.collect(),
+            initial_tangents: equations.initial_tangents(),
+            positions,
+            parent: (0..n)
+                .map(|dof| if parent[dof] == usize::MAX { dof } else { parent[dof] } as u32)
+                .collect(),
             starts,
             rows,
             reached_starts,
             reached,
-            stiffness_diagonal: stiffness.diagonal.clone(),
-            upper_starts,
-            upper,
+            diagonal: (0..n)
+                .map(|dof| Parts {
+                    elastic: equations.stiffness.diagonal[dof],
+                    undamped: equations.undamped.diagonal[dof],
+                    dashpot: equations.dashpots.diagonal[dof],
+                })
+                .collect(),
+            before_starts,
+            before,
             mass: equations.mass.clone(),
         }
     }
 
     fn factorize(
         &self,
-        stiffness_factor: f64,
-        mass_factor: f64,
+        matrix: &StepMatrix,
+        tangents: &[f64],
         factor: &mut RiccatiFactor,
     ) -> Result<(), NotPositive> {
-        let accept = |row: usize, own: f64, pivot: f64| {
-            if pivot > 1e-14 * own.abs() && pivot.is_finite() {
-                Ok(pivot)
-            } else {
-                Err(NotPositive { dof: row })
+        self.compose(matrix, tangents, factor);
+        factor.touched.fill(true);
+        self.eliminate(factor, sound)
+    }
+
+    /// Only what lies ahead of the changed springs on the transfer path is passed again.
+    fn update(
+        &self,
+        matrix: &StepMatrix,
+        tangents: &[f64],
+        changed: &[usize],
+        factor: &mut RiccatiFactor,
+    ) -> Result<(), NotPositive> {
+        self.compose(matrix, tangents, factor);
+        factor.touched.fill(false);
+        for &spring in changed {
+            for dof in self.springs[spring].diagonal.into_iter().flatten() {
+                let mut at = dof;
+                while !factor.touched[at] {
+                    factor.touched[at] = true;
+                    at = self.parent[at] as usize;
+                }
             }
-        };
-        self.eliminate(stiffness_factor, mass_factor, factor, accept)
+        }
+        self.eliminate(factor, sound)
     }
 
     #[inline]
@@ -349,23 +459,59 @@ fn gather_wide(first: usize, width: usize, rows: &[u32], couplings: &[f64], load
     }
 }
 
-/// The strict lower triangle by rows: for every row its columns and values.
-fn by_rows(n: usize, matrix: &crate::equations::SparseSymmetric) -> (Vec<usize>, Vec<(u32, f64)>) {
-    let mut starts = vec![0; n + 1];
-    for row in &matrix.rows {
-        starts[*row as usize + 1] += 1;
+/// The strict lower triangles of K, K′ and C′ by rows: starts, columns and values.
+fn rows_before_diagonal(equations: &Equations) -> (Vec<usize>, Vec<(u32, Parts)>) {
+    let n = equations.len();
+    let mut entries: Vec<(u32, u32, Parts)> = Vec::new();
+    let mut gather = |matrix: &SparseSymmetric, part: fn(f64) -> Parts| {
+        for column in 0..n {
+            for entry in matrix.starts[column]..matrix.starts[column + 1] {
+                entries.push((
+                    matrix.rows[entry],
+                    column as u32,
+                    part(matrix.values[entry]),
+                ));
+            }
+        }
+    };
+    gather(&equations.stiffness, |elastic| Parts {
+        elastic,
+        ..Parts::default()
+    });
+    gather(&equations.undamped, |undamped| Parts {
+        undamped,
+        ..Parts::default()
+    });
+    gather(&equations.dashpots, |dashpot| Parts {
+        dashpot,
+        ..Parts::default()
+    });
+    for spring in &equations.springs {
+        if let [Some(a), Some(b)] = spring.dofs
+            && a != b
+        {
+            entries.push((a.max(b) as u32, a.min(b) as u32, Parts::default()));
+        }
+    }
+    entries.sort_by_key(|(row, column, _)| (*row, *column));
+    let (mut starts, mut rows) = (vec![0; n + 1], Vec::<(u32, Parts)>::new());
+    let mut last = None;
+    for (row, column, parts) in entries {
+        match rows.last_mut().filter(|_| last == Some((row, column))) {
+            Some((_, sum)) => {
+                sum.elastic += parts.elastic;
+                sum.undamped += parts.undamped;
+                sum.dashpot += parts.dashpot;
+            }
+            None => {
+                rows.push((column, parts));
+                starts[row as usize + 1] += 1;
+                last = Some((row, column));
+            }
+        }
     }
     for row in 0..n {
         starts[row + 1] += starts[row];
     }
-    let mut next = starts.clone();
-    let mut entries = vec![(0, 0.0); matrix.rows.len()];
-    for column in 0..n {
-        for entry in matrix.starts[column]..matrix.starts[column + 1] {
-            let row = matrix.rows[entry] as usize;
-            entries[next[row]] = (column as u32, matrix.values[entry]);
-            next[row] += 1;
-        }
-    }
-    (starts, entries)
+    (starts, rows)
 }

@@ -1,0 +1,287 @@
+//! A contact law with all its numbers, and what one impact remembers.
+
+use std::f64::consts::PI;
+
+use super::hertz::{HERTZ_DURATION, hertz_indentation};
+use super::{Bilinear, Rubber, approach, hertz, kelvin};
+
+/// A contact law with all its numbers; pure functions of indentation, rate and memory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ForceLaw {
+    /// F = k δ + c δ̇.
+    Kelvin {
+        /// k \[N/m\].
+        stiffness: f64,
+        /// c \[N·s/m\].
+        damping: f64,
+        /// Keep the pulling force before release.
+        tension: bool,
+    },
+    /// F = k δ + c δ̇ in approach, k δ in restitution.
+    ApproachKelvin {
+        /// k \[N/m\].
+        stiffness: f64,
+        /// c \[N·s/m\].
+        damping: f64,
+    },
+    /// F = k δ (1 + d δ̇/v₀).
+    DampedLinear {
+        /// k \[N/m\].
+        stiffness: f64,
+        /// d \[–\].
+        damping: f64,
+    },
+    /// F = k δ^1.5 (1 + d δ̇/v₀).
+    Hertz {
+        /// k \[N/m^1.5\].
+        stiffness: f64,
+        /// d \[–\].
+        damping: f64,
+    },
+    /// F = k δ^1.5 + c δ^¼ δ̇ in approach, k δ^1.5 in restitution.
+    Jankowski {
+        /// k \[N/m^1.5\].
+        stiffness: f64,
+        /// c \[N·s/m^1.25\].
+        damping: f64,
+    },
+    /// Two stiffnesses and a yield indentation.
+    Bilinear(Bilinear),
+    /// Velocities change at once; bodies that stay in touch rest on F = k δ + c δ̇, cut at zero.
+    Restitution {
+        /// e \[–\].
+        restitution: f64,
+        /// k while in touch \[N/m\].
+        stiffness: f64,
+        /// c while in touch \[N·s/m\].
+        damping: f64,
+    },
+    /// Rubber bumper.
+    Rubber(Rubber),
+}
+
+/// Contact force and its partial derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactResponse {
+    /// Force, positive in compression \[N\].
+    pub force: f64,
+    /// ∂F/∂δ \[N/m\].
+    pub by_indentation: f64,
+    /// ∂F/∂δ̇ \[N·s/m\].
+    pub by_rate: f64,
+}
+
+/// What one impact remembers between steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Memory {
+    /// Speed by which laws divide: the closing rate at the touch, or, after a touch slower than 1 mm/s, the greatest
+    /// closing rate since, > 0 \[m/s\].
+    pub speed: f64,
+    /// Whether the touch was that slow.
+    pub from_rest: bool,
+    /// (v/v_ref)^0.4 of the bilinear law, 1 for others \[–\].
+    pub scale: f64,
+    /// Indentation at the end of the last step \[m\].
+    pub indentation: f64,
+    /// Force of the elasto-plastic part of the bilinear law then \[N\].
+    pub slip: f64,
+}
+
+/// A touch slower than this starts from rest: no impact speed by which a law could divide \[m/s\].
+const REST: f64 = 1e-3;
+/// Laws that divide by a speed see at least this much \[m/s\].
+const SLOWEST: f64 = 1e-9;
+
+impl ForceLaw {
+    /// The memory of an impact that begins at a closing rate ≥ 0 \[m/s\].
+    #[must_use]
+    pub fn touch(&self, rate: f64) -> Memory {
+        Memory {
+            speed: rate.max(SLOWEST),
+            from_rest: rate < REST,
+            scale: match self {
+                Self::Bilinear(bilinear) => bilinear.scale(rate),
+                _ => 1.0,
+            },
+            indentation: 0.0,
+            slip: 0.0,
+        }
+    }
+
+    /// Force and derivatives at indentation δ \[m\] and rate δ̇ \[m/s\] on the first loading after a touch at
+    /// `impact_speed` v₀ > 0 \[m/s\].
+    #[must_use]
+    pub fn respond(&self, indentation: f64, rate: f64, impact_speed: f64) -> ContactResponse {
+        self.follow(indentation, rate, &self.touch(impact_speed))
+    }
+
+    /// Force and derivatives at indentation δ \[m\] and rate δ̇ \[m/s\], reached in one step from what `memory`
+    /// holds. Zero for δ ≤ 0, except for the pulling Kelvin law, which holds on until its contact is released. The
+    /// force never falls when indentation or rate grow.
+    #[must_use]
+    #[inline]
+    pub fn follow(&self, indentation: f64, rate: f64, memory: &Memory) -> ContactResponse {
+        match *self {
+            Self::Kelvin {
+                stiffness,
+                damping,
+                tension,
+            } => kelvin::respond(stiffness, damping, tension, indentation, rate),
+            Self::Restitution {
+                stiffness, damping, ..
+            } => kelvin::respond(stiffness, damping, false, indentation, rate),
+            Self::ApproachKelvin { stiffness, damping } => {
+                approach::respond_linear(stiffness, damping, indentation, rate)
+            }
+            Self::DampedLinear { stiffness, damping } => {
+                let speed = memory.speed_at(rate);
+                hertz::respond_linear(stiffness, damping, indentation, rate, speed)
+            }
+            Self::Hertz { stiffness, damping } => {
+                let speed = memory.speed_at(rate);
+                hertz::respond_hertz(stiffness, damping, indentation, rate, speed)
+            }
+            Self::Jankowski { stiffness, damping } => {
+                approach::respond_jankowski(stiffness, damping, indentation, rate)
+            }
+            Self::Bilinear(ref bilinear) => bilinear.respond(indentation, memory),
+            Self::Rubber(ref rubber) => rubber.respond(indentation, rate, memory.speed_at(rate)),
+        }
+    }
+
+    /// After a step to indentation δ at rate δ̇: what the impact remembers of it.
+    #[inline]
+    pub fn remember(&self, indentation: f64, rate: f64, memory: &mut Memory) {
+        memory.speed = memory.speed_at(rate);
+        if let Self::Bilinear(bilinear) = self {
+            bilinear.remember(indentation, memory);
+        }
+    }
+
+    /// Force at the instant of touch, before any indentation, at the closing rate `rate` ≥ 0 \[N\].
+    #[must_use]
+    pub fn onset(&self, rate: f64) -> f64 {
+        match *self {
+            Self::Kelvin { damping, .. }
+            | Self::ApproachKelvin { damping, .. }
+            | Self::Restitution { damping, .. } => damping * rate,
+            _ => 0.0,
+        }
+    }
+
+    /// Whether the force jumps when the contact opens, so that a step must end there.
+    #[must_use]
+    pub fn jumps_at_release(&self) -> bool {
+        matches!(self, Self::Kelvin { damping, tension: true, .. } if *damping > 0.0)
+    }
+
+    /// Whether the slope of the force over time jumps where the motion turns, because a damper or a
+    /// slider ends or begins there.
+    #[must_use]
+    pub(crate) fn has_corner_at_turn(&self) -> bool {
+        matches!(
+            self,
+            Self::ApproachKelvin { .. }
+                | Self::Jankowski { .. }
+                | Self::Rubber(_)
+                | Self::Bilinear(_)
+        )
+    }
+
+    /// Whether the force starts as a root of the time, steeper than any step can follow.
+    #[must_use]
+    pub(crate) fn starts_steeply(&self) -> bool {
+        matches!(self, Self::Jankowski { .. })
+    }
+
+    /// The coefficient with which an impact at this closing rate \[m/s\] changes velocities at once; `None` where a
+    /// force acts over time.
+    #[must_use]
+    pub fn rebound(&self, rate: f64) -> Option<f64> {
+        match *self {
+            Self::Restitution { restitution, .. } if rate > super::momentum::REST_SPEED => {
+                Some(restitution)
+            }
+            _ => None,
+        }
+    }
+
+    /// Indentations where the slope of the force jumps, on the way in and on the way out \[m\].
+    pub(crate) fn kink(&self, inwards: bool, memory: &Memory) -> f64 {
+        match self {
+            Self::Bilinear(bilinear) => bilinear.kink(inwards, memory),
+            Self::Rubber(rubber) => rubber.limit,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Duration of the elastic collision of free bodies: the time scale of an impact \[s\].
+    ///
+    /// `effective_mass` m₁m₂/(m₁ + m₂) \[kg\], `impact_speed` > 0 \[m/s\]. Linear: π√(m/k). Hertz:
+    /// 2.9432751843 δ_max/v₀ with δ_max = (5 m v₀²/(4k))^(2/5) (theory, Eq. C6). Bilinear: that of the first stiffness.
+    #[must_use]
+    pub fn elastic_duration(&self, effective_mass: f64, impact_speed: f64) -> f64 {
+        let linear = |stiffness: f64| PI * (effective_mass / stiffness).sqrt();
+        match self {
+            Self::Kelvin { stiffness, .. }
+            | Self::ApproachKelvin { stiffness, .. }
+            | Self::DampedLinear { stiffness, .. }
+            | Self::Restitution { stiffness, .. } => linear(*stiffness),
+            Self::Hertz { stiffness, .. } | Self::Jankowski { stiffness, .. } => {
+                HERTZ_DURATION * hertz_indentation(*stiffness, effective_mass, impact_speed)
+                    / impact_speed
+            }
+            Self::Bilinear(bilinear) => {
+                linear(bilinear.first_stiffness * bilinear.scale(impact_speed))
+            }
+            Self::Rubber(rubber) => rubber.elastic_duration(effective_mass, impact_speed),
+        }
+    }
+
+    /// Greatest force of the elastic collision of free bodies: the size of an impact \[N\]. Of the bilinear law that
+    /// of its second stiffness.
+    #[must_use]
+    pub fn elastic_force(&self, effective_mass: f64, impact_speed: f64) -> f64 {
+        let linear = |stiffness: f64| impact_speed * (effective_mass * stiffness).sqrt();
+        match self {
+            Self::Kelvin { stiffness, .. }
+            | Self::ApproachKelvin { stiffness, .. }
+            | Self::DampedLinear { stiffness, .. }
+            | Self::Restitution { stiffness, .. } => linear(*stiffness),
+            Self::Hertz { stiffness, .. } | Self::Jankowski { stiffness, .. } => {
+                stiffness * hertz_indentation(*stiffness, effective_mass, impact_speed).powf(1.5)
+            }
+            Self::Bilinear(bilinear) => {
+                linear(bilinear.second_stiffness * bilinear.scale(impact_speed))
+            }
+            Self::Rubber(rubber) => rubber.elastic_force(effective_mass, impact_speed),
+        }
+    }
+
+    /// The contact stiffness, in the unit of the law \[N/m, N/m^1.5\].
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        match self {
+            Self::Kelvin { stiffness, .. }
+            | Self::ApproachKelvin { stiffness, .. }
+            | Self::DampedLinear { stiffness, .. }
+            | Self::Hertz { stiffness, .. }
+            | Self::Jankowski { stiffness, .. }
+            | Self::Restitution { stiffness, .. } => *stiffness,
+            Self::Bilinear(bilinear) => bilinear.first_stiffness,
+            Self::Rubber(rubber) => rubber.stiffness,
+        }
+    }
+}
+
+impl Memory {
+    /// The speed by which a law divides when the rate is this.
+    #[inline]
+    fn speed_at(&self, rate: f64) -> f64 {
+        if self.from_rest {
+            self.speed.max(rate)
+        } else {
+            self.speed
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Contact laws: the force between two colliding floors as a function of indentation and its rate.
+//!
+//! A law sees numbers only. [`ContactLaw`] is what a user asks for; [`ContactLaw::between`] turns it into a
+//! [`ForceLaw`] once the colliding masses are known. What an impact must remember is a [`Memory`], kept in the
+//! state of a run. Indentation δ = u_left − u_right − gap is positive in contact; the force is positive in
+//! compression and pushes the left building left. `docs/contact.md` lists every law with its source.
+//!
+//! [`FreeCollision`] integrates the collision of two free masses precisely, independent of any time step.
+
+mod approach;
+mod bilinear;
+mod collision;
+mod force_law;
+mod hertz;
+mod kelvin;
+mod kind;
+pub(crate) mod momentum;
+mod root;
+mod rubber;
+mod runge_kutta;
+
+pub use bilinear::{Bilinear, BilinearShape};
+pub use collision::{CollisionPoint, FreeCollision};
+pub use force_law::{ContactResponse, ForceLaw, Memory};
+pub use hertz::{HERTZ_DURATION, hertz_damping, hertz_indentation, hertz_restitution};
+pub use kelvin::CLIPPED_KELVIN_LEAST_RESTITUTION;
+pub use kind::{LawKind, ModifiedKelvin};
+pub use rubber::{Rubber, RubberBumper};
+
+use approach::{approach_damping_ratio, approach_restitution};
+use hertz::{published_muthukumar, published_ye, published_ye_linear};
+use kelvin::{
+    clipped_kelvin_damping_ratio, clipped_kelvin_restitution, kelvin_damping_ratio,
+    kelvin_restitution,
+};
+
+/// A contact law as described in a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactLaw {
+    /// Which formula.
+    pub kind: LawKind,
+    /// Contact stiffness, > 0 \[N/m for the linear family, N/m^1.5 for the Hertz family\].
+    pub stiffness: f64,
+    /// Coefficient of restitution, 0 < e ≤ 1; elastic laws do not use it \[–\].
+    pub restitution: f64,
+    /// What the coefficient means.
+    pub restitution_is: RestitutionIs,
+}
+
+/// What a coefficient of restitution stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum RestitutionIs {
+    /// It goes into the published formula; free masses may rebound otherwise.
+    #[default]
+    Input,
+    /// The damping is calibrated so that two free masses rebound with exactly this ratio.
+    Realised,
+}
+
+impl ContactLaw {
+    /// The law between two bodies of the given masses \[kg\].
+    ///
+    /// The damping of the Kelvin family and of Jankowski's law depends on the masses through
+    /// m_e = m₁m₂/(m₁ + m₂): c = 2ζ √(k m_e). Other laws take only a time scale from them.
+    #[must_use]
+    pub fn between(&self, left_mass: f64, right_mass: f64) -> ForceLaw {
+        let (k, e) = (self.stiffness, self.restitution);
+        let mass = effective_mass(left_mass, right_mass);
+        let realised = self.restitution_is == RestitutionIs::Realised;
+        let critical = 2.0 * (k * mass).sqrt();
+        let kelvin = |ratio: f64, tension| ForceLaw::Kelvin {
+            stiffness: k,
+            damping: ratio * critical,
+            // Without damping there is nothing to pull with.
+            tension: tension && ratio > 0.0,
+        };
+        let hertz = |damping| ForceLaw::Hertz {
+            stiffness: k,
+            damping,
+        };
+        match self.kind {
+            LawKind::Linear => kelvin(0.0, false),
+            LawKind::Kelvin => kelvin(kelvin_damping_ratio(e), true),
+            LawKind::KelvinNoTension if realised => kelvin(clipped_kelvin_damping_ratio(e), false),
+            LawKind::KelvinNoTension => kelvin(kelvin_damping_ratio(e), false),
+            LawKind::ModifiedKelvin(ModifiedKelvin::Ye) => ForceLaw::DampedLinear {
+                stiffness: k,
+                damping: if realised {
+                    hertz_damping(e)
+                } else {
+                    published_ye_linear(e)
+                },
+            },
+            LawKind::ModifiedKelvin(ModifiedKelvin::MahmoudJankowski) => ForceLaw::ApproachKelvin {
+                stiffness: k,
+                damping: critical
+                    * if realised {
+                        approach_damping_ratio(e)
+                    } else {
+                        approach::published_mahmoud_jankowski(e)
+                    },
+            },
+            LawKind::Hertz => hertz(0.0),
+            _ if self.kind.is_hertz_with_damping() && realised => hertz(hertz_damping(e)),
+            LawKind::HertzDamp => hertz(published_muthukumar(e)),
+            LawKind::Ye => hertz(published_ye(e)),
+            LawKind::Jankowski => ForceLaw::Jankowski {
+                stiffness: k,
+                damping: critical
+                    * if realised {
+                        approach::jankowski_ratio(approach_damping_ratio(e))
+                    } else {
+                        approach::published_jankowski(e)
+                    },
+            },
+            LawKind::Bilinear(shape) => {
+                ForceLaw::Bilinear(Bilinear::new(shape, k, mass, e, realised))
+            }
+            LawKind::Restitution => ForceLaw::Restitution {
+                restitution: e,
+                stiffness: k,
+                damping: critical,
+            },
+            LawKind::Rubber(bumper) => ForceLaw::Rubber(Rubber::new(bumper, k, e)),
+        }
+    }
+
+    /// What the law can be calibrated to realise lies above this; zero for published damping \[–\].
+    #[must_use]
+    pub fn least_restitution(&self) -> f64 {
+        match self.kind {
+            _ if self.restitution_is == RestitutionIs::Input => 0.0,
+            LawKind::KelvinNoTension => CLIPPED_KELVIN_LEAST_RESTITUTION + 1e-6,
+            LawKind::Bilinear(shape) => shape.least_restitution() + 1e-6,
+            _ => 0.0,
+        }
+    }
+
+    /// Separation speed ÷ impact speed of two free masses under this law \[–\] (docs/contact.md). The bilinear
+    /// law with a design speed is judged at that speed; with all others it is the same at every speed.
+    #[must_use]
+    pub fn free_restitution(&self) -> f64 {
+        match self.between(1.0, 1.0) {
+            ForceLaw::Kelvin {
+                stiffness,
+                damping,
+                tension,
+            } => {
+                let ratio = damping / (2.0 * (0.5 * stiffness).sqrt());
+                if tension {
+                    kelvin_restitution(ratio)
+                } else {
+                    clipped_kelvin_restitution(ratio)
+                }
+            }
+            ForceLaw::ApproachKelvin { stiffness, damping } => {
+                approach_restitution(damping / (2.0 * (0.5 * stiffness).sqrt()))
+            }
+            ForceLaw::Jankowski { stiffness, damping } => {
+                let ratio = damping / (2.0 * (0.5 * stiffness).sqrt());
+                approach_restitution(approach::linear_ratio(ratio))
+            }
+            ForceLaw::Hertz { damping, .. } | ForceLaw::DampedLinear { damping, .. } => {
+                hertz_restitution(damping)
+            }
+            ForceLaw::Bilinear(bilinear) => bilinear.free_restitution(),
+            ForceLaw::Restitution { restitution, .. } => restitution,
+            ForceLaw::Rubber(rubber) => rubber.free_restitution(),
+        }
+    }
+}
+
+/// m₁m₂/(m₁ + m₂) \[kg\].
+#[must_use]
+pub fn effective_mass(left_mass: f64, right_mass: f64) -> f64 {
+    1.0 / (1.0 / left_mass + 1.0 / right_mass)
+}
+
+#[cfg(test)]
+mod tests;

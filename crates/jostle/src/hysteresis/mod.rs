@@ -1,0 +1,34 @@
+//! Restoring forces that remember: trilinear hysteresis of hinges and storeys.
+//!
+//! A [`Hysteresis`] is a rule on a [`Backbone`] and never changes. What a hinge remembers is a
+//! [`HysteresisMemory`], one per hinge, a plain value. [`Hysteresis::respond`] walks from the committed memory
+//! straight to a trial deformation, through all corners between, and says force, tangent, work and the memory
+//! to commit if the trial is taken. It is a pure function: a step that is tried again starts from the same memory.
+//!
+//! Deformations and forces are rotation \[rad\] and moment \[N·m\] of a hinge, or displacement \[m\] and force
+//! \[N\] of a storey.
+//!
+//! ```
+//! use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule};
+//!
+//! let corners = Corners { cracking: 100e3, yielding: 250e3, post_cracking: 0.3, post_yield: 0.02 };
+//! let backbone = Backbone::from_forces(100e6, corners, corners).expect("a sound backbone");
+//! let hinge = Hysteresis::new(HysteresisRule::PeakOriented, backbone).expect("the rule fits");
+//! let mut memory = HysteresisMemory::default();
+//! for rotation in [0.004, -0.002, 0.008] {
+//!     let response = hinge.respond(&memory, rotation);
+//!     memory = response.memory; // the step is taken
+//! }
+//! assert!(memory.force() > 250e3);
+//! ```
+
+mod backbone;
+mod degrading;
+mod memory;
+mod oriented;
+mod rule;
+mod sliders;
+
+pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
+pub use memory::{HysteresisMemory, Response, Stage};
+pub use rule::{DEFAULT_TAKEDA_EXPONENT, Hysteresis, HysteresisRule};

@@ -1,0 +1,265 @@
+//! A rule on a backbone: the restoring force as a pure function of memory and deformation.
+
+use super::backbone::{Backbone, Quantity, Side, SpringFault};
+use super::memory::{HysteresisMemory, Response, Stage};
+use super::{degrading, oriented, sliders};
+
+/// Exponent of Takeda's loss of unloading stiffness after yield \[–\] (Takeda, Sozen and Nielsen, 1970).
+pub const DEFAULT_TAKEDA_EXPONENT: f64 = 0.4;
+
+/// How a spring unloads and loads again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HysteresisRule {
+    /// Initial stiffness for ever.
+    Elastic,
+    /// Kinematic hardening with one corner (Prager's model).
+    Bilinear,
+    /// Kinematic hardening with two corners: Masing's rule, as sliders in parallel (Iwan, 1966).
+    Normal,
+    /// Unloads with the initial stiffness; loads straight to the greatest deformation that side has seen, at
+    /// first its cracking point (Clough and Johnston, 1966, on a trilinear curve).
+    PeakOriented,
+    /// Takeda, Sozen and Nielsen (1970): unloads towards the cracking point of the other side, after yield with
+    /// a stiffness that falls with the ductility; inner loops go straight to the peaks.
+    Takeda {
+        /// Exponent of that fall, 0…1 \[–\]; [`DEFAULT_TAKEDA_EXPONENT`] is usual.
+        exponent: f64,
+    },
+    /// Degrading trilinear (Fukada, 1969; Muto, 1973): inside the peaks a bilinear loop whose stiffnesses have
+    /// shrunk by one common factor, so that it leads from peak to peak.
+    DegradingTrilinear,
+}
+
+impl HysteresisRule {
+    /// Name in model files.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Elastic => "elastic",
+            Self::Bilinear => "bilinear",
+            Self::Normal => "normal",
+            Self::PeakOriented => "peak-oriented",
+            Self::Takeda { .. } => "takeda",
+            Self::DegradingTrilinear => "d-tri",
+        }
+    }
+}
+
+/// A rule on a backbone. Never changes; what changes is the [`HysteresisMemory`] it is asked about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hysteresis {
+    rule: HysteresisRule,
+    backbone: Backbone,
+}
+
+impl Hysteresis {
+    /// Puts a rule on a backbone.
+    ///
+    /// # Errors
+    /// Everything that does not fit: an exponent out of range, a cracking point for `bilinear` or none for
+    /// `d-tri`, sides with different stiffness ratios where the rule has only one.
+    pub fn new(rule: HysteresisRule, backbone: Backbone) -> Result<Self, Vec<SpringFault>> {
+        let mut faults = Vec::new();
+        let mut refuse = |quantity, side, problem: String| {
+            faults.push(SpringFault {
+                quantity,
+                side,
+                problem,
+            });
+        };
+        let [positive, negative] = Side::BOTH.map(|side| backbone.side(side));
+        let name = rule.name();
+        match rule {
+            HysteresisRule::Takeda { exponent } if !(0.0..=1.0).contains(&exponent) => refuse(
+                Quantity::Rule,
+                None,
+                format!("the exponent of takeda must lie between 0 and 1, found {exponent}"),
+            ),
+            HysteresisRule::Bilinear if !backbone.is_bilinear() => refuse(
+                Quantity::Cracking,
+                None,
+                "has no place in a bilinear curve; leave it out, or use the rule normal".to_owned(),
+            ),
+            _ => {}
+        }
+        let one_second_slope = matches!(
+            rule,
+            HysteresisRule::Normal | HysteresisRule::DegradingTrilinear
+        );
+        if one_second_slope && positive.post_cracking != negative.post_cracking {
+            refuse(
+                Quantity::PostCracking,
+                Some(Side::Negative),
+                format!(
+                    "must be equal on both sides with the rule {name}; peak-oriented and takeda allow any"
+                ),
+            );
+        }
+        let one_third_slope = matches!(rule, HysteresisRule::Normal | HysteresisRule::Bilinear);
+        if one_third_slope && positive.post_yield != negative.post_yield {
+            refuse(
+                Quantity::PostYield,
+                Some(Side::Negative),
+                format!(
+                    "must be equal on both sides with the rule {name}; peak-oriented and takeda allow any"
+                ),
+            );
+        }
+        if rule == HysteresisRule::DegradingTrilinear {
+            for side in Side::BOTH {
+                let curve = backbone.side(side);
+                let three = curve.post_cracking < backbone.initial()
+                    && curve.cracking.deformation < curve.yielding.deformation;
+                if !three {
+                    refuse(
+                        Quantity::Cracking,
+                        Some(side),
+                        "must lie below yield, with post_cracking below 1: the loops of d-tri live between the two".to_owned(),
+                    );
+                }
+            }
+        }
+        if faults.is_empty() {
+            Ok(Self { rule, backbone })
+        } else {
+            Err(faults)
+        }
+    }
+
+    /// The rule.
+    #[must_use]
+    pub fn rule(&self) -> HysteresisRule {
+        self.rule
+    }
+
+    /// The curve of first loading.
+    #[must_use]
+    pub fn backbone(&self) -> &Backbone {
+        &self.backbone
+    }
+
+    /// The same spring seen from its other end: sides exchanged.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        Self {
+            rule: self.rule,
+            backbone: self.backbone.mirrored(),
+        }
+    }
+
+    /// Force, tangent and work on the straight way from the committed deformation to a trial one.
+    ///
+    /// Where nothing moves the committed force is returned with the tangent of unloading: the right one to begin
+    /// a step with, since only the step itself can show that loading goes on.
+    #[must_use]
+    #[inline]
+    pub fn respond(&self, memory: &HysteresisMemory, deformation: f64) -> Response {
+        let change = deformation - memory.deformation;
+        if change == 0.0 {
+            return Response {
+                force: memory.force,
+                tangent: self.unloading_stiffness(memory),
+                work: 0.0,
+                memory: *memory,
+            };
+        }
+        let side = Side::of(change);
+        let mut response = match self.rule {
+            HysteresisRule::Elastic => elastic(&self.backbone, memory, deformation),
+            HysteresisRule::Bilinear | HysteresisRule::Normal => {
+                sliders::respond(&self.backbone, memory, deformation)
+            }
+            HysteresisRule::PeakOriented => {
+                oriented::respond(&self.backbone, None, memory, deformation)
+            }
+            HysteresisRule::Takeda { exponent } => {
+                oriented::respond(&self.backbone, Some(exponent), memory, deformation)
+            }
+            HysteresisRule::DegradingTrilinear => {
+                degrading::respond(&self.backbone, memory, deformation)
+            }
+        };
+        response.memory.deformation = deformation;
+        response.memory.force = response.force;
+        let extreme = &mut response.memory.extremes[side.index()];
+        *extreme = extreme.max(side.sign() * deformation);
+        response
+    }
+
+    /// Slope on which the spring would turn back from where it is \[N·m/rad or N/m\].
+    #[must_use]
+    pub fn unloading_stiffness(&self, memory: &HysteresisMemory) -> f64 {
+        match self.rule {
+            HysteresisRule::Takeda { exponent } => {
+                oriented::unloading_stiffness(&self.backbone, Some(exponent), memory)
+            }
+            HysteresisRule::DegradingTrilinear => {
+                degrading::factor(&self.backbone, memory) * self.backbone.initial()
+            }
+            _ => self.backbone.initial(),
+        }
+    }
+
+    /// Energy that unloading to zero force would give back, F² / 2k, ≥ 0 \[J\]. The work done on the spring less
+    /// this is what it has dissipated.
+    #[must_use]
+    pub fn recoverable_energy(&self, memory: &HysteresisMemory) -> f64 {
+        0.5 * memory.force * memory.force / self.unloading_stiffness(memory)
+    }
+
+    /// Deformation at which the straight line ends on which the spring moves on towards a side, turning back
+    /// if it must; infinite when that line never ends \[rad or m\].
+    #[must_use]
+    pub fn next_corner(&self, memory: &HysteresisMemory, towards: Side) -> f64 {
+        match self.rule {
+            HysteresisRule::Elastic => towards.sign() * f64::INFINITY,
+            HysteresisRule::Bilinear | HysteresisRule::Normal => {
+                sliders::next_corner(&self.backbone, memory, towards)
+            }
+            HysteresisRule::PeakOriented => {
+                oriented::next_corner(&self.backbone, None, memory, towards)
+            }
+            HysteresisRule::Takeda { exponent } => {
+                oriented::next_corner(&self.backbone, Some(exponent), memory, towards)
+            }
+            HysteresisRule::DegradingTrilinear => {
+                degrading::next_corner(&self.backbone, memory, towards)
+            }
+        }
+    }
+
+    /// Greatest deformation of a side over its yield deformation, ≥ 0 \[–\].
+    #[must_use]
+    pub fn ductility(&self, memory: &HysteresisMemory, side: Side) -> f64 {
+        memory.greatest(side) / self.backbone.side(side).yielding.deformation
+    }
+
+    /// How far the spring has ever been loaded, whichever the side. Elastic springs never crack.
+    #[must_use]
+    pub fn stage(&self, memory: &HysteresisMemory) -> Stage {
+        if self.rule == HysteresisRule::Elastic {
+            return Stage::Uncracked;
+        }
+        let of = |side: Side| {
+            let (curve, reached) = (self.backbone.side(side), memory.greatest(side));
+            if reached > curve.yielding.deformation {
+                Stage::Yielded
+            } else if reached > curve.cracking.deformation {
+                Stage::Cracked
+            } else {
+                Stage::Uncracked
+            }
+        };
+        of(Side::Positive).max(of(Side::Negative))
+    }
+}
+
+fn elastic(backbone: &Backbone, memory: &HysteresisMemory, deformation: f64) -> Response {
+    let force = backbone.initial() * deformation;
+    Response {
+        force,
+        tangent: backbone.initial(),
+        work: 0.5 * (force + memory.force) * (deformation - memory.deformation),
+        memory: *memory,
+    }
+}

@@ -1,0 +1,131 @@
+//! Sudden changes of velocity: what the momentum law does to two buildings (docs/contact.md, N1 and N2).
+
+use super::simulation::Simulation;
+use super::{StepEquations, StepMatrix};
+use crate::contact::momentum;
+use crate::history::Impact;
+use crate::system::BuildingSystem;
+
+/// K + G M with G so large that massive degrees of freedom do not give way: what massless ones do when those move.
+pub(super) struct BlowFactor<E: StepEquations> {
+    factor: E::Factor,
+    mass_factor: f64,
+}
+
+/// How much larger G M is than K.
+const HEAVY: f64 = 1e13;
+
+impl<E: StepEquations> BlowFactor<E> {
+    /// `None` when every degree of freedom has mass, or nothing can be said about the others.
+    fn of(building: &BuildingSystem, equations: &E) -> Option<Self> {
+        let own = &building.equations;
+        let stiffest = own.mass.iter().zip(&own.stiffness.diagonal);
+        let stiffest = stiffest
+            .filter(|(mass, _)| **mass > 0.0)
+            .map(|(mass, stiffness)| stiffness / mass)
+            .fold(0.0, f64::max);
+        let mass_factor = HEAVY * stiffest.max(1.0);
+        let mut factor = E::Factor::default();
+        equations
+            .factorize(
+                &StepMatrix::new(1.0, mass_factor),
+                &own.initial_tangents(),
+                &mut factor,
+            )
+            .ok()
+            .map(|()| Self {
+                factor,
+                mass_factor,
+            })
+    }
+
+    /// Lets massless degrees of freedom follow a change of the massive ones.
+    fn follow(&self, equations: &E, mass: &[f64], change: &mut [f64]) {
+        let mut load: Vec<f64> = mass
+            .iter()
+            .zip(change.iter())
+            .map(|(mass, change)| self.mass_factor * mass * change)
+            .collect();
+        equations.solve(&self.factor, &mut load);
+        for ((change, followed), mass) in change.iter_mut().zip(&load).zip(mass) {
+            if *mass == 0.0 {
+                *change = *followed;
+            }
+        }
+    }
+}
+
+impl<E: StepEquations> Simulation<'_, E> {
+    /// A contact closing at `rate` opens at once with `restitution` times that.
+    pub(super) fn blow(&mut self, index: usize, restitution: f64, rate: f64) {
+        let contact = &self.system.contacts[index];
+        let mass = contact.effective_mass();
+        let impulse = momentum::impulse(restitution, mass, rate);
+        for (side, push) in [(0, -impulse), (1, impulse)] {
+            self.push_at_once(
+                contact.buildings[side],
+                contact.dofs[side],
+                push / contact.masses[side],
+            );
+        }
+        let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);
+        self.audit.contact += dissipated;
+        let time = self.state.time;
+        self.impacts.push(Impact {
+            contact: index,
+            start: time,
+            end: time,
+            peak_force: 0.0,
+            peak_force_at: time,
+            peak_indentation: 0.0,
+            impact_speed: rate,
+            separation_speed: restitution * rate,
+            finished: true,
+            impulse,
+            dissipated,
+        });
+    }
+
+    /// Changes the velocity of one degree of freedom, of the massless ones that hang on it, and the accelerations by
+    /// what the dampers then say: M Δa = −(α M + β K + C′) Δv.
+    fn push_at_once(&mut self, building: usize, dof: usize, change: f64) {
+        let system = &self.system.buildings[building];
+        let (range, own) = (system.range(), &system.equations);
+        let mut velocity = vec![0.0; own.len()];
+        velocity[dof - system.offset] = change;
+        let massless = own.mass.contains(&0.0);
+        if massless && self.blows[building].is_none() {
+            self.blows[building] = BlowFactor::of(system, &self.equations[building]);
+            self.work.factorizations += 1;
+        }
+        let follow = |motion: &mut [f64]| {
+            if let Some(blow) = self.blows[building].as_ref().filter(|_| massless) {
+                blow.follow(&self.equations[building], &own.mass, motion);
+            }
+        };
+        follow(&mut velocity);
+        let mut acceleration = vec![0.0; own.len()];
+        if own.beta > 0.0 {
+            own.stiffness.multiply_add(&velocity, &mut acceleration);
+            acceleration.iter_mut().for_each(|force| *force *= own.beta);
+        }
+        own.dashpots.multiply_add(&velocity, &mut acceleration);
+        for ((a, v), mass) in acceleration.iter_mut().zip(&velocity).zip(&own.mass) {
+            *a = if *mass > 0.0 {
+                -own.alpha * v - *a / mass
+            } else {
+                0.0
+            };
+        }
+        follow(&mut acceleration);
+        self.work.solves += if massless { 2 } else { 0 };
+        let velocities = self.state.velocity[range.clone()].iter_mut();
+        velocities
+            .zip(&velocity)
+            .for_each(|(v, change)| *v += change);
+        let accelerations = self.state.acceleration[range].iter_mut();
+        accelerations
+            .zip(&acceleration)
+            .for_each(|(a, change)| *a += change);
+    }
+}

@@ -1,0 +1,134 @@
+//! Contact forces where Newton's method finds none: one contact after the other, each by bisection.
+
+use super::coupling::{Closed, ContactEquations};
+
+/// Rounds over all contacts.
+const ROUNDS: u64 = 4000;
+/// Change of the forces, relative to the greatest, after which they have settled.
+const SETTLED: f64 = 1e-13;
+
+impl ContactEquations {
+    /// Solves δ + W f(δ, δ̇) = δ_free contact by contact, round after round. This is the descent of a strictly convex
+    /// function along its coordinates, so it converges, if slowly. Where a force jumps, as that of a dashpot at
+    /// δ = 0, the solution may lie on the jump: the force is then what equilibrium asks for, between both ends.
+    /// Returns the rounds.
+    pub(super) fn settle(&mut self) -> Option<u64> {
+        let n = self.closed.len();
+        for closed in &mut self.closed {
+            (closed.indentation, closed.force) = (closed.free, 0.0);
+        }
+        for round in 1..=ROUNDS {
+            let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
+            for i in 0..n {
+                let others: f64 = (0..n)
+                    .filter(|j| *j != i)
+                    .map(|j| self.compliance[i * n + j] * self.closed[j].force)
+                    .sum();
+                let own = self.compliance[i * n + i];
+                let before = self.closed[i].force;
+                settle_one(&mut self.closed[i], own, others);
+                let force = self.closed[i].force;
+                change = change.max((force - before).abs());
+                greatest = greatest.max(force.abs());
+            }
+            if !greatest.is_finite() {
+                return None;
+            }
+            if change <= SETTLED * greatest {
+                return Some(round);
+            }
+        }
+        None
+    }
+}
+
+/// The zero of δ + w F(δ) − (δ_free − others), which rises with δ.
+fn settle_one(closed: &mut Closed, own_compliance: f64, opened_by_others: f64) {
+    let free = closed.free - opened_by_others;
+    let force = |indentation: f64| {
+        let rate = closed.free_rate + closed.rate_gain * (indentation - closed.free);
+        closed.law.follow(indentation, rate, &closed.memory).force
+    };
+    // The force cannot be greater than at `free`, so the indentation cannot be less than this.
+    let other = free - own_compliance * force(free);
+    let (mut low, mut high) = (free.min(other), free.max(other));
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if middle + own_compliance * force(middle) > free {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    closed.indentation = high;
+    closed.force = if own_compliance > 0.0 {
+        (free - high) / own_compliance
+    } else {
+        force(high)
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::ForceLaw;
+
+    fn closed(law: ForceLaw, contact: usize, free: f64, free_rate: f64) -> Closed {
+        Closed {
+            contact,
+            law,
+            memory: law.touch(0.5),
+            free,
+            free_rate,
+            rate_gain: 2e4,
+            indentation: free,
+            force: 0.0,
+            start_slope: 0.0,
+            turn: None,
+            start_acceleration: 0.0,
+        }
+    }
+
+    #[test]
+    fn settling_and_newton_agree() {
+        let law = ForceLaw::Hertz {
+            stiffness: 2e9,
+            damping: 0.4,
+        };
+        let mut equations = ContactEquations::default();
+        equations.closed = vec![closed(law, 0, 4e-3, 0.3), closed(law, 1, 6e-3, -0.1)];
+        equations.compliance = vec![2e-9, -8e-10, -8e-10, 3e-9];
+        equations.solve().expect("Newton converges");
+        let newton: Vec<f64> = equations.closed.iter().map(|c| c.force).collect();
+        equations.settle().expect("it settles");
+        for (closed, expected) in equations.closed.iter().zip(newton) {
+            assert!(
+                (closed.force / expected - 1.0).abs() < 1e-9,
+                "{} against {expected}",
+                closed.force
+            );
+        }
+    }
+
+    /// A dashpot that does not pull pushes with any force up to c δ̇ at δ = 0; none of the two ends is a solution.
+    #[test]
+    fn a_solution_on_a_jump_is_found() {
+        let law = ForceLaw::Kelvin {
+            stiffness: 1e8,
+            damping: 4e6,
+            tension: false,
+        };
+        // Without force it would be 1 µm in and still closing; the full dashpot would throw it out.
+        let mut equations = ContactEquations::default();
+        equations.closed = vec![closed(law, 0, 1e-6, 0.4)];
+        equations.compliance = vec![1e-11];
+        equations.closed[0].rate_gain = 100.0;
+        equations.solve().expect("the forces are found");
+        let found = equations.closed[0];
+        assert!((found.force / 1e5 - 1.0).abs() < 1e-9, "{found:?}");
+        assert!(found.indentation.abs() < 1e-15, "{found:?}");
+    }
+}

@@ -1,0 +1,333 @@
+//! Springs that yield: the outer iteration of a step (theory, Eqs. Y1 to Y3).
+//!
+//! Every spring is a straight line near its last known point, m = m_r + k_t (δ − δ_r). The step is solved, contacts
+//! included, and repeated with the lines at the new deformations until every spring lies on the line it was solved
+//! with. Forces rise with deformation, so that the step has one solution; lines are finite in number, so that it is
+//! reached exactly.
+
+use super::StepEquations;
+use super::outcome::StepError;
+use super::simulation::Simulation;
+use crate::history::{SpringEvent, SpringTotals};
+use crate::hysteresis::{HysteresisMemory, Response, Stage};
+use crate::state::State;
+use crate::system::{BuildingSystem, System};
+
+/// A spring in the tried step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct SpringTrial {
+    /// Where the line was laid: deformation and force.
+    deformation: f64,
+    force: f64,
+    tangent: f64,
+    /// Force with which the solution before was balanced there.
+    balance: f64,
+    /// What the solution made of it: deformation, force on the line, and the answer of the rule.
+    reached: f64,
+    on_line: f64,
+    answer: f64,
+    next_tangent: f64,
+    pub(super) memory: HysteresisMemory,
+}
+
+impl SpringTrial {
+    /// How far the rule is from the line, as a share of the force of yield.
+    fn misfit(&self, yield_force: f64) -> f64 {
+        (self.answer - self.on_line).abs() / yield_force.max(self.answer.abs())
+    }
+}
+
+/// Everything a run keeps about its springs that yield.
+#[derive(Clone, Debug, Default)]
+pub(super) struct YieldingSprings {
+    pub(super) trials: Vec<SpringTrial>,
+    /// Slopes on which the springs went on after the last step.
+    pub(super) tangents: Vec<f64>,
+    /// Those of the lines now tried.
+    wanted: Vec<f64>,
+    /// Forces with which the last step was balanced; the rules' own differ by rounding.
+    balanced: Vec<f64>,
+    /// Loads of the step without springs.
+    loads: Vec<f64>,
+    stages: Vec<Stage>,
+    /// Cracks and first yields so far.
+    pub(super) events: Vec<SpringEvent>,
+    /// Greatest force and work of every spring.
+    pub(super) totals: Vec<SpringTotals>,
+}
+
+impl YieldingSprings {
+    pub(super) fn starting_from(system: &System, state: &State) -> Self {
+        let springs = || {
+            let buildings = system.buildings.iter();
+            buildings.flat_map(|building| &building.equations.springs)
+        };
+        let count = springs().count();
+        if count == 0 {
+            return Self::default();
+        }
+        let known = || springs().zip(&state.springs);
+        Self {
+            trials: vec![SpringTrial::default(); count],
+            tangents: known()
+                .map(|(spring, memory)| spring.hysteresis.unloading_stiffness(memory))
+                .collect(),
+            wanted: vec![0.0; count],
+            balanced: state.springs.iter().map(HysteresisMemory::force).collect(),
+            loads: vec![0.0; system.len()],
+            stages: known()
+                .map(|(spring, memory)| spring.hysteresis.stage(memory))
+                .collect(),
+            events: Vec::with_capacity(2 * count),
+            totals: known()
+                .map(|(spring, memory)| SpringTotals {
+                    peak_force: memory.force().abs(),
+                    work: spring.hysteresis.recoverable_energy(memory),
+                })
+                .collect(),
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.trials.is_empty()
+    }
+}
+
+/// Share of the force of yield by which a spring may miss the line it was solved with.
+const FIT: f64 = 1e-12;
+/// Iterations before the direction of Newton's method is searched for the best point on it.
+const PLAIN_ITERATIONS: usize = 8;
+/// Iterations before the step is given up.
+const MOST_ITERATIONS: usize = 30;
+/// Bisections of the way.
+const HALVINGS: usize = 12;
+
+impl<E: StepEquations> Simulation<'_, E> {
+    /// Solves the step whose loads stand in `rise`, springs and contacts together.
+    pub(super) fn find_spring_forces(&mut self, slot: usize) -> Result<(), StepError> {
+        self.yielding.loads.copy_from_slice(&self.rise);
+        self.lay_first_lines();
+        for iteration in 1..=MOST_ITERATIONS {
+            self.retune(slot)?;
+            self.rise.copy_from_slice(&self.yielding.loads);
+            self.add_spring_loads(slot);
+            self.factors[slot].solve(self.system, &self.equations, &mut self.rise, &mut self.work);
+            self.solve_contacts(slot)?;
+            self.work.outer_iterations += 1;
+            if self.follow_springs(slot) <= FIT {
+                return Ok(());
+            }
+            if iteration > PLAIN_ITERATIONS {
+                self.search_on_the_way();
+            }
+            for trial in &mut self.yielding.trials {
+                trial.deformation = trial.reached;
+                trial.force = trial.answer;
+                trial.tangent = trial.next_tangent;
+                trial.balance = trial.on_line;
+            }
+        }
+        Err(StepError::SpringsDiverged {
+            building: self.worst_building(),
+            time: self.state.time,
+        })
+    }
+
+    /// Lines through the committed points, with the tangents of the last step: most springs go on as they were.
+    fn lay_first_lines(&mut self) {
+        for (trial, memory) in self.yielding.trials.iter_mut().zip(&self.state.springs) {
+            trial.deformation = memory.deformation();
+            trial.force = memory.force();
+        }
+        for (trial, tangent) in self.yielding.trials.iter_mut().zip(&self.yielding.tangents) {
+            trial.tangent = *tangent;
+        }
+    }
+
+    /// Brings the factors of a slot up to the tangents of the present lines.
+    fn retune(&mut self, slot: usize) -> Result<(), StepError> {
+        let tangents = self.yielding.trials.iter().map(|trial| trial.tangent);
+        for (place, tangent) in self.yielding.wanted.iter_mut().zip(tangents) {
+            *place = tangent;
+        }
+        self.factors[slot]
+            .retune(
+                self.system,
+                &self.equations,
+                &self.yielding.wanted,
+                &mut self.work,
+            )
+            .map_err(|(building, source)| StepError::NotPositive {
+                building: self.system.buildings[building].name.clone(),
+                time: self.state.time,
+                source,
+            })
+    }
+
+    /// −(m_r − m) + k_t (δ_r − δ) + s k_t gᵀ D′ of every spring (theory, Eq. Y2).
+    fn add_spring_loads(&mut self, slot: usize) {
+        let factors = &self.factors[slot];
+        let k = factors.coefficients;
+        for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
+            let (range, springs) = (building.range(), building.spring_range());
+            let (v, a) = (
+                &self.state.velocity[range.clone()],
+                &self.state.acceleration[range.clone()],
+            );
+            let load = &mut self.rise[range];
+            let now = self.state.springs[springs.clone()]
+                .iter()
+                .zip(&self.yielding.balanced[springs.clone()]);
+            let trials = &self.yielding.trials[springs];
+            for ((spring, trial), (memory, balanced)) in
+                building.equations.springs.iter().zip(trials).zip(now)
+            {
+                let drift = k.d_v * spring.deformation(v) + k.d_a * spring.deformation(a);
+                let force = balanced - trial.force
+                    + trial.tangent
+                        * (trial.deformation - memory.deformation() + own.shift * drift);
+                spring.push(force, load);
+            }
+        }
+    }
+
+    /// Deformations at the end of the tried step and what the rules answer; returns the greatest misfit.
+    fn follow_springs(&mut self, slot: usize) -> f64 {
+        let factors = &self.factors[slot];
+        let k = factors.coefficients;
+        let mut worst = 0.0_f64;
+        for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
+            let (range, springs) = (building.range(), building.spring_range());
+            let (v, a) = (
+                &self.state.velocity[range.clone()],
+                &self.state.acceleration[range.clone()],
+            );
+            let rise = &self.rise[range];
+            let memories = &self.state.springs[springs.clone()];
+            for ((spring, trial), memory) in building
+                .equations
+                .springs
+                .iter()
+                .zip(&mut self.yielding.trials[springs])
+                .zip(memories)
+            {
+                let drift = k.d_v * spring.deformation(v) + k.d_a * spring.deformation(a);
+                let change = spring.deformation(rise) - own.shift * drift;
+                trial.reached = memory.deformation() + change;
+                trial.on_line = trial.force + trial.tangent * (trial.reached - trial.deformation);
+                let Response {
+                    force,
+                    tangent,
+                    memory,
+                    ..
+                } = spring.hysteresis.respond(memory, trial.reached);
+                (trial.answer, trial.next_tangent, trial.memory) = (force, tangent, memory);
+                let yield_force = spring.hysteresis.backbone().yield_force();
+                let misfit = trial.misfit(yield_force);
+                worst = worst.max(if misfit.is_nan() {
+                    f64::INFINITY
+                } else {
+                    misfit
+                });
+            }
+        }
+        worst
+    }
+
+    /// Goes back from the deformations reached to where the potential of the step is least on the way to them: its
+    /// slope there is Σ Δδ (m(δ) − m̃), m̃ being the forces that balance the rest of the step (theory, Eq. Y3).
+    fn search_on_the_way(&mut self) {
+        let slope = |share: f64, simulation: &Self| -> f64 {
+            let springs = simulation
+                .system
+                .buildings
+                .iter()
+                .flat_map(|building| &building.equations.springs);
+            let known = simulation
+                .yielding
+                .trials
+                .iter()
+                .zip(&simulation.state.springs);
+            springs
+                .zip(known)
+                .map(|(spring, (trial, memory))| {
+                    let way = trial.reached - trial.deformation;
+                    let at = trial.deformation + share * way;
+                    let balance = trial.balance + share * (trial.on_line - trial.balance);
+                    way * (spring.hysteresis.respond(memory, at).force - balance)
+                })
+                .sum()
+        };
+        // Contact forces do not lie on one line over the way: then simply half of it, and back from there.
+        let contacts = !self.coupling.closed.is_empty();
+        if !contacts && slope(1.0, self) <= 0.0 {
+            return;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..if contacts { 1 } else { HALVINGS } {
+            let middle = 0.5 * (low + high);
+            if contacts || slope(middle, self) > 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        let springs = self
+            .system
+            .buildings
+            .iter()
+            .flat_map(|building| &building.equations.springs);
+        let known = self.yielding.trials.iter_mut().zip(&self.state.springs);
+        for (spring, (trial, memory)) in springs.zip(known) {
+            trial.reached = trial.deformation + high * (trial.reached - trial.deformation);
+            trial.on_line = trial.balance + high * (trial.on_line - trial.balance);
+            let response = spring.hysteresis.respond(memory, trial.reached);
+            (trial.answer, trial.next_tangent) = (response.force, response.tangent);
+        }
+    }
+
+    /// Takes over what the springs did in the accepted step.
+    pub(super) fn commit_springs(&mut self) {
+        let springs = self
+            .system
+            .buildings
+            .iter()
+            .flat_map(|building| &building.equations.springs);
+        let time = self.state.time;
+        for (index, (spring, trial)) in springs.zip(&self.yielding.trials).enumerate() {
+            let memory = &mut self.state.springs[index];
+            let change = trial.reached - memory.deformation();
+            let work = 0.5 * (self.yielding.balanced[index] + trial.on_line) * change;
+            self.audit.springs += work;
+            *memory = trial.memory;
+            self.yielding.balanced[index] = trial.on_line;
+            self.yielding.tangents[index] = trial.next_tangent;
+            let stage = spring.hysteresis.stage(memory);
+            if stage > self.yielding.stages[index] {
+                self.yielding.stages[index] = stage;
+                self.yielding.events.push(SpringEvent {
+                    spring: index,
+                    stage,
+                    time,
+                });
+            }
+            let totals = &mut self.yielding.totals[index];
+            totals.peak_force = totals.peak_force.max(memory.force().abs());
+            totals.work += work;
+        }
+    }
+
+    fn worst_building(&self) -> String {
+        let worst = self.system.buildings.iter().max_by(|a, b| {
+            let misfit = |building: &BuildingSystem| {
+                let springs = building.equations.springs.iter();
+                springs
+                    .zip(&self.yielding.trials[building.spring_range()])
+                    .map(|(spring, trial)| trial.misfit(spring.hysteresis.backbone().yield_force()))
+                    .fold(0.0, f64::max)
+            };
+            misfit(a).total_cmp(&misfit(b))
+        });
+        worst.map_or_else(String::new, |building| building.name.clone())
+    }
+}
