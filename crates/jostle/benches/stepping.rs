@@ -38,6 +38,7 @@ fn row(buildings: usize, storeys: usize) -> Model {
         flexural_rigidity: 15e9 * width * depth.powi(3) / 12.0,
         axial_rigidity: None,
         line_mass,
+        shear_rigidity: None,
     };
     let building = |index: usize| Building {
         name: format!("B{index}"),
@@ -57,6 +58,9 @@ fn row(buildings: usize, storeys: usize) -> Model {
             alpha: 0.3,
             beta: 0.004,
         },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
     };
     let law = ContactLaw {
         kind: LawKind::HertzDamp,
@@ -73,6 +77,7 @@ fn row(buildings: usize, storeys: usize) -> Model {
                 width: 0.02,
                 floors: FloorPairs::Common,
                 law,
+                minimum_separation: 0.0,
             })
             .collect(),
         analysis: Analysis {
@@ -101,7 +106,11 @@ fn solve(bencher: Bencher, storeys: usize) {
     let sweep = RiccatiSweep::of(&building);
     let mut factor = RiccatiFactor::default();
     sweep
-        .factorize(1.0, 1e6, &mut factor)
+        .factorize(
+            &jostle::stepping::StepMatrix::new(1.0, 1e6),
+            &[],
+            &mut factor,
+        )
         .expect("positive definite");
     let load: Vec<f64> = (0..building.equations.len())
         .map(|i| (i as f64).sin())
@@ -121,7 +130,13 @@ fn factorize(bencher: Bencher, storeys: usize) {
     let building = frame(storeys);
     let sweep = RiccatiSweep::of(&building);
     let mut factor = RiccatiFactor::default();
-    bencher.bench_local(|| sweep.factorize(1.0, 1e6, &mut factor));
+    bencher.bench_local(|| {
+        sweep.factorize(
+            &jostle::stepping::StepMatrix::new(1.0, 1e6),
+            &[],
+            &mut factor,
+        )
+    });
 }
 
 #[divan::bench(args = STOREYS)]

@@ -19,6 +19,9 @@ fn towers() -> Model {
             ratio: 0.05,
             modes: vec![1, 2],
         },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
     };
     let law = ContactLaw {
         kind: LawKind::HertzDamp,
@@ -34,6 +37,7 @@ fn towers() -> Model {
             width: 0.03,
             floors: FloorPairs::Common,
             law,
+            minimum_separation: 0.0,
         }],
         analysis: Analysis::default(),
     }

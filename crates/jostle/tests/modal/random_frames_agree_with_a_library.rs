@@ -38,6 +38,7 @@ fn frames() -> impl Strategy<Value = Frame> {
                     },
                     joint: Joint {
                         rotational_stiffness: kind.2.map(|exponent| 10_f64.powf(exponent)),
+                        ..Joint::default()
                     },
                 },
             )

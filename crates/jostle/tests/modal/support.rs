@@ -53,7 +53,10 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
         } else {
             skeleton.hinges.push(Hinge {
                 ends,
-                rotational_stiffness: number(element, "Ktheta"),
+                rotational_stiffness: Some(number(element, "Ktheta")),
+                hysteresis: None,
+                dashpots: [0.0; 3],
+                proportional_damping: true,
                 translational_stiffness: [element["Kx"].as_f64(), element["Ky"].as_f64()],
             });
         }
@@ -66,6 +69,8 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
 
 pub(crate) fn assembled(skeleton: Skeleton, floors: Vec<usize>) -> BuildingSystem {
     let idealisation = Idealisation {
+        foot: None,
+        spring_places: Vec::new(),
         skeleton,
         left_face: floors.clone(),
         right_face: floors.clone(),
@@ -93,10 +98,9 @@ pub(crate) fn stacks(stacks: &[&[(f64, f64)]]) -> BuildingSystem {
         for (storey, &(mass, stiffness)) in floors_of_one.iter().enumerate() {
             let floor = node(storey + 1, mass, Support::Guided);
             if stiffness > 0.0 {
-                skeleton.springs.push(Spring {
-                    ends: [below, floor],
-                    stiffness,
-                });
+                skeleton
+                    .springs
+                    .push(Spring::elastic([below, floor], stiffness));
             }
             if line == 0 {
                 floors.push(floor);
@@ -118,6 +122,7 @@ pub(crate) fn section(width: f64, depth: f64) -> Section {
         flexural_rigidity: modulus * width * depth.powi(3) / 12.0,
         axial_rigidity: Some(modulus * width * depth),
         line_mass: density * width * depth,
+        shear_rigidity: None,
     }
 }
 
@@ -135,6 +140,7 @@ pub(crate) fn frame(storeys: usize, spans: &[f64]) -> Frame {
         axial: Axial::default(),
         joint: Joint {
             rotational_stiffness: Some(2e9),
+            ..Joint::default()
         },
     }
 }
@@ -147,6 +153,9 @@ pub(crate) fn framed(frame: Frame) -> BuildingSystem {
             alpha: 0.0,
             beta: 0.0,
         },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
     };
     BuildingSystem::new("frame", Idealisation::of(&building))
 }
@@ -164,10 +173,7 @@ pub(crate) fn joined(masses: usize, mass: f64, grounded: f64, joining: f64) -> B
     skeleton.nodes.push(node(0, 0.0, 0.0, Support::Fixed));
     for index in 1..=masses {
         skeleton.nodes.push(node(index, 3.0, mass, Support::Guided));
-        let spring = |from, stiffness| Spring {
-            ends: [from, index],
-            stiffness,
-        };
+        let spring = |from, stiffness| Spring::elastic([from, index], stiffness);
         skeleton.springs.push(spring(0, grounded));
         skeleton
             .springs
@@ -224,5 +230,6 @@ pub(crate) fn imbalance(building: &BuildingSystem, mode: &Mode) -> f64 {
 fn elastic_force(building: &BuildingSystem, shape: &[f64]) -> Vec<f64> {
     let mut force = vec![0.0; shape.len()];
     building.equations.stiffness.multiply_add(shape, &mut force);
+    building.equations.undamped.multiply_add(shape, &mut force);
     force
 }

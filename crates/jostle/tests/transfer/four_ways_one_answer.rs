@@ -59,7 +59,11 @@ fn a_factor_serves_many_loads_and_steps() {
     for step in [0.02, 0.01, 0.02] {
         let factors = step_factors([0.25, 0.5], step, [0.35, 0.0025]);
         solver
-            .factorize(factors.0, factors.1, &mut factor)
+            .factorize(
+                &jostle::stepping::StepMatrix::new(factors.0, factors.1),
+                &[],
+                &mut factor,
+            )
             .expect("the frame stands");
         for dof in [0, 7, building.equations.len() - 1] {
             let mut load = vec![0.0; building.equations.len()];

@@ -20,9 +20,13 @@ fn refusal_of(building: &BuildingSystem, change: impl FnOnce(&mut Skeleton)) -> 
     change(&mut idealisation.skeleton);
     let building = BuildingSystem::new("misfit", idealisation);
     let mut factor = <ProductEquations as StepEquations>::Factor::default();
-    let stepped = ProductEquations::of(&building).factorize(1.0, 1e4, &mut factor);
+    let stepped = ProductEquations::of(&building).factorize(
+        &jostle::stepping::StepMatrix::new(1.0, 1e4),
+        &[],
+        &mut factor,
+    );
     assert!(stepped.is_err(), "what the check refuses cannot be stepped");
-    match ProductEquations::check(&building, 1.0, 1e4) {
+    match ProductEquations::check(&building, &jostle::stepping::StepMatrix::new(1.0, 1e4)) {
         Err(ProductRefusal::NotAFrame(reason)) => reason,
         other => panic!("{other:?} instead of a refusal"),
     }
@@ -76,10 +80,7 @@ fn stray_nodes_and_elements_are_refused() {
     // A tie from the first to the last column line.
     let far = refusal(|skeleton| {
         let ends = [joint(skeleton, 0.0, 6.4), joint(skeleton, 10.0, 6.4)];
-        skeleton.springs.push(Spring {
-            ends,
-            stiffness: 1e6,
-        });
+        skeleton.springs.push(Spring::elastic(ends, 1e6));
     });
     assert!(matches!(far, NotAFrame::LooseElement { .. }), "{far}");
 }
@@ -106,7 +107,11 @@ fn a_head_that_no_beam_meets_is_refused() {
     let mut factor = <ElementwiseRiccati as StepEquations>::Factor::default();
     assert!(
         ElementwiseRiccati::of(&masted)
-            .factorize(1.0, 1e4, &mut factor)
+            .factorize(
+                &jostle::stepping::StepMatrix::new(1.0, 1e4),
+                &[],
+                &mut factor
+            )
             .is_ok()
     );
 }

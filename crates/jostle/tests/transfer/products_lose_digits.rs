@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use jostle::stepping::{ContactSteps, Newmark};
+use jostle::stepping::ContactSteps;
 use jostle::stiffness::DirectStiffness;
 use jostle::transfer::{ProductEquations, ProductRefusal, digits_left, measured_loss};
 use jostle::{GroundMotion, Plan, RiccatiSweep, RunEnd, Settings, Solver, System, simulate};
@@ -120,7 +120,12 @@ fn errors_grow_as_an_independent_program_found() {
         for &(step, error) in errors {
             let (kappa, g) = step_factors([0.25, 0.5], step, damping);
             let load = step_load(&building, g);
-            let loss = measured_loss(&building, kappa, g, &load).expect("the frame stands");
+            let loss = measured_loss(
+                &building,
+                &jostle::stepping::StepMatrix::new(kappa, g),
+                &load,
+            )
+            .expect("the frame stands");
             // The same rounding, not the same errors: other loads, other pivots.
             let apart = loss.log10() - error.log10();
             assert!(
@@ -149,7 +154,7 @@ fn the_estimate_foretells_the_error() {
         let building = frame(Variant::AxiallyRigid, &[4.0, 6.0], storeys, depth);
         for &(step, error) in errors.iter().filter(|(_, error)| *error <= 1e2) {
             let (kappa, g) = step_factors([0.25, 0.5], step, damping);
-            let foretold = -digits_left(&building, kappa, g);
+            let foretold = -digits_left(&building, &jostle::stepping::StepMatrix::new(kappa, g));
             assert!(
                 (foretold - error.log10()).abs() <= 1.5,
                 "{storeys} storeys of {depth} m columns, h = {step} s: 1e{foretold:.1}, not {error:e}"
@@ -167,8 +172,14 @@ fn the_estimate_holds_for_other_frames() {
             for step in [2e-2, 5e-3] {
                 let (kappa, g) = step_factors([0.25, 0.5], step, DAMPED);
                 let load = step_load(&building, g);
-                let loss = measured_loss(&building, kappa, g, &load).expect("the frame stands");
-                let foretold = -digits_left(&building, kappa, g);
+                let loss = measured_loss(
+                    &building,
+                    &jostle::stepping::StepMatrix::new(kappa, g),
+                    &load,
+                )
+                .expect("the frame stands");
+                let foretold =
+                    -digits_left(&building, &jostle::stepping::StepMatrix::new(kappa, g));
                 // Too few digits foretold cost a refusal, too many a wrong answer.
                 let pessimism = foretold - loss.log10();
                 assert!(
@@ -185,8 +196,14 @@ fn the_estimate_holds_for_shear_buildings() {
     for storeys in [2, 4, 6, 9, 12, 16, 20] {
         let building = tower(storeys);
         let (kappa, g) = step_factors([0.25, 0.5], 2e-2, DAMPED);
-        let loss = measured_loss(&building, kappa, g, &step_load(&building, g)).expect("it stands");
-        let pessimism = -digits_left(&building, kappa, g) - loss.log10();
+        let loss = measured_loss(
+            &building,
+            &jostle::stepping::StepMatrix::new(kappa, g),
+            &step_load(&building, g),
+        )
+        .expect("it stands");
+        let pessimism =
+            -digits_left(&building, &jostle::stepping::StepMatrix::new(kappa, g)) - loss.log10();
         assert!(
             (-1.5..=3.5).contains(&pessimism),
             "{storeys} storeys: {loss:e}, {pessimism:.1}"
@@ -204,7 +221,7 @@ fn eighty_storeys_at_ten_microseconds_are_for_riccati_alone() {
         &solution::<DirectStiffness>(&building, (kappa, g), &load),
     );
     assert!(apart <= 1e-8, "{apart:e}");
-    match ProductEquations::check(&building, kappa, g) {
+    match ProductEquations::check(&building, &jostle::stepping::StepMatrix::new(kappa, g)) {
         Err(ProductRefusal::DigitsLost {
             digits_left,
             wanted,
@@ -223,7 +240,8 @@ fn eighty_storeys_at_ten_microseconds_are_for_riccati_alone() {
 fn a_refusal_names_the_building_the_digits_and_the_way_out() {
     let building = frame(Variant::AxiallyRigid, &[4.0, 6.0], 10, COLUMN);
     let (kappa, g) = step_factors([0.25, 0.5], 1e-3, UNDAMPED);
-    let refusal = ProductEquations::check(&building, kappa, g).expect_err("too small a step");
+    let refusal = ProductEquations::check(&building, &jostle::stepping::StepMatrix::new(kappa, g))
+        .expect_err("too small a step");
     let text = refusal.to_string();
     for part in [
         "\"AxiallyRigid\"",
@@ -234,7 +252,10 @@ fn a_refusal_names_the_building_the_digits_and_the_way_out() {
         assert!(text.contains(part), "{part} in: {text}");
     }
     let (kappa, g) = step_factors([0.25, 0.5], 2e-2, UNDAMPED);
-    assert_eq!(ProductEquations::check(&building, kappa, g), Ok(()));
+    assert_eq!(
+        ProductEquations::check(&building, &jostle::stepping::StepMatrix::new(kappa, g)),
+        Ok(())
+    );
 }
 
 #[test]
@@ -246,7 +267,7 @@ fn a_run_by_products_repeats_a_run_by_riccati_where_it_may() {
         let plan = Plan {
             step,
             contact_steps: ContactSteps::Fixed(1),
-            newmark: Newmark::default(),
+            integrator: jostle::Integrator::default(),
             solver,
         };
         let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| {
@@ -258,12 +279,12 @@ fn a_run_by_products_repeats_a_run_by_riccati_where_it_may() {
     let by_steps = |step| difference(&run(Solver::Product, step), &run(Solver::Riccati, step));
     for step in [0.02, 0.005] {
         assert_eq!(
-            ProductEquations::check_step(&building, Newmark::default(), step),
+            ProductEquations::check_step(&building, jostle::Integrator::default(), step),
             Ok(())
         );
         let apart = by_steps(step);
         assert!(apart > 0.0 && apart < 1e-7, "h = {step} s: {apart:e}");
     }
-    let refused = ProductEquations::check_step(&building, Newmark::default(), 2e-4);
+    let refused = ProductEquations::check_step(&building, jostle::Integrator::default(), 2e-4);
     assert!(refused.is_err(), "0.2 ms leave nothing");
 }

@@ -39,6 +39,7 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
         flexural_rigidity: MODULUS * width * depth.powi(3) / 12.0,
         axial_rigidity: Some(MODULUS * width * depth),
         line_mass: 2500.0 * width * depth,
+        shear_rigidity: None,
     };
     let beam = section(0.3, 0.6);
     let flexible = [Variant::FlexibleMembers, Variant::Timoshenko].contains(&variant);
@@ -59,12 +60,16 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
             },
             joint: Joint {
                 rotational_stiffness: (variant != Variant::NoHinges).then_some(1.0),
+                ..Joint::default()
             },
         }),
         damping: Damping::Rayleigh {
             alpha: 0.0,
             beta: 0.0,
         },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
     };
     let mut idealisation = Idealisation::of(&building);
     let skeleton = &mut idealisation.skeleton;
@@ -82,7 +87,7 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
             lines.contains(&skeleton.nodes[hinge.ends[0]].x),
             "hinges are at joints"
         );
-        hinge.rotational_stiffness = 50.0 * 6.0 * beam.flexural_rigidity / span;
+        hinge.rotational_stiffness = Some(50.0 * 6.0 * beam.flexural_rigidity / span);
     }
     for member in &mut skeleton.members {
         let [a, b] = member.ends.map(|end| skeleton.nodes[end]);
@@ -115,6 +120,9 @@ pub(crate) fn tower(storeys: usize) -> BuildingSystem {
             alpha: 0.0,
             beta: 0.0,
         },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
     };
     BuildingSystem::new(&building.name, Idealisation::of(&building))
 }
@@ -150,7 +158,11 @@ pub(crate) fn solution<E: StepEquations>(
     let solver = E::of(building);
     let mut factor = E::Factor::default();
     solver
-        .factorize(kappa, g, &mut factor)
+        .factorize(
+            &jostle::stepping::StepMatrix::new(kappa, g),
+            &[],
+            &mut factor,
+        )
         .expect("the frame stands");
     let mut answer = load.to_vec();
     solver.solve(&factor, &mut answer);

@@ -28,8 +28,11 @@ fn assert_sound(outcome: &Outcome, what: &str) {
         largest(&outcome.state.displacement)
     );
     for impact in &outcome.impacts {
+        // The momentum law knows no force; its blows take no time.
+        let blow = impact.peak_force == 0.0 && impact.start == impact.end;
         assert!(
-            impact.start < impact.end && impact.peak_force > 0.0,
+            (blow && impact.impulse > 0.0)
+                || (impact.start < impact.end && impact.peak_force > 0.0),
             "{what}: {impact:?}"
         );
     }
@@ -136,7 +139,8 @@ fn any_restitution_is_possible() {
                 let mut model = two_frames(0.01, law);
                 if model.check().is_err() {
                     assert!(
-                        kind == LawKind::KelvinNoTension && restitution < 0.2,
+                        matches!(kind, LawKind::KelvinNoTension | LawKind::Bilinear(_))
+                            && restitution < 0.25,
                         "{what} is refused"
                     );
                     continue;
@@ -155,7 +159,10 @@ fn any_restitution_is_possible() {
                     &law,
                 );
                 let plan = Plan {
-                    contact_steps: ContactSteps::PerImpact(400.0),
+                    contact_steps: ContactSteps::PerImpact {
+                        steps: 400.0,
+                        tolerance: 1e-5,
+                    },
                     ..steps(1e-3, 1)
                 };
                 let outcome = run_from(
@@ -225,7 +232,7 @@ fn tiny_landing_steps_do_not_disturb() {
                 (impact.impact_speed - 0.5).abs() < 1e-9,
                 "{kind:?}, off by {off:e} m: {impact:?}"
             );
-            impact.peak_force
+            impact.impulse
         };
         let exactly = peak(0.0);
         for off in [
@@ -234,7 +241,7 @@ fn tiny_landing_steps_do_not_disturb() {
             let near = peak(off);
             assert!(
                 (near / exactly - 1.0).abs() < 1e-3,
-                "{kind:?}, off by {off:e} m: {near} N against {exactly} N"
+                "{kind:?}, off by {off:e} m: {near} N·s against {exactly} N·s"
             );
         }
     }
@@ -246,6 +253,10 @@ fn lasting_contact_settles_on_its_static_force() {
     let (m1, k1, m2, k2): (f64, f64, f64, f64) = (3e4, 1e6, 5e4, 2e7);
     let (gap, acceleration) = (0.01, -1.0);
     for kind in LAWS {
+        if matches!(kind, LawKind::Bilinear(_)) {
+            // Friction inside: it rests anywhere between loading and unloading.
+            continue;
+        }
         let law = law(kind, 0.65);
         let mut left = slider("left", m1, Some(k1));
         let mut right = slider("right", m2, Some(k2));
@@ -299,7 +310,10 @@ fn bodies_of_very_different_mass_meet() {
             );
             let state = moving(&system, &[0.0, 0.0], &[0.5, 0.0]);
             let plan = Plan {
-                contact_steps: ContactSteps::PerImpact(200.0),
+                contact_steps: ContactSteps::PerImpact {
+                    steps: 200.0,
+                    tolerance: 1e-4,
+                },
                 ..steps(1e-3, 1)
             };
             let outcome = run_from(&system, &still(0.1), &plan, state);

@@ -2,6 +2,8 @@
 
 mod a_row_of_three_buildings;
 mod bad_models_are_refused;
+mod base_gravity_and_shifted_equilibrium;
+mod contact_laws;
 mod energy_balances;
 mod extremes_are_survived;
 mod forces_never_pull;
@@ -12,3 +14,4 @@ mod riccati_equals_direct_stiffness;
 mod same_input_same_bits;
 mod support;
 mod wide_gap_leaves_buildings_independent;
+mod yielding_frames;

@@ -106,10 +106,7 @@ fn linear_acceleration_is_second_order_too() {
     let truth = exact(omega, 0.0, 0.01, &points)[100];
     let error = |step: f64| {
         let plan = Plan {
-            newmark: jostle::stepping::Newmark {
-                beta: 1.0 / 6.0,
-                gamma: 0.5,
-            },
+            integrator: jostle::Integrator::newmark(1.0 / 6.0, 0.5),
             ..steps(step, 1)
         };
         (run(&system, &motion, &plan).state.displacement[0] - truth).abs()

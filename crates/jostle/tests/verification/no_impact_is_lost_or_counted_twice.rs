@@ -26,6 +26,10 @@ fn impacts_start_before_they_end_and_follow_each_other() {
                 .filter(|impact| impact.contact == contact)
                 .collect();
             for impact in &own {
+                if kind == LawKind::Restitution && impact.peak_force == 0.0 {
+                    assert!(impact.start == impact.end && impact.impulse > 0.0);
+                    continue;
+                }
                 assert!(impact.start < impact.end, "{kind:?}: {impact:?}");
                 assert!(
                     impact.start <= impact.peak_force_at && impact.peak_force_at <= impact.end,
@@ -107,6 +111,12 @@ fn a_step_ends_on_every_touch() {
 fn impulse_is_the_change_of_momentum_of_free_masses() {
     let masses = [3e4, 5e4];
     for kind in LAWS {
+        let mut law = law(kind, 0.6);
+        let mut duration = 0.12;
+        if matches!(kind, LawKind::Rubber(_)) {
+            // Soft as it is, it would take 0.3 s.
+            (law.stiffness, duration) = (5e9, 0.15);
+        }
         for (speeds, gap) in [
             ([0.5, -0.2], 0.003),
             ([0.4, 0.1], 0.0),
@@ -118,12 +128,12 @@ fn impulse_is_the_change_of_momentum_of_free_masses() {
                     slider("right", masses[1], None),
                 ],
                 gap,
-                &law(kind, 0.6),
+                &law,
             );
             // Until shortly after the impact: a free body forgets no rounding.
             let outcome = run_from(
                 &system,
-                &still(0.12),
+                &still(duration),
                 &steps(5e-4, 1),
                 moving(&system, &[0.0, 0.0], &speeds),
             );
@@ -180,12 +190,18 @@ fn work_of_the_contact_is_the_energy_lost() {
         let met = 0.5 * effective_mass(masses[0], masses[1]) * impact.impact_speed.powi(2);
         let e = if kind.is_dissipative() { 0.6 } else { 1.0 };
         let lost = met * (1.0 - e * e);
+        // The force of Jankowski's law rises as t^¼ at the touch: of order 1¼ only.
+        let tolerance = if kind == LawKind::Jankowski {
+            1e-3
+        } else {
+            1e-4
+        };
         assert!(
-            (impact.dissipated - lost).abs() <= 1e-4 * met,
+            (impact.dissipated - lost).abs() <= tolerance * met,
             "{kind:?}: {impact:?}, expected {lost} J"
         );
         assert!(
-            (impact.realised_restitution() - e).abs() <= 1e-4,
+            (impact.realised_restitution() - e).abs() <= tolerance,
             "{kind:?}: {impact:?}"
         );
     }
@@ -245,7 +261,10 @@ fn a_short_touch_between_two_steps_is_found() {
         state.acceleration.fill(0.0);
         // Coarse steps swing as far as exact ones: the rule conserves energy.
         let plan = Plan {
-            contact_steps: ContactSteps::PerImpact(60.0),
+            contact_steps: ContactSteps::PerImpact {
+                steps: 60.0,
+                tolerance: 5e-4,
+            },
             ..steps(step, 1)
         };
         let outcome = run_from(&system, &still(0.45), &plan, state);

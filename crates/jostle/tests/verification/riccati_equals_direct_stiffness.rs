@@ -17,7 +17,11 @@ fn solution<E: StepEquations>(building: &BuildingSystem, step: f64, load: &[f64]
     let solver = E::of(building);
     let mut factor = E::Factor::default();
     solver
-        .factorize(1.0 + beta * c, a + alpha * c, &mut factor)
+        .factorize(
+            &jostle::stepping::StepMatrix::new(1.0 + beta * c, a + alpha * c),
+            &[],
+            &mut factor,
+        )
         .expect("the frame stands");
     let mut answer = load.to_vec();
     solver.solve(&factor, &mut answer);

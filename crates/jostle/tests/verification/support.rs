@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use jostle::skeleton::{Idealisation, Node, Skeleton, Spring, Support};
-use jostle::stepping::{ContactSteps, Newmark, simulate_from};
+use jostle::stepping::{ContactSteps, simulate_from};
 use jostle::system::{BuildingSystem, Contact};
 use jostle::{
     Analysis, Axial, Building, Column, ContactLaw, Damping, FloorPairs, Frame, Gap, GroundMotion,
@@ -13,13 +13,7 @@ use jostle::{
 };
 
 /// All contact laws.
-pub(crate) const LAWS: [LawKind; 5] = [
-    LawKind::Linear,
-    LawKind::Kelvin,
-    LawKind::KelvinNoTension,
-    LawKind::Hertz,
-    LawKind::HertzDamp,
-];
+pub(crate) const LAWS: [LawKind; 12] = LawKind::ALL;
 
 /// Random numbers that are the same everywhere (splitmix64).
 pub(crate) struct Random(pub(crate) u64);
@@ -54,6 +48,7 @@ pub(crate) fn section(width: f64, depth: f64) -> Section {
         flexural_rigidity: modulus * width * depth.powi(3) / 12.0,
         axial_rigidity: Some(modulus * width * depth),
         line_mass: density * width * depth,
+        shear_rigidity: None,
     }
 }
 
@@ -100,6 +95,7 @@ pub(crate) fn random_frame(random: &mut Random) -> Frame {
             rotational_stiffness: random
                 .coin()
                 .then(|| 10_f64.powf(random.between(6.0, 11.0))),
+            ..Joint::default()
         },
     }
 }
@@ -122,6 +118,9 @@ pub(crate) fn framed(name: &str, frame: Frame) -> Building {
             ratio: 0.05,
             modes: vec![1, 2],
         },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
     }
 }
 
@@ -140,6 +139,9 @@ pub(crate) fn tower(name: &str, storeys: usize, mass: f64, period: f64) -> Build
             ratio: 0.05,
             modes: if storeys > 1 { vec![1, 2] } else { vec![1] },
         },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
     }
 }
 
@@ -160,6 +162,7 @@ pub(crate) fn row(buildings: Vec<Building>, width: f64, law: ContactLaw) -> Mode
         width,
         floors: FloorPairs::Common,
         law,
+        minimum_separation: 0.0,
     };
     Model {
         title: "row".to_owned(),
@@ -205,7 +208,7 @@ pub(crate) fn steps(step: f64, division: u32) -> Plan {
     Plan {
         step,
         contact_steps: ContactSteps::Fixed(division),
-        newmark: Newmark::default(),
+        integrator: jostle::Integrator::default(),
         solver: Solver::Riccati,
     }
 }
@@ -283,15 +286,14 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
             node(3.0, mass, Support::Guided),
         ],
         springs: stiffness
-            .map(|stiffness| Spring {
-                ends: [0, 1],
-                stiffness,
-            })
+            .map(|stiffness| Spring::elastic([0, 1], stiffness))
             .into_iter()
             .collect(),
         ..Skeleton::default()
     };
     let idealisation = Idealisation {
+        foot: None,
+        spring_places: Vec::new(),
         skeleton,
         floors: vec![1],
         left_face: vec![1],

@@ -1,0 +1,6 @@
+//! Hysteresis rules: against published paths and another program, and what every rule must keep.
+
+mod oscillator;
+mod properties;
+mod published_paths;
+mod support;

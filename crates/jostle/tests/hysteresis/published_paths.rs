@@ -1,0 +1,177 @@
+//! Paths of springs computed by others.
+
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule};
+use serde_json::Value;
+
+fn document(text: &str) -> Value {
+    serde_json::from_str(text).expect("stored data are valid JSON")
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let list = value.as_array().expect("a list");
+    list.iter().map(|v| v.as_f64().expect("a number")).collect()
+}
+
+fn spring(rule: HysteresisRule, initial: f64, sides: [Corners; 2]) -> Hysteresis {
+    let backbone = Backbone::from_deformations(initial, sides[0], sides[1]).expect("sound");
+    Hysteresis::new(rule, backbone).expect("the rule fits")
+}
+
+#[test]
+fn sequences_of_an_independent_prototype() {
+    let stored = document(include_str!("data/sequences.json"));
+    let corners = Corners {
+        cracking: 0.001,
+        yielding: 0.006,
+        post_cracking: 0.3,
+        post_yield: 0.02,
+    };
+    let rules = [
+        ("normal", HysteresisRule::Normal),
+        ("takeda", HysteresisRule::Takeda { exponent: 0.4 }),
+        ("clough", HysteresisRule::Takeda { exponent: 0.0 }),
+    ];
+    for (name, rule) in rules {
+        let spring = spring(rule, 1e5, [corners; 2]);
+        for sequence in ["A", "B", "C"] {
+            let at = |key: &str| numbers(&stored["sequences"][name][sequence][key]);
+            let mut memory = HysteresisMemory::default();
+            for ((rotation, moment), tangent) in at("theta").into_iter().zip(at("M")).zip(at("k")) {
+                let response = spring.respond(&memory, rotation);
+                assert!(
+                    (response.force - moment).abs() < 1e-10 * 250.0,
+                    "{name} {sequence} at {rotation}: {} for {moment}",
+                    response.force
+                );
+                // At a corner the stored slope is that of the line behind.
+                let from = memory.deformation();
+                let behind = spring.respond(&memory, from + (1.0 - 1e-9) * (rotation - from));
+                assert!(
+                    (behind.tangent - tangent).abs() < 1e-8 * 1e5,
+                    "{name} {sequence} at {rotation}: slope {} for {tangent}",
+                    behind.tangent
+                );
+                memory = response.memory;
+            }
+        }
+    }
+}
+
+/// Forces at reversals and quarter points, work and zero crossings of one protocol.
+fn follows(text: &str, rule: HysteresisRule) {
+    let stored = document(text);
+    let corners = Corners {
+        cracking: 1.0,
+        yielding: 4.0,
+        post_cracking: 1.0 / 3.0,
+        post_yield: 0.05,
+    };
+    let spring = spring(rule, 100.0, [corners; 2]);
+    let protocol = numbers(&stored["inputs"]["protocol"]);
+    let expected = &stored["expected"];
+    let work = numbers(&expected["cumulative_work_at_reversals"]);
+    let mut crossings = numbers(&expected["zero_force_crossings"]).into_iter();
+    let (mut memory, mut done) = (HysteresisMemory::default(), 0.0);
+    for (leg, ends) in protocol.windows(2).enumerate() {
+        let [from, to] = [ends[0], ends[1]];
+        let quarters = numbers(&expected["at_quarter_points"][leg]["quarter"]);
+        for (share, force) in [0.25, 0.5, 0.75].into_iter().zip(quarters) {
+            let response = spring.respond(&memory, from + share * (to - from));
+            assert!(
+                (response.force - force).abs() < 1e-6,
+                "leg {leg}: {} for {force}",
+                response.force
+            );
+        }
+        let response = spring.respond(&memory, to);
+        let force = expected["at_reversals"][leg + 1]["F"]
+            .as_f64()
+            .expect("a force");
+        assert!(
+            (response.force - force).abs() < 1e-6,
+            "leg {leg}: {}",
+            response.force
+        );
+        done += response.work;
+        let due = work[leg + 1];
+        // The stored work is a fine sum, ours is exact.
+        assert!(
+            (done - due).abs() < 1e-4 * due.abs(),
+            "leg {leg}: {done} J for {due} J"
+        );
+        if memory.force() * response.force < 0.0 {
+            let crossing = crossings.next().expect("as many crossings");
+            let before = spring
+                .respond(&memory, crossing - 0.003 * (to - from).signum())
+                .force;
+            let after = spring
+                .respond(&memory, crossing + 0.003 * (to - from).signum())
+                .force;
+            assert!(
+                before * after <= 0.0,
+                "leg {leg}: no crossing at {crossing}"
+            );
+        }
+        memory = response.memory;
+    }
+    assert_eq!(crossings.count(), 0, "crossings that did not happen");
+}
+
+#[test]
+fn kinematic_protocol() {
+    follows(include_str!("data/normal.json"), HysteresisRule::Normal);
+}
+
+#[test]
+fn peak_oriented_protocol() {
+    follows(
+        include_str!("data/peak_oriented.json"),
+        HysteresisRule::PeakOriented,
+    );
+}
+
+#[test]
+fn degrading_protocol() {
+    follows(
+        include_str!("data/degrading.json"),
+        HysteresisRule::DegradingTrilinear,
+    );
+}
+
+#[test]
+fn opensees_through_random_histories() {
+    let stored = document(include_str!("data/opensees.json"));
+    for (number, case) in stored["cases"]
+        .as_array()
+        .expect("cases")
+        .iter()
+        .enumerate()
+    {
+        let rule = match case["rule"].as_str() {
+            Some("normal") => HysteresisRule::Normal,
+            _ => HysteresisRule::PeakOriented,
+        };
+        let side = |key: &str| {
+            let given = numbers(&case[key]);
+            Corners {
+                cracking: given[0],
+                yielding: given[1],
+                post_cracking: given[2],
+                post_yield: given[3],
+            }
+        };
+        let spring = spring(rule, 100.0, [side("positive"), side("negative")]);
+        let mut memory = HysteresisMemory::default();
+        for (to, force) in numbers(&case["deformation"])
+            .into_iter()
+            .zip(numbers(&case["force"]))
+        {
+            memory = spring.respond(&memory, to).memory;
+            assert!(
+                (memory.force() - force).abs() < 1e-9 * 200.0,
+                "case {number} at {to}: {} for {force}",
+                memory.force()
+            );
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Buildings with hinges.
+
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+use jostle::skeleton::Idealisation;
+use jostle::statics::{LoadPattern, PushDirection, PushSettings, Pushover, pushover};
+use jostle::system::BuildingSystem;
+use jostle::{
+    Axial, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section, Shear, Structure,
+};
+
+/// A hinge with the same corners on both sides.
+pub(crate) fn hinge(rule: HysteresisRule, initial: f64, corners: Corners) -> Hysteresis {
+    let backbone = Backbone::from_forces(initial, corners, corners).expect("a sound backbone");
+    Hysteresis::new(rule, backbone).expect("the rule fits")
+}
+
+/// Elastic, then perfectly plastic.
+pub(crate) fn plastic(initial: f64, strength: f64) -> Hysteresis {
+    hinge(
+        HysteresisRule::Bilinear,
+        initial,
+        Corners::bilinear(strength, 0.0),
+    )
+}
+
+pub(crate) fn trilinear(rule: HysteresisRule, initial: f64, strength: f64) -> Hysteresis {
+    let corners = Corners {
+        cracking: 0.35 * strength,
+        yielding: strength,
+        post_cracking: 0.3,
+        post_yield: 0.02,
+    };
+    hinge(rule, initial, corners)
+}
+
+pub(crate) fn section(flexural_rigidity: f64) -> Section {
+    Section {
+        flexural_rigidity,
+        axial_rigidity: Some(8e9),
+        line_mass: 0.0,
+        shear_rigidity: None,
+    }
+}
+
+/// A regular frame of storeys 3.2 m high; columns have no mass.
+pub(crate) fn frame(storeys: usize, spans: &[f64], beam_mass: f64) -> Frame {
+    Frame {
+        storey_heights: vec![3.2; storeys],
+        spans: spans.to_vec(),
+        columns: vec![section(1.2e8); storeys],
+        beams: vec![section(1.5e8); storeys],
+        beam_mass: vec![beam_mass; storeys],
+        floor_mass: vec![0.0; storeys],
+        column_segments: 1,
+        beam_segments: vec![4; spans.len()],
+        axial: Axial::default(),
+        joint: Joint::default(),
+    }
+}
+
+/// The same hinges at all columns, and at all beams.
+pub(crate) fn hinged(
+    frame: Frame,
+    columns: Option<Hysteresis>,
+    beams: Option<Hysteresis>,
+) -> Building {
+    let (storeys, bays) = (frame.storey_heights.len(), frame.spans.len());
+    let hinges = FrameHinges {
+        columns: columns.map_or_else(Vec::new, |hinge| vec![vec![hinge; bays + 1]; storeys]),
+        beams: beams.map_or_else(Vec::new, |hinge| vec![vec![hinge; bays]; storeys]),
+    };
+    Building {
+        name: "frame".into(),
+        structure: Structure::Frame(frame),
+        damping: Damping::Rayleigh {
+            alpha: 0.0,
+            beta: 0.0,
+        },
+        base: Default::default(),
+        gravity: Gravity::default(),
+        hinges: Some(Hinges::Frame(hinges)),
+    }
+}
+
+pub(crate) fn storeys(shear: Shear, springs: Vec<Hysteresis>) -> Building {
+    Building {
+        name: "shear".into(),
+        structure: Structure::Shear(shear),
+        damping: Damping::Rayleigh {
+            alpha: 0.0,
+            beta: 0.0,
+        },
+        base: Default::default(),
+        gravity: Gravity::default(),
+        hinges: Some(Hinges::Storeys(springs)),
+    }
+}
+
+pub(crate) fn under(mut building: Building, preload: bool, p_delta: bool) -> Building {
+    building.gravity = Gravity { preload, p_delta };
+    building
+}
+
+pub(crate) fn assembled(building: &Building) -> BuildingSystem {
+    let mut assembled = BuildingSystem::new(&building.name, Idealisation::of(building));
+    assembled
+        .put_under_gravity(building.gravity)
+        .expect("it stands");
+    assembled
+}
+
+pub(crate) fn pushed(
+    building: &BuildingSystem,
+    pattern: LoadPattern,
+    direction: PushDirection,
+    drift: f64,
+) -> Pushover {
+    let settings = PushSettings {
+        pattern,
+        direction,
+        drift,
+    };
+    pushover(building, settings).expect("it can be pushed")
+}
+
+/// Base shear of a curve at a roof displacement.
+pub(crate) fn shear_at(curve: &Pushover, roof: f64) -> f64 {
+    for pair in curve.points.windows(2) {
+        let (a, b) = (&pair[0], &pair[1]);
+        if roof <= b.roof {
+            let share = (roof - a.roof) / (b.roof - a.roof);
+            return a.base_shear + share * (b.base_shear - a.base_shear);
+        }
+    }
+    panic!("the curve ends before {roof} m");
+}
+
+#[track_caller]
+pub(crate) fn close(got: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (got - expected).abs() <= tolerance * expected.abs(),
+        "{got} instead of {expected}: {:.1e} off",
+        (got / expected - 1.0).abs()
+    );
+}
