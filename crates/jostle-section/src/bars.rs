@@ -1,0 +1,359 @@
+//! Reinforcing bars: how they are written and where they lie.
+
+/// A bar of the cross-section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bar {
+    /// Distance from the left face \[m\].
+    pub x: f64,
+    /// Depth below the top face \[m\].
+    pub depth: f64,
+    /// Diameter \[m\].
+    pub diameter: f64,
+}
+
+impl Bar {
+    /// Cross-section \[m²\].
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        0.25 * std::f64::consts::PI * self.diameter * self.diameter
+    }
+}
+
+/// Some bars of one diameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Group {
+    count: usize,
+    diameter: f64,
+}
+
+/// Reinforcement as it is written, before it is laid into a section.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reinforcement {
+    around: Vec<Group>,
+    top: Vec<Group>,
+    bottom: Vec<Group>,
+    sides: Vec<Group>,
+}
+
+/// Ties or stirrups: they confine the core.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ties {
+    /// Diameter, > 0 \[m\].
+    pub diameter: f64,
+    /// Distance along the member, > 0 \[m\].
+    pub spacing: f64,
+}
+
+/// What is wrong with a description of bars.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct BarsError(String);
+
+/// How bars are written.
+const EXAMPLE: &str =
+    "write \"12 d20\" for twelve bars of 20 mm around the section, or \"4 d25 top, 3 d25 bottom\"";
+
+/// Most bars of a section.
+const MOST_BARS: usize = 400;
+
+impl Reinforcement {
+    /// Reads `"12 d20"`, `"4 d25 top, 4 d25 bottom"`, `"2 d25 + 2 d20 top, 4 d20 bottom, 4 d12 sides"`.
+    ///
+    /// Bars without a place go around the section, evenly, with one in each corner. Diameters are in mm. Bars at
+    /// the sides lie evenly between top and bottom, half on either face.
+    ///
+    /// # Errors
+    /// [`BarsError`] says what is not understood.
+    pub fn parse(text: &str) -> Result<Self, BarsError> {
+        let mut read = Self::default();
+        for part in text.split(',') {
+            let part = part.trim();
+            let (groups, place) = match part.rsplit_once(char::is_whitespace) {
+                Some((groups, place)) if place.chars().all(char::is_alphabetic) => (groups, place),
+                _ => (part, "around"),
+            };
+            let groups = parse_groups(groups)?;
+            read.place(place, groups)?;
+        }
+        read.checked()
+    }
+
+    /// The same in parts, each such as `"4 d25"`.
+    ///
+    /// # Errors
+    /// [`BarsError`] says what is not understood.
+    pub fn rows(top: &str, bottom: &str, sides: Option<&str>) -> Result<Self, BarsError> {
+        Self {
+            around: Vec::new(),
+            top: parse_groups(top)?,
+            bottom: parse_groups(bottom)?,
+            sides: sides.map_or(Ok(Vec::new()), parse_groups)?,
+        }
+        .checked()
+    }
+
+    fn place(&mut self, place: &str, groups: Vec<Group>) -> Result<(), BarsError> {
+        match place {
+            "around" => self.around.extend(groups),
+            "top" => self.top.extend(groups),
+            "bottom" => self.bottom.extend(groups),
+            "sides" => self.sides.extend(groups),
+            other => {
+                return Err(BarsError(format!(
+                    "\"{other}\" is no place for bars; available: top, bottom, sides, or none for all around"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn checked(self) -> Result<Self, BarsError> {
+        let count = |groups: &[Group]| groups.iter().map(|group| group.count).sum::<usize>();
+        let around = count(&self.around);
+        if around + count(&self.top) + count(&self.bottom) + count(&self.sides) > MOST_BARS {
+            return Err(BarsError(format!(
+                "more than {MOST_BARS} bars in a section"
+            )));
+        }
+        let rows = !self.top.is_empty() || !self.bottom.is_empty() || !self.sides.is_empty();
+        if around > 0 {
+            if rows {
+                return Err(BarsError("some bars go around the section, others to the top, the bottom or the sides; write one or the other".to_owned()));
+            }
+            if self.around.len() > 1 {
+                return Err(BarsError("bars around a section have one diameter; give top, bottom and sides for several".to_owned()));
+            }
+            if around < 4 || !around.is_multiple_of(2) {
+                return Err(BarsError(format!(
+                    "bars around a section are an even number, at least four; found {around}"
+                )));
+            }
+        } else if count(&self.top) < 2 || count(&self.bottom) < 2 {
+            return Err(BarsError(format!(
+                "top and bottom need two bars each; {EXAMPLE}"
+            )));
+        }
+        if !count(&self.sides).is_multiple_of(2) {
+            return Err(BarsError(
+                "the bars at the sides are an even number, half of them on either face".to_owned(),
+            ));
+        }
+        Ok(self)
+    }
+
+    /// Largest diameter \[m\].
+    #[must_use]
+    pub fn largest_diameter(&self) -> f64 {
+        [&self.around, &self.top, &self.bottom, &self.sides]
+            .into_iter()
+            .flatten()
+            .fold(0.0, |largest, group| group.diameter.max(largest))
+    }
+
+    /// The bars in a rectangle, `cover` \[m\] of concrete over their surfaces.
+    #[must_use]
+    pub fn lay(&self, width: f64, depth: f64, cover: f64) -> Vec<Bar> {
+        let mut bars = Vec::new();
+        let mut row = |groups: &[Group], at: f64, from_top: bool| {
+            let diameters: Vec<f64> = spread(groups);
+            let last = diameters.len().saturating_sub(1).max(1) as f64;
+            for (index, &diameter) in diameters.iter().enumerate() {
+                let inset = cover + 0.5 * diameter;
+                let inner = cover + 0.5 * at.max(diameter);
+                let x = inset + (width - 2.0 * inset) * index as f64 / last;
+                let depth = if from_top {
+                    inset.max(inner)
+                } else {
+                    depth - inset.max(inner)
+                };
+                bars.push(Bar { x, depth, diameter });
+            }
+        };
+        if let [group] = self.around[..] {
+            let between = (group.count - 4) / 2;
+            let across = (between as f64 * width / (width + depth)).round() as usize;
+            let level = Group {
+                count: across + 2,
+                ..group
+            };
+            row(&[level], 0.0, true);
+            row(&[level], 0.0, false);
+            at_sides(
+                &mut bars,
+                between - across,
+                group.diameter,
+                width,
+                depth,
+                cover,
+            );
+        } else {
+            row(&self.top, 0.0, true);
+            row(&self.bottom, 0.0, false);
+            for group in &self.sides {
+                at_sides(
+                    &mut bars,
+                    group.count / 2,
+                    group.diameter,
+                    width,
+                    depth,
+                    cover,
+                );
+            }
+        }
+        bars
+    }
+}
+
+/// Bars of one row: the thickest in the corners, the others between.
+fn spread(groups: &[Group]) -> Vec<f64> {
+    let mut diameters: Vec<f64> = groups
+        .iter()
+        .flat_map(|group| std::iter::repeat_n(group.diameter, group.count))
+        .collect();
+    diameters.sort_by(|a, b| b.total_cmp(a));
+    let mut row = std::collections::VecDeque::new();
+    for (index, diameter) in diameters.into_iter().rev().enumerate() {
+        if index % 2 == 0 {
+            row.push_back(diameter);
+        } else {
+            row.push_front(diameter);
+        }
+    }
+    row.into()
+}
+
+/// `levels` pairs of bars, evenly between the rows at top and bottom.
+fn at_sides(bars: &mut Vec<Bar>, levels: usize, diameter: f64, width: f64, depth: f64, cover: f64) {
+    let inset = cover + 0.5 * diameter;
+    for level in 1..=levels {
+        let share = level as f64 / (levels + 1) as f64;
+        for x in [inset, width - inset] {
+            bars.push(Bar {
+                x,
+                depth: inset + (depth - 2.0 * inset) * share,
+                diameter,
+            });
+        }
+    }
+}
+
+/// Reads `"2 d25 + 2 d20"`.
+fn parse_groups(text: &str) -> Result<Vec<Group>, BarsError> {
+    text.split('+')
+        .map(|part| parse_group(part.trim()))
+        .collect()
+}
+
+/// Reads `"4 d25"`.
+fn parse_group(text: &str) -> Result<Group, BarsError> {
+    let fault = || {
+        let shown: String = text.chars().take(40).collect();
+        BarsError(format!("\"{shown}\" is not understood; {EXAMPLE}"))
+    };
+    let (count, diameter) = text
+        .split_once(['d', 'D', 'φ', 'Φ', 'Ø', 'ø'])
+        .ok_or_else(fault)?;
+    let diameter = diameter.trim();
+    let diameter = diameter.strip_suffix("mm").unwrap_or(diameter).trim();
+    let count: usize = count.trim().parse().map_err(|_| fault())?;
+    let millimetres: f64 = diameter.parse().map_err(|_| fault())?;
+    if count == 0 || count > MOST_BARS || !(4.0..=80.0).contains(&millimetres) {
+        return Err(BarsError(format!(
+            "\"{text}\": expected 1 to {MOST_BARS} bars of 4 to 80 mm; {EXAMPLE}"
+        )));
+    }
+    Ok(Group {
+        count,
+        diameter: 1e-3 * millimetres,
+    })
+}
+
+impl Ties {
+    /// Reads `"d10 @ 100 mm"` or `"d10 @100"`.
+    ///
+    /// # Errors
+    /// [`BarsError`] says what is not understood.
+    pub fn parse(text: &str) -> Result<Self, BarsError> {
+        let fault = || {
+            let shown: String = text.chars().take(40).collect();
+            BarsError(format!(
+                "\"{shown}\" is not understood; write \"d10 @ 100 mm\" for ties of 10 mm every 100 mm"
+            ))
+        };
+        let (bar, spacing) = text.split_once('@').ok_or_else(fault)?;
+        let bar = bar.trim();
+        let bar = bar
+            .strip_prefix(['d', 'D', 'φ', 'Φ', 'Ø', 'ø'])
+            .ok_or_else(fault)?;
+        let number = |text: &str| {
+            let text = text.trim();
+            let text = text.strip_suffix("mm").unwrap_or(text).trim();
+            text.parse::<f64>().map_err(|_| fault())
+        };
+        let (diameter, spacing) = (number(bar)?, number(spacing)?);
+        if !(4.0..=40.0).contains(&diameter) || !(20.0..=1000.0).contains(&spacing) {
+            return Err(BarsError(format!(
+                "\"{text}\": expected ties of 4 to 40 mm every 20 to 1000 mm"
+            )));
+        }
+        Ok(Self {
+            diameter: 1e-3 * diameter,
+            spacing: 1e-3 * spacing,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_around_a_square_lie_evenly() {
+        let bars = Reinforcement::parse("12 d20")
+            .expect("understood")
+            .lay(0.5, 0.5, 0.03);
+        assert_eq!(bars.len(), 12);
+        let levels = [0.04, 0.18, 0.32, 0.46];
+        for (level, due) in levels.into_iter().zip([4, 2, 2, 4]) {
+            let here = bars.iter().filter(|bar| (bar.depth - level).abs() < 1e-12);
+            assert_eq!(here.count(), due, "at {level}");
+        }
+    }
+
+    #[test]
+    fn rows_hold_what_they_are_given() {
+        let written = Reinforcement::parse("2 d25 + 2 d20 top, 4 d20 bottom, 4 d12 sides");
+        let bars = written.expect("understood").lay(0.3, 0.6, 0.03);
+        assert_eq!(bars.len(), 12);
+        let area = |low: f64, high: f64| -> f64 {
+            let within = bars.iter().filter(|bar| (low..high).contains(&bar.depth));
+            within.map(Bar::area).sum()
+        };
+        let circle = |d: f64| 0.25 * std::f64::consts::PI * d * d;
+        assert!((area(0.0, 0.1) - 2.0 * circle(0.025) - 2.0 * circle(0.02)).abs() < 1e-12);
+        assert!((area(0.5, 0.6) - 4.0 * circle(0.02)).abs() < 1e-12);
+        assert!((area(0.1, 0.5) - 4.0 * circle(0.012)).abs() < 1e-12);
+        // The thick bars of the top row are its outermost.
+        assert_eq!(bars[0].diameter, 0.025);
+        assert_eq!(bars[3].diameter, 0.025);
+    }
+
+    #[test]
+    fn mistakes_are_explained() {
+        for (text, word) in [
+            ("", "not understood"),
+            ("12", "not understood"),
+            ("5 d20", "even number"),
+            ("4 d20 left", "no place"),
+            ("4 d20 top", "two bars each"),
+            ("4 d20, 4 d20 top", "one or the other"),
+            ("4 d200", "4 to 80 mm"),
+            ("999999999999999999999 d20", "not understood"),
+        ] {
+            let error = Reinforcement::parse(text).expect_err(text).to_string();
+            assert!(error.contains(word), "{text}: {error}");
+        }
+        assert!(Ties::parse("d10 @ 100 mm").is_ok());
+        assert!(Ties::parse("10/100").is_err());
+    }
+}

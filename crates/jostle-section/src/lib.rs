@@ -1,0 +1,33 @@
+//! From a reinforced-concrete section to the backbone of a plastic hinge.
+//!
+//! A [`Section`] is a rectangle of [`Concrete`] with [`Reinforcement`]. Two ways lead to the moment–rotation
+//! curve of a member end ([`EndCurve`]): published formulas ([`formula`]), and an analysis of the section fibre by
+//! fibre ([`MomentCurvature`]) with a trilinear curve fitted to it. [`EndCurve::hinge`] takes away what the member
+//! itself bends and leaves the [`jostle::hysteresis::Backbone`] of the hinge.
+//!
+//! Everything is in SI. Compression is positive for concrete strains and axial loads; positive moments stretch
+//! the bottom.
+
+pub mod formula;
+
+mod bars;
+mod concrete;
+mod curve;
+mod fibre;
+mod fit;
+mod law;
+mod member;
+mod section;
+mod steel;
+mod survey;
+
+pub use bars::{Bar, BarsError, Reinforcement, Ties};
+pub use concrete::{CONCRETE_GRADES, Concrete, StrengthLevel};
+pub use curve::{AnalysisError, Event, EventKind, MomentCurvature, Options};
+pub use fibre::{Fibres, Resultants};
+pub use fit::Trilinear;
+pub use law::{ConcreteLaw, SteelLaw, confined};
+pub use member::{EndCurve, EndSide, FORMULA_POST_YIELD};
+pub use section::{Section, SectionFault, Transformed};
+pub use steel::{STEEL_GRADES, Steel};
+pub use survey::{Analysis, SectionSurvey};
