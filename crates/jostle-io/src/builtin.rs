@@ -37,7 +37,10 @@ pub fn builtin_record(name: &str) -> Option<GroundMotion> {
     let name = name.trim().to_ascii_lowercase();
     let known = BUILTIN_RECORDS
         .iter()
-        .find(|known| known.name == name || known.aliases.contains(&name.as_str()))?;
+        .find(|known| known.name == name || known.aliases.contains(&name.as_str()));
+    let Some(known) = known else {
+        return artificial(&name);
+    };
     let record = parse_record(known.text.as_bytes(), &RecordOptions::default()).ok()?;
     Some(GroundMotion::sampled(
         known.name,
@@ -46,9 +49,36 @@ pub fn builtin_record(name: &str) -> Option<GroundMotion> {
     ))
 }
 
+/// A named artificial motion, made anew from its seed.
+fn artificial(name: &str) -> Option<GroundMotion> {
+    let recipe = jostle_motion::recipe(name)?;
+    let motion = recipe.make().ok()?.motion;
+    let step = motion.step();
+    Some(GroundMotion::sampled(
+        recipe.name,
+        step,
+        motion.into_acceleration(),
+    ))
+}
+
+/// Names and descriptions of the built-in ground motions, recorded and artificial.
+#[must_use]
+pub fn builtin_motions() -> Vec<(&'static str, &'static str)> {
+    let recorded = BUILTIN_RECORDS
+        .iter()
+        .map(|record| (record.name, record.description));
+    let artificial = jostle_motion::RECIPES
+        .iter()
+        .map(|recipe| (recipe.name, recipe.description));
+    recorded.chain(artificial).collect()
+}
+
 /// Names of the built-in ground motions, for messages.
 pub(crate) fn record_names() -> String {
-    let names: Vec<_> = BUILTIN_RECORDS.iter().map(|record| record.name).collect();
+    let names: Vec<_> = builtin_motions()
+        .into_iter()
+        .map(|(name, _)| name)
+        .collect();
     names.join(", ")
 }
 

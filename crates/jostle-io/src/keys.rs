@@ -7,6 +7,8 @@ use crate::quantity::Dimension;
 pub(crate) enum Section {
     Root,
     Motion,
+    Match,
+    Spectrum,
     /// Keys of every building.
     Building,
     /// Further keys of `kind = "frame"`.
@@ -19,8 +21,24 @@ pub(crate) enum Section {
     Beam,
     StiffnessFactor,
     Axial,
+    ShearDeformation,
     Joint,
+    /// Springs and dashpots under any building.
+    ShearBase,
+    /// Further ones under the columns of a frame.
+    FrameBase,
+    Integrator,
     Damping,
+    /// Hinges of a frame.
+    Hinges,
+    /// Hinges of columns or of beams.
+    Hinge,
+    /// One side of them.
+    HingeSide,
+    /// Inelastic storeys of a shear building.
+    StoreyHinges,
+    /// Reinforcement in rows.
+    Bars,
     Gap,
     Analysis,
 }
@@ -29,6 +47,8 @@ pub(crate) enum Section {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
     Text,
+    /// A name, or a number from 1.
+    Component,
     /// A whole number, not negative.
     Count,
     Flag,
@@ -46,20 +66,26 @@ pub(crate) enum Kind {
     Choice(&'static [&'static str]),
     /// A word in place of a value.
     WordOr(&'static str, Dimension),
+    /// A word for the usual, or a table.
+    WordOrTable(&'static str, &'static [Section]),
     /// A word for all, or a table.
     ChoiceOrTable(&'static [&'static str], Section),
     NumberOrTable(Section),
     Table(Section),
     /// One table, or a list of tables from the ground up.
     TablePerStorey(Section),
+    /// A text, or a table in its place.
+    TextOrTable(Section),
+    /// A word, or the number it spells.
+    Word(&'static [&'static str]),
     /// A list of tables, `[[…]]`.
     Tables(&'static [Section]),
     /// Names of the two neighbours of a gap.
     Neighbours,
     /// `"common"`, pairs of floors, or heights.
     FloorPairs,
-    /// Part of the format, but not of this version.
-    Reserved,
+    /// A grade, or a strength.
+    GradeOr(&'static [&'static str]),
 }
 
 /// One key.
@@ -76,25 +102,50 @@ pub(crate) struct Key {
 }
 
 pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear"];
-pub(crate) const LAWS: &[&str] = &[
+/// Spellings of the contact laws.
+pub const LAW_NAMES: [&str; 11] = [
     "linear",
     "kelvin",
     "kelvin-no-tension",
+    "modified-kelvin",
     "hertz",
     "hertz-damp",
-];
-pub(crate) const LATER_LAWS: &[&str] = &[
-    "modified-kelvin",
     "ye",
     "jankowski",
     "bilinear",
     "restitution",
+    "rubber",
 ];
+pub(crate) const LAWS: &[&str] = &LAW_NAMES;
+pub(crate) const LAW_VARIANTS: &[&str] = &["ye", "mahmoud-jankowski"];
 pub(crate) const SOLVERS: &[&str] = &["riccati", "stiffness", "product"];
 pub(crate) const LATER_SOLVERS: &[&str] = &["modal"];
+pub(crate) const INTEGRATORS: &[&str] = &[
+    "average-acceleration",
+    "newmark",
+    "hht",
+    "generalized-alpha",
+];
 pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
 pub(crate) const RESTITUTION_IS: &[&str] = &["input", "realised"];
+pub(crate) const RULES: &[&str] = &[
+    "normal",
+    "peak-oriented",
+    "takeda",
+    "d-tri",
+    "bilinear",
+    "elastic",
+];
+pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
+pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
+/// Grades of reinforced sections.
+pub(crate) const SECTION_CONCRETES: &[&str] = &jostle_section::CONCRETE_GRADES;
+pub(crate) const STEELS: &[&str] = &jostle_section::STEEL_GRADES;
+pub(crate) const STRENGTHS: &[&str] = &jostle_section::StrengthLevel::NAMES;
+pub(crate) const RECORD_FORMATS: &[&str] = &[
+    "at2", "columns", "cosmos", "csmip", "knet", "esm", "smc", "geonet", "afad", "miniseed", "sac",
+];
 pub(crate) const CONCRETES: &[&str] = &[
     "C20", "C25", "C30", "C35", "C40", "C45", "C50", "C55", "C60", "C65", "C70", "C75", "C80",
 ];
@@ -140,9 +191,9 @@ const fn default(
 
 use Dimension as D;
 use Kind::{
-    Choice, ChoiceOrTable, ContactStiffness, Count, CountPerSpan, Flag, FloorPairs, Modes,
-    Neighbours, NumberOrTable, PerStorey, Quantities, Quantity, Reserved, TablePerStorey, Tables,
-    Text, WordOr,
+    Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FloorPairs,
+    GradeOr, Modes, Neighbours, NumberOrTable, PerStorey, Quantities, Quantity, TablePerStorey,
+    Tables, Text, TextOrTable, WordOr, WordOrTable,
 };
 use Section as S;
 
@@ -155,18 +206,41 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps, one for each pair of neighbours."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
 
-    optional(S::Motion, "record", Text, "A built-in record, or a file (PEER AT2, CSV, columns of text) relative to this file."),
+    optional(S::Motion, "record", Text, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC."),
     optional(S::Motion, "kind", Choice(WAVES), "An analytic wave instead of a record."),
     optional(S::Motion, "amplitude", Quantity(D::Acceleration), "Amplitude of the analytic wave."),
     optional(S::Motion, "period", Quantity(D::Time), "Period of the analytic wave."),
     default(S::Motion, "centre", Quantity(D::Time), "1.5 periods", "Time at which the Ricker pulse peaks."),
     optional(S::Motion, "pga", Quantity(D::Acceleration), "Scale the motion so that its greatest acceleration is this."),
     default(S::Motion, "scale", Quantity(D::Dimensionless), "1", "Multiply the motion by this factor."),
+    optional(S::Motion, "match", Kind::Table(S::Match), "Scale the motion so that its response spectrum agrees with another."),
     default(S::Motion, "reverse", Flag, "false", "Change the sign of the motion."),
     default(S::Motion, "duration", Quantity(D::Time), "the whole record", "Length of the analysis: cuts the record, or goes on with a ground at rest."),
-    optional(S::Motion, "unit", Text, "Unit of the numbers of a text record that does not state it, such as \"g\"."),
-    optional(S::Motion, "step", Quantity(D::Time), "Time step of a text record that does not state it."),
+    optional(S::Motion, "unit", Text, "Unit of the numbers of a record that does not state it, such as \"g\"."),
+    optional(S::Motion, "step", Quantity(D::Time), "Time step of a record that does not state it."),
     optional(S::Motion, "column", Count, "Column of a text record that holds the acceleration, counted from 1."),
+    optional(S::Motion, "component", Component, "Channel of a file with several: its name in the file, \"H1\", \"H2\", \"up\", \"N-S\", an azimuth such as \"090\", or a number from 1."),
+    default(S::Motion, "record_scale", Quantity(D::Dimensionless), "1", "Size of one count of the file in unit: 1/sensitivity."),
+    optional(S::Motion, "remove_mean", Flag, "Whether the mean of the record is taken off; needed for counts whose zero is not the ground at rest."),
+    optional(S::Motion, "format", Choice(RECORD_FORMATS), "Format of the file, when it is not told rightly from its content."),
+
+    optional(S::Match, "spectrum", TextOrTable(S::Spectrum), "The design spectrum to agree with: a table, or a file of periods and accelerations."),
+    optional(S::Match, "value", Quantity(D::Acceleration), "A pseudo-acceleration to agree with, instead of a spectrum."),
+    optional(S::Match, "at", Quantity(D::Time), "The period at which to agree."),
+    optional(S::Match, "periods", Quantities(D::Time), "First and last period between which to agree on average, instead of one period."),
+    default(S::Match, "damping", Quantity(D::Dimensionless), "0.05", "Damping ratio of both spectra."),
+    required(S::Spectrum, "code", Choice(crate::target::TARGET_CODES), "The code."),
+    optional(S::Spectrum, "intensity", Kind::Word(&["6", "7", "7.5", "8", "8.5", "9"]), "GB 50011: fortification intensity; 7.5 is 7 with 0.15 g, 8.5 is 8 with 0.30 g."),
+    optional(S::Spectrum, "site", Kind::Word(&["I0", "I1", "II", "III", "IV"]), "GB 50011: site class."),
+    optional(S::Spectrum, "group", Kind::Word(&["1", "2", "3"]), "GB 50011: design earthquake group."),
+    default(S::Spectrum, "level", Kind::Word(&["frequent", "fortification", "rare"]), "\"frequent\"", "GB 50011: level of shaking."),
+    default(S::Spectrum, "type", Kind::Word(&["1", "2"]), "1", "EN 1998-1: type of the spectrum."),
+    optional(S::Spectrum, "ground", Kind::Word(&["A", "B", "C", "D", "E"]), "EN 1998-1: ground type."),
+    optional(S::Spectrum, "ag", Quantity(D::Acceleration), "EN 1998-1: design ground acceleration on ground A, importance factor included."),
+    optional(S::Spectrum, "sds", Quantity(D::Acceleration), "ASCE 7: design acceleration at short periods."),
+    optional(S::Spectrum, "sd1", Quantity(D::Acceleration), "ASCE 7: design acceleration at 1 s."),
+    default(S::Spectrum, "tl", Quantity(D::Time), "\"8 s\"", "ASCE 7: long-period transition period."),
+    default(S::Spectrum, "factor", Quantity(D::Dimensionless), "1", "Factor on the spectrum."),
 
     default(S::Building, "name", Text, "\"B1\", \"B2\", …", "Name, by which gaps refer to the building."),
     default(S::Building, "kind", Choice(BUILDING_KINDS), "\"frame\"", "Frame of beams and columns, or floors on storey springs."),
@@ -174,8 +248,10 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "floors", Count, "The same as storeys."),
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; needed for frames, 3 m for shear buildings."),
     default(S::Building, "damping", Kind::Table(S::Damping), "5 % in modes 1 and 3", "Viscous damping."),
-    optional(S::Building, "hinges", Reserved, "Inelastic hinges."),
+    default(S::Building, "gravity", Flag, "false", "Whether the run starts from the displacements under self weight."),
+    default(S::Building, "p_delta", Flag, "false", "Whether the weight above leans on the sway of every column (P-Delta)."),
 
+    default(S::Frame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
     required(S::Frame, "spans", Quantities(D::Length), "Widths of the bays from left to right."),
     required(S::Frame, "column", TablePerStorey(S::Column), "Column section: one, or a list from the ground up."),
     required(S::Frame, "beam", TablePerStorey(S::Beam), "Beam section: one, or a list from the ground up."),
@@ -188,20 +264,45 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Frame, "column_segments", Count, "4", "Segments of a column in one storey; k segments have k − 1 lumped masses between them."),
     default(S::Frame, "beam_segments", CountPerSpan, "4", "Segments of the beams: one value, or one per span."),
     default(S::Frame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"rigid\"", "Whether members shorten under axial force."),
+    default(S::Frame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Whether shear deforms members (Timoshenko)."),
+    default(S::Frame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus."),
     optional(S::Frame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
+    optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame stays elastic."),
 
+    default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
     required(S::Shear, "mass", PerStorey(D::Mass), "Floor masses from the ground up. A weight is converted."),
     required(S::Shear, "stiffness", PerStorey(D::Stiffness), "Storey stiffnesses from the ground up."),
+    optional(S::Shear, "hinges", Kind::Table(S::StoreyHinges), "Cracking and yield of the storeys; without it they stay elastic."),
 
     optional(S::Column, "width", Quantity(D::Length), "Width, across the direction of bending."),
     optional(S::Column, "depth", Quantity(D::Length), "Depth, in the direction of bending."),
     optional(S::Column, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth."),
     optional(S::Column, "EA", Quantity(D::Force), "Axial rigidity beside EI; needed when columns shorten."),
+    optional(S::Column, "GA", Quantity(D::Force), "Shear rigidity G·A_s beside EI; needed when shear deforms columns."),
     default(S::Column, "mass", Quantity(D::LineMass), "density × area", "Self mass per length of the column."),
     optional(S::Beam, "width", Quantity(D::Length), "Width, across the direction of bending."),
     optional(S::Beam, "depth", Quantity(D::Length), "Depth, in the direction of bending."),
     optional(S::Beam, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth."),
     optional(S::Beam, "EA", Quantity(D::Force), "Axial rigidity beside EI; needed when beams shorten."),
+    optional(S::Beam, "GA", Quantity(D::Force), "Shear rigidity G·A_s beside EI; needed when shear deforms beams."),
+
+    optional(S::Column, "concrete", GradeOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010, or its prismatic strength; else that of the building."),
+    optional(S::Column, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010, or its yield strength; needed with bars."),
+    default(S::Column, "strength", Choice(STRENGTHS), "\"characteristic\"", "Which strength a grade stands for."),
+    optional(S::Column, "bars", TextOrTable(S::Bars), "Reinforcement, such as 12 d20 (around); diameters in mm."),
+    default(S::Column, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete over the surfaces of the bars."),
+    optional(S::Column, "ties", Text, "Ties that confine the core, such as d10 @ 100 mm."),
+    default(S::Column, "axial_load", WordOr("from gravity", D::Force), "\"from gravity\"", "Axial compression with which the section yields."),
+    optional(S::Beam, "concrete", GradeOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010, or its prismatic strength; else that of the building."),
+    optional(S::Beam, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010, or its yield strength; needed with bars."),
+    default(S::Beam, "strength", Choice(STRENGTHS), "\"characteristic\"", "Which strength a grade stands for."),
+    optional(S::Beam, "bars", TextOrTable(S::Bars), "Reinforcement, such as 4 d25 top, 4 d25 bottom; diameters in mm."),
+    default(S::Beam, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete over the surfaces of the bars."),
+    optional(S::Beam, "ties", Text, "Ties that confine the core, such as d10 @ 100 mm."),
+
+    optional(S::Bars, "top", Text, "Bars in the upper row, such as 4 d25."),
+    optional(S::Bars, "bottom", Text, "Bars in the lower row."),
+    optional(S::Bars, "sides", Text, "Bars between them, half on either face."),
 
     default(S::StiffnessFactor, "column", Quantity(D::Dimensionless), "1", "Factor on EI of the columns."),
     default(S::StiffnessFactor, "beam", Quantity(D::Dimensionless), "1", "Factor on EI of the beams."),
@@ -209,6 +310,19 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Axial, "columns", Choice(AXIAL), "\"rigid\"", "Whether columns shorten."),
     default(S::Axial, "beams", Choice(AXIAL), "\"rigid\"", "Whether beams shorten."),
 
+    default(S::ShearDeformation, "columns", Choice(AXIAL), "\"rigid\"", "Whether shear deforms columns."),
+    default(S::ShearDeformation, "beams", Choice(AXIAL), "\"rigid\"", "Whether shear deforms beams."),
+
+    default(S::ShearBase, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal spring to the ground."),
+    default(S::ShearBase, "horizontal_damping", Quantity(D::Damping), "0", "Dashpot beside the horizontal spring."),
+    default(S::ShearBase, "mass", Quantity(D::Mass), "0", "Mass of the footing."),
+    default(S::FrameBase, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical spring to the ground."),
+    default(S::FrameBase, "vertical_damping", Quantity(D::Damping), "0", "Dashpot beside the vertical spring."),
+    default(S::FrameBase, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational spring to the ground."),
+    default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot beside the rotational spring."),
+
+    default(S::Joint, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal stiffness between beam end and column."),
+    default(S::Joint, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical stiffness between beam end and column."),
     default(S::Joint, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational stiffness of the hinge between beam end and column."),
 
     default(S::Damping, "ratio", Quantity(D::Dimensionless), "0.05", "Fraction of critical damping in the modes below."),
@@ -216,19 +330,59 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Damping, "alpha", Quantity(D::Frequency), "Rayleigh coefficient on the masses, instead of ratio."),
     optional(S::Damping, "beta", Quantity(D::Time), "Rayleigh coefficient on the stiffness, instead of ratio."),
 
+    required(S::Hinges, "rule", Choice(RULES), "How hinges unload and load again."),
+    default(S::Hinges, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    default(S::Hinges, "initial", WordOr("rigid", D::Dimensionless), "100; \"rigid\" from sections", "Stiffness of a hinge before it cracks, in units of EI/L of its member."),
+    optional(S::Hinges, "from", Choice(HINGE_SOURCES), "Takes the moments from the reinforcement of columns and beams."),
+    default(S::Hinges, "method", Choice(HINGE_METHODS), "\"formula\"", "How they are got from there: published formulas, or fibres."),
+    optional(S::Hinges, "column", TablePerStorey(S::Hinge), "Hinges of the columns; without it they stay elastic."),
+    optional(S::Hinges, "beam", TablePerStorey(S::Hinge), "Hinges of the beams; without it they stay elastic."),
+
+    optional(S::Hinge, "cracking", Quantity(D::Moment), "Cracking moment."),
+    optional(S::Hinge, "yield", Quantity(D::Moment), "Yield moment."),
+    optional(S::Hinge, "post_cracking", Quantity(D::Dimensionless), "Stiffness after cracking over the initial one."),
+    optional(S::Hinge, "post_yield", Quantity(D::Dimensionless), "Stiffness after yield over the initial one."),
+    optional(S::Hinge, "positive", Kind::Table(S::HingeSide), "What differs where the bottom of a beam is stretched."),
+    optional(S::Hinge, "negative", Kind::Table(S::HingeSide), "What differs where its top is stretched."),
+    optional(S::HingeSide, "cracking", Quantity(D::Moment), "Cracking moment of this side."),
+    optional(S::HingeSide, "yield", Quantity(D::Moment), "Yield moment of this side."),
+    optional(S::HingeSide, "post_cracking", Quantity(D::Dimensionless), "Stiffness after cracking over the initial one."),
+    optional(S::HingeSide, "post_yield", Quantity(D::Dimensionless), "Stiffness after yield over the initial one."),
+
+    required(S::StoreyHinges, "rule", Choice(RULES), "How storeys unload and load again."),
+    default(S::StoreyHinges, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    optional(S::StoreyHinges, "cracking", PerStorey(D::Length), "Storey displacement at cracking; not for bilinear."),
+    optional(S::StoreyHinges, "yield", PerStorey(D::Length), "Storey displacement at yield."),
+    optional(S::StoreyHinges, "post_cracking", PerStorey(D::Dimensionless), "Stiffness after cracking over the initial one."),
+    optional(S::StoreyHinges, "post_yield", PerStorey(D::Dimensionless), "Stiffness after yield over the initial one."),
+
     required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour."),
     required(S::Gap, "width", Quantity(D::Length), "Width at rest."),
     default(S::Gap, "floors", FloorPairs, "\"common\"", "Where the neighbours can touch: every pair of floors at equal height, listed pairs, or heights."),
     default(S::Gap, "law", Choice(LAWS), "\"hertz-damp\"", "Contact law."),
-    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for the Hertz family, N/m for the linear family."),
+    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski and bilinear, N/m for the others; of rubber the secant stiffness at 0.8 of the thickness; of restitution that of lasting contact."),
     default(S::Gap, "restitution", Quantity(D::Dimensionless), "0.65", "Coefficient of restitution."),
     default(S::Gap, "restitution_is", Choice(RESTITUTION_IS), "\"input\"", "Whether the published formula takes it, or free masses really rebound with it."),
+
+    default(S::Gap, "variant", Choice(LAW_VARIANTS), "\"ye\"", "Of the law modified-kelvin: damping with the indentation, or in the approach only."),
+    default(S::Gap, "yield_share", Quantity(D::Dimensionless), "0.1", "Of the law bilinear: yield indentation ÷ greatest design indentation."),
+    optional(S::Gap, "design_speed", Quantity(D::Speed), "Of the law bilinear: impact speed for which its stiffnesses are computed; without it every impact's own."),
+    optional(S::Gap, "thickness", Quantity(D::Length), "Of the law rubber: thickness of the bumper."),
+    default(S::Gap, "exponent", Quantity(D::Dimensionless), "2.65", "Of the law rubber: exponent of the compression."),
+    default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact that follow each other sooner count as one."),
 
     default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step in free flight."),
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),
     default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Relative tolerance on the greatest contact force of a gap and on peak displacements, with automatic steps."),
     default(S::Analysis, "energy_tolerance", Quantity(D::Dimensionless), "1e-6", "Relative energy imbalance above which a run warns."),
     default(S::Analysis, "solver", Choice(SOLVERS), "\"riccati\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, or the published product of transfer matrices."),
+    default(S::Analysis, "integrator", ChoiceOrTable(INTEGRATORS, S::Integrator), "\"average-acceleration\"", "Rule that joins displacements, velocities and accelerations over a step."),
+
+    required(S::Integrator, "method", Choice(INTEGRATORS), "Name of the rule; all but average acceleration can damp the motion themselves."),
+    default(S::Integrator, "beta", Quantity(D::Dimensionless), "0.25", "Newmark's beta."),
+    default(S::Integrator, "gamma", Quantity(D::Dimensionless), "0.5", "Newmark's gamma."),
+    default(S::Integrator, "alpha", Quantity(D::Dimensionless), "0.05", "Shift of HHT, 0 to 1/3."),
+    default(S::Integrator, "spectral_radius", Quantity(D::Dimensionless), "0.8", "What generalized-alpha leaves of the highest frequencies in one step, 0 to 1."),
 ];
 
 /// The keys of some sections, in order.

@@ -3,7 +3,6 @@
 //! Parsers take text or bytes and never panic; only [`read_model_file`], [`read_record`] and the writers touch a
 //! path. Everything that leaves this crate is in SI.
 
-mod at2;
 mod builtin;
 mod fault;
 mod json_tree;
@@ -11,30 +10,45 @@ mod keys;
 mod model_file;
 mod motion_spec;
 mod output;
+mod pushover;
 mod quantity;
 mod reader;
 mod record;
+mod record_text;
 mod schema;
 mod source;
 mod tables;
+mod target;
 mod templates;
-mod text_record;
-mod times;
 mod toml_tree;
 mod tree;
 mod unit;
 
 pub use builtin::{
-    BUILTIN_RECORDS, BuiltinRecord, builtin_model, builtin_record, model_names, model_text,
+    BUILTIN_RECORDS, BuiltinRecord, builtin_model, builtin_motions, builtin_record, model_names,
+    model_text,
 };
 pub use fault::{Fault, InputError};
-pub use model_file::{Input, OverrideError, Overrides, read_model_file, read_model_text};
-pub use motion_spec::{MotionError, MotionSource, MotionSpec, Scaling};
+pub use keys::LAW_NAMES;
+pub use model_file::{
+    Input, OverrideError, Overrides, ReinforcedMember, read_model_file, read_model_text,
+};
+pub use motion_spec::{MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
 pub use output::{OutputError, summary_json, write_atomically, write_summary_json};
+pub use pushover::{pushover_csv, pushover_json};
 pub use quantity::{Dimension, QuantityError, STANDARD_GRAVITY, parse_quantity};
-pub use record::{Record, RecordError, RecordOptions, parse_record, read_record};
+pub use record::{
+    Channel, Direction, Record, RecordError, RecordFormat, RecordInfo, RecordOptions,
+    describe_record, parse_info, parse_record, parse_record_and_info, read_record,
+    read_record_and_info,
+};
+pub use record_text::{at2_text, csv_text};
 pub use schema::model_schema;
 pub use source::Place;
-pub use tables::{write_history_parquet, write_impacts_parquet};
+pub use tables::{
+    Values, history_names, impact_columns, write_columns_parquet, write_hinges_parquet,
+    write_history_parquet, write_impacts_parquet,
+};
+pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
 pub use templates::{TEMPLATE_NAMES, template};
 pub use tree::Format;

@@ -7,11 +7,16 @@ mod analysis;
 mod building;
 mod frame;
 mod gap;
+mod hinges;
+mod matching;
 mod motion;
+mod reinforced;
 mod section;
 mod shear;
 #[cfg(test)]
 mod tests;
+
+pub use reinforced::ReinforcedMember;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -33,6 +38,8 @@ pub struct Input {
     pub model: Model,
     /// The ground motion; `None` if the file has none.
     pub motion: Option<MotionSpec>,
+    /// Members of frames whose reinforcement the file states, building by building, columns first.
+    pub reinforced: Vec<ReinforcedMember>,
     /// Things the user should know although the file is valid.
     pub warnings: Vec<String>,
     origin: Origin,
@@ -107,13 +114,14 @@ pub fn read_model_text(
     let root = tree::parse(&source, format)?;
     let mut reader = Reader::new(&source);
     let read = read_root(&mut reader, &root, base);
-    if let Some((model, _)) = &read {
+    if let Some((model, ..)) = &read {
         let checked = model.check().err().unwrap_or_default();
         add_model_faults(&mut reader, &root, checked);
     }
     let error = reader.into_error();
     match read {
-        Some((model, motion)) if error.faults.is_empty() => Ok(Input {
+        Some((model, motion, reinforced)) if error.faults.is_empty() => Ok(Input {
+            reinforced,
             warnings: warnings(&model, &root),
             model,
             motion,
@@ -167,10 +175,30 @@ impl Input {
             let path = match &error {
                 MotionError::None => "motion",
                 MotionError::TooStrong { .. } | MotionError::Zero { .. } => "motion.pga",
+                MotionError::Match { .. } => "motion.match",
                 MotionError::NotFound { .. } | MotionError::Record { .. } => "motion.record",
             };
             self.fault(path, error.to_string())
         })
+    }
+
+    /// The text that was read.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.origin.source.text()
+    }
+
+    /// Faults that only assembly or planning shows, at their lines of the file.
+    #[must_use]
+    pub fn faults(&self, found: Vec<ModelFault>) -> InputError {
+        let mut error = self.fault("", "the model is wrong");
+        if !found.is_empty() {
+            let placed = found.into_iter();
+            error.faults = placed
+                .flat_map(|fault| self.fault(&fault.path, fault.problem).faults)
+                .collect();
+        }
+        error
     }
 
     /// An error about a field that only came to light after reading: it shows the line of the file.
@@ -218,7 +246,7 @@ fn read_root(
     reader: &mut Reader<'_>,
     root: &Node,
     base: &Path,
-) -> Option<(Model, Option<MotionSpec>)> {
+) -> Option<(Model, Option<MotionSpec>, Vec<ReinforcedMember>)> {
     let field = Field {
         node: root,
         path: String::new(),
@@ -244,18 +272,22 @@ fn read_root(
         }
     };
     let gaps = match reader.get(&view, "gap") {
-        Some(field) => gap::read_all(reader, &field, buildings.as_deref()),
+        Some(field) => {
+            let buildings = buildings.as_ref().map(|(buildings, _)| &buildings[..]);
+            gap::read_all(reader, &field, buildings)
+        }
         None => Vec::new(),
     };
     let analysis = reader.get(&view, "analysis");
     let analysis = analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
+    let (buildings, reinforced) = buildings?;
     let model = Model {
         title: title.unwrap_or_default(),
-        buildings: buildings?,
+        buildings,
         gaps,
         analysis,
     };
-    Some((model, motion))
+    Some((model, motion, reinforced))
 }
 
 /// Adds what the model's own check found, unless reading has found a fault there already.

@@ -3,6 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use jostle::{GroundMotion, Wave};
+use jostle_motion::{
+    Accelerogram, MatchAt, MotionFault, SpectrumTable, TargetKind, TargetSpectrum, match_factor,
+};
 
 use crate::builtin;
 use crate::keys::nearest;
@@ -33,6 +36,8 @@ pub enum MotionSource {
         /// What the file does not say itself.
         options: RecordOptions,
     },
+    /// A motion already at hand, unscaled.
+    Given(GroundMotion),
     /// `amplitude · sin(2π t / period)`.
     Sine {
         /// Amplitude \[m/s²\].
@@ -51,8 +56,28 @@ pub enum MotionSource {
     },
 }
 
+/// A spectral value to scale to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MatchSpec {
+    /// What to reach.
+    pub to: MatchTo,
+    /// Where to reach it.
+    pub at: MatchAt,
+    /// Damping ratio \[–\].
+    pub damping: f64,
+}
+
+/// What a motion is scaled to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MatchTo {
+    /// A design spectrum.
+    Spectrum(TargetSpectrum),
+    /// A pseudo-acceleration, the same at all periods of the range, > 0 \[m/s²\].
+    Value(f64),
+}
+
 /// How a motion is scaled.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Debug, PartialEq, Default)]
 pub enum Scaling {
     /// Not at all.
     #[default]
@@ -61,6 +86,8 @@ pub enum Scaling {
     Pga(f64),
     /// By this factor \[–\].
     Factor(f64),
+    /// So that its response spectrum agrees with another.
+    Match(Box<MatchSpec>),
 }
 
 /// Why a ground motion could not be had.
@@ -93,6 +120,14 @@ pub enum MotionError {
     Zero {
         /// Name of the record.
         name: String,
+    },
+    /// A motion cannot be brought to a spectrum.
+    #[error("the motion \"{name}\" cannot be matched: {error}")]
+    Match {
+        /// Name of the record.
+        name: String,
+        /// The reason.
+        error: MotionFault,
     },
     /// Scaling left the range of numbers.
     #[error(
@@ -145,6 +180,7 @@ impl MotionSpec {
                 base,
                 options,
             } => find_record(name, base, options)?,
+            MotionSource::Given(motion) => motion.clone(),
             MotionSource::Sine { amplitude, period } => analytic(
                 "sine",
                 self.duration.unwrap_or(10.0 * period),
@@ -168,9 +204,10 @@ impl MotionSpec {
             ),
         };
         let peak = motion.unscaled_peak();
-        motion.scale = match self.scaling {
+        motion.scale = match &self.scaling {
             Scaling::AsRecorded => 1.0,
-            Scaling::Factor(factor) => factor,
+            Scaling::Factor(factor) => *factor,
+            Scaling::Match(wanted) => match_scale(&motion, wanted)?,
             Scaling::Pga(_) if peak == 0.0 => {
                 return Err(MotionError::Zero { name: motion.name });
             }
@@ -186,6 +223,37 @@ impl MotionSpec {
         motion.duration = self.duration.unwrap_or(motion.duration);
         Ok(motion)
     }
+}
+
+/// The factor that brings a motion to a spectrum.
+fn match_scale(motion: &GroundMotion, wanted: &MatchSpec) -> Result<f64, MotionError> {
+    let found = (|| {
+        let sampled = sampled(motion)?;
+        let target = match &wanted.to {
+            MatchTo::Spectrum(target) => target.clone(),
+            MatchTo::Value(value) => {
+                let points = vec![[0.0, *value], [1e6, *value]];
+                let table = SpectrumTable::new("value", wanted.damping, points)?;
+                TargetSpectrum::new(TargetKind::Table(table))
+            }
+        };
+        match_factor(&sampled, &target, wanted.at, wanted.damping)
+    })();
+    found.map_err(|error| MotionError::Match {
+        name: motion.name.clone(),
+        error,
+    })
+}
+
+/// A motion as equally spaced values; waves given by a formula take 200 in a period.
+fn sampled(motion: &GroundMotion) -> Result<Accelerogram, MotionFault> {
+    if let Wave::Sampled { step, acceleration } = &motion.wave {
+        return Accelerogram::new(*step, acceleration.clone());
+    }
+    let step = motion.period().unwrap_or(1.0) / 200.0;
+    let points = ((motion.duration / step).ceil() as usize).clamp(2, 1 << 22);
+    let values = (0..points).map(|i| motion.acceleration(step * i as f64));
+    Accelerogram::new(step, values.collect())
 }
 
 fn analytic(name: &str, duration: f64, wave: Wave) -> GroundMotion {
@@ -228,10 +296,12 @@ fn find_record(
 
 /// The built-in record and the file beside `path` whose names come nearest.
 fn similar_names(name: &str, path: &Path) -> Vec<String> {
-    let known = builtin::BUILTIN_RECORDS
+    let aliases = builtin::BUILTIN_RECORDS
         .iter()
-        .flat_map(|record| record.aliases.iter().chain([&record.name]));
-    let builtin = nearest(name, known.copied()).map(str::to_owned);
+        .flat_map(|record| record.aliases);
+    let names = builtin::builtin_motions();
+    let known = names.iter().map(|(name, _)| *name).chain(aliases.copied());
+    let builtin = nearest(name, known).map(str::to_owned);
     let folder = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),

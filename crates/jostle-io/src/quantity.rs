@@ -36,6 +36,10 @@ pub enum Dimension {
     Moment,
     /// Rotational stiffness \[N·m/rad\].
     RotationalStiffness,
+    /// Coefficient of a dashpot \[N·s/m\].
+    Damping,
+    /// Coefficient of a rotational dashpot \[N·m·s/rad\].
+    RotationalDamping,
     /// Flexural rigidity EI \[N·m²\].
     FlexuralRigidity,
     /// Frequency, and mass-proportional damping \[1/s\].
@@ -46,7 +50,7 @@ pub enum Dimension {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Length,
         Self::Mass,
         Self::Time,
@@ -60,6 +64,8 @@ impl Dimension {
         Self::Density,
         Self::Moment,
         Self::RotationalStiffness,
+        Self::Damping,
+        Self::RotationalDamping,
         Self::FlexuralRigidity,
         Self::Frequency,
         Self::Dimensionless,
@@ -82,6 +88,8 @@ impl Dimension {
             Self::Density => ("a density", "2500 kg/m3", "kg/m3", [-3.0, 1.0, 0.0]),
             Self::Moment => ("a moment", "400 kN.m", "N.m", [2.0, 1.0, -2.0]),
             Self::RotationalStiffness => ("a rotational stiffness", "2e8 N.m/rad", "N.m/rad", [2.0, 1.0, -2.0]),
+            Self::Damping => ("a dashpot coefficient", "2 MN.s/m", "N.s/m", [0.0, 1.0, -1.0]),
+            Self::RotationalDamping => ("a rotational dashpot coefficient", "5 MN.m.s/rad", "N.m.s/rad", [2.0, 1.0, -1.0]),
             Self::FlexuralRigidity => ("a flexural rigidity", "150 MN.m2", "N.m2", [3.0, 1.0, -2.0]),
             Self::Frequency => ("a frequency", "2 Hz", "1/s", [0.0, 0.0, -1.0]),
             Self::Dimensionless => ("a number without unit", "0.05", "1", [0.0; 3]),

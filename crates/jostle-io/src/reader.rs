@@ -1,7 +1,7 @@
 //! Typed access to the value tree. A fault is noted and reading goes on, so that all faults are found at once.
 
 use crate::fault::{Fault, InputError};
-use crate::keys::{Kind, Section, keys_of, nearest};
+use crate::keys::{Section, keys_of, nearest};
 use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten};
 use crate::source::{Source, Span};
 use crate::tree::{Node, Table, Value};
@@ -37,6 +37,14 @@ pub(crate) struct View<'n> {
 pub(crate) struct Field<'n> {
     pub(crate) node: &'n Node,
     pub(crate) path: String,
+}
+
+/// Strength of a material, by name or in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Grade {
+    Named(&'static str),
+    /// \[Pa\]
+    Strength(f64),
 }
 
 impl<'n> Field<'n> {
@@ -135,6 +143,11 @@ impl<'s> Reader<'s> {
         }
     }
 
+    /// How many faults were noted.
+    pub(crate) fn count_faults(&self) -> usize {
+        self.faults.len() + self.more
+    }
+
     pub(crate) fn faults(&self) -> impl Iterator<Item = &Fault> {
         self.faults.iter().map(|(_, fault)| fault)
     }
@@ -161,12 +174,6 @@ impl<'s> Reader<'s> {
                 let path = join(&field.path, &shown);
                 *self.fault(&entry.key_span, path, format!("unknown key \"{shown}\"")) =
                     Some(remedy);
-            } else if keys_of(sections)
-                .any(|key| key.name == entry.key && key.kind == Kind::Reserved)
-            {
-                let path = join(&field.path, &entry.key);
-                *self.fault(&entry.key_span, path, "is not available in this version") =
-                    Some(format!("remove {} for an elastic analysis", entry.key));
             }
         }
         Some(View {
@@ -176,6 +183,28 @@ impl<'s> Reader<'s> {
             span: field.node.span.clone(),
             path: field.path.clone(),
         })
+    }
+
+    /// Takes a value as a table whose keys were checked before.
+    pub(crate) fn reopen<'n>(
+        &mut self,
+        field: &Field<'n>,
+        #[cfg_attr(
+            not(test),
+            allow(unused, reason = "only tests hold keys against their table")
+        )]
+        sections: &'static [Section],
+    ) -> Option<View<'n>> {
+        match &field.node.value {
+            Value::Table(table) => Some(View {
+                table,
+                #[cfg(test)]
+                sections,
+                span: field.node.span.clone(),
+                path: field.path.clone(),
+            }),
+            _ => None,
+        }
     }
 
     /// The value of a key, if present.
@@ -227,6 +256,15 @@ impl<'s> Reader<'s> {
         None
     }
 
+    /// Reads without a word about faults, because they are noted elsewhere.
+    pub(crate) fn quietly<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> T {
+        let noted = (self.faults.len(), self.more);
+        let value = read(self);
+        self.faults.truncate(noted.0);
+        self.more = noted.1;
+        value
+    }
+
     /// A whole number that is not negative.
     pub(crate) fn count(&mut self, field: &Field<'_>) -> Option<usize> {
         let whole = match field.node.value {
@@ -259,6 +297,31 @@ impl<'s> Reader<'s> {
         let found = field.node.describe();
         self.bad(field, format!("expected a text in quotes, found {found}"));
         None
+    }
+
+    /// A grade, or a strength greater than zero \[Pa\].
+    pub(crate) fn grade(
+        &mut self,
+        field: &Field<'_>,
+        grades: &[&'static str],
+        example: &str,
+    ) -> Option<Grade> {
+        let looks_like_a_grade = field
+            .as_text()
+            .is_some_and(|text| text.starts_with(|first: char| first.is_ascii_alphabetic()));
+        if !looks_like_a_grade {
+            return self
+                .positive(field, Dimension::Modulus)
+                .map(Grade::Strength);
+        }
+        let before = self.faults.len();
+        let named = self.choice(field, grades, &[]).map(Grade::Named);
+        if let Some((_, fault)) = self.faults.get_mut(before) {
+            fault
+                .remedy
+                .get_or_insert_with(|| format!("a strength is possible too: {example}"));
+        }
+        named
     }
 
     /// One of several words; `later` are those of other versions of the format.

@@ -23,7 +23,7 @@ pub fn model_schema() -> String {
 /// A table with the keys of some sections and no others.
 fn table(sections: &[Section]) -> Value {
     let mut properties = Map::new();
-    for key in keys_of(sections).filter(|key| key.kind != Kind::Reserved) {
+    for key in keys_of(sections) {
         properties.insert(key.name.into(), property(key));
     }
     let required: Vec<&str> = keys_of(sections)
@@ -69,6 +69,9 @@ fn kind(kind: Kind) -> Value {
     let one_or_list = |one: Value| json!({ "anyOf": [one, { "type": "array", "items": one }] });
     match kind {
         Kind::Text => json!({ "type": "string" }),
+        Kind::Component => {
+            json!({ "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 1 }] })
+        }
         Kind::Count => count,
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Quantity(dimension) => quantity(dimension),
@@ -84,6 +87,9 @@ fn kind(kind: Kind) -> Value {
         Kind::WordOr(word, dimension) => {
             json!({ "anyOf": [{ "const": word }, quantity(dimension)] })
         }
+        Kind::WordOrTable(word, sections) => {
+            json!({ "anyOf": [{ "const": word }, table(sections)] })
+        }
         Kind::ChoiceOrTable(words, section) => {
             json!({ "anyOf": [{ "enum": words }, table(&[section])] })
         }
@@ -91,6 +97,10 @@ fn kind(kind: Kind) -> Value {
             json!({ "anyOf": [quantity(Dimension::Dimensionless), table(&[section])] })
         }
         Kind::Table(section) => table(&[section]),
+        Kind::TextOrTable(section) => {
+            json!({ "anyOf": [{ "type": "string" }, table(&[section])] })
+        }
+        Kind::Word(words) => json!({ "anyOf": [{ "enum": words }, { "type": "number" }] }),
         Kind::TablePerStorey(section) => one_or_list(table(&[section])),
         Kind::Tables(sections) if sections.contains(&Section::Building) => {
             json!({ "type": "array", "minItems": 1, "items": building() })
@@ -104,8 +114,9 @@ fn kind(kind: Kind) -> Value {
             { "type": "array", "items": { "type": "array", "items": count, "minItems": 2, "maxItems": 2 } },
             { "type": "array", "items": quantity(Dimension::Length) },
         ] }),
-        // Not part of the schema.
-        Kind::Reserved => json!({}),
+        Kind::GradeOr(grades) => {
+            json!({ "anyOf": [{ "enum": grades }, quantity(Dimension::Modulus)] })
+        }
     }
 }
 

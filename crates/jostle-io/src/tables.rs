@@ -1,10 +1,11 @@
-//! `history.parquet` and `impacts.parquet`: columns with units in their names, compressed with zstd.
+//! `history.parquet`, `impacts.parquet` and `hinges.parquet`: columns with units in their names, compressed with zstd.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use jostle::summary::{ContactSummary, ImpactSummary};
-use jostle::{Column, EnergyTerm, History, Model, Summary};
+use jostle::skeleton::{MemberEnd, SpringPlace};
+use jostle::summary::{ContactSummary, ImpactSummary, SpringSummary};
+use jostle::{Column, EnergyTerm, History, Model, Outcome, Summary, System, springs_of};
 use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type};
 use parquet::errors::ParquetError;
@@ -15,11 +16,16 @@ use parquet::schema::types::Type;
 
 use crate::output::{OutputError, write_atomically};
 
-/// A column of a table with its values.
-enum Values {
+/// The values of a column of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Numbers.
     Real(Vec<f64>),
+    /// Numbers, possibly absent.
+    Instant(Vec<Option<f64>>),
     /// Whole numbers, possibly absent.
     Whole(Vec<Option<i32>>),
+    /// Texts.
     Text(Vec<String>),
 }
 
@@ -37,15 +43,29 @@ pub fn write_history_parquet(
     summary: &Summary,
     history: &History,
 ) -> Result<(), OutputError> {
+    let names = history_names(model, summary, history.columns());
+    let columns = names.into_iter().zip(history.columns());
+    let columns = columns
+        .map(|(name, column)| {
+            (
+                name,
+                Values::Real(history.column(*column).unwrap_or_default()),
+            )
+        })
+        .collect();
+    write_table(path, summary, columns)
+}
+
+/// Names of recorded quantities in tables, as [`write_history_parquet`] says; no two are equal.
+#[must_use]
+pub fn history_names(model: &Model, summary: &Summary, columns: &[Column]) -> Vec<String> {
     let contacts = contact_names(summary);
-    let columns = history.columns().iter().map(|column| {
-        let name = column_name(model, &contacts, *column);
-        (
-            name,
-            Values::Real(history.column(*column).unwrap_or_default()),
-        )
-    });
-    write_table(path, summary, unique(columns.collect()))
+    let mut names: Vec<String> = columns
+        .iter()
+        .map(|column| column_name(model, &contacts, *column))
+        .collect();
+    number_equal(&mut names);
+    names
 }
 
 /// Writes the impacts: one row per impact, in the order of `summary.json`.
@@ -53,6 +73,14 @@ pub fn write_history_parquet(
 /// # Errors
 /// [`OutputError`] with path and reason.
 pub fn write_impacts_parquet(path: &Path, summary: &Summary) -> Result<(), OutputError> {
+    let columns = impact_columns(summary).into_iter();
+    let columns = columns.map(|(name, values)| (name.to_owned(), values));
+    write_table(path, summary, columns.collect())
+}
+
+/// The columns of the table of impacts: one row per impact, in the order of `summary.json`.
+#[must_use]
+pub fn impact_columns(summary: &Summary) -> Vec<(&'static str, Values)> {
     let mut rows: Vec<(String, &ContactSummary, &ImpactSummary)> = Vec::new();
     for gap in &summary.gaps {
         for contact in &gap.contacts {
@@ -70,11 +98,15 @@ pub fn write_impacts_parquet(path: &Path, summary: &Summary) -> Result<(), Outpu
     let real = |value: fn(&ImpactSummary) -> f64| {
         Values::Real(rows.iter().map(|(_, _, impact)| value(impact)).collect())
     };
+    let whole = |value: fn(&ImpactSummary) -> usize| {
+        let values = rows.iter().map(|(_, _, impact)| value(impact));
+        Values::Whole(values.map(|value| i32::try_from(value).ok()).collect())
+    };
     let heights = rows
         .iter()
         .map(|(_, contact, _)| contact.height_m)
         .collect();
-    let columns = vec![
+    vec![
         (
             "gap",
             Values::Text(rows.iter().map(|row| row.0.clone()).collect()),
@@ -93,12 +125,108 @@ pub fn write_impacts_parquet(path: &Path, summary: &Summary) -> Result<(), Outpu
         ("realised_restitution", real(|i| i.realised_restitution)),
         ("impulse_n_s", real(|i| i.impulse_n_s)),
         ("dissipated_j", real(|i| i.dissipated_j)),
+        ("finished", whole(|i| usize::from(i.finished))),
+        ("touches", whole(|i| i.touches)),
+        ("simultaneous", whole(|i| i.simultaneous)),
+    ]
+}
+
+/// Writes columns of numbers of equal length, named with their units.
+///
+/// # Errors
+/// [`OutputError`] with path and reason.
+pub fn write_columns_parquet(
+    path: &Path,
+    title: &str,
+    columns: Vec<(String, Vec<f64>)>,
+) -> Result<(), OutputError> {
+    let columns = columns
+        .into_iter()
+        .map(|(name, values)| (name, Values::Real(values)));
+    let bytes = encode_titled(env!("CARGO_PKG_VERSION"), title, columns.collect());
+    let bytes = bytes.map_err(|error| OutputError::Encoding {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    })?;
+    write_atomically(path, &bytes)
+}
+
+/// Writes what can crack and yield: one row per hinge or storey spring, building by building, touched or not.
+///
+/// `kind` is `column`, `beam` or `storey`; `level` is the storey of a column, the floor of a beam; `line` is the
+/// column line or the bay, absent for storeys; `end` is `foot`, `head`, `left`, `right` or empty. Deformations are in
+/// rad (m for storeys), forces in N·m (N for storeys).
+///
+/// # Errors
+/// [`OutputError`] with path and reason.
+pub fn write_hinges_parquet(
+    path: &Path,
+    system: &System,
+    outcome: &Outcome,
+    summary: &Summary,
+) -> Result<(), OutputError> {
+    type Row<'a> = (&'a str, Option<SpringPlace>, SpringSummary);
+    let mut rows: Vec<Row<'_>> = Vec::new();
+    for building in &system.buildings {
+        for spring in springs_of(building, outcome) {
+            let places = &building.idealisation.spring_places;
+            rows.push((&building.name, places.get(spring.index).copied(), spring));
+        }
+    }
+    let text = |of: fn(&Row<'_>) -> String| Values::Text(rows.iter().map(of).collect());
+    let whole = |of: fn(&Row<'_>) -> Option<usize>| {
+        let values = rows.iter().map(of);
+        Values::Whole(values.map(|v| i32::try_from(v?).ok()).collect())
+    };
+    let real = |of: fn(&SpringSummary) -> f64| {
+        Values::Real(rows.iter().map(|(_, _, spring)| of(spring)).collect())
+    };
+    let instant = |of: fn(&SpringSummary) -> Option<f64>| {
+        Values::Instant(rows.iter().map(|(_, _, spring)| of(spring)).collect())
+    };
+    let columns = vec![
+        ("building", text(|row| row.0.to_owned())),
+        ("index", whole(|row| Some(row.2.index))),
+        ("place", text(|row| row.2.place.clone())),
+        ("kind", text(|row| parts(row.1).0.to_owned())),
+        ("level", whole(|row| parts(row.1).1)),
+        ("line", whole(|row| parts(row.1).2)),
+        ("end", text(|row| parts(row.1).3.to_owned())),
+        ("cracked_s", instant(|spring| spring.cracked_s)),
+        ("yielded_s", instant(|spring| spring.yielded_s)),
+        ("deformation_max", real(|spring| spring.deformation_max)),
+        ("deformation_min", real(|spring| spring.deformation_min)),
+        ("ductility", real(|spring| spring.ductility)),
+        ("peak_force", real(|spring| spring.peak_force)),
+        ("dissipated_j", real(|spring| spring.dissipated_j)),
     ];
     let named = columns
         .into_iter()
         .map(|(name, values)| (name.to_owned(), values))
         .collect();
     write_table(path, summary, named)
+}
+
+/// Kind, level, line and end of a place.
+fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usize>, &'static str) {
+    match place {
+        Some(SpringPlace::Column { storey, line, end }) => {
+            let end = match end {
+                MemberEnd::First => "foot",
+                MemberEnd::Last => "head",
+            };
+            ("column", Some(storey), Some(line), end)
+        }
+        Some(SpringPlace::Beam { floor, bay, end }) => {
+            let end = match end {
+                MemberEnd::First => "left",
+                MemberEnd::Last => "right",
+            };
+            ("beam", Some(floor), Some(bay), end)
+        }
+        Some(SpringPlace::Storey { storey }) => ("storey", Some(storey), None, ""),
+        None => ("", None, None, ""),
+    }
 }
 
 /// Names of the contacts in the order of the history's contact indices.
@@ -166,10 +294,10 @@ fn plain(name: &str) -> String {
         .collect()
 }
 
-/// Numbers columns whose names have become equal.
-fn unique(mut columns: Vec<(String, Values)>) -> Vec<(String, Values)> {
+/// Numbers names that have become equal.
+fn number_equal(names: &mut [String]) {
     let mut seen = std::collections::HashSet::new();
-    for (name, _) in &mut columns {
+    for name in names {
         let first = name.clone();
         let mut number = 1;
         while !seen.insert(name.clone()) {
@@ -177,7 +305,6 @@ fn unique(mut columns: Vec<(String, Values)>) -> Vec<(String, Values)> {
             *name = format!("{first}.{number}");
         }
     }
-    columns
 }
 
 fn write_table(
@@ -193,6 +320,14 @@ fn write_table(
 }
 
 fn encode(summary: &Summary, columns: Vec<(String, Values)>) -> Result<Vec<u8>, ParquetError> {
+    encode_titled(&summary.jostle, &summary.title, columns)
+}
+
+fn encode_titled(
+    version: &str,
+    title: &str,
+    columns: Vec<(String, Values)>,
+) -> Result<Vec<u8>, ParquetError> {
     let fields = columns
         .iter()
         .map(|(name, values)| field(name, values).map(Arc::new))
@@ -203,11 +338,8 @@ fn encode(summary: &Summary, columns: Vec<(String, Values)>) -> Result<Vec<u8>, 
     let pair = |key: &str, value: &str| KeyValue::new(key.to_owned(), value.to_owned());
     let properties = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
-        .set_created_by(format!("jostle {}", summary.jostle))
-        .set_key_value_metadata(Some(vec![
-            pair("jostle", &summary.jostle),
-            pair("title", &summary.title),
-        ]))
+        .set_created_by(format!("jostle {version}"))
+        .set_key_value_metadata(Some(vec![pair("jostle", version), pair("title", title)]))
         .build();
     let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
     let mut group = writer.next_row_group()?;
@@ -220,6 +352,13 @@ fn encode(summary: &Summary, columns: Vec<(String, Values)>) -> Result<Vec<u8>, 
                 column
                     .typed::<DoubleType>()
                     .write_batch(&values, None, None)?;
+            }
+            Values::Instant(values) => {
+                let levels: Vec<i16> = values.iter().map(|v| i16::from(v.is_some())).collect();
+                let present: Vec<f64> = values.into_iter().flatten().collect();
+                column
+                    .typed::<DoubleType>()
+                    .write_batch(&present, Some(&levels), None)?;
             }
             Values::Whole(values) => {
                 let levels: Vec<i16> = values.iter().map(|v| i16::from(v.is_some())).collect();
@@ -247,6 +386,7 @@ fn encode(summary: &Summary, columns: Vec<(String, Values)>) -> Result<Vec<u8>, 
 fn field(name: &str, values: &Values) -> Result<Type, ParquetError> {
     let (physical, repetition, converted) = match values {
         Values::Real(_) => (Physical::DOUBLE, Repetition::REQUIRED, ConvertedType::NONE),
+        Values::Instant(_) => (Physical::DOUBLE, Repetition::OPTIONAL, ConvertedType::NONE),
         Values::Whole(_) => (Physical::INT32, Repetition::OPTIONAL, ConvertedType::NONE),
         Values::Text(_) => (
             Physical::BYTE_ARRAY,

@@ -75,7 +75,7 @@ column = { width = "500 mm", hight = "500 mm", depth = "500 mm" }
 beam = [{ width = "300 mm", depth = "600 mm" }]
 concrete = "C33"
 beam_mass = "25 kN/m"
-hinges = { rule = "normal" }
+hinges = { rule = "norml", column = { yield = "400 kN" } }
 
 [[building]]
 name = "B"
@@ -85,7 +85,7 @@ stiffness = "60 MN/m"
 
 [[gap]]
 between = ["B", "A"]
-law = "ye"
+law = "yea"
 "#;
     let wanted = r#"model.toml:1:1: titel: unknown key "titel"
   1 | titel = "Two houses"
@@ -107,7 +107,7 @@ model.toml:11:19: building[0].spans[1]: must be greater than zero, found -6 m
 model.toml:12:30: building[0].column.hight: unknown key "hight"
   12 | column = { width = "500 mm", hight = "500 mm", depth = "500 mm" }
      |                              ^^^^^
-  help: known here: width, depth, EI, EA, mass
+  help: known here: width, depth, EI, EA, GA, mass, concrete, steel, strength, bars, cover, ties, axial_load
 
 model.toml:13:8: building[0].beam: has 1 entry for 5 storeys; give one value, or one per storey from the ground up
   13 | beam = [{ width = "300 mm", depth = "600 mm" }]
@@ -118,10 +118,14 @@ model.toml:14:12: building[0].concrete: "C33" is not known; available: C20, C25,
      |            ^^^^^
   help: did you mean "C30"?
 
-model.toml:16:1: building[0].hinges: is not available in this version
-  16 | hinges = { rule = "normal" }
-     | ^^^^^^
-  help: remove hinges for an elastic analysis
+model.toml:16:19: building[0].hinges.rule: "norml" is not known; available: normal, peak-oriented, takeda, d-tri, bilinear, elastic
+  16 | hinges = { rule = "norml", column = { yield = "400 kN" } }
+     |                   ^^^^^^^
+  help: did you mean "normal"?
+
+model.toml:16:47: building[0].hinges.column.yield: expected a moment (such as "400 kN.m"), found "400 kN"
+  16 | hinges = { rule = "norml", column = { yield = "400 kN" } }
+     |                                               ^^^^^^^^
 
 model.toml:24:1: gap[0].width: is missing
   24 | [[gap]]
@@ -133,11 +137,12 @@ model.toml:25:11: gap[0].between: names the right neighbour first
      |           ^^^^^^^^^^
   help: the buildings stand, from left to right: "A", "B"
 
-model.toml:26:7: gap[0].law: "ye" is not available in this version; available: linear, kelvin, kelvin-no-tension, hertz, hertz-damp
-  26 | law = "ye"
-     |       ^^^^
+model.toml:26:7: gap[0].law: "yea" is not known; available: linear, kelvin, kelvin-no-tension, modified-kelvin, hertz, hertz-damp, ye, jankowski, bilinear, restitution, rubber
+  26 | law = "yea"
+     |       ^^^^^
+  help: did you mean "ye"?
 
-11 faults in model.toml"#;
+12 faults in model.toml"#;
     assert_eq!(message(text), wanted);
 }
 
@@ -263,7 +268,7 @@ fn contact_stiffness_must_suit_the_law() {
     );
     assert_single(
         &gap("law = \"hertz_damp\""),
-        "model.toml:22:7: gap[0].law: \"hertz_damp\" is not known; available: linear, kelvin, kelvin-no-tension, hertz, hertz-damp",
+        "model.toml:22:7: gap[0].law: \"hertz_damp\" is not known; available: linear, kelvin, kelvin-no-tension, modified-kelvin, hertz, hertz-damp, ye, jankowski, bilinear, restitution, rubber",
     );
 }
 
@@ -339,7 +344,7 @@ fn motion_faults_are_explained() {
 
     let input = read(&motion("record = \"el-zentro-1940-ns\""), Format::Toml)
         .unwrap_or_else(|error| panic!("{error}"));
-    let wanted = r#"model.toml:9:10: motion.record: there is no record "el-zentro-1940-ns" (did you mean "el-centro-1940-ns"?); built-in records: el-centro-1940-ns
+    let wanted = r#"model.toml:9:10: motion.record: there is no record "el-zentro-1940-ns" (did you mean "el-centro-1940-ns"?); built-in records: el-centro-1940-ns, nanjing-artificial
   9 | record = "el-zentro-1940-ns"
     |          ^^^^^^^^^^^^^^^^^^^
 
@@ -419,4 +424,60 @@ fn single_values_make_one_floor_and_say_so() {
         "{:?}",
         input.warnings
     );
+}
+
+#[test]
+fn parameters_belong_to_their_law() {
+    let model = |gap: &str| {
+        format!(
+            "[[building]]\nname = \"A\"\nkind = \"shear\"\nmass = [\"40 t\"]\nstiffness = [\"60 MN/m\"]\n\
+             [[building]]\nname = \"B\"\nkind = \"shear\"\nmass = [\"40 t\"]\nstiffness = [\"20 MN/m\"]\n\
+             [[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"10 mm\"\n{gap}\n"
+        )
+    };
+    let read = |gap: &str| read_model_text("model.toml", &model(gap), Format::Toml, "".as_ref());
+    for gap in [
+        "law = \"modified-kelvin\"\nstiffness = \"90 MN/m\"\nvariant = \"mahmoud-jankowski\"",
+        "law = \"bilinear\"\nyield_share = 0.2\ndesign_speed = \"0.5 m/s\"",
+        "law = \"rubber\"\nstiffness = \"30 MN/m\"\nthickness = \"60 mm\"\nexponent = 2",
+        "law = \"restitution\"\nrestitution = 0.4\nminimum_separation = \"20 ms\"",
+        "law = \"jankowski\"",
+        "law = \"ye\"",
+    ] {
+        if let Err(error) = read(gap) {
+            panic!("{gap}: {error}");
+        }
+    }
+    for (gap, expected) in [
+        (
+            "law = \"hertz\"\nthickness = \"60 mm\"",
+            "gap[0].thickness: belongs to the law rubber, not to hertz",
+        ),
+        (
+            "law = \"rubber\"\nstiffness = \"30 MN/m\"",
+            "gap[0].thickness: is missing",
+        ),
+        (
+            "law = \"bilinear\"\nyield_share = 0.7",
+            "gap[0].yield_share: must lie between 0 and 0.5, found 0.7",
+        ),
+        (
+            "law = \"bilinear\"\nrestitution = 0.1\nrestitution_is = \"realised\"",
+            "cannot be realised by bilinear below 0.2294",
+        ),
+        (
+            "law = \"modified-kelvin\"\nstiffness = \"90 MN/m\"\nvariant = \"me\"",
+            "gap[0].variant: \"me\" is not known; available: ye, mahmoud-jankowski",
+        ),
+        (
+            "law = \"hertz\"\nminimum_separation = \"-1 s\"",
+            "gap[0].minimum_separation: must not be negative, found -1 s",
+        ),
+    ] {
+        let error = read(gap).err().map(|error| error.to_string());
+        assert!(
+            error.as_ref().is_some_and(|text| text.contains(expected)),
+            "{gap}: {error:?}"
+        );
+    }
 }

@@ -120,6 +120,7 @@ fn exercise_record(bytes: &[u8]) {
             unit: Some("gal".into()),
             step: Some(0.01),
             column: Some(2),
+            ..RecordOptions::default()
         },
     ] {
         match parse_record(bytes, &options) {

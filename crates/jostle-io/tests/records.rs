@@ -132,6 +132,7 @@ fn options_complete_what_the_file_leaves_open() {
         unit: Some("gal".into()),
         step: Some(0.02),
         column: Some(2),
+        ..RecordOptions::default()
     };
     let record = parse_with("1 100 5\n1 -200 6\n", &options).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(record.acceleration, [1.0, -2.0]);
@@ -204,14 +205,6 @@ fn impossible_values_are_refused() {
     assert_refused("t_s,acc_g\n0,1\n0.01,x\n", ":3: \"x\" is not a number");
     assert_refused(
         "a\0b",
-        ": this is no plain text file; export the record as AT2, CSV or columns of text in UTF-8",
-    );
-}
-
-#[test]
-fn other_record_formats_are_named_not_misread() {
-    assert_refused(
-        "Origin Time       2018/01/24 19:51:00\nLat.              41.0\n",
-        ": this looks like a record in K-NET or KiK-net format, which is not read; export it as PEER AT2, CSV or columns of text",
+        ": this is no plain text file, and neither miniSEED nor SAC; export the record as AT2, CSV or columns of text in UTF-8",
     );
 }

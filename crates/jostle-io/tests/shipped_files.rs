@@ -197,7 +197,7 @@ fn overrides_change_what_they_name() {
     assert!((motion.peak() - 0.7).abs() < 1e-12);
     assert!(motion.scale < 0.0, "the sign stays reversed");
     assert_eq!(
-        input.motion.as_ref().map(|m| m.scaling),
+        input.motion.as_ref().map(|m| m.scaling.clone()),
         Some(Scaling::Pga(0.7))
     );
 

@@ -50,6 +50,9 @@ fn impact(start: f64) -> ImpactSummary {
         realised_restitution: 0.6,
         impulse_n_s: 1e4,
         dissipated_j: 2e3,
+        finished: true,
+        touches: 1,
+        simultaneous: 1,
     }
 }
 
@@ -96,6 +99,10 @@ fn summary() -> Summary {
             impact_count: 3,
             peak_force_n: 1e6,
             first_impact_s: Some(1.0),
+            minimum_separation_s: 0.0,
+            pounding_count: 1,
+            multiple_pounding_count: 0,
+            most_at_once: 1,
             closing_without_contact_m: None,
         }],
         energy: EnergySummary::default(),

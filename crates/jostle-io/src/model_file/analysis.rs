@@ -1,10 +1,11 @@
 //! `[analysis]`: steps, accuracy and solver.
 
-use jostle::{Analysis, Solver};
+use jostle::{Analysis, Integrator, Solver};
 
-use crate::keys::{LATER_SOLVERS, SOLVERS, Section};
+use crate::keys::{INTEGRATORS, LATER_SOLVERS, SOLVERS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
+use crate::tree::Value;
 
 pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
     let mut analysis = Analysis::default();
@@ -32,7 +33,75 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
             _ => Solver::Riccati,
         };
     }
+    if let Some(field) = reader.get(&view, "integrator") {
+        analysis.integrator = integrator(reader, &field);
+    }
     analysis
+}
+
+/// A word, or a table with the numbers of the method.
+fn integrator(reader: &mut Reader<'_>, field: &Field<'_>) -> Integrator {
+    let usual = |method: Option<&str>| match method {
+        Some("hht") => Integrator::hht(0.05),
+        Some("generalized-alpha") => Integrator::generalized_alpha(0.8),
+        _ => Integrator::default(),
+    };
+    if !matches!(field.node.value, Value::Table(_)) {
+        return usual(reader.choice(field, INTEGRATORS, &[]));
+    }
+    let Some(view) = reader.open(field, &[Section::Integrator]) else {
+        return Integrator::default();
+    };
+    let method = match reader.get(&view, "method") {
+        Some(field) => reader.choice(&field, INTEGRATORS, &[]),
+        None => {
+            reader.missing(&view, "method", "add method = \"hht\", for instance");
+            None
+        }
+    };
+    let Some(method) = method else {
+        return Integrator::default();
+    };
+    let belongs: &[&str] = match method {
+        "newmark" => &["beta", "gamma"],
+        "hht" => &["alpha"],
+        "generalized-alpha" => &["spectral_radius"],
+        _ => &[],
+    };
+    let mut number = |key: &'static str, range: std::ops::RangeInclusive<f64>| {
+        let field = reader.get(&view, key)?;
+        if !belongs.contains(&key) {
+            *reader.bad(&field, format!("does not belong to {method}")) = Some(match belongs {
+                [] => "remove it".to_owned(),
+                keys => format!("{method} takes {}", keys.join(" and ")),
+            });
+            return None;
+        }
+        let value = reader.quantity(&field, Dimension::Dimensionless)?;
+        if range.contains(&value) {
+            return Some(value);
+        }
+        reader.bad(
+            &field,
+            format!(
+                "must lie between {} and {}, found {value}",
+                range.start(),
+                range.end()
+            ),
+        );
+        None
+    };
+    let (beta, gamma) = (number("beta", 0.0..=1.0), number("gamma", 0.5..=1.5));
+    let alpha = number("alpha", 0.0..=1.0 / 3.0);
+    let radius = number("spectral_radius", 0.0..=1.0);
+    match method {
+        "newmark" => Integrator::newmark(beta.unwrap_or(0.25), gamma.unwrap_or(0.5)),
+        "hht" => alpha.map_or_else(|| usual(Some(method)), Integrator::hht),
+        "generalized-alpha" => {
+            radius.map_or_else(|| usual(Some(method)), Integrator::generalized_alpha)
+        }
+        _ => Integrator::default(),
+    }
 }
 
 /// A time, or `"auto"`.

@@ -1,8 +1,9 @@
 //! `[[building]]`: what frames and shear buildings have in common.
 
-use jostle::{Building, Damping, Structure};
+use jostle::{Analysis, Base, Building, Damping, Gravity, Model, Structure};
 
-use super::{frame, shear};
+use super::reinforced::{self, ReinforcedMember};
+use super::{frame, hinges, shear};
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -14,8 +15,11 @@ const MOST_BUILDINGS: usize = 1000;
 /// Most storeys of a building.
 const MOST_STOREYS: usize = 200;
 
+/// Buildings and their reinforced members.
+pub(super) type Buildings = (Vec<Building>, Vec<ReinforcedMember>);
+
 /// Reads the list of buildings; `None` if it is no list.
-pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<Building>> {
+pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Buildings> {
     let Some(entries) = field.entries() else {
         let found = field.node.describe();
         *reader.bad(
@@ -32,16 +36,24 @@ pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec
         );
         return None;
     }
+    let mut members = Vec::new();
     let buildings = entries
         .iter()
         .enumerate()
-        .map(|(i, entry)| read(reader, entry, i))
+        .map(|(i, entry)| read(reader, entry, i, &mut members))
         .collect::<Vec<_>>();
     // A building that is no table leaves the others without their place in the row.
-    buildings.into_iter().collect()
+    let buildings: Option<Vec<_>> = buildings.into_iter().collect();
+    Some((buildings?, members))
 }
 
-fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Building> {
+fn read(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    index: usize,
+    members: &mut Vec<ReinforcedMember>,
+) -> Option<Building> {
+    let noted = reader.count_faults();
     let is_shear = looks_like_shear(field);
     let view = if is_shear {
         reader.open(field, &[Section::Building, Section::Shear])
@@ -76,9 +88,56 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Buil
             alpha: 0.0,
             beta: 0.0,
         },
+        base: Base::default(),
+        gravity: Gravity::default(),
+        hinges: None,
+    };
+    building.base = read_base(reader, &view, is_shear);
+    let mut flag = |key| {
+        reader
+            .get(&view, key)
+            .is_some_and(|field| reader.flag(&field).unwrap_or(false))
+    };
+    building.gravity = Gravity {
+        preload: flag("gravity"),
+        p_delta: flag("p_delta"),
     };
     building.damping = read_damping(reader, &view, building.floors(), is_shear);
+    let stated = reader.get(&view, "hinges");
+    building.hinges = match &building.structure {
+        Structure::Shear(shear) => {
+            stated.and_then(|field| hinges::read_storeys(reader, &field, shear))
+        }
+        Structure::Frame(frame) => {
+            let reinforced = reinforced::read(reader, &view, frame.storey_heights.len());
+            let here = (reader.count_faults() == noted && is_sound(&building))
+                .then(|| reinforced::members(index, &building, &reinforced));
+            let here = match here {
+                Some(Err(problem)) => {
+                    reader.fault(&view.span.clone(), format!("{}.column", view.path), problem);
+                    None
+                }
+                Some(Ok(here)) => Some(here),
+                None => None,
+            };
+            let hinges =
+                stated.and_then(|field| hinges::read_frame(reader, &field, frame, here.as_deref()));
+            members.extend(here.unwrap_or_default());
+            hinges
+        }
+    };
     Some(building)
+}
+
+/// Whether a building by itself would pass the check of a model.
+fn is_sound(building: &Building) -> bool {
+    let alone = Model {
+        title: String::new(),
+        buildings: vec![building.clone()],
+        gaps: Vec::new(),
+        analysis: Analysis::default(),
+    };
+    alone.check().is_ok()
 }
 
 /// Whether the building is a shear building. Where `kind` is absent or misspelt the other keys tell, so that
@@ -236,6 +295,63 @@ fn read_damping(
         ratio: ratio.unwrap_or(0.05),
         modes: modes.unwrap_or_default(),
     }
+}
+
+/// Springs and dashpots under the building.
+fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool) -> Base {
+    let Some(field) = reader.get(view, "base") else {
+        return Base::default();
+    };
+    if field.as_text() == Some("fixed") {
+        return Base::default();
+    }
+    let sections: &'static [Section] = if is_shear {
+        &[Section::ShearBase]
+    } else {
+        &[Section::ShearBase, Section::FrameBase]
+    };
+    let Some(view) = reader.open(&field, sections) else {
+        return Base::default();
+    };
+    let mut base = Base {
+        horizontal_stiffness: or_rigid(reader, &view, "horizontal_stiffness", Dimension::Stiffness),
+        ..Base::default()
+    };
+    let mut quantity = |key, dimension| {
+        let value = reader
+            .get(&view, key)
+            .and_then(|field| reader.quantity(&field, dimension));
+        value.unwrap_or(0.0)
+    };
+    base.horizontal_damping = quantity("horizontal_damping", Dimension::Damping);
+    base.mass = quantity("mass", Dimension::Mass);
+    if !is_shear {
+        base.vertical_damping = quantity("vertical_damping", Dimension::Damping);
+        base.rotational_damping = quantity("rotational_damping", Dimension::RotationalDamping);
+        base.vertical_stiffness =
+            or_rigid(reader, &view, "vertical_stiffness", Dimension::Stiffness);
+        base.rotational_stiffness = or_rigid(
+            reader,
+            &view,
+            "rotational_stiffness",
+            Dimension::RotationalStiffness,
+        );
+    }
+    base
+}
+
+/// A stiffness; `None` for `"rigid"` and where it is absent.
+pub(super) fn or_rigid(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    dimension: Dimension,
+) -> Option<f64> {
+    let field = reader.get(view, key)?;
+    if field.as_text() == Some("rigid") {
+        return None;
+    }
+    reader.quantity(&field, dimension)
 }
 
 /// Mode numbers; after a fault, the first mode.

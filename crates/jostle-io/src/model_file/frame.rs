@@ -2,7 +2,7 @@
 
 use jostle::{Axial, Frame, Joint};
 
-use super::building::{per_storey, storeys};
+use super::building::{or_rigid, per_storey, storeys};
 use super::section::{Material, read_modulus, read_sections};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
@@ -14,6 +14,9 @@ const MOST_SPANS: usize = 50;
 
 /// Density of reinforced concrete \[kg/m³\].
 const CONCRETE_DENSITY: f64 = 2500.0;
+
+/// Poisson's ratio of concrete \[–\] (GB 50010-2010, clause 4.1.8).
+const CONCRETE_POISSON_RATIO: f64 = 0.2;
 
 /// Reads the keys of a frame; after a fault, harmless values stand in.
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
@@ -39,19 +42,31 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
     let (modulus, modulus_is_bad) = read_modulus(reader, view);
     let density = read_density(reader, view);
     let (column_factor, beam_factor) = stiffness_factors(reader, view);
-    let material = |factor| Material {
+    let shears = flexible_members(reader, view, "shear", Section::ShearDeformation);
+    let poisson_ratio = read_poisson_ratio(reader, view);
+    let material = |factor, shears| Material {
         modulus,
+        modulus_is_stated: view.has("elastic_modulus"),
         modulus_is_bad,
         density,
         factor,
+        shears,
+        poisson_ratio,
     };
-    let columns = read_sections(reader, view, "column", count, material(column_factor));
-    let beams = read_sections(reader, view, "beam", count, material(beam_factor));
+    let columns = read_sections(
+        reader,
+        view,
+        "column",
+        count,
+        material(column_factor, shears.0),
+    );
+    let beams = read_sections(reader, view, "beam", count, material(beam_factor, shears.1));
     let (beam_mass, floor_mass) = masses(reader, view, count);
     let column_segments = match reader.get(view, "column_segments") {
         Some(field) => reader.count(&field).unwrap_or(1),
         None => 4,
     };
+    let axial = flexible_members(reader, view, "axial", Section::Axial);
     Frame {
         beam_segments: beam_segments(reader, view, spans.len()),
         storey_heights,
@@ -61,7 +76,10 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
         beam_mass,
         floor_mass,
         column_segments,
-        axial: axial(reader, view),
+        axial: Axial {
+            columns_flexible: axial.0,
+            beams_flexible: axial.1,
+        },
         joint: joint(reader, view),
     }
 }
@@ -178,28 +196,44 @@ fn beam_segments(reader: &mut Reader<'_>, view: &View<'_>, spans: usize) -> Vec<
     }
 }
 
-fn axial(reader: &mut Reader<'_>, view: &View<'_>) -> Axial {
-    let Some(field) = reader.get(view, "axial") else {
-        return Axial::default();
+/// Whether columns and beams are flexible in some way: a word for all, or a table.
+fn flexible_members(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    section: Section,
+) -> (bool, bool) {
+    let Some(field) = reader.get(view, key) else {
+        return (false, false);
     };
     if !matches!(field.node.value, Value::Table(_)) {
         let flexible = is_flexible(reader, &field);
-        return Axial {
-            columns_flexible: flexible,
-            beams_flexible: flexible,
-        };
+        return (flexible, flexible);
     }
-    let Some(view) = reader.open(&field, &[Section::Axial]) else {
-        return Axial::default();
+    let sections: &'static [Section] = match section {
+        Section::Axial => &[Section::Axial],
+        _ => &[Section::ShearDeformation],
+    };
+    let Some(view) = reader.open(&field, sections) else {
+        return (false, false);
     };
     let mut flexible = |key| match reader.get(&view, key) {
         Some(field) => is_flexible(reader, &field),
         None => false,
     };
-    Axial {
-        columns_flexible: flexible("columns"),
-        beams_flexible: flexible("beams"),
+    (flexible("columns"), flexible("beams"))
+}
+
+fn read_poisson_ratio(reader: &mut Reader<'_>, view: &View<'_>) -> f64 {
+    let Some(field) = reader.get(view, "poisson_ratio") else {
+        return CONCRETE_POISSON_RATIO;
+    };
+    let ratio = reader.quantity(&field, Dimension::Dimensionless);
+    if ratio.is_some_and(|ratio| !(0.0..0.5).contains(&ratio)) {
+        *reader.bad(&field, "must lie between 0 and 0.5") =
+            Some("0.2 is usual for concrete, 0.3 for steel".into());
     }
+    ratio.unwrap_or(CONCRETE_POISSON_RATIO)
 }
 
 fn is_flexible(reader: &mut Reader<'_>, field: &Field<'_>) -> bool {
@@ -213,13 +247,14 @@ fn joint(reader: &mut Reader<'_>, view: &View<'_>) -> Joint {
     let Some(view) = reader.open(&field, &[Section::Joint]) else {
         return Joint::default();
     };
-    let rotational_stiffness = match reader.get(&view, "rotational_stiffness") {
-        Some(field) if field.as_text() != Some("rigid") => {
-            reader.quantity(&field, Dimension::RotationalStiffness)
-        }
-        _ => None,
-    };
     Joint {
-        rotational_stiffness,
+        rotational_stiffness: or_rigid(
+            reader,
+            &view,
+            "rotational_stiffness",
+            Dimension::RotationalStiffness,
+        ),
+        horizontal_stiffness: or_rigid(reader, &view, "horizontal_stiffness", Dimension::Stiffness),
+        vertical_stiffness: or_rigid(reader, &view, "vertical_stiffness", Dimension::Stiffness),
     }
 }

@@ -1,13 +1,17 @@
 //! `[[gap]]`: the space between two neighbours and the law of their contact.
 
+use jostle::contact::{BilinearShape, ModifiedKelvin, RubberBumper};
 use jostle::{Building, ContactLaw, FloorPairs, Gap, LawKind, RestitutionIs};
 
-use crate::keys::{LATER_LAWS, LAWS, RESTITUTION_IS, Section, nearest};
+use crate::keys::{LAW_VARIANTS, LAWS, RESTITUTION_IS, Section, nearest};
 use crate::quantity::{Dimension, shorten};
 use crate::reader::{Field, Reader, View};
 
 /// Contact stiffness of the Hertz laws for colliding concrete floors \[N/m^1.5\].
 const CONCRETE_STIFFNESS: f64 = 2e9;
+
+/// Stiffness of lasting contact under the momentum law \[N/m\].
+const LASTING_STIFFNESS: f64 = 1e9;
 
 /// Restitution of colliding concrete \[–\].
 const CONCRETE_RESTITUTION: f64 = 0.65;
@@ -69,11 +73,13 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, buildings: Option<&[Building
         None => Some(FloorPairs::Common),
     };
     let law = law(reader, &view);
+    let minimum_separation = optional(reader, &view, "minimum_separation", Dimension::Time);
     Some(Gap {
         left: left?,
         width: width.unwrap_or(0.0),
         floors: floors.unwrap_or(FloorPairs::Common),
         law,
+        minimum_separation: minimum_separation.unwrap_or(0.0),
     })
 }
 
@@ -196,15 +202,22 @@ fn floor_pair(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<(usize, usiz
 fn law(reader: &mut Reader<'_>, view: &View<'_>) -> ContactLaw {
     let named = reader
         .get(view, "law")
-        .map(|field| reader.choice(&field, LAWS, LATER_LAWS));
+        .map(|field| reader.choice(&field, LAWS, &[]));
     let kind = match named.flatten() {
         Some("linear") => LawKind::Linear,
         Some("kelvin") => LawKind::Kelvin,
         Some("kelvin-no-tension") => LawKind::KelvinNoTension,
+        Some("modified-kelvin") => LawKind::ModifiedKelvin(ModifiedKelvin::Ye),
         Some("hertz") => LawKind::Hertz,
+        Some("ye") => LawKind::Ye,
+        Some("jankowski") => LawKind::Jankowski,
+        Some("bilinear") => LawKind::Bilinear(BilinearShape::USUAL),
+        Some("restitution") => LawKind::Restitution,
+        Some("rubber") => LawKind::Rubber(RubberBumper::USUAL),
         _ => LawKind::HertzDamp,
     };
     let law_is_bad = matches!(named, Some(None));
+    let kind = with_parameters(reader, view, kind, law_is_bad);
     let stiffness = stiffness(reader, view, kind, law_is_bad);
     let restitution = match reader.get(view, "restitution") {
         Some(field) => reader.quantity(&field, Dimension::Dimensionless),
@@ -216,13 +229,81 @@ fn law(reader: &mut Reader<'_>, view: &View<'_>) -> ContactLaw {
     };
     ContactLaw {
         kind,
-        stiffness: stiffness.unwrap_or(CONCRETE_STIFFNESS),
+        stiffness: stiffness.unwrap_or(match kind {
+            LawKind::Restitution => LASTING_STIFFNESS,
+            _ => CONCRETE_STIFFNESS,
+        }),
         restitution: restitution.unwrap_or(CONCRETE_RESTITUTION),
         restitution_is: match restitution_is {
             Some("realised") => RestitutionIs::Realised,
             _ => RestitutionIs::Input,
         },
     }
+}
+
+fn optional(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    dimension: Dimension,
+) -> Option<f64> {
+    let field = reader.get(view, key)?;
+    reader.quantity(&field, dimension)
+}
+
+/// Keys that only some laws have.
+fn with_parameters(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    mut kind: LawKind,
+    law_is_bad: bool,
+) -> LawKind {
+    match &mut kind {
+        LawKind::ModifiedKelvin(variant) => {
+            let named = reader.get(view, "variant");
+            if named.and_then(|field| reader.choice(&field, LAW_VARIANTS, &[]))
+                == Some(ModifiedKelvin::MahmoudJankowski.name())
+            {
+                *variant = ModifiedKelvin::MahmoudJankowski;
+            }
+        }
+        LawKind::Bilinear(shape) => {
+            let share = optional(reader, view, "yield_share", Dimension::Dimensionless);
+            shape.yield_share = share.unwrap_or(shape.yield_share);
+            shape.design_speed = optional(reader, view, "design_speed", Dimension::Speed);
+        }
+        LawKind::Rubber(bumper) => {
+            match optional(reader, view, "thickness", Dimension::Length) {
+                Some(thickness) => bumper.thickness = thickness,
+                None if reader.get(view, "thickness").is_none() => {
+                    reader.missing(view, "thickness", "add thickness = \"50 mm\"");
+                }
+                None => {}
+            }
+            let exponent = optional(reader, view, "exponent", Dimension::Dimensionless);
+            bumper.exponent = exponent.unwrap_or(bumper.exponent);
+        }
+        _ => {}
+    }
+    if !law_is_bad {
+        for (key, owner) in [
+            ("variant", "modified-kelvin"),
+            ("yield_share", "bilinear"),
+            ("design_speed", "bilinear"),
+            ("thickness", "rubber"),
+            ("exponent", "rubber"),
+        ] {
+            if kind.name() != owner
+                && let Some(field) = reader.get(view, key)
+            {
+                *reader.bad(
+                    &field,
+                    format!("belongs to the law {owner}, not to {}", kind.name()),
+                ) = Some(format!("leave it out, or write law = \"{owner}\""));
+            }
+        }
+    }
+    kind
 }
 
 /// The contact stiffness in the unit of the law.
@@ -233,7 +314,7 @@ fn stiffness(
     law_is_bad: bool,
 ) -> Option<f64> {
     let Some(field) = reader.get(view, "stiffness") else {
-        if !kind.is_hertzian() && !law_is_bad {
+        if !kind.is_hertzian() && kind != LawKind::Restitution && !law_is_bad {
             reader.missing(
                 view,
                 "stiffness",

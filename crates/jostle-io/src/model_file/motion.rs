@@ -2,11 +2,24 @@
 
 use std::path::Path;
 
-use crate::keys::{Section, WAVES};
+use super::matching;
+use crate::keys::{RECORD_FORMATS, Section, WAVES};
 use crate::motion_spec::{MotionSource, MotionSpec, Scaling};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
-use crate::record::{RecordOptions, acceleration_unit};
+use crate::record::{RecordFormat, RecordOptions, acceleration_unit};
+use crate::tree::Value;
+
+/// Keys about a record file.
+const RECORD_KEYS: &[&str] = &[
+    "unit",
+    "step",
+    "column",
+    "component",
+    "record_scale",
+    "remove_mean",
+    "format",
+];
 
 /// Longest analysis \[s\].
 const LONGEST: f64 = 10_000.0;
@@ -34,12 +47,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
             read_record(reader, &view, record, base)
         }
         (None, Some(wave)) => {
-            refuse(
-                reader,
-                &view,
-                &["unit", "step", "column"],
-                "an analytic wave",
-            );
+            refuse(reader, &view, RECORD_KEYS, "an analytic wave");
             read_wave(reader, &view, wave)
         }
         (None, None) => {
@@ -51,7 +59,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
             None
         }
     };
-    let scaling = scaling(reader, &view);
+    let scaling = scaling(reader, &view, base);
     let reverse = reader
         .get(&view, "reverse")
         .and_then(|field| reader.flag(&field));
@@ -91,6 +99,11 @@ fn read_record(
     record: &Field<'_>,
     base: &Path,
 ) -> Option<MotionSource> {
+    if record.entries().is_some() {
+        *reader.bad(record, "is a list, and one analysis takes one record") =
+            Some("keep one record; lists are for studies of many cases".into());
+        return None;
+    }
     let name = reader.text(record)?;
     let mut options = RecordOptions::default();
     if let Some(field) = reader.get(view, "unit") {
@@ -118,6 +131,22 @@ fn read_record(
             reader.bad(&field, "columns count from 1");
         }
     }
+    if let Some(field) = reader.get(view, "component") {
+        options.component = component(reader, &field);
+    }
+    if let Some(field) = reader.get(view, "record_scale") {
+        options.scale = reader.quantity(&field, Dimension::Dimensionless);
+        if options.scale == Some(0.0) {
+            reader.bad(&field, "must not be zero");
+        }
+    }
+    if let Some(field) = reader.get(view, "remove_mean") {
+        options.remove_mean = reader.flag(&field);
+    }
+    if let Some(field) = reader.get(view, "format") {
+        let key = reader.choice(&field, RECORD_FORMATS, &[]);
+        options.format = key.and_then(|key| RecordFormat::from_key(key).ok());
+    }
     if name.trim().is_empty() {
         reader.bad(record, "must not be empty");
     }
@@ -126,6 +155,19 @@ fn read_record(
         base: base.to_owned(),
         options,
     })
+}
+
+/// A name, or the number of a channel.
+fn component(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<String> {
+    if field.as_text().is_none() && matches!(field.node.value, Value::Integer(_)) {
+        return reader.count(field).map(|number| number.to_string());
+    }
+    let name = reader.text(field)?;
+    if name.trim().is_empty() {
+        reader.bad(field, "must not be empty");
+        return None;
+    }
+    Some(name)
 }
 
 fn read_wave(reader: &mut Reader<'_>, view: &View<'_>, wave: &Field<'_>) -> Option<MotionSource> {
@@ -196,16 +238,28 @@ fn required<'n>(
     Some((field, value))
 }
 
-fn scaling(reader: &mut Reader<'_>, view: &View<'_>) -> Scaling {
-    let (pga, scale) = (reader.get(view, "pga"), reader.get(view, "scale"));
-    if let (Some(_), Some(scale)) = (&pga, &scale) {
-        *reader.bad(scale, "cannot stand beside pga") = Some("keep either pga or scale".into());
+fn scaling(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Scaling {
+    let given = ["pga", "scale", "match"].map(|key| reader.get(view, key));
+    let mut first = None;
+    for field in given.iter().flatten() {
+        match &first {
+            None => first = Some(field.path.clone()),
+            Some(first) => {
+                let first = first.trim_start_matches("motion.").to_owned();
+                *reader.bad(field, format!("cannot stand beside {first}")) =
+                    Some("keep one of pga, scale and match".into());
+            }
+        }
     }
+    let [pga, scale, wanted] = given;
     let factor = scale
         .and_then(|field| reader.quantity(&field, Dimension::Dimensionless))
         .map(Scaling::Factor);
     let peak = pga
         .and_then(|field| reader.positive(&field, Dimension::Acceleration))
         .map(Scaling::Pga);
-    peak.or(factor).unwrap_or_default()
+    let matched = wanted
+        .and_then(|field| matching::read(reader, &field, base))
+        .map(|wanted| Scaling::Match(Box::new(wanted)));
+    peak.or(factor).or(matched).unwrap_or_default()
 }

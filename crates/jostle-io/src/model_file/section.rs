@@ -1,11 +1,12 @@
 //! Cross-sections of columns and beams, and the material they are made of.
 
 use jostle::Section;
+use jostle_section::{Concrete, StrengthLevel};
 
 use super::building::has_length;
-use crate::keys::{self, CONCRETES};
+use crate::keys::{self, CONCRETES, SECTION_CONCRETES};
 use crate::quantity::Dimension;
-use crate::reader::{Field, Reader, View};
+use crate::reader::{Field, Grade, Reader, View};
 
 /// Modulus of elasticity of the concrete grades C20 … C80 \[GPa\] (GB 50010, table 4.1.5).
 const CONCRETE_MODULI: [f64; 13] = [
@@ -17,18 +18,25 @@ const CONCRETE_MODULI: [f64; 13] = [
 pub(super) struct Material {
     /// Modulus of elasticity; `None` if the file has none \[Pa\].
     pub(super) modulus: Option<f64>,
+    /// Whether the building states a modulus in numbers, which then holds for members of any concrete.
+    pub(super) modulus_is_stated: bool,
     /// Whether a fault was noted where the modulus stands.
     pub(super) modulus_is_bad: bool,
     /// Density of columns; beams weigh nothing by themselves \[kg/m³\].
     pub(super) density: f64,
     /// Factor on every EI \[–\].
     pub(super) factor: f64,
+    /// Whether shear deforms the member.
+    pub(super) shears: bool,
+    /// ν, of G = E/(2(1 + ν)) \[–\].
+    pub(super) poisson_ratio: f64,
 }
 
 /// Stands in after a fault.
 const STAND_IN: Section = Section {
     flexural_rigidity: 1.0,
     axial_rigidity: Some(1.0),
+    shear_rigidity: None,
     line_mass: 1.0,
 };
 
@@ -98,15 +106,16 @@ fn read_section(
     } else {
         reader.open(field, &[keys::Section::Beam])
     }?;
-    let by_rigidity = view.has("EI") || view.has("EA");
+    let material = of_own_concrete(reader, &view, material);
+    let by_rigidity = view.has("EI") || view.has("EA") || view.has("GA");
     let by_size = view.has("width") || view.has("depth");
     let mut section = match (by_size, by_rigidity) {
         (true, true) => {
             *reader.bad(field, "has both a size and rigidities") =
-                Some("keep either width and depth, or EI and EA".into());
+                Some("keep either width and depth, or EI, EA and GA".into());
             None
         }
-        (false, true) => rigidities(reader, &view),
+        (false, true) => rigidities(reader, &view, material.shears),
         _ => rectangle(reader, &view, material),
     };
     if let Some(section) = &mut section {
@@ -127,6 +136,30 @@ fn read_section(
         line_mass: mass?,
         ..section?
     })
+}
+
+/// The material of a member that names its own concrete.
+fn of_own_concrete(reader: &mut Reader<'_>, view: &View<'_>, material: Material) -> Material {
+    let Some(field) = reader.get(view, "concrete") else {
+        return material;
+    };
+    // Faults are noted where the reinforcement is read.
+    let grade = reader.quietly(|reader| reader.grade(&field, SECTION_CONCRETES, "\"30 MPa\""));
+    let own = match grade {
+        Some(Grade::Named(name)) => Concrete::grade(name, StrengthLevel::Characteristic),
+        Some(Grade::Strength(strength)) => Some(Concrete::of_strength(strength)),
+        None => None,
+    };
+    let modulus = own.map(|concrete| concrete.modulus);
+    Material {
+        modulus: material
+            .modulus
+            .filter(|_| material.modulus_is_stated)
+            .or(modulus)
+            .or(material.modulus),
+        modulus_is_bad: material.modulus_is_bad || own.is_none(),
+        ..material
+    }
 }
 
 /// Width × depth, of one material. The line mass is that of the density.
@@ -157,29 +190,47 @@ fn rectangle(reader: &mut Reader<'_>, view: &View<'_>, material: Material) -> Op
     Some(Section {
         flexural_rigidity: modulus * area * depth * depth / 12.0,
         axial_rigidity: Some(modulus * area),
+        // 5/6 of a rectangle resists shear.
+        shear_rigidity: material
+            .shears
+            .then(|| 5.0 / 6.0 * area * modulus / (2.0 * (1.0 + material.poisson_ratio))),
         line_mass: material.density * area,
     })
 }
 
-fn rigidities(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Section> {
+fn rigidities(reader: &mut Reader<'_>, view: &View<'_>, shears: bool) -> Option<Section> {
     let bending = match reader.get(view, "EI") {
         Some(field) => reader.positive(&field, Dimension::FlexuralRigidity),
         None => {
             reader.missing(
                 view,
                 "EI",
-                "add EI = \"150 MN.m2\" beside EA, or give width and depth instead",
+                "add EI = \"150 MN.m2\" beside EA and GA, or give width and depth instead",
             );
             None
         }
     };
-    let axial = reader
-        .get(view, "EA")
-        .map(|field| reader.positive(&field, Dimension::Force));
+    let mut force = |key: &'static str| {
+        reader
+            .get(view, key)
+            .map(|field| reader.positive(&field, Dimension::Force))
+    };
+    let (axial, shear) = (force("EA"), force("GA"));
+    if shears && shear.is_none() {
+        reader.missing(
+            view,
+            "GA",
+            "shear = \"flexible\" needs the shear rigidity: add GA = \"2.6 GN\", or give width and depth instead",
+        );
+    }
     Some(Section {
         flexural_rigidity: bending?,
         axial_rigidity: match axial {
             Some(rigidity) => Some(rigidity?),
+            None => None,
+        },
+        shear_rigidity: match shear {
+            Some(rigidity) => Some(rigidity?).filter(|_| shears),
             None => None,
         },
         line_mass: 0.0,

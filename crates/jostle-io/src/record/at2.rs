@@ -1,72 +1,75 @@
 //! PEER AT2 records: a short header whose last line gives the number of values and the step, then values in
 //! free format.
 
+use super::channel::Direction;
+use super::contents::{Contents, Scale, Trace};
+use super::error::RecordError;
+use super::format::{AT2_HEADER_LINES, RecordFormat};
+use super::lines::{LineMap, Lines, check_end, number};
+use super::units::acceleration_unit;
 use crate::quantity::shorten;
-use crate::record::{
-    Record, RecordError, RecordOptions, Series, acceleration_unit, number, numbered_lines,
-    option_unit,
-};
-
-/// Lines in which the count and the step must stand.
-const HEADER_LINES: usize = 12;
-
-/// Whether one of the first lines speaks of NPTS.
-pub(crate) fn is_at2(text: &str) -> bool {
-    numbered_lines(text)
-        .take(HEADER_LINES)
-        .any(|(_, line)| line.to_ascii_uppercase().contains("NPTS"))
-}
 
 /// Reads a PEER AT2 record. Accelerations in g are converted with 9.80665 m/s².
 ///
 /// # Errors
 /// [`RecordError`] when the header cannot be understood or the number of values is another one.
-pub(crate) fn parse_at2(text: &str, options: &RecordOptions) -> Result<Record, RecordError> {
-    let mut lines = numbered_lines(text);
+pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
+    let mut lines = Lines::new(bytes);
+    let mut contents = Contents::new(RecordFormat::At2, Scale::Loose);
     let mut unit = None;
     let (header, stated, step) = loop {
         let no_header = RecordError::NoHeader {
-            lines: HEADER_LINES,
+            lines: AT2_HEADER_LINES,
         };
-        let (line, content) = lines
+        let line = lines
             .next()
-            .filter(|(line, _)| *line <= HEADER_LINES)
+            .filter(|line| line.number <= AT2_HEADER_LINES)
             .ok_or(no_header)?;
+        let content = line.text.trim();
         if content.to_ascii_uppercase().contains("NPTS") {
             let (stated, step) = count_and_step(content).ok_or_else(|| RecordError::Header {
-                line,
+                line: line.number,
                 found: shorten(content),
             })?;
-            break (line, stated, step);
+            break (line.number, stated, step);
+        }
+        if line.number == 2 {
+            content.clone_into(&mut contents.event);
         }
         if unit.is_none() {
-            unit = stated_unit(line, content)?;
+            unit = stated_unit(line.number, content)?;
         }
     };
 
-    // What the user says explicitly comes before what the header says.
-    unit = option_unit(options)?.or(unit);
-    let mut series = Series {
-        values: Vec::new(),
-        lines: Vec::new(),
-        unit,
-    };
-    for (line, content) in lines {
-        for token in content.split(|c: char| c.is_whitespace() || c == ',') {
+    let mut values = Vec::with_capacity(stated.min(lines.bytes_left() / 8 + 1));
+    let mut map = LineMap::default();
+    for line in lines {
+        let before = values.len();
+        for token in line.text.split(|c: char| c.is_whitespace() || c == ',') {
             if !token.is_empty() {
-                series.values.push(number(line, token)?);
-                series.lines.push(line);
+                values.push(number(line.number, token)?);
             }
         }
+        map.note(line.number, values.len() - before);
     }
-    if series.values.len() != stated {
+    if values.len() != stated {
         return Err(RecordError::Count {
             line: header,
             stated,
-            found: series.values.len(),
+            found: values.len(),
         });
     }
-    series.into_record(options.step.unwrap_or(step))
+    check_end(bytes)?;
+    contents.traces.push(Trace {
+        name: String::new(),
+        direction: Direction::Unknown,
+        unit,
+        step: Some(step),
+        values,
+        lines: map,
+        peak: None,
+    });
+    Ok(contents)
 }
 
 /// Number of values and step from `NPTS= 4000, DT= .0100 SEC` or `4164 0.0100 NPTS, DT`.
@@ -112,5 +115,6 @@ fn stated_unit(line: usize, content: &str) -> Result<Option<(String, f64)>, Reco
         line,
         found: shorten(word),
     })?;
-    Ok(Some((word.to_owned(), size)))
+    let plain = word.trim_matches(|c: char| matches!(c, '.' | ',' | ';' | ':' | '(' | ')'));
+    Ok(Some((plain.to_owned(), size)))
 }

@@ -1,52 +1,63 @@
 //! Columns of printed times, and the step between them.
 
-use crate::record::{RecordError, number};
+use crate::record::error::RecordError;
+use crate::record::lines::{LineMap, last_digit, number};
 
 /// Printed times: equally spaced, but for the rounding of their last digit.
+#[derive(Default)]
 pub(crate) struct Times {
-    lines: Vec<usize>,
+    lines: LineMap,
     values: Vec<f64>,
-    /// Unit of the last printed digit.
-    digits: Vec<f64>,
+    /// Unit of the last printed digit, as a power of ten of a second or of `unit`.
+    digits: Vec<i16>,
+    /// Unit of the printed times \[s\].
+    unit: f64,
     /// The first time \[s\].
     pub(crate) first: f64,
 }
 
 impl Times {
-    /// Reads printed times, each with its line, in a unit of this many seconds.
-    pub(crate) fn read<'t>(
-        cells: impl Iterator<Item = (usize, &'t str)>,
-        unit: f64,
-    ) -> Result<Self, RecordError> {
-        let mut times = Self {
-            lines: Vec::new(),
-            values: Vec::new(),
-            digits: Vec::new(),
-            first: 0.0,
-        };
-        for (line, text) in cells {
-            times.lines.push(line);
-            times.values.push(unit * number(line, text)?);
-            times.digits.push(unit * last_digit(text));
+    /// Room for so many times, printed in a unit of so many seconds.
+    pub(crate) fn with_capacity(count: usize, unit: f64) -> Self {
+        Self {
+            values: Vec::with_capacity(count),
+            digits: Vec::with_capacity(count),
+            unit,
+            ..Self::default()
         }
-        times.first = times.values.first().copied().unwrap_or(0.0);
-        Ok(times)
+    }
+
+    /// Appends a printed time.
+    pub(crate) fn push(&mut self, line: usize, text: &str) -> Result<(), RecordError> {
+        let value = self.unit * number(line, text)?;
+        if self.values.is_empty() {
+            self.first = value;
+        }
+        self.values.push(value);
+        self.digits.push(last_digit(text).log10().round() as i16);
+        self.lines.note(line, 1);
+        Ok(())
+    }
+
+    /// Unit of the last printed digit of a time \[s\].
+    fn digit(&self, at: usize) -> f64 {
+        self.digits
+            .get(at)
+            .map_or(0.0, |d| self.unit * 10f64.powi(i32::from(*d)))
     }
 
     /// The common step, freed from the rounding of the printed times.
     pub(crate) fn step(&self) -> Result<f64, RecordError> {
         let count = self.values.len();
-        let (Some(last), Some(digit), true) = (self.values.last(), self.digits.last(), count >= 2)
-        else {
+        let (Some(last), true) = (self.values.last(), count >= 2) else {
             return Err(RecordError::TooFew { found: count });
         };
         if let Some(before) = self.values.windows(2).position(|pair| pair[1] <= pair[0]) {
             return Err(RecordError::TimeNotRising {
-                line: self.lines[before + 1],
+                line: self.lines.line_of(before + 1),
                 found: self.values[before + 1],
             });
         }
-        let first_digit = self.digits.first().copied().unwrap_or(0.0);
         let intervals = (count - 1) as f64;
         let step = (last - self.first) / intervals;
         // Times printed too coarsely to tell a rounded step from a lost line must be exact.
@@ -57,10 +68,10 @@ impl Times {
                 0.0
             }
         };
-        let ends = rounding(*digit) + rounding(first_digit);
+        let ends = rounding(self.digit(count - 1)) + rounding(self.digit(0));
         for (i, time) in self.values.iter().enumerate() {
             let expected = self.first + i as f64 * step;
-            let allowed = ends + rounding(self.digits[i]) + 1e-6 * step + 1e-9 * time.abs();
+            let allowed = ends + rounding(self.digit(i)) + 1e-6 * step + 1e-9 * time.abs();
             if (time - expected).abs() > allowed {
                 return Err(self.culprit(i, expected));
             }
@@ -78,24 +89,11 @@ impl Times {
             .map(|i| (i, continued(i)));
         let (at, expected) = jump.unwrap_or((index, expected));
         RecordError::UnequalStep {
-            line: self.lines[at],
+            line: self.lines.line_of(at),
             found: self.values[at],
             expected: simplest(expected, 1e-9 * expected.abs()),
         }
     }
-}
-
-/// Unit of the last printed digit: 0.01 for `1.25`, 1e-4 for `1.25e-2`.
-fn last_digit(text: &str) -> f64 {
-    let lower = text
-        .to_ascii_lowercase()
-        .replace('d', "e")
-        .replace(',', ".");
-    let (mantissa, exponent) = lower.split_once('e').unwrap_or((&lower, "0"));
-    let decimals = mantissa.split_once('.').map_or(0, |(_, d)| d.len());
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let decimals = i32::try_from(decimals).unwrap_or(i32::MAX);
-    10f64.powi(exponent.saturating_sub(decimals).clamp(-300, 300))
 }
 
 /// The number of fewest digits within `uncertainty` of a value: 0.02 for 0.019999999.

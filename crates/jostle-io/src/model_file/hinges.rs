@@ -1,0 +1,543 @@
+//! `hinges`: where a building cracks and yields.
+
+use jostle::hysteresis::{
+    Backbone, Corners, DEFAULT_TAKEDA_EXPONENT, Hysteresis, HysteresisRule, Quantity, Side,
+    SpringFault,
+};
+use jostle::{Frame, FrameHinges, Hinges, Shear};
+use jostle_section::formula::Member;
+use jostle_section::{EndCurve, Options};
+
+use super::building::{has_length, per_storey};
+use super::reinforced::ReinforcedMember;
+use crate::keys::{HINGE_METHODS, HINGE_SOURCES, RULES, Section};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View, join};
+
+/// Initial stiffness of hinges given by moments, in units of EI/L \[–\].
+const DEFAULT_INITIAL: f64 = 100.0;
+/// Initial stiffness of rigid hinges in units of EI/L: the member end loses 6·10⁻⁵ of its stiffness \[–\].
+const RIGID_INITIAL: f64 = 1e5;
+
+/// Reads the rule; `None` after a fault.
+fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule> {
+    let name = match reader.get(view, "rule") {
+        Some(field) => reader.choice(&field, RULES, &[]),
+        None => {
+            reader.missing(view, "rule", "add rule = \"peak-oriented\"");
+            None
+        }
+    };
+    let gamma = reader.get(view, "gamma");
+    if let (Some(field), Some(name)) = (&gamma, name)
+        && name != "takeda"
+    {
+        *reader.bad(field, format!("has no meaning with the rule {name}")) =
+            Some("remove gamma, or set rule = \"takeda\"".into());
+    }
+    let exponent = match gamma {
+        Some(field) => {
+            let exponent = reader.quantity(&field, Dimension::Dimensionless)?;
+            if !(0.0..=1.0).contains(&exponent) {
+                reader.bad(
+                    &field,
+                    format!("must lie between 0 and 1, found {exponent}"),
+                );
+                return None;
+            }
+            exponent
+        }
+        None => DEFAULT_TAKEDA_EXPONENT,
+    };
+    Some(match name? {
+        "normal" => HysteresisRule::Normal,
+        "peak-oriented" => HysteresisRule::PeakOriented,
+        "takeda" => HysteresisRule::Takeda { exponent },
+        "d-tri" => HysteresisRule::DegradingTrilinear,
+        "bilinear" => HysteresisRule::Bilinear,
+        _ => HysteresisRule::Elastic,
+    })
+}
+
+/// Hinges of a frame. `members` are its reinforced members; `None` when they could not be had after faults
+/// elsewhere.
+pub(super) fn read_frame(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    frame: &Frame,
+    members: Option<&[ReinforcedMember]>,
+) -> Option<Hinges> {
+    let view = reader.open(field, &[Section::Hinges])?;
+    let rule = read_rule(reader, &view);
+    let initial = match reader.get(&view, "initial") {
+        Some(field) if field.as_text() == Some("rigid") => Some(Initial::Rigid),
+        Some(field) => reader
+            .positive(&field, Dimension::Dimensionless)
+            .map(Initial::Times),
+        None if view.has("from") => Some(Initial::Rigid),
+        None => Some(Initial::Times(DEFAULT_INITIAL)),
+    };
+    let source = reader
+        .get(&view, "from")
+        .map(|field| reader.choice(&field, HINGE_SOURCES, &[]));
+    let method = match reader.get(&view, "method") {
+        Some(field) => {
+            if source.is_none() {
+                *reader.bad(&field, "has no meaning without from = \"section\"") =
+                    Some("add from = \"section\", or remove method".into());
+            }
+            reader.choice(&field, HINGE_METHODS, &[])
+        }
+        None => Some("formula"),
+    };
+    if source.is_some() {
+        for key in ["column", "beam"] {
+            if let Some(field) = reader.get(&view, key) {
+                *reader.bad(&field, "cannot stand beside from = \"section\"") = Some(
+                    "keep either the moments here, or from with bars in column and beam".into(),
+                );
+            }
+        }
+        return of_sections(reader, field, frame, rule?, initial?, method?, members?);
+    }
+    let (columns, beams) = (
+        read_members(reader, &view, "column", frame, rule, initial),
+        read_members(reader, &view, "beam", frame, rule, initial),
+    );
+    if !view.has("column") && !view.has("beam") {
+        *reader.bad(field, "has no moments") = Some("add column or beam = { cracking = \"120 kN.m\", yield = \"400 kN.m\", post_cracking = 0.3, post_yield = 0.02 }, or from = \"section\"".into());
+    }
+    Some(Hinges::Frame(FrameHinges {
+        columns: columns?,
+        beams: beams?,
+    }))
+}
+
+/// Stiffness of a hinge before it cracks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Initial {
+    /// In units of EI/L; ratios refer to it.
+    Times(f64),
+    /// Practically rigid; ratios refer to the member end, 6 EI/L.
+    Rigid,
+}
+
+impl Initial {
+    fn stiffness(self, rigidity: f64, length: f64) -> f64 {
+        let times = match self {
+            Self::Times(times) => times,
+            Self::Rigid => RIGID_INITIAL,
+        };
+        times * rigidity / length
+    }
+
+    /// Ratios of the hinge from those of the file. With a rigid hinge they are those of hinge and member in
+    /// series: a hinge of K r / (1 − r) beside a member end of K.
+    fn ratios(self, given: Corners) -> Corners {
+        let in_series = |ratio: f64| 6.0 / RIGID_INITIAL * ratio / (1.0 - ratio);
+        match self {
+            Self::Times(_) => given,
+            Self::Rigid => Corners {
+                // A bilinear curve has no second slope to turn into that of the hinge.
+                post_cracking: if given.post_cracking < 1.0 {
+                    in_series(given.post_cracking)
+                } else {
+                    given.post_cracking
+                },
+                post_yield: in_series(given.post_yield),
+                ..given
+            },
+        }
+    }
+}
+
+/// Hinges of all columns or beams; empty if there are none, `None` after a fault.
+fn read_members(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    frame: &Frame,
+    rule: Option<HysteresisRule>,
+    initial: Option<Initial>,
+) -> Option<Vec<Vec<Hysteresis>>> {
+    let storeys = frame.storey_heights.len();
+    let Some(field) = reader.get(view, key) else {
+        return Some(Vec::new());
+    };
+    let entries = field.entries();
+    if let Some(entries) = &entries {
+        has_length(reader, &field, entries.len(), Some(storeys))?;
+    }
+    let single = std::slice::from_ref(&field);
+    let tables = entries.as_deref().unwrap_or(single);
+    let read: Vec<_> = tables
+        .iter()
+        .map(|table| read_moments(reader, table, rule, initial == Some(Initial::Rigid)))
+        .collect();
+    let (rule, initial) = (rule?, initial?);
+    let mut rows = Vec::new();
+    for storey in 0..storeys {
+        let at = if entries.is_some() { storey } else { 0 };
+        let sides = read[at]?;
+        let lengths = match key {
+            "column" => vec![frame.storey_heights[storey]; frame.spans.len() + 1],
+            _ => frame.spans.clone(),
+        };
+        let rigidity = match key {
+            "column" => frame.columns.get(storey)?.flexural_rigidity,
+            _ => frame.beams.get(storey)?.flexural_rigidity,
+        };
+        let mut row = Vec::new();
+        for length in lengths {
+            let stiffness = initial.stiffness(rigidity, length);
+            let [a, b] = sides.map(|side| match rule {
+                HysteresisRule::Elastic => side,
+                _ => initial.ratios(side),
+            });
+            let spring = Backbone::from_forces(stiffness, a, b)
+                .and_then(|backbone| Hysteresis::new(rule, backbone));
+            match spring {
+                Ok(spring) => row.push(spring),
+                Err(faults) => {
+                    note(reader, &tables[at], faults);
+                    return None;
+                }
+            }
+        }
+        rows.push(row);
+    }
+    Some(rows)
+}
+
+/// Keys of a hinge, with what they could be.
+const NUMBERS: [(&str, Dimension, &str); 4] = [
+    ("cracking", Dimension::Moment, "\"120 kN.m\""),
+    ("yield", Dimension::Moment, "\"400 kN.m\""),
+    ("post_cracking", Dimension::Dimensionless, "0.3"),
+    ("post_yield", Dimension::Dimensionless, "0.02"),
+];
+
+/// The numbers of a table: absent, or read, or read with a fault.
+fn read_numbers(reader: &mut Reader<'_>, view: &View<'_>) -> [Option<Option<f64>>; 4] {
+    NUMBERS.map(|(key, dimension, _)| {
+        let field = reader.get(view, key)?;
+        Some(reader.quantity(&field, dimension))
+    })
+}
+
+/// Moments and ratios of both sides; `None` after a fault.
+fn read_moments(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    rule: Option<HysteresisRule>,
+    rigid: bool,
+) -> Option<[Corners; 2]> {
+    let view = reader.open(field, &[Section::Hinge])?;
+    let common = read_numbers(reader, &view);
+    let subs = [Side::Positive, Side::Negative].map(|side| {
+        let field = reader.get(&view, name_of(side))?;
+        let sub = reader.open(&field, &[Section::HingeSide])?;
+        let own = read_numbers(reader, &sub);
+        Some((sub, own))
+    });
+    let rule = rule?;
+    if rule == HysteresisRule::Elastic {
+        return Some([Corners::bilinear(1.0, 1.0); 2]);
+    }
+    let bilinear = rule == HysteresisRule::Bilinear;
+    if bilinear {
+        for key in ["cracking", "post_cracking"] {
+            if let Some(field) = reader.get(&view, key) {
+                *reader.bad(&field, "has no place in a bilinear curve") =
+                    Some(format!("remove {key}, or set rule = \"normal\""));
+            }
+        }
+    }
+    let one_for_both = subs.iter().all(Option::is_none);
+    let sides = [0, 1].map(|side| {
+        let sub = subs[side].as_ref();
+        let mut values = [f64::NAN; 4];
+        let mut complete = true;
+        for (index, (key, _, example)) in NUMBERS.into_iter().enumerate() {
+            if bilinear && key.contains("cracking") {
+                continue;
+            }
+            match sub.and_then(|(_, own)| own[index]).or(common[index]) {
+                Some(Some(value)) => values[index] = value,
+                Some(None) => complete = false,
+                None => {
+                    complete = false;
+                    if side == 0 || !one_for_both {
+                        let place = sub.map_or(&view, |(sub, _)| sub);
+                        reader.missing(place, key, format!("add {key} = {example}"));
+                    }
+                }
+            }
+        }
+        let [cracking, yielding, post_cracking, post_yield] = values;
+        complete.then_some(if bilinear {
+            Corners::bilinear(yielding, post_yield)
+        } else {
+            Corners {
+                cracking,
+                yielding,
+                post_cracking,
+                post_yield,
+            }
+        })
+    });
+    let sides = [sides[0]?, sides[1]?];
+    let too_stiff =
+        |side: &Corners| side.post_yield >= 1.0 || (side.post_cracking >= 1.0 && !bilinear);
+    if rigid && sides.iter().any(too_stiff) {
+        *reader.bad(field, "has ratios of 1 or more with initial = \"rigid\", where they are those of hinge and member together") =
+            Some("give ratios below 1, such as post_cracking = 0.3".into());
+        return None;
+    }
+    Some(sides)
+}
+
+/// Notes the faults of a spring where its numbers stand.
+fn note(reader: &mut Reader<'_>, field: &Field<'_>, faults: Vec<SpringFault>) {
+    let Some(view) = reader.reopen(field, &[Section::Hinge]) else {
+        return;
+    };
+    let mut said = Vec::new();
+    for fault in faults {
+        let key = key_of(fault.quantity);
+        let sub = fault.side.and_then(|side| {
+            let field = reader.get(&view, name_of(side))?;
+            reader.reopen(&field, &[Section::HingeSide])
+        });
+        let own = key.and_then(|key| sub.as_ref().and_then(|sub| reader.get(sub, key)));
+        let own = own.or_else(|| key.and_then(|key| reader.get(&view, key)));
+        let place = own.as_ref().unwrap_or(field);
+        if !said.contains(&(place.path.clone(), fault.problem.clone())) {
+            said.push((place.path.clone(), fault.problem.clone()));
+            reader.bad(place, fault.problem);
+        }
+    }
+}
+
+fn name_of(side: Side) -> &'static str {
+    match side {
+        Side::Positive => "positive",
+        Side::Negative => "negative",
+    }
+}
+
+fn key_of(quantity: Quantity) -> Option<&'static str> {
+    match quantity {
+        Quantity::Cracking => Some("cracking"),
+        Quantity::Yielding => Some("yield"),
+        Quantity::PostCracking => Some("post_cracking"),
+        Quantity::PostYield => Some("post_yield"),
+        Quantity::Initial | Quantity::Rule => None,
+    }
+}
+
+/// Hinges from the reinforcement of the members.
+fn of_sections(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    frame: &Frame,
+    rule: HysteresisRule,
+    initial: Initial,
+    method: &str,
+    members: &[ReinforcedMember],
+) -> Option<Hinges> {
+    let (storeys, bays) = (frame.storey_heights.len(), frame.spans.len());
+    let mut hinges = FrameHinges::default();
+    let mut sound = true;
+    for (kind, word, abreast) in [
+        (Member::Column, "column", bays + 1),
+        (Member::Beam, "beam", bays),
+    ] {
+        let of_kind: Vec<_> = members
+            .iter()
+            .filter(|member| member.member == kind)
+            .collect();
+        if of_kind.len() != storeys * abreast {
+            let some = if of_kind.is_empty() {
+                "no"
+            } else {
+                "not every"
+            };
+            *reader.bad(
+                field,
+                format!("takes its moments from the sections, but {some} {word} has bars"),
+            ) = Some(format!(
+                "add {}",
+                match kind {
+                    Member::Column =>
+                        "steel = \"HRB400\", bars = \"12 d20\", cover = \"35 mm\" to column",
+                    Member::Beam =>
+                        "steel = \"HRB400\", bars = \"4 d25 top, 4 d25 bottom\", cover = \"35 mm\" to beam",
+                }
+            ));
+            sound = false;
+            continue;
+        }
+        let mut said: Vec<String> = Vec::new();
+        let mut rows: Vec<Vec<Hysteresis>> = vec![Vec::new(); storeys];
+        let mut known: Vec<(&ReinforcedMember, Hysteresis)> = Vec::new();
+        for member in of_kind {
+            let alike = known.iter().find(|(other, _)| {
+                let same_load = other.compression == member.compression;
+                same_load
+                    && other.length == member.length
+                    && other.rigidity == member.rigidity
+                    && other.section == member.section
+            });
+            let spring = match alike {
+                Some((_, spring)) => Ok(*spring),
+                None => spring_of(member, rule, initial, method),
+            };
+            match spring {
+                Ok(spring) => {
+                    if alike.is_none() {
+                        known.push((member, spring));
+                    }
+                    rows[member.floor - 1].push(spring);
+                }
+                Err(problem) => {
+                    let problem = format!(
+                        "{word} {} of storey {}: {problem}",
+                        member.place, member.floor
+                    );
+                    sound = false;
+                    if said.is_empty() {
+                        reader.bad(field, problem.clone());
+                    }
+                    said.push(problem);
+                }
+            }
+        }
+        match kind {
+            Member::Column => hinges.columns = rows,
+            Member::Beam => hinges.beams = rows,
+        }
+    }
+    sound.then_some(Hinges::Frame(hinges))
+}
+
+/// The hinge of a reinforced member.
+fn spring_of(
+    member: &ReinforcedMember,
+    rule: HysteresisRule,
+    initial: Initial,
+    method: &str,
+) -> Result<Hysteresis, String> {
+    let curve = match method {
+        "fibre" => EndCurve::by_analysis(
+            &member.section,
+            member.compression,
+            member.length,
+            Options::default(),
+        )
+        .map_err(|error| error.to_string())?,
+        _ => EndCurve::by_formula(
+            &member.section,
+            member.compression,
+            member.length,
+            member.member,
+        ),
+    };
+    let stiffness = initial.stiffness(member.rigidity, member.length);
+    let first = |faults: Vec<SpringFault>| {
+        faults.first().map_or_else(String::new, |fault| {
+            format!("{}: {}", fault.quantity, fault.problem)
+        })
+    };
+    let backbone = curve
+        .hinge(6.0 * member.rigidity / member.length, stiffness)
+        .map_err(first)?;
+    let backbone = match rule {
+        HysteresisRule::Bilinear => {
+            // Without a cracking point.
+            let corners = Side::BOTH.map(|side| {
+                let given = backbone.side(side);
+                Corners::bilinear(given.yielding.force, given.post_yield / stiffness)
+            });
+            Backbone::from_forces(stiffness, corners[0], corners[1]).map_err(first)?
+        }
+        _ => backbone,
+    };
+    Hysteresis::new(rule, backbone).map_err(first)
+}
+
+/// Springs of a shear building.
+pub(super) fn read_storeys(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    shear: &Shear,
+) -> Option<Hinges> {
+    let view = reader.open(field, &[Section::StoreyHinges])?;
+    let rule = read_rule(reader, &view);
+    let storeys = shear.stiffness.len();
+    let bilinear = rule == Some(HysteresisRule::Bilinear);
+    let elastic = rule == Some(HysteresisRule::Elastic);
+    let mut list = |key: &'static str, dimension, example: &str| {
+        let Some(field) = reader.get(&view, key) else {
+            let needless = elastic || (bilinear && key.contains("cracking"));
+            if !needless {
+                reader.missing(
+                    &view,
+                    key,
+                    format!("add {key} = {example}, or a list from the ground up"),
+                );
+            }
+            return needless.then(|| vec![f64::NAN; storeys]);
+        };
+        if bilinear && key.contains("cracking") {
+            *reader.bad(&field, "has no place in a bilinear curve") =
+                Some(format!("remove {key}, or set rule = \"normal\""));
+        }
+        per_storey(reader, &field, dimension, Some(storeys))
+    };
+    let cracking = list("cracking", Dimension::Length, "\"5 mm\"");
+    let yielding = list("yield", Dimension::Length, "\"20 mm\"");
+    let post_cracking = list("post_cracking", Dimension::Dimensionless, "0.3");
+    let post_yield = list("post_yield", Dimension::Dimensionless, "0.05");
+    let (rule, cracking, yielding) = (rule?, cracking?, yielding?);
+    let (post_cracking, post_yield) = (post_cracking?, post_yield?);
+    let mut springs = Vec::new();
+    let mut said: Vec<String> = Vec::new();
+    for storey in 0..storeys {
+        let corners = match rule {
+            HysteresisRule::Elastic => Corners::bilinear(1.0, 1.0),
+            HysteresisRule::Bilinear => Corners::bilinear(yielding[storey], post_yield[storey]),
+            _ => Corners {
+                cracking: cracking[storey],
+                yielding: yielding[storey],
+                post_cracking: post_cracking[storey],
+                post_yield: post_yield[storey],
+            },
+        };
+        let spring = Backbone::from_deformations(shear.stiffness[storey], corners, corners)
+            .and_then(|backbone| Hysteresis::new(rule, backbone));
+        match spring {
+            Ok(spring) => springs.push(spring),
+            // Both sides have the same fault.
+            Err(faults) => {
+                for fault in faults
+                    .into_iter()
+                    .filter(|fault| fault.side != Some(Side::Negative))
+                {
+                    let given = key_of(fault.quantity).and_then(|key| reader.get(&view, key));
+                    let given = given.map(|field| match field.entries() {
+                        Some(entries) => entries.into_iter().nth(storey).unwrap_or(field),
+                        None => field,
+                    });
+                    let place = given.as_ref().unwrap_or(field);
+                    let whole = join(&place.path, &fault.problem);
+                    if !said.contains(&whole) {
+                        said.push(whole);
+                        reader.bad(place, fault.problem);
+                    }
+                }
+            }
+        }
+    }
+    (springs.len() == storeys).then_some(Hinges::Storeys(springs))
+}

@@ -1,0 +1,304 @@
+//! Reinforcement of columns and beams.
+
+use jostle::Building;
+use jostle::Structure;
+use jostle::gravity::{STANDARD_GRAVITY, compressions};
+use jostle::skeleton::Idealisation;
+use jostle::system::BuildingSystem;
+use jostle_section::formula::Member;
+use jostle_section::{BarsError, Concrete, Reinforcement, Section, Steel, StrengthLevel, Ties};
+
+use crate::keys::{self, SECTION_CONCRETES, STEELS, STRENGTHS};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Grade, Reader, View};
+use crate::tree::Value;
+
+/// Concrete over the bars where nothing is said \[m\].
+const DEFAULT_COVER: f64 = 0.035;
+
+/// A reinforced member of a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReinforcedMember {
+    /// Index of the building.
+    pub building: usize,
+    /// Column or beam.
+    pub member: Member,
+    /// Storey of a column, floor of a beam, counted from 1.
+    pub floor: usize,
+    /// Column line or bay, counted from 1 at the left.
+    pub place: usize,
+    /// The section.
+    pub section: Section,
+    /// Axial compression \[N\].
+    pub compression: f64,
+    /// Length between the axes \[m\].
+    pub length: f64,
+    /// E I as the frame has it, cracking factor included \[N·m²\].
+    pub rigidity: f64,
+}
+
+/// Sections of the storeys of a building, where they are reinforced.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Reinforced {
+    /// By storey; `None` where there are no bars.
+    pub(super) columns: Vec<Option<(Section, Axial)>>,
+    pub(super) beams: Vec<Option<(Section, Axial)>>,
+}
+
+/// Axial compression of a member.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Axial {
+    FromGravity,
+    /// \[N\]
+    Given(f64),
+}
+
+/// Reads the reinforcement of all storeys of a frame; faults are noted.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, storeys: usize) -> Reinforced {
+    let concrete = reader.get(view, "concrete").and_then(|field| {
+        let known = |name: &&&str| Some(**name) == field.as_text();
+        SECTION_CONCRETES.iter().find(known).copied()
+    });
+    let mut of = |key: &'static str| {
+        let Some(field) = reader.get(view, key) else {
+            return vec![None; storeys];
+        };
+        let is_column = key == "column";
+        match field.entries() {
+            Some(entries) => entries
+                .iter()
+                .map(|entry| read_one(reader, entry, is_column, concrete))
+                .collect(),
+            None => vec![read_one(reader, &field, is_column, concrete); storeys],
+        }
+    };
+    Reinforced {
+        columns: of("column"),
+        beams: of("beam"),
+    }
+}
+
+fn read_one(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    is_column: bool,
+    of_building: Option<&'static str>,
+) -> Option<(Section, Axial)> {
+    // Its keys were checked where the size was read.
+    let view = reader.reopen(
+        field,
+        if is_column {
+            &[keys::Section::Column]
+        } else {
+            &[keys::Section::Beam]
+        },
+    )?;
+    let level = match reader.get(&view, "strength") {
+        Some(field) => StrengthLevel::named(reader.choice(&field, STRENGTHS, &[])?)?,
+        None => StrengthLevel::default(),
+    };
+    let grade = reader.get(&view, "concrete").map(|field| {
+        let grade = reader.grade(&field, SECTION_CONCRETES, "\"30 MPa\"")?;
+        match grade {
+            Grade::Named(name) => Concrete::grade(name, level),
+            Grade::Strength(strength) => Some(Concrete::of_strength(strength)),
+        }
+    });
+    let steel = reader.get(&view, "steel").map(|field| {
+        let grade = reader.grade(&field, STEELS, "\"400 MPa\"")?;
+        match grade {
+            Grade::Named(name) => Steel::grade(name, level),
+            Grade::Strength(strength) => Some(Steel::of_strength(strength)),
+        }
+    });
+    let cover = reader
+        .get(&view, "cover")
+        .map_or(Some(DEFAULT_COVER), |field| {
+            reader.quantity(&field, Dimension::Length)
+        });
+    let ties = reader.get(&view, "ties").map(|field| {
+        let text = reader.text(&field)?;
+        understood(reader, &field, Ties::parse(&text))
+    });
+    let axial = if is_column {
+        match reader.get(&view, "axial_load") {
+            Some(field) if field.as_text() != Some("from gravity") => {
+                reader.quantity(&field, Dimension::Force).map(Axial::Given)
+            }
+            _ => Some(Axial::FromGravity),
+        }
+    } else {
+        Some(Axial::Given(0.0))
+    };
+    let bars_field = reader.get(&view, "bars")?;
+    let bars = read_bars(reader, &bars_field);
+    let by_size = |reader: &mut Reader<'_>, key: &'static str| {
+        let field = reader.get(&view, key)?;
+        reader.quietly(|reader| reader.positive(&field, Dimension::Length))
+    };
+    let (width, depth) = (by_size(reader, "width"), by_size(reader, "depth"));
+    if !view.has("width") && !view.has("depth") {
+        *reader.bad(&bars_field, "needs the size of the section") =
+            Some("give width and depth instead of EI".into());
+    }
+    let concrete = match grade {
+        Some(concrete) => concrete,
+        None => {
+            let concrete = of_building.and_then(|name| Concrete::grade(name, level));
+            if concrete.is_none() {
+                reader.missing(&view, "concrete", "add concrete = \"C30\" (C20 to C60, or a strength such as \"30 MPa\") beside the bars");
+            }
+            concrete
+        }
+    };
+    if steel.is_none() {
+        reader.missing(
+            &view,
+            "steel",
+            "add steel = \"HRB400\" (or a yield strength such as \"400 MPa\") beside the bars",
+        );
+    }
+    let ties = match ties {
+        Some(ties) => Some(ties?),
+        None => None,
+    };
+    let axial = axial?;
+    let laid = Section::new(width?, depth?, concrete?, steel??, &bars?, cover?, ties);
+    match laid {
+        Ok(section) => Some((section, axial)),
+        Err(faults) => {
+            for fault in faults {
+                let field = reader.get(&view, fault.field);
+                reader.bad(field.as_ref().unwrap_or(&bars_field), fault.problem);
+            }
+            None
+        }
+    }
+}
+
+fn read_bars(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Reinforcement> {
+    if !matches!(field.node.value, Value::Table(_)) {
+        let text = reader.text(field)?;
+        return understood(reader, field, Reinforcement::parse(&text));
+    }
+    let view = reader.open(field, &[keys::Section::Bars])?;
+    let mut row = |key: &'static str| {
+        let found = reader.get(&view, key).map(|field| reader.text(&field));
+        if found.is_none() && key != "sides" {
+            reader.missing(&view, key, format!("add {key} = \"4 d25\""));
+        }
+        found
+    };
+    let (top, bottom, sides) = (row("top"), row("bottom"), row("sides"));
+    let sides = match sides {
+        Some(text) => Some(text?),
+        None => None,
+    };
+    let laid = Reinforcement::rows(&top??, &bottom??, sides.as_deref());
+    understood(reader, field, laid)
+}
+
+fn understood<T>(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    parsed: Result<T, BarsError>,
+) -> Option<T> {
+    parsed
+        .map_err(|error| {
+            reader.bad(field, error.to_string());
+        })
+        .ok()
+}
+
+/// Every reinforced member of a sound frame, with its axial load.
+///
+/// # Errors
+/// A text when columns take their load from gravity and the building cannot stand.
+pub(super) fn members(
+    index: usize,
+    building: &Building,
+    reinforced: &Reinforced,
+) -> Result<Vec<ReinforcedMember>, String> {
+    let Structure::Frame(frame) = &building.structure else {
+        return Ok(Vec::new());
+    };
+    let asks_gravity = |entry: &Option<(Section, Axial)>| {
+        entry
+            .as_ref()
+            .is_some_and(|(_, axial)| *axial == Axial::FromGravity)
+    };
+    let carried = if reinforced.columns.iter().any(asks_gravity) {
+        column_loads(building)?
+    } else {
+        Vec::new()
+    };
+    let mut members = Vec::new();
+    for (storey, entry) in reinforced.columns.iter().enumerate() {
+        let Some((section, axial)) = entry else {
+            continue;
+        };
+        for line in 0..=frame.spans.len() {
+            members.push(ReinforcedMember {
+                building: index,
+                member: Member::Column,
+                floor: storey + 1,
+                place: line + 1,
+                section: section.clone(),
+                compression: match axial {
+                    Axial::Given(force) => *force,
+                    Axial::FromGravity => carried[storey][line],
+                },
+                length: frame.storey_heights[storey],
+                rigidity: frame.columns[storey].flexural_rigidity,
+            });
+        }
+    }
+    for (floor, entry) in reinforced.beams.iter().enumerate() {
+        let Some((section, _)) = entry else { continue };
+        for (bay, span) in frame.spans.iter().enumerate() {
+            members.push(ReinforcedMember {
+                building: index,
+                member: Member::Beam,
+                floor: floor + 1,
+                place: bay + 1,
+                section: section.clone(),
+                compression: 0.0,
+                length: *span,
+                rigidity: frame.beams[floor].flexural_rigidity,
+            });
+        }
+    }
+    Ok(members)
+}
+
+/// Compression at the foot of every column, by storey and column line \[N\].
+fn column_loads(building: &Building) -> Result<Vec<Vec<f64>>, String> {
+    let Structure::Frame(frame) = &building.structure else {
+        return Ok(Vec::new());
+    };
+    let system = BuildingSystem::new(&building.name, Idealisation::of(building));
+    let compressions = compressions(&system, STANDARD_GRAVITY).map_err(|_| {
+        "cannot be taken from gravity: the building does not stand by itself".to_owned()
+    })?;
+    let skeleton = &system.idealisation.skeleton;
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
+    let (mut foot, mut loads) = (0.0, Vec::new());
+    for height in &frame.storey_heights {
+        let (mut x, mut row) = (0.0, Vec::new());
+        for line in 0..=frame.spans.len() {
+            let at_foot = skeleton
+                .members
+                .iter()
+                .zip(&compressions)
+                .find(|(member, _)| {
+                    let [a, b] = member.ends.map(|end| skeleton.nodes[end]);
+                    near(a.x, x) && near(b.x, x) && near(a.y.min(b.y), foot)
+                });
+            row.push(at_foot.map_or(0.0, |(_, force)| *force));
+            x += frame.spans.get(line).copied().unwrap_or(0.0);
+        }
+        loads.push(row);
+        foot += height;
+    }
+    Ok(loads)
+}

@@ -1,0 +1,349 @@
+//! What can be wrong with a record.
+
+use super::format::RecordFormat;
+
+/// What is wrong with a record. Displays as `:line: problem`, to stand behind the name of the file.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecordError {
+    /// The file cannot be read.
+    #[error(": cannot be read: {0}")]
+    Io(#[from] std::io::Error),
+    /// More bytes than any record needs.
+    #[error(": the file has {mebibytes} MiB; a record may have at most 64 MiB")]
+    TooLarge {
+        /// Size.
+        mebibytes: usize,
+    },
+    /// Neither text nor a binary format that is read.
+    #[error(
+        ": this is no plain text file, and neither miniSEED nor SAC; export the record as AT2, CSV or columns of text in UTF-8"
+    )]
+    Binary,
+    /// An archive, or an encoding that is not read.
+    #[error(": this is {what}; {remedy}")]
+    Wrapped {
+        /// What the file is.
+        what: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A format asked for that is none.
+    #[error(
+        ": there is no record format \"{found}\"; formats: {}",
+        RecordFormat::keys()
+    )]
+    UnknownFormat {
+        /// The text.
+        found: String,
+    },
+    /// A header or block that breaks the rules of its format.
+    #[error("{}: {problem} (read as {format})", place(*.line))]
+    Malformed {
+        /// Format in which the file was read.
+        format: RecordFormat,
+        /// Line, from 1; 0 where lines mean nothing.
+        line: usize,
+        /// What is wrong, and what was expected.
+        problem: String,
+    },
+    /// The file ends inside a number.
+    #[error(
+        ":{line}: the file ends in the middle of a number; is it complete? (If it is, end the last line.)"
+    )]
+    CutShort {
+        /// Line, from 1.
+        line: usize,
+    },
+    /// Too few values.
+    #[error(": a record needs at least two values, found {found}")]
+    TooFew {
+        /// Values found.
+        found: usize,
+    },
+    /// A value that is no number.
+    #[error(":{line}: \"{found}\" is not a number")]
+    NotANumber {
+        /// Line, from 1.
+        line: usize,
+        /// The text.
+        found: String,
+    },
+    /// A value beyond any earthquake.
+    #[error(
+        "{}: an acceleration of {value} {unit} is beyond any earthquake; is the unit right?",
+        place(*.line)
+    )]
+    TooStrong {
+        /// Line, from 1; 0 where lines mean nothing.
+        line: usize,
+        /// Value as in the file.
+        value: f64,
+        /// Unit in use.
+        unit: String,
+    },
+    /// The header counts other than there are.
+    #[error(
+        "{}: the header announces {stated} values, the file has {found}; is it complete?",
+        place(*.line)
+    )]
+    Count {
+        /// Line of the header, from 1; 0 where lines mean nothing.
+        line: usize,
+        /// Announced.
+        stated: usize,
+        /// Found.
+        found: usize,
+    },
+    /// The peak of the values is not the one that the header states.
+    #[error(
+        "{}: the header states a peak of {stated}, the values have {found}; the file is damaged or was edited (read as {format}). Values that are right all the same can be given as columns of text",
+        place(*.line)
+    )]
+    Peak {
+        /// Format in which the file was read.
+        format: RecordFormat,
+        /// Line of the header, from 1; 0 where lines mean nothing.
+        line: usize,
+        /// Stated, as in the file.
+        stated: f64,
+        /// Of the values, as in the file.
+        found: f64,
+    },
+    /// Header without count and step.
+    #[error(
+        ": no header line with NPTS and DT in the first {lines} lines, as in \"NPTS= 4000, DT= .0100 SEC\""
+    )]
+    NoHeader {
+        /// Lines looked at.
+        lines: usize,
+    },
+    /// Header line that cannot be understood.
+    #[error(
+        ":{line}: cannot read the number of values and the time step from \"{found}\"; expected a line such as \"NPTS= 4000, DT= .0100 SEC\""
+    )]
+    Header {
+        /// Line, from 1.
+        line: usize,
+        /// The text.
+        found: String,
+    },
+    /// A unit asked for that is none of acceleration.
+    #[error(": unit = \"{found}\" is not an acceleration; say \"g\" or \"cm/s2\", for example")]
+    OptionUnit {
+        /// The text.
+        found: String,
+    },
+    /// A unit in the file that is none of acceleration.
+    #[error(
+        ":{line}: the unit \"{found}\" is not an acceleration; records of velocity or displacement cannot be used"
+    )]
+    Unit {
+        /// Line, from 1.
+        line: usize,
+        /// The text.
+        found: String,
+    },
+    /// The file holds something else than accelerations.
+    #[error(": this {format} file holds {found}, and accelerations are needed{remedy}")]
+    NotAcceleration {
+        /// Format in which the file was read.
+        format: RecordFormat,
+        /// What it holds.
+        found: String,
+        /// Where accelerations are found, or nothing.
+        remedy: &'static str,
+    },
+    /// The unit is stated nowhere.
+    #[error(
+        ": which unit do the accelerations have (largest number: {largest})? Say it with unit = \"g\" or unit = \"cm/s2\" beside record, or in the file's first line as # unit = g"
+    )]
+    UnitUnknown {
+        /// Largest number of the file, as a help.
+        largest: f64,
+    },
+    /// A format without units.
+    #[error(
+        ": {format} states no unit (largest number: {largest}). Say the unit with unit = \"m/s2\" beside record, and for counts of a digitiser also the size of one count in this unit, record_scale = 1/sensitivity"
+    )]
+    CountsUnknown {
+        /// Format in which the file was read.
+        format: RecordFormat,
+        /// Largest number of the file, as a help.
+        largest: f64,
+    },
+    /// The instrument's zero is not the ground at rest.
+    #[error(
+        ": the values have a mean of {mean}, and swing around it by {swing}: the zero of the digitiser. Say remove_mean = true beside record to take it off, or remove_mean = false to keep it"
+    )]
+    Offset {
+        /// Mean of the values, as in the file.
+        mean: f64,
+        /// Largest distance from the mean, as in the file.
+        swing: f64,
+    },
+    /// A factor in the header that programs treat differently.
+    #[error(
+        ": the header has SCALE = {stated}, which some programs apply and others do not; say record_scale = {stated} beside record to multiply by it, or record_scale = 1"
+    )]
+    HeaderScale {
+        /// The factor.
+        stated: f64,
+    },
+    /// An option for what the file states itself.
+    #[error(
+        ": the file states {what} itself ({stated}), and {key} contradicts it (read as {format}); leave {key} away"
+    )]
+    Stated {
+        /// Format in which the file was read.
+        format: RecordFormat,
+        /// The option.
+        key: &'static str,
+        /// What it is about.
+        what: &'static str,
+        /// As the file states it.
+        stated: String,
+    },
+    /// A factor that is no usable number.
+    #[error(": record_scale = {found} is not usable; it must be a number other than zero")]
+    OptionScale {
+        /// The factor.
+        found: f64,
+    },
+    /// The time step is stated nowhere.
+    #[error(
+        ": which time step do the values have? Say it with step = \"0.01 s\" beside record, or in the file's first line as # step = 0.01 s"
+    )]
+    StepUnknown,
+    /// A time step that cannot be used.
+    #[error(": the time step of {step} s is not usable; it must lie between 1e-6 s and 10 s")]
+    Step {
+        /// The step.
+        step: f64,
+    },
+    /// Times that are not equally spaced.
+    #[error(
+        ":{line}: time {found} s where {expected} s was expected; time steps must be equal, resample the record"
+    )]
+    UnequalStep {
+        /// Line, from 1.
+        line: usize,
+        /// Time found \[s\].
+        found: f64,
+        /// Time expected \[s\].
+        expected: f64,
+    },
+    /// A time that is not later than the one before.
+    #[error(":{line}: time {found} s does not come after the time before it")]
+    TimeNotRising {
+        /// Line, from 1.
+        line: usize,
+        /// Time found \[s\].
+        found: f64,
+    },
+    /// Digitised film: times that are not equally spaced by nature.
+    #[error(
+        ":{line}: the times of this uncorrected record are not equally spaced (steps between {least} s and {greatest} s); use the corrected record (volume 2), or say step = \"{suggested} s\" beside record to have it interpolated linearly"
+    )]
+    FilmTimes {
+        /// Line of the data, from 1.
+        line: usize,
+        /// Least step \[s\].
+        least: f64,
+        /// Greatest step \[s\].
+        greatest: f64,
+        /// A usual step near the mean \[s\].
+        suggested: f64,
+    },
+    /// The file's times contradict the stated step.
+    #[error(
+        ": the times of the file have a step of {found} s, but step = {stated} s was asked for; leave step away"
+    )]
+    StepConflict {
+        /// Step of the file.
+        found: f64,
+        /// Step of the option.
+        stated: f64,
+    },
+    /// Which of several columns?
+    #[error(
+        ":{line}: {columns} columns; which one holds the acceleration? Say it with column = 2 beside record"
+    )]
+    WhichColumn {
+        /// Line, from 1.
+        line: usize,
+        /// Columns found.
+        columns: usize,
+    },
+    /// The column asked for does not exist.
+    #[error(":{line}: there is no column {wanted}; the line has {columns}")]
+    NoColumn {
+        /// Line, from 1.
+        line: usize,
+        /// Column asked for.
+        wanted: usize,
+        /// Columns found.
+        columns: usize,
+    },
+    /// Which of several components?
+    #[error(
+        ": this {format} file has several components; choose one with component = \"{example}\" beside record. There are: {channels}"
+    )]
+    WhichComponent {
+        /// Format in which the file was read.
+        format: RecordFormat,
+        /// A choice that would do.
+        example: String,
+        /// What there is.
+        channels: String,
+    },
+    /// The component asked for does not exist.
+    #[error(": there is no component \"{wanted}\" in this {format} file. There are: {channels}")]
+    NoComponent {
+        /// Format in which the file was read.
+        format: RecordFormat,
+        /// Component asked for.
+        wanted: String,
+        /// What there is.
+        channels: String,
+    },
+    /// Several channels fit the component asked for.
+    #[error(
+        ": component \"{wanted}\" fits several channels of this {format} file; choose by number, component = \"1\". There are: {channels}"
+    )]
+    AmbiguousComponent {
+        /// Format in which the file was read.
+        format: RecordFormat,
+        /// Component asked for.
+        wanted: String,
+        /// What there is.
+        channels: String,
+    },
+    /// Lines of different length.
+    #[error(":{line}: expected {expected} columns as on the lines before, found {found}")]
+    Ragged {
+        /// Line, from 1.
+        line: usize,
+        /// Columns found.
+        found: usize,
+        /// Columns of the first line.
+        expected: usize,
+    },
+    /// Far too many numbers for g.
+    #[error(
+        ": the largest number is {largest}, surely not g; say the right unit, for example unit = \"cm/s2\""
+    )]
+    SurelyNotG {
+        /// Largest number of the file.
+        largest: f64,
+    },
+}
+
+/// `:12`, or nothing where lines mean nothing.
+fn place(line: usize) -> String {
+    if line == 0 {
+        String::new()
+    } else {
+        format!(":{line}")
+    }
+}

@@ -1,0 +1,207 @@
+//! The formats of records, and how to tell them apart by what a file contains.
+
+use std::fmt;
+
+use super::error::RecordError;
+use super::lines::Lines;
+use super::{miniseed, sac};
+
+/// A format of ground-motion records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum RecordFormat {
+    /// PEER AT2: short header with NPTS and DT, values in free format.
+    At2,
+    /// One or more columns of text, with or without times.
+    Columns,
+    /// COSMOS strong-motion data format, version 1.20 (V1c, V2c).
+    Cosmos,
+    /// CSMIP and CDMG volumes 1 and 2.
+    Csmip,
+    /// K-NET and KiK-net ASCII.
+    Knet,
+    /// ESM (Engineering Strong-Motion database) ASCII, also written by ITACA and AFAD-TADAS.
+    Esm,
+    /// USGS SMC.
+    Smc,
+    /// GeoNet (New Zealand) V1A and V2A.
+    GeoNet,
+    /// AFAD (Türkiye), three columns below a header.
+    Afad,
+    /// miniSEED 2 and 3.
+    MiniSeed,
+    /// SAC, binary, of either byte order.
+    Sac,
+}
+
+impl RecordFormat {
+    /// Every format.
+    pub const ALL: [Self; 11] = [
+        Self::At2,
+        Self::Columns,
+        Self::Cosmos,
+        Self::Csmip,
+        Self::Knet,
+        Self::Esm,
+        Self::Smc,
+        Self::GeoNet,
+        Self::Afad,
+        Self::MiniSeed,
+        Self::Sac,
+    ];
+
+    /// The word for it in model files and on the command line.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::At2 => "at2",
+            Self::Columns => "columns",
+            Self::Cosmos => "cosmos",
+            Self::Csmip => "csmip",
+            Self::Knet => "knet",
+            Self::Esm => "esm",
+            Self::Smc => "smc",
+            Self::GeoNet => "geonet",
+            Self::Afad => "afad",
+            Self::MiniSeed => "miniseed",
+            Self::Sac => "sac",
+        }
+    }
+
+    /// The format of this word.
+    ///
+    /// # Errors
+    /// [`RecordError::UnknownFormat`] with the words there are.
+    pub fn from_key(key: &str) -> Result<Self, RecordError> {
+        let wanted = key.trim().to_ascii_lowercase().replace(['-', '_'], "");
+        Self::ALL
+            .into_iter()
+            .find(|format| format.key() == wanted)
+            .ok_or_else(|| RecordError::UnknownFormat {
+                found: crate::quantity::shorten(key),
+            })
+    }
+
+    /// The words for all formats, for messages.
+    pub(crate) fn keys() -> String {
+        Self::ALL.map(Self::key).join(", ")
+    }
+
+    /// Tells the format from the content of a file; columns of text when nothing else fits.
+    ///
+    /// # Errors
+    /// [`RecordError::Binary`] or [`RecordError::Wrapped`] for files in no format that is read.
+    pub fn detect(bytes: &[u8]) -> Result<Self, RecordError> {
+        if miniseed::is_miniseed(bytes) {
+            return Ok(Self::MiniSeed);
+        }
+        if sac::is_sac(bytes) {
+            return Ok(Self::Sac);
+        }
+        check_text(bytes)?;
+        Ok(detect_text(bytes))
+    }
+}
+
+impl fmt::Display for RecordFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::At2 => "PEER AT2",
+            Self::Columns => "columns of text",
+            Self::Cosmos => "COSMOS",
+            Self::Csmip => "CSMIP",
+            Self::Knet => "K-NET",
+            Self::Esm => "ESM",
+            Self::Smc => "USGS SMC",
+            Self::GeoNet => "GeoNet",
+            Self::Afad => "AFAD",
+            Self::MiniSeed => "miniSEED",
+            Self::Sac => "SAC",
+        })
+    }
+}
+
+/// How files begin that are no text.
+#[rustfmt::skip]
+const WRAPPED: &[(&[u8], &str, &str)] = &[
+    (b"PK\x03\x04", "a ZIP archive", "unpack it and give one of the records in it"),
+    (b"\x1f\x8b", "compressed with gzip", "unpack it first"),
+    (b"BZh", "compressed with bzip2", "unpack it first"),
+    (b"\x89HDF", "an HDF5 file", "export the record as AT2, CSV or columns of text"),
+    (b"%PDF", "a PDF document", "give the record itself, as AT2, CSV or columns of text"),
+    (b"\xff\xfe", "text in UTF-16", "save it as UTF-8 or plain ASCII"),
+    (b"\xfe\xff", "text in UTF-16", "save it as UTF-8 or plain ASCII"),
+];
+
+/// Refuses what cannot be read as text.
+pub(crate) fn check_text(bytes: &[u8]) -> Result<(), RecordError> {
+    if let Some((_, what, remedy)) = WRAPPED.iter().find(|(mark, ..)| bytes.starts_with(mark)) {
+        return Err(RecordError::Wrapped { what, remedy });
+    }
+    if bytes.contains(&0) {
+        return Err(RecordError::Binary);
+    }
+    Ok(())
+}
+
+/// Lines that can tell a format.
+const FIRST_LINES: usize = 64;
+/// Lines of AT2 in which NPTS must stand.
+pub(crate) const AT2_HEADER_LINES: usize = 12;
+
+/// Every format has more than one mark, so that a damaged first line does not change the reading in silence.
+fn detect_text(bytes: &[u8]) -> RecordFormat {
+    use RecordFormat as F;
+    let mut starred = false;
+    let mut accelerogram = false;
+    let mut npts = false;
+    for line in Lines::new(bytes).take(FIRST_LINES) {
+        let text = line.text.trim();
+        let upper = text.to_ascii_uppercase();
+        let starts = |mark: &str| upper.starts_with(mark);
+        let has = |mark: &str| upper.contains(mark);
+        if starts("ORIGIN TIME ") || starts("SAMPLING FREQ(HZ)") || starts("SCALE FACTOR ") {
+            return F::Knet;
+        }
+        if starts("EVENT_NAME:") || starts("SAMPLING_INTERVAL_S:") || starts("NDATA:") {
+            return F::Esm;
+        }
+        if has("(FORMAT V") || has("INTEGER-HEADER VALUES FOLLOW") || has("REAL-HEADER VALUES") {
+            return F::Cosmos;
+        }
+        if has("STRONG GROUND MOTION RECORDS OF TURK") || starts("SAMPLING INTERVAL (SEC)") {
+            return F::Afad;
+        }
+        if has("GNS SCIENCE") || has("MM/S/S") {
+            return F::GeoNet;
+        }
+        // Text lines of SMC that say nothing are a single star.
+        if line.number == 2 && starts("*") {
+            starred = true;
+        }
+        accelerogram |= line.number <= 2 && has("ORRECTED ACCELEROGRAM");
+        if starred && smc_kind(Lines::first(bytes).trim()) {
+            return F::Smc;
+        }
+        if line.number > 2 && accelerogram
+            || has("FOURIER AMPLITUDE SPECTRA (") && line.number == 1
+            || starts("INSTR PERIOD =")
+        {
+            return F::Csmip;
+        }
+        npts |= line.number <= AT2_HEADER_LINES && has("NPTS");
+        // A comment or a name of columns may say NPTS; only behind other formats does it decide.
+        if npts && line.number >= AT2_HEADER_LINES {
+            return F::At2;
+        }
+    }
+    if npts { F::At2 } else { F::Columns }
+}
+
+/// `2 CORRECTED ACCELEROGRAM` and its like.
+fn smc_kind(first: &str) -> bool {
+    let mut chars = first.chars();
+    chars.next().is_some_and(|c| c.is_ascii_digit())
+        && chars.next() == Some(' ')
+        && first.contains(char::is_alphabetic)
+}

@@ -1,0 +1,210 @@
+//! Lines of a text file, and numbers in them.
+
+use std::borrow::Cow;
+
+use super::error::RecordError;
+use crate::quantity::shorten;
+
+/// A line without its end and without blanks at the end.
+pub(crate) struct Line<'t> {
+    /// From 1.
+    pub(crate) number: usize,
+    pub(crate) text: Cow<'t, str>,
+}
+
+/// The lines of a text; old files end lines with `\r` alone or with `\r\r\n`.
+///
+/// Station names come in many encodings: a line that is no UTF-8 is read as Latin-1.
+#[derive(Clone)]
+pub(crate) struct Lines<'t> {
+    rest: Option<&'t [u8]>,
+    end: u8,
+    number: usize,
+}
+
+impl<'t> Lines<'t> {
+    pub(crate) fn new(bytes: &'t [u8]) -> Self {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        Self {
+            rest: Some(bytes),
+            end: if bytes.contains(&b'\n') { b'\n' } else { b'\r' },
+            number: 0,
+        }
+    }
+
+    /// The first line of a text.
+    pub(crate) fn first(bytes: &'t [u8]) -> Cow<'t, str> {
+        Self::new(bytes)
+            .next()
+            .map_or(Cow::Borrowed(""), |l| l.text)
+    }
+
+    /// Bytes not yet read; bounds what can still follow.
+    pub(crate) fn bytes_left(&self) -> usize {
+        self.rest.map_or(0, <[u8]>::len)
+    }
+
+    /// Lines not yet read.
+    pub(crate) fn lines_left(&self) -> usize {
+        let ends = |rest: &[u8]| rest.iter().filter(|byte| **byte == self.end).count() + 1;
+        self.rest.map_or(0, ends)
+    }
+
+    /// Number of the line read last.
+    pub(crate) fn number(&self) -> usize {
+        self.number
+    }
+}
+
+impl<'t> Iterator for Lines<'t> {
+    type Item = Line<'t>;
+
+    fn next(&mut self) -> Option<Line<'t>> {
+        let rest = self.rest?;
+        let line = match rest.iter().position(|byte| *byte == self.end) {
+            Some(at) => {
+                self.rest = Some(&rest[at + 1..]);
+                &rest[..at]
+            }
+            None => {
+                self.rest = None;
+                rest
+            }
+        };
+        self.number += 1;
+        let text = match std::str::from_utf8(line) {
+            Ok(text) => Cow::Borrowed(text.trim_end()),
+            Err(_) => {
+                let text: String = line.iter().map(|byte| char::from(*byte)).collect();
+                Cow::Owned(text.trim_end().to_owned())
+            }
+        };
+        Some(Line {
+            number: self.number,
+            text,
+        })
+    }
+}
+
+/// A finite number; Fortran exponents (`1.5D-3`) and decimal commas are understood.
+pub(crate) fn number(line: usize, text: &str) -> Result<f64, RecordError> {
+    let parsed = text.parse::<f64>();
+    match parsed.or_else(|_| text.replace(['D', 'd'], "e").replace(',', ".").parse()) {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(RecordError::NotANumber {
+            line,
+            found: shorten(text),
+        }),
+    }
+}
+
+/// Unit of the last printed digit: 0.01 for `1.25`, 1e-4 for `1.25e-2`.
+pub(crate) fn last_digit(text: &str) -> f64 {
+    let mantissa_end = text.find(['e', 'E', 'd', 'D']).unwrap_or(text.len());
+    let (mantissa, exponent) = text.split_at(mantissa_end);
+    let decimals = mantissa
+        .find(['.', ','])
+        .map_or(0, |at| mantissa.len() - at - 1);
+    let exponent: i32 = exponent.get(1..).and_then(|e| e.parse().ok()).unwrap_or(0);
+    let decimals = i32::try_from(decimals).unwrap_or(i32::MAX);
+    10f64.powi(exponent.saturating_sub(decimals).clamp(-300, 300))
+}
+
+/// Number with its last printed digit, from text such as `-6.852`, for values quoted in headers.
+pub(crate) fn printed(text: &str) -> Option<(f64, f64)> {
+    let value = text.parse::<f64>().ok().filter(|value| value.is_finite())?;
+    Some((value, last_digit(text)))
+}
+
+/// On which line a value stands, stored as runs of lines with equally many values.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LineMap {
+    /// First value, first line, values per line.
+    runs: Vec<(usize, usize, usize)>,
+    values: usize,
+    last_line: usize,
+}
+
+impl LineMap {
+    /// Notes that `count` further values stand on `line`.
+    pub(crate) fn note(&mut self, line: usize, count: usize) {
+        if count == 0 {
+            return;
+        }
+        let continues = self
+            .runs
+            .last()
+            .is_some_and(|(_, _, per_line)| *per_line == count && line == self.last_line + 1);
+        if !continues {
+            self.runs.push((self.values, line, count));
+        }
+        self.values += count;
+        self.last_line = line;
+    }
+
+    /// Makes room for a value in front that stands on no line.
+    pub(crate) fn prepend(&mut self) {
+        self.runs.iter_mut().for_each(|(first, ..)| *first += 1);
+        self.values += 1;
+    }
+
+    /// Line of a value; 0 where lines mean nothing.
+    pub(crate) fn line_of(&self, value: usize) -> usize {
+        let after = self.runs.partition_point(|(first, ..)| *first <= value);
+        let run = after.checked_sub(1).and_then(|at| self.runs.get(at));
+        run.map_or(0, |(first, line, per_line)| {
+            line + (value - first) / per_line
+        })
+    }
+}
+
+/// Numbers, or lines, looked at to see whether numbers are printed alike.
+const ALIKE: usize = 12;
+
+/// Refuses a text that ends inside its last number: no line end, and fewer digits than the numbers before it, or
+/// than those above it.
+pub(crate) fn check_end(bytes: &[u8]) -> Result<(), RecordError> {
+    let ended = bytes.last().is_none_or(|last| last.is_ascii_whitespace());
+    if ended {
+        return Ok(());
+    }
+    let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
+    let is_gap = |byte: &u8| byte.is_ascii_whitespace() || matches!(byte, b',' | b';');
+    let digits = |word: &[u8]| {
+        word.iter()
+            .position(|b| *b == b'.')
+            .map(|at| word.len() - at)
+    };
+    let words = |text| <[u8]>::split(text, is_gap).filter(|word| !word.is_empty());
+    // A line may hold the whole record; its end is enough.
+    let tail = &bytes[bytes.len().saturating_sub(4000)..];
+    let mut lines = tail.rsplit(is_end).filter(|line| !line.is_empty());
+    let last_line = lines.next().unwrap_or_default();
+    let column = words(last_line).count().saturating_sub(1);
+    let last = words(last_line).next_back();
+    let last = last.and_then(digits).unwrap_or(0);
+
+    // Up to the names of the columns.
+    let is_number = |word: &&[u8]| {
+        let first = word.first().copied().unwrap_or(b' ');
+        first.is_ascii_digit() || matches!(first, b'+' | b'-' | b'.')
+    };
+    let above = lines
+        .take(ALIKE)
+        .map_while(|line| words(line).nth(column).filter(is_number));
+    let before = tail.rsplit(is_gap).filter(|word| !word.is_empty());
+    for (alike, least) in [
+        (above.map(digits).collect::<Vec<_>>(), 2),
+        (before.skip(1).take(ALIKE).map(digits).collect(), 3),
+    ] {
+        if let Some(Some(usual)) = alike.first()
+            && alike.len() >= least
+            && alike.iter().all(|digits| *digits == Some(*usual))
+            && last < *usual
+        {
+            let line = Lines::new(bytes).count();
+            return Err(RecordError::CutShort { line });
+        }
+    }
+    Ok(())
+}

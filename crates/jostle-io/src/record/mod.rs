@@ -1,0 +1,242 @@
+//! Ground-motion records in files: equally spaced accelerations in SI.
+//!
+//! One file per format turns bytes into [`contents::Contents`]: channels of raw values with what the header says
+//! of them. What all formats share stands there: units, scale, checks, the choice of a channel.
+
+mod afad;
+mod at2;
+mod channel;
+mod columns;
+mod contents;
+mod cosmos;
+mod csmip;
+mod error;
+mod esm;
+mod fixed;
+mod format;
+mod geonet;
+mod header;
+mod knet;
+mod lines;
+mod miniseed;
+mod sac;
+mod smc;
+mod units;
+
+use std::path::Path;
+
+pub use channel::{Channel, Direction};
+pub use error::RecordError;
+pub use format::RecordFormat;
+pub(crate) use units::acceleration_unit;
+
+use contents::Contents;
+
+/// Equally spaced ground accelerations; the first value is at time zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// Time step, > 0 \[s\].
+    pub step: f64,
+    /// Ground acceleration, at least two values \[m/s²\].
+    pub acceleration: Vec<f64>,
+}
+
+impl Record {
+    /// A record from values at hand, in a unit of acceleration such as `g`, `step` seconds apart. Errors count
+    /// values as lines, from 1.
+    ///
+    /// # Errors
+    /// [`RecordError`] as for a file of these values.
+    pub fn of(values: &[f64], unit: &str, step: f64) -> Result<Self, RecordError> {
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            return Err(RecordError::NotANumber {
+                line: at + 1,
+                found: values[at].to_string(),
+            });
+        }
+        let options = RecordOptions {
+            unit: Some(unit.to_owned()),
+            ..RecordOptions::default()
+        };
+        let mut numbers = lines::LineMap::default();
+        for at in 1..=values.len() {
+            numbers.note(at, 1);
+        }
+        let trace = contents::Trace {
+            name: "values".to_owned(),
+            direction: Direction::Unknown,
+            unit: units::option_unit(&options)?,
+            step: Some(step),
+            values: values.to_vec(),
+            lines: numbers,
+            peak: None,
+        };
+        let mut contents = Contents::new(RecordFormat::Columns, contents::Scale::Settled);
+        contents.traces.push(trace);
+        contents.into_record(0, &options)
+    }
+}
+
+/// What a user adds when a file does not say it itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordOptions {
+    /// Unit of the acceleration, such as `g` or `cm/s2`.
+    pub unit: Option<String>,
+    /// Time step \[s\].
+    pub step: Option<f64>,
+    /// Column of the acceleration, counted from 1.
+    pub column: Option<usize>,
+    /// Channel of a file with several: a number, the name in the file, `H1`, `H2`, `up`, `N-S`, an azimuth.
+    pub component: Option<String>,
+    /// Factor on the numbers of the file before `unit`: the size of one count, 1/sensitivity.
+    pub scale: Option<f64>,
+    /// Whether the mean is taken off; `None` leaves it, asks when counts have a large one, and follows the rule
+    /// of formats that have one (K-NET).
+    pub remove_mean: Option<bool>,
+    /// Format of the file; `None` tells it from the content.
+    pub format: Option<RecordFormat>,
+}
+
+/// What a file says about itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordInfo {
+    /// Format in which it was read.
+    pub format: RecordFormat,
+    /// Name or code of the station, or nothing.
+    pub station: String,
+    /// Name of the earthquake, or nothing.
+    pub event: String,
+    /// Date and time as the file writes them, or nothing.
+    pub date: String,
+    /// Its channels of acceleration.
+    pub channels: Vec<Channel>,
+    /// Index of the channel that the options choose; `None` when they leave it open.
+    pub chosen: Option<usize>,
+}
+
+impl RecordInfo {
+    /// The channel that the options choose.
+    #[must_use]
+    pub fn channel(&self) -> Option<&Channel> {
+        self.channels.get(self.chosen?)
+    }
+}
+
+/// Largest record file \[bytes\].
+const LARGEST_FILE: usize = 64 << 20;
+
+/// Reads a record file; the format is told from its content.
+///
+/// # Errors
+/// [`RecordError`] naming the line and what would be right.
+pub fn read_record(path: &Path, options: &RecordOptions) -> Result<Record, RecordError> {
+    parse_record(&read_bytes(path)?, options)
+}
+
+/// Reads a record file together with what it says about itself.
+///
+/// # Errors
+/// As [`read_record`].
+pub fn read_record_and_info(
+    path: &Path,
+    options: &RecordOptions,
+) -> Result<(Record, RecordInfo), RecordError> {
+    parse_record_and_info(&read_bytes(path)?, options)
+}
+
+/// Reads what a record file says about itself, without a choice among its channels.
+///
+/// # Errors
+/// [`RecordError`] when the file cannot be read in its format.
+pub fn describe_record(path: &Path, options: &RecordOptions) -> Result<RecordInfo, RecordError> {
+    parse_info(&read_bytes(path)?, options)
+}
+
+/// Reads a record from the bytes of a file.
+///
+/// Takes memory for eight bytes per value really present, whatever a header announces.
+///
+/// # Errors
+/// [`RecordError`] naming the line and what would be right.
+pub fn parse_record(bytes: &[u8], options: &RecordOptions) -> Result<Record, RecordError> {
+    parse_record_and_info(bytes, options).map(|(record, _)| record)
+}
+
+/// Reads a record and what the file says about itself from the bytes of a file.
+///
+/// # Errors
+/// As [`parse_record`].
+pub fn parse_record_and_info(
+    bytes: &[u8],
+    options: &RecordOptions,
+) -> Result<(Record, RecordInfo), RecordError> {
+    let contents = parse_contents(bytes, options)?;
+    let channels = contents.channels();
+    let index = channel::choose(&channels, options.component.as_deref(), contents.format)?;
+    let info = info(&contents, channels, Some(index));
+    let record = contents.into_record(index, options)?;
+    Ok((record, info))
+}
+
+/// Reads what a file says about itself from its bytes, without a choice among its channels.
+///
+/// # Errors
+/// As [`describe_record`].
+pub fn parse_info(bytes: &[u8], options: &RecordOptions) -> Result<RecordInfo, RecordError> {
+    let contents = parse_contents(bytes, options)?;
+    let channels = contents.channels();
+    let chosen = channel::choose(&channels, options.component.as_deref(), contents.format).ok();
+    Ok(info(&contents, channels, chosen))
+}
+
+fn info(contents: &Contents, channels: Vec<Channel>, chosen: Option<usize>) -> RecordInfo {
+    RecordInfo {
+        format: contents.format,
+        station: contents.station.clone(),
+        event: contents.event.clone(),
+        date: contents.date.clone(),
+        channels,
+        chosen,
+    }
+}
+
+fn read_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
+    let size = usize::try_from(std::fs::metadata(path)?.len()).unwrap_or(usize::MAX);
+    check_size(size)?;
+    Ok(std::fs::read(path)?)
+}
+
+fn parse_contents(bytes: &[u8], options: &RecordOptions) -> Result<Contents, RecordError> {
+    check_size(bytes.len())?;
+    let format = match options.format {
+        Some(format) => format,
+        None => RecordFormat::detect(bytes)?,
+    };
+    if !matches!(format, RecordFormat::MiniSeed | RecordFormat::Sac) {
+        format::check_text(bytes)?;
+    }
+    let contents = match format {
+        RecordFormat::At2 => at2::read(bytes),
+        RecordFormat::Columns => columns::read(bytes, options),
+        RecordFormat::Cosmos => cosmos::read(bytes),
+        RecordFormat::Csmip => csmip::read(bytes, options),
+        RecordFormat::Knet => knet::read(bytes),
+        RecordFormat::Esm => esm::read(bytes),
+        RecordFormat::Smc => smc::read(bytes),
+        RecordFormat::GeoNet => geonet::read(bytes),
+        RecordFormat::Afad => afad::read(bytes),
+        RecordFormat::MiniSeed => miniseed::read(bytes),
+        RecordFormat::Sac => sac::read(bytes, options),
+    }?;
+    contents.check_peaks()?;
+    Ok(contents)
+}
+
+fn check_size(size: usize) -> Result<(), RecordError> {
+    if size > LARGEST_FILE {
+        return Err(RecordError::TooLarge {
+            mebibytes: size >> 20,
+        });
+    }
+    Ok(())
+}

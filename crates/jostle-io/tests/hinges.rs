@@ -1,0 +1,395 @@
+//! Hinges and reinforcement in model files.
+
+use std::path::Path;
+
+use jostle::hysteresis::{HysteresisRule, Side};
+use jostle::{FrameHinges, Hinges};
+use jostle_io::{Format, Input, read_model_text};
+
+fn read(text: &str) -> Result<Input, String> {
+    read_model_text("model.toml", text, Format::Toml, Path::new("")).map_err(|e| e.to_string())
+}
+
+fn frame(column: &str, beam: &str, hinges: &str) -> String {
+    format!(
+        r#"
+[[building]]
+storeys = 2
+storey_height = "3 m"
+spans = ["6 m", "4 m"]
+column = {{ width = "500 mm", depth = "500 mm"{column} }}
+beam = {{ width = "300 mm", depth = "600 mm"{beam} }}
+concrete = "C30"
+beam_mass = "3600 kg/m"
+{hinges}
+"#
+    )
+}
+
+fn shear(hinges: &str) -> String {
+    format!(
+        "[[building]]\nkind = \"shear\"\nmass = [\"40 t\", \"40 t\"]\nstiffness = [\"60 MN/m\", \"50 MN/m\"]\n{hinges}\n"
+    )
+}
+
+fn hinges_of(text: &str) -> FrameHinges {
+    let input = read(text).unwrap_or_else(|error| panic!("{error}"));
+    match &input.model.buildings[0].hinges {
+        Some(Hinges::Frame(hinges)) => hinges.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn moments_become_springs_of_every_member() {
+    let hinges = hinges_of(&frame(
+        "",
+        "",
+        r#"hinges = { rule = "peak-oriented", initial = 100,
+        column = [{ cracking = "120 kN.m", yield = "400 kN.m", post_cracking = 0.3, post_yield = 0.02 }, { cracking = "100 kN.m", yield = "300 kN.m", post_cracking = 0.3, post_yield = 0.02 }],
+        beam = { cracking = "80 kN.m", post_cracking = 0.3, post_yield = 0.02, positive = { yield = "260 kN.m" }, negative = { yield = "320 kN.m", cracking = "90 kN.m" } } }"#,
+    ));
+    assert_eq!((hinges.columns.len(), hinges.columns[0].len()), (2, 3));
+    assert_eq!((hinges.beams.len(), hinges.beams[0].len()), (2, 2));
+    let column = hinges.columns[1][2];
+    assert_eq!(column.rule(), HysteresisRule::PeakOriented);
+    let rigidity = 30e9 * 0.5_f64.powi(4) / 12.0;
+    assert!((column.backbone().initial() / (100.0 * rigidity / 3.0) - 1.0).abs() < 1e-12);
+    assert_eq!(column.backbone().side(Side::Negative).yielding.force, 300e3);
+    let [long, short] = [hinges.beams[0][0], hinges.beams[0][1]];
+    let ratio = short.backbone().initial() / long.backbone().initial();
+    assert!((ratio - 1.5).abs() < 1e-12, "stiffness goes with 1/L");
+    assert_eq!(long.backbone().side(Side::Positive).yielding.force, 260e3);
+    assert_eq!(long.backbone().side(Side::Positive).cracking.force, 80e3);
+    assert_eq!(long.backbone().side(Side::Negative).cracking.force, 90e3);
+}
+
+#[test]
+fn rigid_hinges_take_ratios_of_the_member_end() {
+    let hinges = hinges_of(&frame(
+        "",
+        "",
+        r#"hinges = { rule = "takeda", gamma = 0.5, initial = "rigid",
+        column = { cracking = "120 kN.m", yield = "400 kN.m", post_cracking = 0.25, post_yield = 0.02 } }"#,
+    ));
+    assert!(hinges.beams.is_empty());
+    let column = hinges.columns[0][0];
+    assert_eq!(column.rule(), HysteresisRule::Takeda { exponent: 0.5 });
+    let end = 6.0 * 30e9 * 0.5_f64.powi(4) / 12.0 / 3.0;
+    let slope = column.backbone().side(Side::Positive).post_cracking;
+    // In series with the member end: a quarter of its stiffness.
+    assert!((1.0 / (1.0 / slope + 1.0 / end) / end - 0.25).abs() < 1e-9);
+}
+
+#[test]
+fn storeys_crack_and_yield() {
+    let text = shear(
+        r#"hinges = { rule = "d-tri", cracking = "5 mm", yield = ["20 mm", "25 mm"], post_cracking = 0.3, post_yield = 0.05 }"#,
+    );
+    let input = read(&text).unwrap_or_else(|error| panic!("{error}"));
+    let Some(Hinges::Storeys(springs)) = &input.model.buildings[0].hinges else {
+        panic!("no springs");
+    };
+    assert_eq!(springs[1].backbone().initial(), 50e6);
+    assert_eq!(
+        springs[1]
+            .backbone()
+            .side(Side::Positive)
+            .yielding
+            .deformation,
+        0.025
+    );
+    let force = 60e6 * 0.005 + 18e6 * 0.015;
+    assert!((springs[0].backbone().side(Side::Positive).yielding.force - force).abs() < 1e-6);
+    let bilinear = shear(r#"hinges = { rule = "bilinear", yield = "20 mm", post_yield = 0.05 }"#);
+    assert!(read(&bilinear).is_ok());
+}
+
+const COLUMN_BARS: &str = r#", steel = "HRB400", bars = "12 d20", cover = "30 mm""#;
+const BEAM_BARS: &str =
+    r#", steel = "HRB400", bars = { top = "4 d25", bottom = "3 d20", sides = "2 d12" }"#;
+
+#[test]
+fn sections_give_the_moments() {
+    for method in ["formula", "fibre"] {
+        let hinges = format!(
+            r#"hinges = {{ rule = "peak-oriented", from = "section", method = "{method}" }}"#
+        );
+        let text = frame(COLUMN_BARS, BEAM_BARS, &hinges);
+        let input = read(&text).unwrap_or_else(|error| panic!("{error}"));
+        let hinges = hinges_of(&text);
+        // The middle column of the ground floor carries most and yields last.
+        let yields = |line: usize, storey: usize| {
+            hinges.columns[storey][line]
+                .backbone()
+                .side(Side::Positive)
+                .yielding
+                .force
+        };
+        assert!(
+            yields(1, 0) > yields(0, 0) && yields(0, 0) > yields(0, 1),
+            "{method}"
+        );
+        // More bars at the top: negative moments are carried better.
+        let beam = hinges.beams[0][0].backbone();
+        let [positive, negative] = Side::BOTH.map(|side| beam.side(side).yielding.force);
+        assert!(
+            negative > 1.5 * positive,
+            "{method}: {positive} and {negative}"
+        );
+        assert_eq!(input.reinforced.len(), 2 * 3 + 2 * 2);
+        // Equilibrium: the feet of the columns carry the whole weight.
+        let weight: f64 = input
+            .reinforced
+            .iter()
+            .filter(|member| {
+                member.floor == 1 && member.member == jostle_section::formula::Member::Column
+            })
+            .map(|member| member.compression)
+            .sum();
+        let mass = 2.0 * (10.0 * 3600.0 + 3.0 * 3.0 * 625.0);
+        // The lowest half segments stand on the ground.
+        let lowest = 3.0 * 625.0 * 3.0 / 8.0;
+        assert!(
+            (weight / (9.80665 * (mass - lowest)) - 1.0).abs() < 1e-9,
+            "{weight}"
+        );
+    }
+}
+
+#[test]
+fn kinematic_rules_take_symmetric_sections_and_refuse_others() {
+    for rule in ["normal", "d-tri", "bilinear", "takeda"] {
+        for method in ["formula", "fibre"] {
+            let hinges =
+                format!(r#"hinges = {{ rule = "{rule}", from = "section", method = "{method}" }}"#);
+            let even = r#", steel = "HRB400", bars = "4 d25 top, 4 d25 bottom""#;
+            let text = frame(COLUMN_BARS, even, &hinges);
+            read(&text).unwrap_or_else(|error| panic!("{rule}, {method}: {error}"));
+        }
+    }
+    let hinges = r#"hinges = { rule = "normal", from = "section" }"#;
+    let found = faults(&frame(COLUMN_BARS, BEAM_BARS, hinges));
+    assert!(
+        found[0].contains("beam 1 of storey 1") && found[0].contains("peak-oriented"),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_load_in_numbers_replaces_gravity() {
+    let bars = format!(
+        r#"{COLUMN_BARS}, axial_load = "800 kN", ties = "d10 @ 100 mm", strength = "mean""#
+    );
+    let input = read(&frame(&bars, "", "")).unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        input
+            .reinforced
+            .iter()
+            .all(|member| member.compression == 800e3)
+    );
+    let section = &input.reinforced[0].section;
+    assert!(section.ties.is_some());
+    assert!((section.concrete.strength / (20.1e6 / (1.0 - 1.645 * 0.172)) - 1.0).abs() < 1e-12);
+}
+
+/// The first lines of all faults.
+fn faults(text: &str) -> Vec<String> {
+    let error = read(text).expect_err(text);
+    let lines = error.lines().filter(|line| line.starts_with("model.toml:"));
+    lines.map(str::to_owned).collect()
+}
+
+#[test]
+fn faults_name_the_number_and_what_to_do() {
+    let moments =
+        r#"cracking = "120 kN.m", yield = "400 kN.m", post_cracking = 0.3, post_yield = 0.02"#;
+    for (text, place, word) in [
+        (
+            frame("", "", "hinges = { column = { } }"),
+            "building[0].hinges.rule",
+            "is missing",
+        ),
+        (
+            frame("", "", r#"hinges = { rule = "normal" }"#),
+            "building[0].hinges",
+            "has no moments",
+        ),
+        (
+            frame(
+                "",
+                "",
+                &format!(
+                    r#"hinges = {{ rule = "normal", gamma = 0.4, column = {{ {moments} }} }}"#
+                ),
+            ),
+            "building[0].hinges.gamma",
+            "no meaning with the rule normal",
+        ),
+        (
+            frame(
+                "",
+                "",
+                &format!(
+                    r#"hinges = {{ rule = "takeda", gamma = 1.4, column = {{ {moments} }} }}"#
+                ),
+            ),
+            "building[0].hinges.gamma",
+            "between 0 and 1",
+        ),
+        (
+            frame(
+                "",
+                "",
+                &format!(r#"hinges = {{ rule = "bilinear", column = {{ {moments} }} }}"#),
+            ),
+            "building[0].hinges.column.cracking",
+            "no place in a bilinear curve",
+        ),
+        (
+            frame(
+                "",
+                "",
+                r#"hinges = { rule = "normal", column = { cracking = "500 kN.m", yield = "400 kN.m", post_cracking = 0.3, post_yield = 0.02 } }"#,
+            ),
+            "building[0].hinges.column.yield",
+            "must not be less than cracking",
+        ),
+        (
+            frame(
+                "",
+                "",
+                r#"hinges = { rule = "normal", beam = [{ cracking = "50 kN.m" }] }"#,
+            ),
+            "building[0].hinges.beam",
+            "1 entry for 2 storeys",
+        ),
+        (
+            frame(
+                "",
+                "",
+                r#"hinges = { rule = "normal", beam = { cracking = "50 kN.m", yield = "400 kN.m", post_cracking = 0.3, post_yield = 0.02, negative = { post_cracking = 0.4 } } }"#,
+            ),
+            "building[0].hinges.beam.negative.post_cracking",
+            "equal on both sides",
+        ),
+        (
+            frame(
+                "",
+                BEAM_BARS,
+                r#"hinges = { rule = "takeda", from = "section" }"#,
+            ),
+            "building[0].hinges",
+            "no column has bars",
+        ),
+        (
+            frame(
+                COLUMN_BARS,
+                BEAM_BARS,
+                &format!(
+                    r#"hinges = {{ rule = "takeda", from = "section", beam = {{ {moments} }} }}"#
+                ),
+            ),
+            "building[0].hinges.beam",
+            "cannot stand beside",
+        ),
+        (
+            frame(r#", bars = "12 d20""#, "", ""),
+            "building[0].column.steel",
+            "is missing",
+        ),
+        (
+            frame(r#", steel = "HRB40", bars = "12 d20""#, "", ""),
+            "building[0].column.steel",
+            "\"HRB40\" is not known",
+        ),
+        (
+            frame(r#", steel = "HRB400", bars = "11 d20""#, "", ""),
+            "building[0].column.bars",
+            "even number",
+        ),
+        (
+            frame(
+                r#", steel = "HRB400", bars = "12 d20", cover = "300 mm""#,
+                "",
+                "",
+            ),
+            "building[0].column.cover",
+            "no room for the bars",
+        ),
+        (
+            frame(
+                r#", steel = "HRB400", bars = "12 d20", axial_load = "8 t""#,
+                "",
+                "",
+            ),
+            "building[0].column.axial_load",
+            "expected a force",
+        ),
+        (
+            frame("", r#", steel = "HRB400", bars = { top = "4 d25" }"#, ""),
+            "building[0].beam.bars.bottom",
+            "is missing",
+        ),
+        (
+            shear(
+                r#"hinges = { rule = "normal", cracking = "5 mm", yield = ["20 mm", "2 mm"], post_cracking = 0.3, post_yield = 0.05 }"#,
+            ),
+            "building[0].hinges.yield[1]",
+            "must not be less than cracking",
+        ),
+        (
+            shear(
+                r#"hinges = { rule = "normal", cracking = "5 mm", yield = "20 mm", post_cracking = 0.3, post_yield = 0.5 }"#,
+            ),
+            "building[0].hinges.post_yield",
+            "must not exceed post_cracking",
+        ),
+        (
+            shear(
+                r#"hinges = { rule = "normal", cracking = "5 mm", yield = ["20 mm"], post_cracking = 0.3, post_yield = 0.05 }"#,
+            ),
+            "building[0].hinges.yield",
+            "1 entry for 2 storeys",
+        ),
+        (
+            shear(
+                r#"hinges = { rule = "normal", column = {}, cracking = "5 mm", yield = "20 mm", post_cracking = 0.3, post_yield = 0.05 }"#,
+            ),
+            "building[0].hinges.column",
+            "unknown key",
+        ),
+    ] {
+        let found = faults(&text);
+        assert!(
+            found
+                .iter()
+                .any(|line| line.contains(&format!(": {place}: ")) && line.contains(word)),
+            "{place}: {word}\nfound {found:#?}\nin {text}"
+        );
+        let also = usize::from(text.contains("bilinear"));
+        assert_eq!(found.len(), 1 + also, "{found:#?}");
+    }
+}
+
+#[test]
+fn overload_and_soft_members_are_said_with_their_place() {
+    let bars = format!(r#"{COLUMN_BARS}, axial_load = "9000 kN""#);
+    let text = frame(
+        &bars,
+        BEAM_BARS,
+        r#"hinges = { rule = "normal", from = "section", method = "fibre" }"#,
+    );
+    let found = faults(&text);
+    assert!(
+        found[0].contains("column 1 of storey 1") && found[0].contains("9000 kN"),
+        "{found:?}"
+    );
+    let soft = frame(
+        COLUMN_BARS,
+        BEAM_BARS,
+        "stiffness_factor = 0.1\nhinges = { rule = \"peak-oriented\", from = \"section\" }",
+    );
+    let found = faults(&soft);
+    assert!(found[0].contains("raise stiffness_factor"), "{found:?}");
+}

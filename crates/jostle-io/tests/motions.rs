@@ -1,0 +1,120 @@
+//! Motions that models ask for: named artificial waves, and scaling to a spectrum.
+
+use std::path::Path;
+
+use jostle_io::{Format, builtin_motions, builtin_record, read_model_text};
+use jostle_motion::{Accelerogram, Reading, response_spectrum};
+
+const TOWER: &str = "[[building]]\nkind = \"shear\"\nmass = \"40 t\"\nstiffness = \"60 MN/m\"\n";
+
+fn motion_of(motion: &str, base: &Path) -> Result<jostle::GroundMotion, String> {
+    let text = format!("[motion]\n{motion}\n{TOWER}");
+    let input = read_model_text("m.toml", &text, Format::Toml, base).map_err(|e| e.to_string())?;
+    input.ground_motion().map_err(|error| error.to_string())
+}
+
+/// Pseudo-acceleration with 5 % damping \[m/s²\].
+fn spectral(motion: &jostle::GroundMotion, period: f64) -> f64 {
+    let values = (0..motion.points()).map(|i| motion.acceleration(0.02 * i as f64));
+    let motion = Accelerogram::new(0.02, values.collect()).expect("a motion");
+    let spectrum = response_spectrum(&motion, &[period], &[0.05], Reading::Between);
+    spectrum.expect("a spectrum").curves[0].pseudo_acceleration[0]
+}
+
+#[test]
+fn every_built_in_motion_can_be_had() {
+    let names: Vec<_> = builtin_motions()
+        .into_iter()
+        .map(|(name, _)| name)
+        .collect();
+    assert!(names.contains(&"el-centro-1940-ns") && names.contains(&"nanjing-artificial"));
+    for name in names {
+        assert!(
+            builtin_record(name).is_some_and(|motion| motion.peak() > 0.1),
+            "{name}"
+        );
+    }
+    let motion = motion_of(
+        "record = \"nanjing-artificial\"\npga = \"70 cm/s2\"",
+        Path::new(""),
+    );
+    assert!((motion.expect("a motion").peak() - 0.7).abs() < 1e-9);
+}
+
+#[test]
+fn a_motion_is_scaled_to_a_spectrum() {
+    let gb = "spectrum = { code = \"gb50011\", intensity = 7.5, site = \"II\", group = 1, level = \"rare\" }";
+    let record = "record = \"el-centro-1940-ns\"\nmatch = ";
+    let none = Path::new("");
+    let motion = motion_of(&format!("{record}{{ {gb}, at = \"0.8 s\" }}"), none).expect("a motion");
+    // T_g = 0.40 s, α_max = 0.72: α = 0.72 √(0.5)^1.8.
+    let wanted = 9.80665 * 0.72 * 0.5_f64.powf(0.9);
+    assert!((spectral(&motion, 0.8) / wanted - 1.0).abs() < 1e-9);
+    let motion = motion_of(
+        &format!("{record}{{ value = \"3 m/s2\", at = \"1 s\" }}"),
+        none,
+    );
+    assert!((spectral(&motion.expect("a motion"), 1.0) - 3.0).abs() < 1e-9);
+    let folder = std::env::temp_dir();
+    let file = folder.join(format!("jostle-spectrum-{}.csv", std::process::id()));
+    std::fs::write(&file, "# unit = m/s2\n0.1 4.0\n4.0 4.0\n").expect("written");
+    let name = file
+        .file_name()
+        .and_then(|name| name.to_str())
+        .expect("a name");
+    let wanted = format!("{record}{{ spectrum = \"{name}\", periods = [0.5, 1.5] }}");
+    let motion = motion_of(&wanted, &folder).expect("a motion");
+    std::fs::remove_file(&file).expect("removed");
+    let logarithms =
+        (0..100).map(|i| (spectral(&motion, 0.5 * 3.0_f64.powf(f64::from(i) / 99.0)) / 4.0).ln());
+    assert!(
+        (logarithms.sum::<f64>() / 100.0).abs() < 1e-9,
+        "geometric mean"
+    );
+}
+
+#[test]
+fn wrong_matches_name_the_key() {
+    let record = "record = \"el-centro-1940-ns\"\n";
+    for (wrong, part) in [
+        ("match = { at = 1 }", "motion.match.spectrum: is missing"),
+        ("match = { value = 3 }", "motion.match.at: is missing"),
+        (
+            "match = { value = 3, at = 1, periods = [1, 2] }",
+            "motion.match.periods: cannot stand beside at",
+        ),
+        (
+            "match = { value = 3, periods = [2, 1] }",
+            "the first period must be the shorter one",
+        ),
+        (
+            "match = { value = 3, at = 1, damping = 2 }",
+            "motion.match.damping: must lie from 0 to below 1",
+        ),
+        (
+            "pga = 1\nmatch = { value = 3, at = 1 }",
+            "motion.match: cannot stand beside pga",
+        ),
+        (
+            "match = { at = 1, spectrum = { code = \"gb50011\", intensity = 5 } }",
+            "intensity: must be one of 6, 7",
+        ),
+        (
+            "match = { at = 1, spectrum = { code = \"en1998\", ground = \"B\" } }",
+            "motion.match.spectrum.ag: is missing",
+        ),
+        (
+            "match = { at = 9, spectrum = { code = \"en1998\", ground = \"B\", ag = 2 } }",
+            "cannot be matched: a period must lie",
+        ),
+        (
+            "match = { at = 1, spectrum = \"nowhere.csv\" }",
+            "cannot be read",
+        ),
+    ] {
+        let error = motion_of(&format!("{record}{wrong}"), Path::new("")).expect_err(wrong);
+        assert!(error.contains(part), "{wrong}:\n{error}");
+    }
+    let list = motion_of("record = [\"a\", \"b\"]", Path::new("")).expect_err("a list");
+    assert!(list.contains("lists are for studies"), "{list}");
+}
