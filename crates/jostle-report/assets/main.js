@@ -5,10 +5,12 @@ const colours = (i) => `var(--c${i % 7})`;
 
 const view = new TimeView(page.duration);
 const scene = new Scene(byId("scene"));
+const hingeLegend = new HingeLegend(byId("hinge-legend"));
 const groups = gatherImpacts(page.impacts, 0.02);
 
 const player = new Player(page.duration, (t, following) => {
   scene.draw(t);
+  hingeLegend.draw(t);
   view.setCursor(t, following);
   byId("clock").textContent = `${fixed(t, 3)} s`;
   byId("scrub").value = t;
@@ -145,6 +147,7 @@ groundChart(charts);
 if (struck.length) forceChart(charts);
 placeCharts(html("div", "", undefined, charts));
 energyChart(charts);
+if (byId("loops")) for (const loop of page.loops) new LoopChart(byId("loops"), view, loop);
 
 // --- Controls ------------------------------------------------------------------------------------------
 
@@ -198,6 +201,12 @@ exaggeration.addEventListener("input", () => setExaggeration(10 ** Number(exagge
 setExaggeration(scene.exaggeration);
 byId("ghost")?.addEventListener("change", (event) => {
   scene.ghost = event.target.checked;
+  scene.draw(player.time);
+});
+
+byId("show-hinges")?.addEventListener("change", (event) => {
+  scene.marked = event.target.checked;
+  byId("hinge-legend").hidden = !scene.marked;
   scene.draw(player.time);
 });
 
@@ -271,6 +280,13 @@ table?.tBodies[0].addEventListener("click", (event) => {
   seek(parsePrinted(row.cells[1].textContent) + 5e-5);
   zoomImpact.click();
 });
+
+for (const button of document.querySelectorAll("button.unfold")) {
+  button.addEventListener("click", () => {
+    byId(button.dataset.table).classList.remove("clipped");
+    button.remove();
+  });
+}
 
 // The first picture: the hardest impact, or the nearest the buildings come.
 function tellingInstant() {

@@ -11,6 +11,7 @@ class Scene {
     this.hardest = Math.max(1e-9, ...page.impacts.map((impact) => impact.peak));
     this.exaggeration = this.fitting();
     this.ghost = false;
+    this.marked = true;
     this.time = 0;
     this.run = this.columns(run);
     this.other = without && this.columns(without);
@@ -39,6 +40,8 @@ class Scene {
         ghost: svg("path", { class: "ghost" }, group),
         columns: svg("path", { class: "columns" }, group),
         floors: svg("path", { class: building.frame ? "beams" : "slabs" }, group),
+        hinges: stageNames.map((_, stage) => svg("path", { class: `hinge-${stage}` }, group)),
+        places: hinges.filter((hinge) => hinge.building === i),
         sway: svg("text", { class: "sway", "text-anchor": "middle" }, group),
       };
     });
@@ -159,12 +162,49 @@ class Scene {
         .join("");
     part.columns.setAttribute("d", lines.map((x) => column(x, sway)).join(""));
     part.floors.setAttribute("d", floor(sway));
+    this.drawHinges(part, lines, heights, sway, t);
     const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
     part.ghost.setAttribute("d", ghost ? column(lines[0], ghost) + column(lines[lines.length - 1], ghost) + floor(ghost) : "");
     const roof = sway[sway.length - 1];
     part.sway.setAttribute("x", this.px(this.left[i] + this.widths[i] / 2));
     part.sway.setAttribute("y", this.py(heights[heights.length - 1]) - 12);
     part.sway.textContent = `${fixed(roof * 1e3, 1)} mm`;
+  }
+
+  /** Marks near the ends of members, off the joint by a little so that all four around it are seen. */
+  drawHinges(part, lines, heights, sway, t) {
+    const size = Math.min(Math.max(this.scale * 0.17, 1.9), 4.2);
+    const f = this.exaggeration;
+    const outlines = ["", "", ""];
+    // Along a column from below, on the curve that is drawn.
+    const onColumn = (level, x, share) => {
+      const bend = 3 * share * share - 2 * share ** 3;
+      const rise = 1.5 * share - 1.5 * share * share + share ** 3;
+      const [low, high] = [sway[level - 1], sway[level]];
+      return [
+        this.px(x + f * (low + (high - low) * bend)),
+        this.py(heights[level - 1] + (heights[level] - heights[level - 1]) * rise),
+      ];
+    };
+    const mark = (hinge, [x, y]) => {
+      const stage = stageAt(hinge, t);
+      outlines[stage] += markOutline(stage, x, y, hinge.kind === "s" ? 1.5 * size : size);
+    };
+    for (const hinge of this.marked ? part.places : []) {
+      const { kind, level, line, end } = hinge;
+      if (kind === "c") {
+        const length = (heights[level] - heights[level - 1]) * this.scale;
+        const share = Math.min((2.4 * size) / length, 0.3) / 1.5;
+        mark(hinge, onColumn(level, lines[line - 1], end ? 1 - share : share));
+      } else if (kind === "b") {
+        const [from, to] = [lines[line - 1], lines[line]].map((x) => this.px(x + f * sway[level]));
+        const off = Math.min(2.4 * size, 0.3 * (to - from));
+        mark(hinge, [end ? to - off : from + off, this.py(heights[level])]);
+      } else {
+        for (const x of [lines[0], lines[lines.length - 1]]) mark(hinge, onColumn(level, x, 0.5));
+      }
+    }
+    outlines.forEach((outline, stage) => part.hinges[stage].setAttribute("d", outline));
   }
 
   drawFlashes(sways, t) {

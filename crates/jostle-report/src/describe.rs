@@ -6,13 +6,13 @@ use jostle::motion::Wave;
 use jostle::summary::BuildingSummary;
 use maud::{Markup, html};
 
-use crate::{Page, format};
+use crate::{Page, backbones, format, special};
 
 /// Periods listed for each building.
 const PERIODS: usize = 6;
 
 /// Names and values of a description list.
-type Facts = Vec<(&'static str, String)>;
+pub(crate) type Facts = Vec<(&'static str, String)>;
 
 fn list(facts: &Facts) -> Markup {
     html! { dl { @for (name, value) in facts { div { dt { (name) } dd { (value) } } } } }
@@ -23,7 +23,7 @@ pub(crate) fn model(page: &Page) -> Markup {
     html! {
         div.cards {
             @for (i, building) in page.model.buildings.iter().enumerate() {
-                (self::building(i, building, page.summary.buildings.get(i)))
+                (self::building(page, i, building, page.summary.buildings.get(i)))
             }
             @for (summary, gap) in page.gaps() {
                 div.card {
@@ -38,7 +38,12 @@ pub(crate) fn model(page: &Page) -> Markup {
     }
 }
 
-fn building(index: usize, building: &Building, summary: Option<&BuildingSummary>) -> Markup {
+fn building(
+    page: &Page,
+    index: usize,
+    building: &Building,
+    summary: Option<&BuildingSummary>,
+) -> Markup {
     let heights = building.floor_heights();
     let mut facts: Facts = vec![(
         "storeys",
@@ -72,10 +77,13 @@ fn building(index: usize, building: &Building, summary: Option<&BuildingSummary>
             ));
         }
     }
+    facts.extend(special::facts(building));
+    facts.extend(special::sections(page, index));
     html! {
         div.card {
             h3 { span.swatch style=(crate::page::colour(index)) {} (building.name) }
             (list(&facts))
+            @if let Some(hinges) = &building.hinges { (backbones::curves(index, hinges)) }
             @if let Some(summary) = summary {
                 @if !summary.periods_s.is_empty() {
                     table.periods {
@@ -135,11 +143,7 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
             lengthwise(frame.axial.beams_flexible)
         ),
     ));
-    let joint = match frame.joint.rotational_stiffness {
-        None => "rigid".into(),
-        Some(stiffness) => format!("{} N·m/rad", format::plain(stiffness, 3)),
-    };
-    facts.push(("joints", joint));
+    facts.push(("beam ends", special::joint(&frame.joint)));
 }
 
 fn shear_facts(shear: &Shear, facts: &mut Facts) {
@@ -151,7 +155,7 @@ fn shear_facts(shear: &Shear, facts: &mut Facts) {
 }
 
 /// Values from the ground up, equal neighbours said once: "3.2", "1–3: 60, 4: 40".
-fn grouped(values: &[f64], text: impl Fn(f64) -> String) -> String {
+pub(crate) fn grouped(values: &[f64], text: impl Fn(f64) -> String) -> String {
     let mut groups: Vec<(usize, usize, f64)> = Vec::new();
     for (i, value) in values.iter().enumerate() {
         match groups.last_mut() {
@@ -305,6 +309,7 @@ fn analysis(page: &Page) -> Facts {
                 Solver::Product => "product of transfer matrices".into(),
             },
         ),
+        ("integrator", settings.integrator.to_string()),
         (
             "step in free flight",
             format!(
@@ -349,6 +354,16 @@ fn analysis(page: &Page) -> Facts {
             format::unit(format::plain(work.wall_s, 3), "s"),
         ),
     ]);
+    if work.outer_iterations > 0 {
+        facts.push((
+            "yielding",
+            format!(
+                "{} rounds for the springs that yield, {} steps halved",
+                count(work.outer_iterations),
+                count(work.halved_steps)
+            ),
+        ));
+    }
     facts
 }
 

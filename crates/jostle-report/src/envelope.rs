@@ -17,6 +17,8 @@ pub(crate) struct Envelope {
     pub(crate) drift: Vec<f64>,
     /// Greatest total acceleration, either sign \[m/s²\]; empty if it was not recorded.
     pub(crate) acceleration: Vec<f64>,
+    /// Storey drift ratio at the end, positive to the right \[–\].
+    pub(crate) residual: Vec<f64>,
 }
 
 /// Envelopes of every building of the run, from its summary.
@@ -34,6 +36,7 @@ pub(crate) fn of_run(page: &Page) -> Vec<Envelope> {
                     .iter()
                     .map(|f| f.total_acceleration_peak_m_s2)
                     .collect(),
+                residual: floors.iter().map(|f| f.residual_drift).collect(),
             }
         })
         .collect()
@@ -62,6 +65,9 @@ pub(crate) fn of_history(model: &Model, history: &History) -> Vec<Envelope> {
                     peak.max((u - lower).abs())
                 });
                 envelope.drift.push(drift / height);
+                let end = |u: &[f64]| u.last().copied().unwrap_or(0.0);
+                let left = end(&u) - below.as_deref().map_or(0.0, end);
+                envelope.residual.push(left / height);
                 below = Some(u);
                 if let Some(a) = history.column(Column::TotalAcceleration { building, floor }) {
                     envelope
@@ -83,7 +89,7 @@ struct Line {
     meaning: &'static str,
 }
 
-/// Section with the three pictures.
+/// Section with the pictures; drift that is left only where something yielded.
 pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
     let heights: Vec<Vec<f64>> = page
         .model
@@ -94,6 +100,8 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
     let mut displacement = Vec::new();
     let mut drift = Vec::new();
     let mut acceleration = Vec::new();
+    let mut residual = Vec::new();
+    let yields = page.summary.buildings.iter().any(|b| b.hinges.yielded > 0);
     let sets = without.map(|w| (w, true)).into_iter().chain([(run, false)]);
     for (set, dashed) in sets {
         for (building, (envelope, heights)) in set.iter().zip(&heights).enumerate() {
@@ -113,6 +121,10 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
             drift.push(line(
                 steps(&envelope.drift, heights, 100.0),
                 "drift of the storey",
+            ));
+            residual.push(line(
+                steps(&envelope.residual, heights, 100.0),
+                "drift at the end",
             ));
             let floors = envelope
                 .acceleration
@@ -137,6 +149,7 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
             (picture("Displacement", "mm", top, &displacement, page))
             (picture("Storey drift", "%", top, &drift, page))
             (picture("Total acceleration", "m/s²", top, &acceleration, page))
+            @if yields { (picture("Residual drift", "%", top, &residual, page)) }
         }
     }
 }

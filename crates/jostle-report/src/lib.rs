@@ -3,20 +3,35 @@
 //! [`render`] turns a [`Page`] into the whole text of `report.html`. Pictures and numbers stay apart: the
 //! numbers come from the core crate as they are, this crate only chooses, thins, encodes and draws them.
 
+mod backbones;
+mod collisions;
 mod describe;
 mod encode;
 mod envelope;
 mod format;
+mod hinges;
 mod method;
+mod motion_page;
 mod page;
 mod payload;
+mod pushover;
+mod section;
+mod special;
 mod tables;
+mod thin_loop;
 mod verdict;
 
+pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use method::render_method;
+pub use motion_page::{MotionPage, SelectionPage, render_motion, render_selection};
+pub use pushover::render_pushover;
+pub use section::render_sections;
+pub use verdict::verdict;
 
+use jostle::history::SpringHistory;
 use jostle::summary::GapSummary;
 use jostle::{Gap, GroundMotion, History, Model, Summary};
+use jostle_section::formula::Member;
 
 /// Everything a report shows.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +47,34 @@ pub struct Page<'a> {
     /// Time histories of the same buildings passing through each other: the same columns, on instants of
     /// their own. `None` when that run was not made.
     pub without_contact: Option<&'a History>,
+    /// Loops of hinges and yielding storeys at the instants of `history`, if there are any.
+    pub springs: Option<&'a SpringHistory>,
+    /// Reinforced sections that hinges come from, if the model states them.
+    pub sections: &'a [ReinforcedSection<'a>],
+}
+
+/// A reinforced section and the members of a building that have it.
+#[derive(Clone, Copy, Debug)]
+pub struct ReinforcedSection<'a> {
+    /// Index of the building.
+    pub building: usize,
+    /// Columns or beams.
+    pub member: Member,
+    /// The section.
+    pub section: &'a jostle_section::Section,
+    /// Lowest and highest storey or floor, from 1.
+    pub floors: [usize; 2],
+    /// Least and greatest axial compression \[N\].
+    pub compression: [f64; 2],
+}
+
+impl ReinforcedSection<'_> {
+    /// Takes one more member in.
+    pub fn add(&mut self, floor: usize, compression: f64) {
+        self.floors = [self.floors[0].min(floor), self.floors[1].max(floor)];
+        let [low, high] = self.compression;
+        self.compression = [low.min(compression), high.max(compression)];
+    }
 }
 
 impl<'a> Page<'a> {

@@ -4,13 +4,15 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, peak_closing, verdict};
-use crate::{Page, describe, format, payload, tables};
+use crate::{Page, describe, format, hinges, payload, tables};
 
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
 /// The scripts, in the order of their dependence; together they are one module.
-const SCRIPTS: [&str; 5] = [
+const SCRIPTS: [&str; 7] = [
     include_str!("../assets/data.js"),
     include_str!("../assets/chart.js"),
+    include_str!("../assets/hinges.js"),
+    include_str!("../assets/loop.js"),
     include_str!("../assets/scene.js"),
     include_str!("../assets/player.js"),
     include_str!("../assets/main.js"),
@@ -63,6 +65,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     } @else {
                         p.note { "No time histories were recorded, so there is nothing to play." }
                     }
+                    @if let Some(hinges) = hinges::section(page) { (hinges) }
                     section #impacts {
                         h2 { "Impacts" }
                         @if page.model.gaps.is_empty() {
@@ -86,7 +89,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         h2 { "What was computed" }
                         (describe::model(page))
                     }
-                    (guide())
+                    (guide(page))
                 }
                 footer {
                     "Made by jostle " (page.summary.jostle) ". One file, nothing is loaded from elsewhere."
@@ -190,6 +193,21 @@ fn tiles(page: &Page) -> Markup {
             );
         }
     }
+    for building in summary.buildings.iter().filter(|b| b.hinges.total > 0) {
+        let hinges = &building.hinges;
+        tile(
+            &format!("{} yields at", building.name),
+            match hinges.yielded {
+                0 => "no place".into(),
+                n => format!("{n} of {}", hinges.total),
+            },
+            format!(
+                "{} cracked; ductility {}",
+                hinges.cracked,
+                format::significant(hinges.ductility, 2)
+            ),
+        );
+    }
     let pga = summary.motion.pga_m_s2;
     tile(
         "Peak ground acceleration",
@@ -227,6 +245,12 @@ fn motion_section(page: &Page) -> Markup {
                 @if page.without_contact.is_some() && !page.model.gaps.is_empty() {
                     label { input #ghost type="checkbox"; " also without contact (dashed)" }
                 }
+                @if page.model.buildings.iter().any(|building| building.hinges.is_some()) {
+                    label { input #show-hinges type="checkbox" checked; " cracking and yielding" }
+                }
+            }
+            @if page.model.buildings.iter().any(|building| building.hinges.is_some()) {
+                div #hinge-legend.hinge-legend {}
             }
             p.quiet {
                 "To scale; sideways motion and gaps are both drawn exaggerated, so touching looks like touching. "
@@ -306,7 +330,7 @@ fn icon(class: &str, outline: &str) -> Markup {
     html! { svg class=(class) viewBox="0 0 20 20" aria-hidden="true" { path d=(outline) {} } }
 }
 
-fn guide() -> Markup {
+fn guide(page: &Page) -> Markup {
     html! {
         section #guide {
             h2 { "How to read this" }
@@ -316,6 +340,9 @@ fn guide() -> Markup {
                 li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact is one closed episode of one contact." }
                 li { "Total acceleration includes the ground. Storey drift is the relative displacement of two floors divided by the height between them." }
                 li { "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic and contact energy add up to it. The imbalance is what is missing, relative to the greatest energy until then." }
+                @if page.model.buildings.iter().any(|building| building.hinges.is_some()) {
+                    li { "A place has cracked, or yielded, once its deformation has passed the first, or second, corner of its curve, on either side. Ductility is the greatest rotation of a member end, hinge and bent member together, over that at yield, or the greatest deformation of a storey over that of yield; positive stretches the bottom of a beam and the right face of a column. Dissipated is the work done less what unloading would give back." }
+                }
                 li { "Histories are thinned for this page, least of all during impacts; key figures and tables come from the full run." }
             }
         }

@@ -3,17 +3,21 @@
 use jostle::history::{Column, EnergyTerm, History};
 use jostle::model::{Building, Structure};
 use jostle::motion::{GroundMotion, Wave};
-use jostle::summary::{ContactSummary, Summary};
+use jostle::summary::{ContactSummary, SpringSummary, Summary};
 use serde::Serialize;
 
 use crate::Page;
 use crate::encode::{Packed, thin_impacts, thin_rows};
+use crate::hinges::{self, Place};
+use crate::thin_loop::thin_loop;
 use crate::verdict::place;
 
 /// Bytes of base64 text to spend on the histories of the run, of the run without contact, and on forces.
 const RUN_BYTES: usize = 330_000;
 const WITHOUT_BYTES: usize = 170_000;
 const FORCE_BYTES: usize = 200_000;
+/// Bytes of base64 text to spend on all loops of hinges.
+const LOOP_BYTES: usize = 100_000;
 /// Most instants of either run: finer would not be seen.
 const MOST_ROWS: usize = 6000;
 /// Most points of the ground motion.
@@ -32,6 +36,25 @@ struct Payload<'a> {
     forces: Vec<Series>,
     impacts: Vec<ImpactData>,
     hysteretic: bool,
+    hinges: Vec<HingeData>,
+    loops: Vec<LoopData>,
+}
+
+/// Building, kind (`c`, `b`, `s`), level, line, end, and when it cracked and yielded \[s\].
+type HingeData = (usize, char, usize, usize, usize, Option<f64>, Option<f64>);
+
+/// The loop of one hinge.
+#[derive(Serialize)]
+struct LoopData {
+    name: String,
+    building: usize,
+    storey: bool,
+    ductility: f64,
+    dissipated: f64,
+    backbone: Vec<[f64; 2]>,
+    time: Packed,
+    deformation: Packed,
+    force: Packed,
 }
 
 /// Shape of a building at rest.
@@ -90,6 +113,7 @@ struct Table {
 pub(crate) fn payload(page: &Page) -> String {
     let time = page.history.column(Column::Time).unwrap_or_default();
     let force = forces(page);
+    let places = hinges::places(page.model);
     let payload = Payload {
         duration: duration(page, &time),
         buildings: page.model.buildings.iter().map(outline).collect(),
@@ -102,12 +126,68 @@ pub(crate) fn payload(page: &Page) -> String {
         forces: force_series(&time, &force),
         impacts: impacts(page.summary),
         hysteretic: page.summary.energy.hysteretic_j != 0.0,
+        hinges: hinge_data(page, &places),
+        loops: loops(page, &places, &time),
     };
     // Finite numbers and strings only: this cannot fail.
     let text = serde_json::to_string(&payload).unwrap_or_else(|_| "{}".into());
     text.replace('<', "\\u003c")
         .replace('\u{2028}', "\\u2028")
         .replace('\u{2029}', "\\u2029")
+}
+
+fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
+    let order = hinges::in_order(page, places);
+    let mut data: Vec<HingeData> = places
+        .iter()
+        .map(|place| {
+            let (kind, level, line, end) = hinges::coordinates(place.at);
+            (place.building, kind, level, line, end, None, None)
+        })
+        .collect();
+    let short = |t: f64| (t * 1e4).round() / 1e4;
+    for (place, spring) in order {
+        let entry = &mut data[place.spring];
+        entry.5 = spring.cracked_s.map(short);
+        entry.6 = spring.yielded_s.map(short);
+    }
+    data
+}
+
+fn loops(page: &Page, places: &[Place], time: &[f64]) -> Vec<LoopData> {
+    let Some(springs) = page.springs else {
+        return Vec::new();
+    };
+    let order = hinges::in_order(page, places);
+    let chosen = hinges::worst(&order);
+    // Eight bytes a row, four thirds of that as text.
+    let budget = LOOP_BYTES * 3 / 4 / 8 / chosen.len().max(1);
+    let of_place = |(place, spring): &(Place, &SpringSummary)| {
+        let points: Vec<[f32; 2]> = springs.of(place.spring).collect();
+        let rows = thin_loop(time, &points, budget);
+        let instants: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
+        let values = |part: usize| {
+            let rows = rows.iter();
+            Packed::values(
+                rows.map(|row| f64::from(points[*row][part]))
+                    .collect::<Vec<_>>()
+                    .into_iter(),
+            )
+        };
+        let reach = [spring.deformation_max, spring.deformation_min];
+        LoopData {
+            name: hinges::name(page, place),
+            building: place.building,
+            storey: hinges::is_storey(place.at),
+            ductility: spring.ductility,
+            dissipated: spring.dissipated_j,
+            backbone: hinges::outline(place.hysteresis.backbone(), reach),
+            time: Packed::instants(&instants),
+            deformation: values(0),
+            force: values(1),
+        }
+    };
+    chosen.iter().map(of_place).collect()
 }
 
 fn duration(page: &Page, time: &[f64]) -> f64 {

@@ -69,6 +69,13 @@ pub(crate) fn impacts(page: &Page) -> Markup {
             @if rows.len() > FIRST_ROWS {
                 button #all-impacts.wide type="button" { "Show all " (rows.len()) " impacts" }
             }
+            @for gap in summary.gaps.iter().filter(|gap| gap.multiple_pounding_count > 0) {
+                p.quiet {
+                    @if several { (gap.between[0]) "–" (gap.between[1]) ": " }
+                    (gap.multiple_pounding_count) " of " (gap.pounding_count)
+                    " poundings are at several floors at the same time, at most " (gap.most_at_once) " at once."
+                }
+            }
             (restitution_note(page))
         }
     }

@@ -4,8 +4,9 @@ use jostle::summary::{ContactSummary, GapSummary, ImpactSummary, Summary};
 
 use crate::format;
 
-/// The headline of the report.
-pub(crate) fn verdict(summary: &Summary) -> String {
+/// The headline of the report: what happened, in a sentence or two.
+#[must_use]
+pub fn verdict(summary: &Summary) -> String {
     let pounding: Vec<&GapSummary> = summary
         .gaps
         .iter()

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use fixture::{Run, alone, row_of_three, two_frames};
+use fixture::{Run, alone, row_of_three, two_frames, yielding};
 use headless_chrome::protocol::cdp::types::Event;
 use headless_chrome::protocol::cdp::{Emulation, Input, Log, Page, Runtime};
 use headless_chrome::{Browser, LaunchOptions, Tab};
@@ -276,7 +276,7 @@ fn charts_zoom_together_and_come_back() {
 
 #[test]
 fn every_place_has_its_charts() {
-    for run in [two_frames(0.1), alone(), row_of_three()] {
+    for run in [two_frames(0.1), alone(), row_of_three(), yielding()] {
         let Some(page) = open(&run, 1280, 900) else {
             return;
         };
@@ -322,11 +322,59 @@ fn impacts_sort_and_unfold() {
 }
 
 #[test]
+fn marks_and_loops_follow_the_clock() {
+    let Some(page) = open(&yielding(), 1180, 900) else {
+        return;
+    };
+    let at = |t: f64| {
+        page.value(&format!("{{ const s = document.getElementById('scrub'); s.value = {t}; s.dispatchEvent(new Event('input')); }}"));
+    };
+    let count = |stage: usize| {
+        page.number(&format!("[...document.querySelectorAll('#hinge-legend .key')[{stage}].querySelectorAll('output')].reduce((sum, o) => sum + Number(o.textContent), 0)"))
+    };
+    let marks = |stage: usize| {
+        page.number(&format!("[...document.querySelectorAll('#scene .hinge-{stage}')].reduce((sum, p) => sum + (p.getAttribute('d').match(/M/g) ?? []).length, 0)"))
+    };
+    let dot = "document.querySelector('#loops .now').getAttribute('cx')";
+    at(0.0);
+    let all = count(0);
+    // Every storey of the second building has a mark at either side.
+    assert_eq!((all, count(1), count(2)), (34.0, 0.0, 0.0));
+    assert_eq!((marks(0), marks(1), marks(2)), (38.0, 0.0, 0.0));
+    let start = page.text(dot);
+    at(12.0);
+    assert_eq!(count(0) + count(1) + count(2), all, "places are lost");
+    assert!(count(2) > 0.0 && marks(2) >= count(2), "nothing yielded");
+    assert_ne!(page.text(dot), start, "the loop stood still");
+    assert_eq!(
+        page.number("document.querySelectorAll('#loops svg').length"),
+        6.0
+    );
+    let drawn = page.text("document.querySelector('#loops .line:not(.whole)').getAttribute('d')");
+    assert!(
+        drawn.matches('L').count() > 50 && !drawn.contains("NaN"),
+        "{drawn}"
+    );
+    page.value("document.getElementById('show-hinges').click()");
+    assert_eq!(marks(0) + marks(1) + marks(2), 0.0, "marks can be hidden");
+    page.value("document.getElementById('show-hinges').click()");
+    let shown = "[...document.querySelectorAll('#hinge-table tbody tr')].filter(r => r.offsetParent).length";
+    assert_eq!(page.number(shown), 20.0);
+    page.value("document.querySelector('.unfold').click()");
+    assert!(page.number(shown) > 20.0, "the rest stayed folded");
+    page.picture("yielding");
+    page.value("document.getElementById('theme').click()");
+    page.picture("yielding-dark");
+    page.assert_content();
+}
+
+#[test]
 fn nothing_overflows_a_phone() {
     let runs = [
         ("two-frames", two_frames(0.1)),
         ("alone", alone()),
         ("row-of-three", row_of_three()),
+        ("yielding", yielding()),
     ];
     for (name, run) in runs {
         let Some(page) = open(&run, 375, 740) else {

@@ -9,7 +9,7 @@ mod fixture;
 
 use std::time::Instant;
 
-use fixture::{Run, alone, row_of_three, two_frames};
+use fixture::{Run, alone, row_of_three, two_frames, yielding};
 use jostle_report::render;
 
 fn pages() -> Vec<(&'static str, Run)> {
@@ -18,6 +18,7 @@ fn pages() -> Vec<(&'static str, Run)> {
         ("wide-gap", two_frames(0.4)),
         ("alone", alone()),
         ("row-of-three", row_of_three()),
+        ("yielding", yielding()),
     ]
 }
 
@@ -158,6 +159,65 @@ fn warnings_come_first() {
         warning < text.find("<h1>").unwrap(),
         "the warning hides below the title"
     );
+}
+
+#[test]
+fn what_yields_is_told_in_order() {
+    let run = yielding();
+    let text = render(&run.page()).replace('\u{a0}', " ");
+    let [frame, storeys] = [0, 1].map(|index| &run.summary.buildings[index].hinges);
+    assert!(
+        frame.yielded > 0 && storeys.yielded > 0 && frame.yielded < frame.total,
+        "the run must yield here and there: {} and {}",
+        frame.yielded,
+        storeys.yielded
+    );
+    let said = format!("J1 yields at {} of {} places", frame.yielded, frame.total);
+    assert!(text.contains(&said), "{said}");
+    let table = text.split("id=\"hinge-table\"").nth(1).unwrap();
+    let table = table.split("</table>").next().unwrap();
+    assert_eq!(
+        table.matches("<tr").count() - 1,
+        frame.list.len() + storeys.list.len()
+    );
+    let first = [frame, storeys]
+        .iter()
+        .filter_map(|hinges| hinges.first_yield_s)
+        .fold(f64::INFINITY, f64::min);
+    let row = table.split("<tr").nth(2).unwrap();
+    assert!(
+        row.contains(&format!("{first:.3}")),
+        "the first row is the first to yield, at {first}: {row}"
+    );
+    assert!(text.contains("Residual drift"), "drift is left");
+    assert!(text.contains("Hinges of columns") && text.contains("Storeys"));
+    assert!(text.contains("P-Delta of every column") && text.contains("footing mass"));
+    assert!(!render(&two_frames(0.1).page()).contains("Residual drift"));
+}
+
+#[test]
+fn six_loops_fit_and_keep_their_peaks() {
+    let run = yielding();
+    let text = render(&run.page());
+    let data = text.split("type=\"application/json\">").nth(1).unwrap();
+    let data = data.split("</script>").next().unwrap();
+    let data: serde_json::Value = serde_json::from_str(data).unwrap();
+    let loops = data["loops"].as_array().unwrap();
+    assert_eq!(loops.len(), 6);
+    let size: usize = loops.iter().map(|l| l.to_string().len()).sum();
+    assert!(size < 110_000, "{size} bytes of loops");
+    let worst = run
+        .summary
+        .buildings
+        .iter()
+        .map(|building| building.hinges.ductility)
+        .fold(0.0, f64::max);
+    assert_eq!(loops[0]["ductility"].as_f64(), Some(worst));
+    let hinges = data["hinges"].as_array().unwrap();
+    assert_eq!(hinges.len(), 9 * 2 + 6 * 2 + 4);
+    let yielded = hinges.iter().filter(|hinge| !hinge[6].is_null()).count();
+    let told: usize = run.summary.buildings.iter().map(|b| b.hinges.yielded).sum();
+    assert_eq!(yielded, told);
 }
 
 #[test]

@@ -1,0 +1,60 @@
+// What cracks and yields: where its marks are drawn, how many there are, and the loops of the worst.
+
+/** A place that can yield, as the page carries it. */
+const hinges = page.hinges.map(([building, kind, level, line, end, cracked, yielded]) => ({
+  building,
+  kind,
+  level,
+  line,
+  end,
+  cracked: cracked ?? Infinity,
+  yielded: yielded ?? Infinity,
+}));
+
+const stageNames = ["not cracked", "cracked", "yielded"];
+
+/** 0 not cracked, 1 cracked, 2 yielded. */
+function stageAt(hinge, t) {
+  return t >= hinge.yielded ? 2 : t >= hinge.cracked ? 1 : 0;
+}
+
+/** Outline of the mark of a stage around a point: rings, discs, and larger diamonds, told apart without colour. */
+function markOutline(stage, x, y, size) {
+  const r = size * [0.72, 0.95, 1.4][stage];
+  const at = `${(x - r).toFixed(1)},${y.toFixed(1)}`;
+  const d = r.toFixed(1);
+  if (stage < 2) return `M${at}a${d},${d} 0 1 0 ${(2 * r).toFixed(1)},0a${d},${d} 0 1 0 ${(-2 * r).toFixed(1)},0z`;
+  return `M${at}l${d},${-d}l${d},${d}l${-d},${d}z`;
+}
+
+/** The legend below the buildings, with counts that follow the clock. */
+class HingeLegend {
+  constructor(host) {
+    if (!host) return;
+    const named = page.buildings.length > 1;
+    this.rows = stageNames.map((name, stage) => {
+      const key = html("span", "key", undefined, host);
+      const mark = svg("svg", { class: "mark", viewBox: "0 0 14 14", "aria-hidden": "true" }, key);
+      svg("path", { class: `hinge-${stage}`, d: markOutline(stage, 7, 7, 4.2) }, mark);
+      html("span", "", name, key);
+      const counts = page.buildings.map((building, i) => {
+        if (!hinges.some((hinge) => hinge.building === i)) return null;
+        const place = html("span", "count", undefined, key);
+        if (named) html("span", "", `${building.name} `, place);
+        return html("output", "", "", place);
+      });
+      return counts;
+    });
+  }
+
+  draw(t) {
+    if (!this.rows) return;
+    const counts = this.rows.map((row) => row.map(() => 0));
+    for (const hinge of hinges) counts[stageAt(hinge, t)][hinge.building] += 1;
+    this.rows.forEach((row, stage) =>
+      row.forEach((place, i) => {
+        if (place) place.textContent = counts[stage][i];
+      }),
+    );
+  }
+}

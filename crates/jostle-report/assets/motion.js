@@ -1,0 +1,96 @@
+// Puts the page of a motion, or of a set of motions, together.
+
+const element = (id) => document.getElementById(id);
+const colours = (i) => `var(--c${i % 7})`;
+
+// --- Over time -----------------------------------------------------------------------------------------
+
+const timeHost = element("time-charts");
+if (timeHost) {
+  const view = new TimeView(page.duration);
+  const seek = (t) => view.setCursor(t);
+  const time = ground.time;
+  const chart = (title, unit, values, factor, more = {}) =>
+    new TimeChart(timeHost, view, {
+      title,
+      unit,
+      height: 170,
+      seek,
+      series: [{ label: "", colour: "var(--c0)", time, values: scaled(values, factor) }],
+      ...more,
+    });
+  chart("Acceleration", "m/s²", ground.values, 1);
+  chart("Velocity", "m/s", unpack(page.velocity), 1);
+  chart("Displacement", "mm", unpack(page.displacement), 1e3);
+  chart("Arias intensity", "% of the whole", unpack(page.husid), 100, {
+    levels: page.levels.map((level) => ({ value: 100 * level, label: `${100 * level} %` })),
+  });
+  element("zoom-in").addEventListener("click", () => view.zoom(0.5));
+  element("zoom-out").addEventListener("click", () => view.zoom(2));
+  element("zoom-all").addEventListener("click", () => view.whole());
+  element("zoom-strong").addEventListener("click", () => view.show(...page.strong));
+  addEventListener("beforeprint", () => {
+    TimeChart.paperWidth = 720;
+    for (const chart of view.charts) chart.draw();
+  });
+  addEventListener("afterprint", () => {
+    TimeChart.paperWidth = null;
+    for (const chart of view.charts) chart.draw();
+  });
+}
+
+// --- Spectra -------------------------------------------------------------------------------------------
+
+const quantities = {
+  psa: ["Pseudo-acceleration", "m/s²", 1],
+  sa: ["Total acceleration", "m/s²", 1],
+  psv: ["Pseudo-velocity", "m/s", 1],
+  sd: ["Displacement", "mm", 1e3],
+};
+const axesOf = { semilog: { x: "log", y: "linear" }, linear: { x: "linear", y: "linear" }, log: { x: "log", y: "log" } };
+
+const curves = (quantity) =>
+  page.spectra.map((s, i) => ({
+    label: s.label,
+    colour: s.bold ? "var(--ink)" : s.code ? "var(--alarm)" : colours(i),
+    x: s.periods,
+    y: scaled(s[quantity] ?? [], quantities[quantity][2]),
+    dashed: s.dashed,
+    bold: s.bold,
+    thin: s.thin,
+  }));
+const [quantity, axes] = [element("quantity"), element("axes")];
+const spectra = new SpectrumChart(element("spectra"), {
+  title: quantities.psa[0],
+  unit: quantities.psa[1],
+  xUnit: "s",
+  xName: "T",
+  series: curves("psa"),
+  marks: page.marks,
+  axes: axesOf.semilog,
+  height: 340,
+});
+quantity?.addEventListener("change", () => {
+  const [title, unit] = quantities[quantity.value];
+  spectra.show(curves(quantity.value), title, unit);
+});
+axes.addEventListener("change", () => spectra.setAxes(axesOf[axes.value]));
+
+const fourier = element("fourier");
+if (fourier) {
+  new SpectrumChart(fourier, {
+    title: "Fourier amplitude",
+    unit: "m/s",
+    xUnit: "Hz",
+    xName: "f",
+    series: [{ label: "", colour: "var(--c0)", x: page.fourier.frequency, y: page.fourier.amplitude }],
+    axes: axesOf.log,
+    height: 260,
+  });
+}
+
+element("theme").addEventListener("click", () => {
+  const root = document.documentElement;
+  const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+  root.dataset.theme = dark ? "light" : "dark";
+});

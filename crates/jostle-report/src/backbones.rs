@@ -1,0 +1,183 @@
+//! Curves of first loading of the hinges of a building, as small pictures that need no script.
+
+use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
+use jostle::model::Hinges;
+use maud::{Markup, html};
+
+use crate::format;
+use crate::hinges::outline;
+
+const WIDTH: f64 = 300.0;
+const HEIGHT: f64 = 170.0;
+const LEFT: f64 = 44.0;
+const RIGHT: f64 = 8.0;
+const TOP: f64 = 8.0;
+const BOTTOM: f64 = 30.0;
+
+/// How far past yield the curves are drawn, in deformations of yield \[–\].
+const REACH: f64 = 2.5;
+
+/// A picture for the columns, the beams or the storeys, with the moments in words.
+pub(crate) fn curves(building: usize, hinges: &Hinges) -> Markup {
+    let bend = |springs: &[Hysteresis]| -> Vec<Hysteresis> {
+        let springs = springs.iter().copied();
+        springs
+            .filter(|spring| spring.rule() != HysteresisRule::Elastic)
+            .collect()
+    };
+    let flat = |rows: &[Vec<Hysteresis>]| bend(&rows.concat());
+    let sets = match hinges {
+        Hinges::Frame(hinges) => vec![
+            ("Hinges of columns", flat(&hinges.columns), false),
+            ("Hinges of beams", flat(&hinges.beams), false),
+        ],
+        Hinges::Storeys(springs) => vec![("Storeys", bend(springs), true)],
+    };
+    html! {
+        @for (name, springs, storeys) in sets.iter().filter(|(_, springs, _)| !springs.is_empty()) {
+            figure.curves {
+                figcaption { (name) }
+                p.quiet { (words(springs, *storeys)) }
+                (picture(building, name, springs, *storeys))
+            }
+        }
+    }
+}
+
+/// Rule, cracking and yield: "peak-oriented; cracks at 80 to 95 kN·m, yields at 250 to 300 kN·m".
+fn words(springs: &[Hysteresis], storeys: bool) -> String {
+    let unit = if storeys { "kN" } else { "kN·m" };
+    let mut rules: Vec<&str> = springs.iter().map(|spring| spring.rule().name()).collect();
+    rules.dedup();
+    let differ = springs
+        .iter()
+        .any(|spring| spring.backbone().mirrored() != *spring.backbone());
+    let sides: Vec<String> = Side::BOTH
+        .into_iter()
+        .filter(|side| *side == Side::Positive || differ)
+        .map(|side| {
+            let of = |yielding: bool| {
+                let forces = springs.iter().map(|spring| {
+                    let curve = spring.backbone().side(side);
+                    if yielding {
+                        curve.yielding.force
+                    } else {
+                        curve.cracking.force
+                    }
+                });
+                let (low, high) = forces.fold((f64::INFINITY, 0.0_f64), |(low, high), force| {
+                    (low.min(force), high.max(force))
+                });
+                let [low, high] = [low, high].map(|force| format::significant(force * 1e-3, 3));
+                if low == high {
+                    low
+                } else {
+                    format!("{low} to {high}")
+                }
+            };
+            let sign = match (differ, side) {
+                (false, _) => "",
+                (true, Side::Positive) => " (+)",
+                (true, Side::Negative) => " (−)",
+            };
+            format!(
+                "cracks at {}, yields at {} {unit}{sign}",
+                of(false),
+                of(true)
+            )
+        })
+        .collect();
+    format!("{}: {}", rules.join(", "), sides.join("; "))
+}
+
+/// Distinct curves laid over each other.
+fn picture(building: usize, name: &str, springs: &[Hysteresis], storeys: bool) -> Markup {
+    let mut distinct: Vec<&Hysteresis> = Vec::new();
+    for spring in springs {
+        if !distinct
+            .iter()
+            .any(|known| known.backbone() == spring.backbone())
+        {
+            distinct.push(spring);
+        }
+    }
+    let yields = distinct.iter().flat_map(|spring| {
+        Side::BOTH.map(|side| spring.backbone().side(side).yielding.deformation)
+    });
+    let reach = REACH * yields.fold(1e-12, f64::max);
+    let outlines: Vec<Vec<[f64; 2]>> = distinct
+        .iter()
+        .map(|spring| outline(spring.backbone(), [reach; 2]))
+        .collect();
+    let high = 1.1
+        * outlines
+            .iter()
+            .flatten()
+            .map(|point| point[1].abs())
+            .fold(1e-12, f64::max);
+    let (deformation, force) = if storeys {
+        ("mm", "kN")
+    } else {
+        ("mrad", "kN·m")
+    };
+    let x = |d: f64| LEFT + (d + reach) / (2.0 * reach) * (WIDTH - LEFT - RIGHT);
+    let y = |f: f64| HEIGHT - BOTTOM - (f + high) / (2.0 * high) * (HEIGHT - TOP - BOTTOM);
+    let px = |value: f64| format!("{value:.1}");
+    let (xs, x_decimals) = crate::envelope::ticks(-reach * 1e3, reach * 1e3, 5.0);
+    let (ys, y_decimals) = crate::envelope::ticks(-high * 1e-3, high * 1e-3, 4.0);
+    html! {
+        svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(format!("{name}: {force} over {deformation}")) {
+            g.grid {
+                @for value in &xs {
+                    line x1=(px(x(value * 1e-3))) x2=(px(x(value * 1e-3))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}
+                    text x=(px(x(value * 1e-3))) y=(px(HEIGHT - BOTTOM + 14.0)) text-anchor="middle" { (format::fixed(*value, x_decimals)) }
+                }
+                @for value in &ys {
+                    line x1=(px(LEFT)) x2=(px(WIDTH - RIGHT)) y1=(px(y(value * 1e3))) y2=(px(y(value * 1e3))) class=[(*value == 0.0).then_some("zero")] {}
+                    text x=(px(LEFT - 5.0)) y=(px(y(value * 1e3) + 3.5)) text-anchor="end" { (format::fixed(*value, y_decimals)) }
+                }
+                text x=(px(WIDTH - RIGHT)) y=(px(HEIGHT - 4.0)) text-anchor="end" { (deformation) }
+                text x=(px(LEFT + 4.0)) y=(px(TOP + 10.0)) { (force) }
+            }
+            @for outline in &outlines {
+                @let points: Vec<String> = outline.iter().map(|[d, f]| format!("{},{}", px(x(*d)), px(y(*f)))).collect();
+                polyline.line style=(crate::page::colour(building)) points=(points.join(" ")) {}
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jostle::hysteresis::{Backbone, Corners};
+
+    use super::*;
+
+    #[test]
+    fn ranges_and_sides_are_told_only_where_they_differ() {
+        let spring = |up: f64, down: f64| {
+            let corners = |yielding| Corners {
+                cracking: 80e3,
+                yielding,
+                post_cracking: 0.3,
+                post_yield: 0.02,
+            };
+            let backbone = Backbone::from_forces(1e8, corners(up), corners(down)).expect("sound");
+            Hysteresis::new(HysteresisRule::PeakOriented, backbone).expect("sound")
+        };
+        assert_eq!(
+            words(&[spring(250e3, 250e3), spring(300e3, 300e3)], false),
+            "peak-oriented: cracks at 80.0, yields at 250 to 300 kN·m"
+        );
+        assert_eq!(
+            words(&[spring(250e3, 300e3)], true),
+            "peak-oriented: cracks at 80.0, yields at 250 kN (+); cracks at 80.0, yields at 300 kN (−)"
+        );
+        let picture = picture(0, "x", &[spring(1e5, 1e5); 3], false).into_string();
+        assert_eq!(
+            picture.matches("<polyline").count(),
+            1,
+            "alike curves are drawn once"
+        );
+    }
+}

@@ -1,0 +1,361 @@
+//! The page of `jostle collide`: what contact laws make of the collision of two free masses.
+
+use jostle::ContactLaw;
+use jostle::contact::{CollisionPoint, FreeCollision};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::format;
+use crate::page::{POLICY, STYLE};
+
+/// A law and what came of it.
+#[derive(Clone, Debug)]
+pub struct CollidedLaw {
+    /// As asked for, with its own stiffness.
+    pub law: ContactLaw,
+    /// The collision.
+    pub collision: FreeCollision,
+}
+
+/// Two free masses under one or several laws.
+#[derive(Clone, Debug)]
+pub struct Collisions {
+    /// Masses \[kg\].
+    pub masses: [f64; 2],
+    /// Closing speed at the touch \[m/s\].
+    pub speed: f64,
+    /// Coefficient of restitution asked for \[–\].
+    pub restitution: f64,
+    /// How the stiffnesses of the two families compare, for people.
+    pub stiffnesses: String,
+    /// Laws in order.
+    pub laws: Vec<CollidedLaw>,
+}
+
+/// Which quantity lies on the horizontal axis.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Across {
+    Time,
+    Indentation,
+}
+
+impl Across {
+    fn of(self, point: &CollisionPoint) -> f64 {
+        match self {
+            Self::Time => point.time,
+            Self::Indentation => point.indentation,
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Time => "time [ms]",
+            Self::Indentation => "indentation [mm]",
+        }
+    }
+}
+
+/// Greatest values of the axes \[s or m, N\] and the least force.
+#[derive(Clone, Copy)]
+struct Extent {
+    across: f64,
+    force: f64,
+    least: f64,
+}
+
+/// Panel: width, height, and margins left, top, right, bottom.
+const PANEL: [f64; 2] = [320.0, 190.0];
+const MARGIN: [f64; 4] = [46.0, 8.0, 10.0, 34.0];
+/// A law that reaches this many times further than most has axes of its own.
+const FAR: f64 = 1.8;
+
+/// The whole page.
+#[must_use]
+pub fn render_collisions(collisions: &Collisions) -> String {
+    let [m1, m2] = collisions.masses;
+    let title = format!(
+        "{} meets {} at {} m/s",
+        format::tonnes(m1),
+        format::tonnes(m2),
+        format::plain(collisions.speed, 3)
+    );
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                title { (title) " – jostle" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header.head { div {
+                    p.kicker { "Collision of two free masses" }
+                    h1 { (title) }
+                    p { "Restitution asked for: " (format::plain(collisions.restitution, 3)) ". " (collisions.stiffnesses) }
+                } }
+                main {
+                    section { h2 { "Numbers" } (table(collisions)) }
+                    @for (across, heading) in [(Across::Time, "Force over time"), (Across::Indentation, "Force over indentation")] {
+                        section {
+                            h2 { (heading) }
+                            (panels(collisions, across))
+                        }
+                    }
+                    p.quiet {
+                        "Dashed: the elastic law of the same family. Curves come from an adaptive integration of high order, not from the steps of an analysis; "
+                        "the restitution law changes velocities at once and has no curve."
+                    }
+                }
+                footer { "Made by jostle. One file, nothing is loaded from elsewhere." }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn table(collisions: &Collisions) -> Markup {
+    let columns = [
+        ("realised e", "–"),
+        ("peak force", "kN"),
+        ("indentation", "mm"),
+        ("duration", "ms"),
+        ("dissipated", "kJ"),
+        ("impulse", "kN·s"),
+        ("separation speed", "m/s"),
+    ];
+    html! {
+        div.scroll { table {
+            thead { tr {
+                th scope="col" { "law" }
+                @for (name, unit) in columns { th.number scope="col" { (name) @if unit != "–" { br; span.unit { "[" (unit) "]" } } } }
+            } }
+            tbody {
+                @for CollidedLaw { law, collision } in &collisions.laws {
+                    tr {
+                        td { (law.kind.full_name()) }
+                        td.number { (format::fixed(collision.realised_restitution(), 4)) }
+                        td.number { (collision.peak_force.map_or(format::NOTHING.into(), |force| format::significant(force / 1e3, 4))) }
+                        td.number { (format::significant(collision.peak_indentation * 1e3, 4)) }
+                        td.number { (format::significant(collision.duration * 1e3, 4)) }
+                        td.number { (format::significant(collision.dissipated / 1e3, 4)) }
+                        td.number { (format::significant(collision.impulse / 1e3, 4)) }
+                        td.number { (format::significant(collision.separation_speed, 4)) }
+                    }
+                }
+            }
+        } }
+    }
+}
+
+fn panels(collisions: &Collisions, across: Across) -> Markup {
+    let common = common_extent(&collisions.laws, across);
+    html! {
+        div.multiples {
+            @for law in collisions.laws.iter().filter(|law| law.collision.curve.len() > 1) {
+                @let own = extent(law, across);
+                @let extent = fitting(own, common);
+                figure.multiple {
+                    figcaption {
+                        (law.law.kind.full_name())
+                        @if extent.across != common.across { span.unit { " · own axes" } }
+                    }
+                    svg viewBox={ "0 0 " (PANEL[0]) " " (PANEL[1]) } role="img" aria-label={ (law.law.kind.full_name()) ": force over " (across.label()) } {
+                        (panel(law, elastic(&collisions.laws, law), across, extent))
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The elastic law of the same family, if it is there and another one.
+fn elastic<'a>(laws: &'a [CollidedLaw], law: &CollidedLaw) -> Option<&'a CollidedLaw> {
+    laws.iter().find(|other| {
+        !matches!(law.law.kind, jostle::LawKind::Rubber(_))
+            && !other.law.kind.is_dissipative()
+            && other.law.kind != law.law.kind
+            && other.law.kind.is_hertzian() == law.law.kind.is_hertzian()
+    })
+}
+
+fn extent(law: &CollidedLaw, across: Across) -> Extent {
+    let points = &law.collision.curve;
+    Extent {
+        across: points.iter().map(|p| across.of(p)).fold(0.0, f64::max),
+        force: points.iter().map(|p| p.force).fold(0.0, f64::max),
+        least: points.iter().map(|p| p.force).fold(0.0, f64::min),
+    }
+}
+
+/// Axes that hold all laws but the far ones.
+fn common_extent(laws: &[CollidedLaw], across: Across) -> Extent {
+    let extents: Vec<Extent> = laws
+        .iter()
+        .filter(|law| law.collision.curve.len() > 1)
+        .map(|law| extent(law, across))
+        .collect();
+    let limit = |value: fn(&Extent) -> f64| {
+        let mut values: Vec<f64> = extents.iter().map(value).collect();
+        values.sort_by(f64::total_cmp);
+        FAR * values.get(values.len() / 2).copied().unwrap_or(1.0)
+    };
+    let (far_across, far_force) = (limit(|e| e.across), limit(|e| e.force));
+    extents
+        .iter()
+        .filter(|e| e.across <= far_across && e.force <= far_force)
+        .fold(
+            Extent {
+                across: 0.0,
+                force: 0.0,
+                least: 0.0,
+            },
+            |all, e| Extent {
+                across: all.across.max(e.across),
+                force: all.force.max(e.force),
+                least: all.least.min(e.least),
+            },
+        )
+}
+
+fn fitting(own: Extent, common: Extent) -> Extent {
+    if own.across > common.across || own.force > common.force {
+        own
+    } else {
+        common
+    }
+}
+
+/// A round distance between marks, with some four of them.
+fn tick(greatest: f64) -> f64 {
+    let rough = greatest / 4.0;
+    let power = 10f64.powf(rough.log10().floor());
+    [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|share| share * power)
+        .find(|tick| *tick >= rough)
+        .unwrap_or(rough)
+}
+
+fn panel(
+    law: &CollidedLaw,
+    elastic: Option<&CollidedLaw>,
+    across: Across,
+    extent: Extent,
+) -> Markup {
+    let [left, top, right, bottom] = MARGIN;
+    let (width, height) = (PANEL[0] - left - right, PANEL[1] - top - bottom);
+    let span = (extent.force - extent.least) * 1.05;
+    let place = |x: f64, force: f64| {
+        [
+            left + x / (extent.across * 1.02) * width,
+            top + (extent.force * 1.03 - force) / span * height,
+        ]
+    };
+    let inside = |p: &&CollisionPoint| across.of(p) <= extent.across * 1.02;
+    // An elastic law goes back as it came; drawing it once keeps its dashes.
+    let once = |p: &&CollisionPoint, whole: bool| whole || across == Across::Time || p.rate >= 0.0;
+    let path = |law: &CollidedLaw, whole: bool| {
+        let mut points: Vec<String> = law
+            .collision
+            .curve
+            .iter()
+            .filter(inside)
+            .filter(|p| once(p, whole))
+            .map(|p| place(across.of(p), p.force))
+            .map(|[x, y]| format!("{x:.1},{y:.1}"))
+            .collect();
+        // A force that begins or ends with a jump.
+        if let (Some(first), Some(last)) = (law.collision.curve.first(), law.collision.curve.last())
+        {
+            for (end, p) in [(0, first), (usize::MAX, last)]
+                .into_iter()
+                .filter(|(_, p)| once(p, whole))
+            {
+                let [x, y] = place(across.of(p), 0.0);
+                points.insert(end.min(points.len()), format!("{x:.1},{y:.1}"));
+            }
+        }
+        points.dedup();
+        format!("M{}", points.join("L"))
+    };
+    let (step_x, step_y) = (tick(extent.across * 1e3), tick(extent.force / 1e3));
+    let marks = |step: f64, from: f64, to: f64| {
+        let (low, high) = ((from / step).ceil() as i64, (to / step).floor() as i64);
+        (low..=high).map(move |i| i as f64 * step)
+    };
+    html! {
+        g.grid {
+            @for kn in marks(step_y, extent.least / 1e3, extent.force / 1e3) {
+                @let y = place(0.0, kn * 1e3)[1];
+                line.zero[kn == 0.0] x1=(left) x2=(left + width) y1=(format!("{y:.1}")) y2=(format!("{y:.1}")) {}
+                text x=(left - 6.0) y=(format!("{:.1}", y + 4.0)) text-anchor="end" { (format::plain(kn, 3)) }
+            }
+            @for milli in marks(step_x, 0.0, extent.across * 1e3) {
+                @let x = place(milli / 1e3, 0.0)[0];
+                line x1=(format!("{x:.1}")) x2=(format!("{x:.1}")) y1=(top) y2=(top + height) {}
+                text x=(format!("{x:.1}")) y=(top + height + 15.0) text-anchor="middle" { (format::plain(milli, 3)) }
+            }
+            text x=(left + width) y=(PANEL[1] - 3.0) text-anchor="end" { (across.label()) }
+            text x=(left - 6.0) y=(PANEL[1] - 3.0) text-anchor="end" { "kN" }
+        }
+        @if let Some(elastic) = elastic {
+            path class="line dashed" style="--c:var(--ink-2)" d=(path(elastic, false)) {}
+        }
+        path class="line" style="--c:var(--c0)" d=(path(law, true)) {}
+    }
+}
+
+/// The loops of all laws as one picture for documents: light or dark as the reader's system, nothing loaded.
+#[must_use]
+pub fn loops_svg(collisions: &Collisions) -> String {
+    const COLUMNS: usize = 3;
+    const HEADING: f64 = 42.0;
+    let laws: Vec<&CollidedLaw> = collisions
+        .laws
+        .iter()
+        .filter(|law| law.collision.curve.len() > 1)
+        .collect();
+    let common = common_extent(&collisions.laws, Across::Indentation);
+    let rows = laws.len().div_ceil(COLUMNS);
+    let (width, height) = (
+        COLUMNS as f64 * PANEL[0],
+        rows as f64 * (PANEL[1] + HEADING),
+    );
+    let picture = html! {
+        svg xmlns="http://www.w3.org/2000/svg" viewBox={ "0 0 " (width) " " (height) } font-family="system-ui, sans-serif" font-size="11.5" {
+            title { "Force over indentation under every contact law" }
+            style { (PreEscaped(PICTURE_STYLE)) }
+            rect.paper width=(width) height=(height) {}
+            @for (i, law) in laws.iter().enumerate() {
+                @let extent = fitting(extent(law, Across::Indentation), common);
+                g transform={ "translate(" ((i % COLUMNS) as f64 * PANEL[0]) " " ((i / COLUMNS) as f64 * (PANEL[1] + HEADING) + HEADING) ")" } {
+                    text.name x=(MARGIN[0]) y="-20" { (law.law.kind.full_name()) }
+                    text x=(MARGIN[0]) y="-6" {
+                        "realised e = " (format::fixed(law.collision.realised_restitution(), 3)) @if extent.across != common.across { ", own axes" }
+                    }
+                    (panel(law, elastic(&collisions.laws, law), Across::Indentation, extent))
+                }
+            }
+        }
+    };
+    picture.into_string() + "\n"
+}
+
+const PICTURE_STYLE: &str = "\
+svg{--paper:#fff;--rule:#d9dde3;--ink:#1a1d21;--ink-2:#59616b;--c0:#0072b2}
+@media(prefers-color-scheme:dark){svg{--paper:#15181c;--rule:#343a43;--ink:#e9ebee;--ink-2:#a3abb6;--c0:#56b4e9}}
+.paper{fill:var(--paper)}text{fill:var(--ink-2)}.name{fill:var(--ink);font-weight:650;font-size:13px}
+.grid line{stroke:var(--rule)}.grid .zero{stroke:var(--ink-2)}.line{fill:none;stroke:var(--c);stroke-width:1.6;stroke-linejoin:round}.line.dashed{stroke-dasharray:5 3;stroke-width:1.1}";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_are_round() {
+        for (greatest, expected) in [(10.0, 5.0), (7.4, 2.0), (0.9, 0.5), (1300.0, 500.0)] {
+            assert_eq!(tick(greatest), expected, "up to {greatest}");
+        }
+    }
+}

@@ -1,0 +1,334 @@
+//! What cracks and yields: where it sits, which loops to show, the table in order of yielding.
+
+use jostle::hysteresis::{Backbone, Hysteresis, Side};
+use jostle::model::{Building, Hinges, Model};
+use jostle::skeleton::{Idealisation, MemberEnd, SpringPlace};
+use jostle::summary::{HingeSummary, SpringSummary};
+use maud::{Markup, html};
+
+use crate::{Page, format};
+
+/// Loops shown.
+const LOOPS: usize = 6;
+/// Rows of the table before the reader asks for all, and at most.
+const FIRST_ROWS: usize = 20;
+const MOST_ROWS: usize = 400;
+
+/// A spring that can yield, in the order of the springs of its building.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    /// Index of the building.
+    pub(crate) building: usize,
+    /// Index among the springs of all buildings.
+    pub(crate) spring: usize,
+    /// Where it is.
+    pub(crate) at: SpringPlace,
+    /// Its rule.
+    pub(crate) hysteresis: Hysteresis,
+}
+
+/// Every spring of the model that can yield, from the left building on.
+pub(crate) fn places(model: &Model) -> Vec<Place> {
+    let mut places = Vec::new();
+    for (index, building) in model.buildings.iter().enumerate() {
+        if building.hinges.is_none() {
+            continue;
+        }
+        for at in Idealisation::of(building).spring_places {
+            if let Some(hysteresis) = hysteresis_of(building, at) {
+                places.push(Place {
+                    building: index,
+                    spring: places.len(),
+                    at,
+                    hysteresis,
+                });
+            }
+        }
+    }
+    places
+}
+
+fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
+    match (building.hinges.as_ref()?, at) {
+        (Hinges::Frame(hinges), SpringPlace::Column { storey, line, .. }) => {
+            hinges.columns.get(storey - 1)?.get(line - 1).copied()
+        }
+        (Hinges::Frame(hinges), SpringPlace::Beam { floor, bay, .. }) => {
+            hinges.beams.get(floor - 1)?.get(bay - 1).copied()
+        }
+        (Hinges::Storeys(springs), SpringPlace::Storey { storey }) => {
+            springs.get(storey - 1).copied()
+        }
+        _ => None,
+    }
+}
+
+/// Whether a place is a storey of a shear building, in m and N.
+pub(crate) fn is_storey(at: SpringPlace) -> bool {
+    matches!(at, SpringPlace::Storey { .. })
+}
+
+/// Kind, level, line and end of a place, for the scripts.
+pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
+    let last = |end| usize::from(end == MemberEnd::Last);
+    match at {
+        SpringPlace::Column { storey, line, end } => ('c', storey, line, last(end)),
+        SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
+        SpringPlace::Storey { storey } => ('s', storey, 0, 0),
+    }
+}
+
+/// Every spring that cracked, with its place: by time of yielding, then of cracking.
+pub(crate) fn in_order<'a>(page: &Page<'a>, places: &[Place]) -> Vec<(Place, &'a SpringSummary)> {
+    let mut found = Vec::new();
+    for (index, building) in page.summary.buildings.iter().enumerate() {
+        let own: Vec<&Place> = places.iter().filter(|p| p.building == index).collect();
+        for spring in &building.hinges.list {
+            if let Some(place) = own.get(spring.index) {
+                found.push((**place, spring));
+            }
+        }
+    }
+    let never = f64::INFINITY;
+    let key = |s: &SpringSummary| [s.yielded_s.unwrap_or(never), s.cracked_s.unwrap_or(never)];
+    found.sort_by(|(_, a), (_, b)| {
+        let (a, b) = (key(a), key(b));
+        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+    });
+    found
+}
+
+/// The springs whose loops are worth showing: in turn the next of greatest ductility and of greatest dissipation.
+pub(crate) fn worst<'a>(order: &[(Place, &'a SpringSummary)]) -> Vec<(Place, &'a SpringSummary)> {
+    let ranked = |of: fn(&SpringSummary) -> f64| {
+        let mut ranked: Vec<usize> = (0..order.len()).collect();
+        ranked.sort_by(|a, b| of(order[*b].1).total_cmp(&of(order[*a].1)));
+        ranked
+    };
+    let rankings = [ranked(|s| s.ductility), ranked(|s| s.dissipated_j)];
+    let mut chosen: Vec<usize> = Vec::new();
+    for turn in 0..LOOPS.min(order.len()) {
+        let next = rankings[turn % 2].iter().find(|i| !chosen.contains(i));
+        chosen.extend(next);
+    }
+    chosen.sort_by(|a, b| order[*b].1.ductility.total_cmp(&order[*a].1.ductility));
+    chosen.into_iter().map(|index| order[index]).collect()
+}
+
+/// Corners of a backbone out to the greatest deformations, as (deformation, force) from the negative side on.
+pub(crate) fn outline(backbone: &Backbone, reach: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for side in Side::BOTH {
+        let (curve, sign) = (backbone.side(side), side.sign());
+        let end = reach[side.index()].max(1.2 * curve.yielding.deformation);
+        let corners = [
+            [curve.cracking.deformation, curve.cracking.force],
+            [curve.yielding.deformation, curve.yielding.force],
+            [end, curve.force_at(end)],
+        ];
+        let signed = corners.map(|[x, y]| [sign * x, sign * y]);
+        match side {
+            Side::Positive => points.extend(signed),
+            Side::Negative => {
+                let outwards: Vec<_> = signed.into_iter().rev().collect();
+                points.splice(0..0, outwards);
+            }
+        }
+    }
+    points.insert(3, [0.0, 0.0]);
+    points
+}
+
+/// Names a place, its building first where there are several.
+pub(crate) fn name(page: &Page, place: &Place) -> String {
+    let building = &page.model.buildings[place.building].name;
+    if page.model.buildings.len() > 1 {
+        format!("{building}, {}", place.at)
+    } else {
+        place.at.to_string()
+    }
+}
+
+/// The section of the page, if anything can yield.
+pub(crate) fn section(page: &Page) -> Option<Markup> {
+    let places = places(page.model);
+    if places.is_empty() {
+        return None;
+    }
+    let order = in_order(page, &places);
+    let loops = page.springs.is_some() && !order.is_empty() && page.history.len() > 1;
+    Some(html! {
+        section #hinges {
+            h2 { "Cracking and yielding" }
+            @for building in page.summary.buildings.iter().filter(|b| b.hinges.total > 0) {
+                p { (sentence(&building.name, &building.hinges, building.residual_roof_displacement_m)) }
+            }
+            @if loops {
+                p.quiet {
+                    "The hinges that went farthest or took most energy. Dashed: the curve of first loading. The dot is the instant of the cursor; the strong line leads to it from the left end of the charts above."
+                }
+                div #loops.multiples {}
+            }
+            @if !order.is_empty() { (table(page, &order)) }
+        }
+    })
+}
+
+fn sentence(name: &str, hinges: &HingeSummary, residual: f64) -> String {
+    let residual = format!(
+        "The roof ends {} from where it began.",
+        format::millimetres(residual.abs())
+    );
+    let count = |n: usize| format::fixed(n as f64, 0);
+    match (hinges.first_yield_s, hinges.cracked) {
+        (Some(first), cracked) => format!(
+            "{name} yields at {} of {} places, first at {}; {} are cracked. Greatest ductility {}; {} dissipated. {residual}",
+            count(hinges.yielded),
+            count(hinges.total),
+            format::instant(first),
+            count(cracked),
+            format::significant(hinges.ductility, 3),
+            format::energy(hinges.dissipated_j),
+        ),
+        (None, 0) => format!(
+            "{name} neither cracks nor yields at any of {} places.",
+            count(hinges.total)
+        ),
+        (None, cracked) => format!(
+            "{name} cracks at {} of {} places and yields nowhere. {residual}",
+            count(cracked),
+            count(hinges.total)
+        ),
+    }
+}
+
+fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
+    let storeys = order.iter().any(|(place, _)| is_storey(place.at));
+    let members = order.iter().any(|(place, _)| !is_storey(place.at));
+    let [deformation, force] = match (members, storeys) {
+        (true, false) => ["mrad", "kN·m"],
+        (false, true) => ["mm", "kN"],
+        _ => ["mrad; mm", "kN·m; kN"],
+    };
+    let columns = [
+        ("cracked", "s"),
+        ("yielded", "s"),
+        ("ductility", ""),
+        ("greatest +", deformation),
+        ("greatest −", deformation),
+        ("peak", force),
+        ("dissipated", "kJ"),
+    ];
+    let all = order.len();
+    let shown = &order[..all.min(MOST_ROWS)];
+    html! {
+        @if all > MOST_ROWS {
+            p.quiet { "The first " (MOST_ROWS) " of " (all) " in order of yielding; the file of hinges beside this page has all of them." }
+        }
+        div.scroll {
+            table #hinge-table.clipped[shown.len() > FIRST_ROWS] {
+                caption.quiet { "In order of yielding." }
+                thead { tr {
+                    th.number scope="col" { "no." }
+                    th scope="col" { "where" }
+                    @for (name, unit) in columns {
+                        th.number scope="col" { (name) @if !unit.is_empty() { br; span.unit { "[" (unit) "]" } } }
+                    }
+                } }
+                tbody {
+                    @for (i, (place, spring)) in shown.iter().enumerate() {
+                        tr.beyond[i >= FIRST_ROWS] {
+                            td.number { (i + 1) }
+                            td { (name(page, place)) }
+                            @for value in cells(spring) { td.number { (value) } }
+                        }
+                    }
+                }
+            }
+        }
+        @if shown.len() > FIRST_ROWS {
+            button.wide.unfold type="button" data-table="hinge-table" { "Show all " (shown.len()) " places" }
+        }
+    }
+}
+
+fn cells(spring: &SpringSummary) -> [String; 7] {
+    let instant =
+        |t: Option<f64>| t.map_or_else(|| format::NOTHING.into(), |t| format::fixed(t, 3));
+    [
+        instant(spring.cracked_s),
+        instant(spring.yielded_s),
+        format::significant(spring.ductility, 3),
+        format::significant(spring.deformation_max * 1e3, 3),
+        format::significant(spring.deformation_min * 1e3, 3),
+        format::significant(spring.peak_force / 1e3, 4),
+        format::significant(spring.dissipated_j / 1e3, 3),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use jostle::hysteresis::{Corners, HysteresisRule};
+
+    use super::*;
+
+    fn spring(index: usize, ductility: f64, dissipated: f64) -> SpringSummary {
+        SpringSummary {
+            place: String::new(),
+            index,
+            cracked_s: Some(1.0),
+            yielded_s: None,
+            deformation_max: 0.0,
+            deformation_min: 0.0,
+            ductility,
+            peak_force: 0.0,
+            dissipated_j: dissipated,
+        }
+    }
+
+    fn backbone() -> Backbone {
+        let positive = Corners {
+            cracking: 100.0,
+            yielding: 250.0,
+            post_cracking: 0.3,
+            post_yield: 0.0,
+        };
+        let negative = Corners {
+            yielding: 400.0,
+            ..positive
+        };
+        Backbone::from_forces(1e5, positive, negative).expect("sound")
+    }
+
+    #[test]
+    fn outline_runs_from_end_to_end_through_zero() {
+        let points = outline(&backbone(), [0.05, 0.0]);
+        assert_eq!(points.len(), 7);
+        assert!(points.windows(2).all(|pair| pair[0][0] < pair[1][0]));
+        assert_eq!(points[3], [0.0, 0.0]);
+        assert_eq!(points[6], [0.05, 250.0]);
+        assert_eq!(points[0][1], -400.0);
+        assert!((points[4][0] - 1e-3).abs() < 1e-12 && (points[5][0] - 6e-3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn loops_are_chosen_by_ductility_and_by_energy_in_turn() {
+        let hysteresis = Hysteresis::new(HysteresisRule::PeakOriented, backbone()).expect("sound");
+        let place = |spring: usize| Place {
+            building: 0,
+            spring,
+            at: SpringPlace::Storey { storey: spring + 1 },
+            hysteresis,
+        };
+        // Ductility falls, energy rises with the index.
+        let springs: Vec<SpringSummary> = (0..20)
+            .map(|i| spring(i, 20.0 - i as f64, i as f64))
+            .collect();
+        let order: Vec<(Place, &SpringSummary)> =
+            springs.iter().map(|s| (place(s.index), s)).collect();
+        let chosen: Vec<usize> = worst(&order).iter().map(|(_, s)| s.index).collect();
+        assert_eq!(chosen, [0, 1, 2, 17, 18, 19]);
+        assert_eq!(worst(&order[..2]).len(), 2);
+        assert!(worst(&[]).is_empty());
+    }
+}

@@ -1,0 +1,200 @@
+//! The capacity curve as a picture.
+
+use jostle::hysteresis::Stage;
+use jostle::statics::{Bilinear, PushEventKind, PushPoint, PushedBuilding, Pushover};
+use maud::{Markup, html};
+
+use crate::format;
+
+/// Plot area: left, top, width, height.
+const AREA: [f64; 4] = [70.0, 30.0, 580.0, 320.0];
+
+/// Scales of the picture of one building.
+pub(super) struct Chart {
+    /// Greatest roof displacement \[m\] and base shear \[N\] shown.
+    size: [f64; 2],
+}
+
+/// The style attribute with the colour of a curve.
+pub(super) fn colour(index: usize) -> &'static str {
+    if index == 0 {
+        "--c:var(--c0)"
+    } else {
+        "--c:var(--c2)"
+    }
+}
+
+impl Chart {
+    pub(super) fn of(one: &PushedBuilding) -> Self {
+        let points = || one.curves.iter().flat_map(|curve| &curve.points);
+        let greatest = |value: fn(&PushPoint) -> f64| points().map(value).fold(0.0, f64::max);
+        let positive = |value: f64| if value > 0.0 { value } else { 1.0 };
+        Self {
+            size: [
+                positive(greatest(|point| point.roof)),
+                1.08 * positive(greatest(|point| point.base_shear)),
+            ],
+        }
+    }
+
+    /// Left edge, lower edge, and picture units per metre and newton.
+    pub(super) fn scales(&self) -> [f64; 4] {
+        let [left, top, width, height] = AREA;
+        [
+            left,
+            top + height,
+            width / self.size[0],
+            height / self.size[1],
+        ]
+    }
+
+    fn place(&self, roof: f64, shear: f64) -> [f64; 2] {
+        let [left, bottom, x, y] = self.scales();
+        [left + x * roof, bottom - y * shear]
+    }
+
+    fn path(&self, points: impl Iterator<Item = [f64; 2]>) -> String {
+        let text: Vec<String> = points
+            .map(|[roof, shear]| self.place(roof, shear))
+            .map(|[x, y]| format!("{x:.1},{y:.1}"))
+            .collect();
+        format!("M{}", text.join(" L"))
+    }
+
+    pub(super) fn draw(&self, one: &PushedBuilding) -> Markup {
+        let [left, top, width, height] = AREA;
+        let Some(first) = one.curves.first() else {
+            return html! {};
+        };
+        let [roof, shear] = self.size;
+        html! {
+            svg.capacity viewBox="0 0 720 410" role="img" aria-label={ "Base shear of " (one.building.name) " against the displacement of its roof" } {
+                g.grid {
+                    @for value in ticks(1e3 * roof, 7.0) {
+                        @let x = self.place(value * 1e-3, 0.0)[0];
+                        line x1=(x) x2=(x) y1=(top) y2=(top + height) {}
+                        text.axis x=(x) y=(top + height + 18.0) text-anchor="middle" { (format::plain(value, 4)) }
+                    }
+                    @for value in ticks(1e-3 * shear, 6.0) {
+                        @let y = self.place(0.0, value * 1e3)[1];
+                        line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
+                        text.axis x=(left - 8.0) y=(y + 4.0) text-anchor="end" { (format::plain(value, 6)) }
+                    }
+                    @for value in ticks(100.0 * shear / first.weight, 6.0) {
+                        @let y = self.place(0.0, value * first.weight / 100.0)[1];
+                        text.axis x=(left + width + 8.0) y=(y + 4.0) { (format::plain(value, 4)) }
+                    }
+                    @for value in ticks(100.0 * roof / first.height, 7.0) {
+                        @let x = self.place(value * first.height / 100.0, 0.0)[0];
+                        text.axis x=(x) y=(top - 8.0) text-anchor="middle" { (format::plain(value, 4)) " %" }
+                    }
+                    text.axis x=(left + width / 2.0) y=(top + height + 40.0) text-anchor="middle" { "roof displacement [mm]; above: over the height" }
+                    text.axis x="0" y="0" transform={ "translate(14 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { "base shear [kN]" }
+                    text.axis x="0" y="0" transform={ "translate(708 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { "of weight [%]" }
+                }
+                @for (index, curve) in one.curves.iter().enumerate() { (self.curve(one, index, curve)) }
+                circle.here data-role="here" r="7" cx=(left) cy=(top + height) {}
+            }
+        }
+    }
+
+    fn curve(&self, one: &PushedBuilding, index: usize, curve: &Pushover) -> Markup {
+        let points = curve
+            .points
+            .iter()
+            .map(|point| [point.roof, point.base_shear]);
+        let two = Bilinear::of(&curve.points).map(|two| {
+            let corner = [two.yield_displacement, two.yield_force];
+            let end = [two.ultimate_displacement, two.ultimate_force];
+            self.path([[0.0, 0.0], corner, end].into_iter())
+        });
+        html! {
+            @if let Some(two) = two { path.two d=(two) {} }
+            path.curve.second[index > 0] style=(colour(index)) d=(self.path(points)) {}
+            @for point in &curve.points { (self.event(one, curve, point)) }
+            @if index == 0 { (self.names(curve)) }
+        }
+    }
+
+    /// A dot where hinges crack or yield.
+    fn event(&self, one: &PushedBuilding, curve: &Pushover, point: &PushPoint) -> Markup {
+        let has = |kind| point.events.iter().any(|event| event.kind == kind);
+        let (class, radius) = if has(PushEventKind::Yields) {
+            ("event yielded", 4.0)
+        } else if has(PushEventKind::Cracks) {
+            ("event cracked", 3.4)
+        } else {
+            return html! {};
+        };
+        let [x, y] = self.place(point.roof, point.base_shear);
+        let events = point.events.iter().take(8);
+        let said: Vec<String> = events
+            .map(|event| format!("{} {}", one.place(event.spring), event.kind.name()))
+            .collect();
+        html! {
+            circle class=(class) cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r=(radius) {
+                title { (format::fixed(100.0 * curve.drift(point), 3)) " %: " (said.join("; ")) }
+            }
+        }
+    }
+
+    /// Names of the points that matter.
+    fn names(&self, curve: &Pushover) -> Markup {
+        let mut named: Vec<(&str, &PushPoint, [f64; 2], &str)> = Vec::new();
+        if let Some(point) = curve.first(Stage::Cracked) {
+            named.push(("first crack", point, [10.0, 16.0], "start"));
+        }
+        if let Some(point) = curve.first(Stage::Yielded) {
+            named.push(("first yield", point, [10.0, 18.0], "start"));
+        }
+        if !named.is_empty() {
+            let inside = curve.peak().roof > 0.85 * self.size[0];
+            let anchor = if inside { "end" } else { "middle" };
+            named.push((
+                "greatest",
+                curve.peak(),
+                [if inside { -6.0 } else { 0.0 }, -11.0],
+                anchor,
+            ));
+        }
+        html! {
+            @for (name, point, [dx, dy], anchor) in named {
+                @let [x, y] = self.place(point.roof, point.base_shear);
+                circle.ring cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="5" {}
+                text.said x=(format!("{:.1}", x + dx)) y=(format!("{:.1}", y + dy)) text-anchor=(anchor) { (name) }
+            }
+        }
+    }
+}
+
+/// Round values from zero to an end, about `count` of them.
+fn ticks(end: f64, count: f64) -> Vec<f64> {
+    let raw = end / count;
+    if !(raw.is_finite() && raw > 0.0) {
+        return vec![0.0];
+    }
+    let power = 10_f64.powf(raw.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|digit| digit * power)
+        .find(|step| *step >= raw)
+        .unwrap_or(raw);
+    (0..=(end / step + 1e-9) as usize)
+        .map(|k| k as f64 * step)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_end_inside() {
+        assert_eq!(
+            ticks(320.0, 7.0),
+            [0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0]
+        );
+        assert_eq!(ticks(0.0, 7.0), [0.0]);
+        assert_eq!(ticks(f64::NAN, 7.0), [0.0]);
+    }
+}

@@ -1,0 +1,168 @@
+//! Shapes and states of hinges, packed for the page.
+
+use jostle::hysteresis::Stage;
+use jostle::skeleton::{MemberEnd, SpringPlace};
+use jostle::statics::{PushEventKind, PushedBuilding, Pushover};
+use serde_json::{Value, json};
+
+use super::chart::Chart;
+use crate::encode::Packed;
+
+/// Numbers of a curve spent on shapes at most.
+const BUDGET: usize = 60_000;
+
+/// Everything the script needs, as JSON that may stand in a page.
+pub(super) fn payload(pushed: &[PushedBuilding], charts: &[Chart]) -> String {
+    let buildings = pushed.iter().zip(charts);
+    let all: Vec<Value> = buildings.map(|(one, chart)| building(one, chart)).collect();
+    // "</script>" in a name must not end the script.
+    Value::from(all).to_string().replace('<', "\\u003c")
+}
+
+fn building(one: &PushedBuilding, chart: &Chart) -> Value {
+    let system = one.building;
+    let skeleton = &system.idealisation.skeleton;
+    let across = |value: fn(&jostle::skeleton::Node) -> f64| -> Vec<f64> {
+        skeleton.nodes.iter().map(value).collect()
+    };
+    let width = skeleton
+        .nodes
+        .iter()
+        .fold(0.0_f64, |most, node| most.max(node.x));
+    let height = system.floors.last().map_or(1.0, |floor| floor.height);
+    let members = skeleton.members.iter().map(|member| member.ends);
+    let springs = skeleton.springs.iter().map(|spring| spring.ends);
+    let [left, bottom, x, y] = chart.scales();
+    json!({
+        "name": system.name,
+        "nodes": { "x": across(|node| node.x), "y": across(|node| node.y) },
+        "lines": members.chain(springs).collect::<Vec<_>>(),
+        "slab": if skeleton.members.is_empty() { 0.12 * height } else { 0.0 },
+        "floors": system.idealisation.floors,
+        "hinges": hinges(one),
+        "width": width,
+        "height": height,
+        "drift": one.curves.iter().map(|curve| curve.settings.drift).fold(1e-4, f64::max),
+        "chart": { "left": left, "bottom": bottom, "x": x, "y": y },
+        "curves": one.curves.iter().map(|curve| self::curve(one, curve)).collect::<Vec<_>>(),
+    })
+}
+
+/// Nodes that a hinge lies between, and to which side of them it is drawn.
+fn hinges(one: &PushedBuilding) -> Vec<Value> {
+    let idealisation = &one.building.idealisation;
+    let skeleton = &idealisation.skeleton;
+    let hinges = skeleton
+        .hinges
+        .iter()
+        .filter(|hinge| hinge.hysteresis.is_some());
+    let springs = skeleton
+        .springs
+        .iter()
+        .filter(|spring| spring.hysteresis.is_some());
+    let ends = hinges
+        .map(|hinge| hinge.ends)
+        .chain(springs.map(|spring| spring.ends));
+    let places = idealisation
+        .spring_places
+        .iter()
+        .map(Some)
+        .chain(std::iter::repeat(None));
+    ends.zip(places)
+        .map(|([a, b], place)| {
+            let [dx, dy] = match place {
+                Some(SpringPlace::Column {
+                    end: MemberEnd::First,
+                    ..
+                }) => [0, 1],
+                Some(SpringPlace::Column {
+                    end: MemberEnd::Last,
+                    ..
+                }) => [0, -1],
+                Some(SpringPlace::Beam {
+                    end: MemberEnd::First,
+                    ..
+                }) => [1, 0],
+                Some(SpringPlace::Beam {
+                    end: MemberEnd::Last,
+                    ..
+                }) => [-1, 0],
+                _ => [0, 0],
+            };
+            json!([a, b, dx, dy])
+        })
+        .collect()
+}
+
+fn curve(one: &PushedBuilding, curve: &Pushover) -> Value {
+    let system = one.building;
+    let nodes = system.idealisation.skeleton.nodes.len();
+    let kept = kept(curve, (BUDGET / (2 * nodes).max(1)).max(12));
+    let places = (0..nodes).flat_map(|node| {
+        [
+            system.equations.horizontal(node),
+            system.equations.vertical(node),
+        ]
+    });
+    let places: Vec<Option<usize>> = places.collect();
+    let shapes = kept.iter().flat_map(|&point| {
+        let displacement = &curve.points[point].displacement;
+        places
+            .iter()
+            .map(move |dof| dof.map_or(0.0, |dof| displacement[dof]))
+    });
+    let mut stages = vec![[None::<f64>; 2]; system.equations.springs.len()];
+    for point in &curve.points {
+        for event in &point.events {
+            match event.kind {
+                PushEventKind::Cracks => stages[event.spring][0] = Some(point.roof),
+                PushEventKind::Yields => stages[event.spring][1] = Some(point.roof),
+                PushEventKind::Turns => {}
+            }
+        }
+    }
+    let all = |value: fn(&jostle::statics::PushPoint) -> f64| -> Vec<f64> {
+        curve.points.iter().map(value).collect()
+    };
+    let drifts = curve
+        .points
+        .iter()
+        .flat_map(|point| point.storey_drifts.iter().copied());
+    let events = curve.points.iter().filter(|point| !point.events.is_empty());
+    json!({
+        "sign": curve.settings.direction.sign(),
+        "end": curve.points.last().map_or(1.0, |point| point.roof.max(1e-12)),
+        "roof": all(|point| point.roof),
+        "shear": all(|point| point.base_shear),
+        "loads": curve.floor_loads,
+        "events": events.map(|point| point.roof).collect::<Vec<_>>(),
+        "drifts": Packed::values(drifts),
+        "kept": kept.iter().map(|&point| curve.points[point].roof).collect::<Vec<_>>(),
+        "shapes": Packed::values(shapes),
+        "hinges": stages,
+    })
+}
+
+/// Points whose shapes are kept: those that matter, and as many others as there is room for.
+fn kept(curve: &Pushover, most: usize) -> Vec<usize> {
+    let count = curve.points.len();
+    if count <= most {
+        return (0..count).collect();
+    }
+    let matters = [
+        curve.first(Stage::Cracked),
+        curve.first(Stage::Yielded),
+        Some(curve.peak()),
+    ];
+    let of = |wanted: &jostle::statics::PushPoint| {
+        curve
+            .points
+            .iter()
+            .position(|point| std::ptr::eq(point, wanted))
+    };
+    let mut kept: Vec<usize> = matters.into_iter().flatten().filter_map(of).collect();
+    kept.extend((0..most).map(|k| k * (count - 1) / (most - 1)));
+    kept.sort_unstable();
+    kept.dedup();
+    kept
+}

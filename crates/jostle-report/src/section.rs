@@ -1,0 +1,228 @@
+//! The page of `jostle section`: sections with their bars, moment and curvature, and what is fitted.
+
+use jostle::hysteresis::{Corner, Side};
+use jostle_section::{Analysis, EndCurve, Section, SectionSurvey};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::format::{fixed, significant};
+use crate::page::{POLICY, STYLE};
+
+/// Plot area: left, top, width, height.
+const AREA: [f64; 4] = [64.0, 14.0, 420.0, 260.0];
+/// Side of the square that a section is drawn into.
+const DRAWING: f64 = 220.0;
+
+/// The whole page.
+#[must_use]
+pub fn render_sections(title: &str, surveys: &[SectionSurvey]) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                title { (title) " – sections" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header class="head" {
+                    div {
+                        p class="kicker" { "From reinforcement to hinge" }
+                        h1 { (title) }
+                        p { "Where members crack and yield: by formulas, and by bending the section fibre by fibre." }
+                    }
+                }
+                main {
+                    @for survey in surveys { (sheet(survey)) }
+                    p class="quiet" {
+                        "Rotations are those of a member end from its chord, in double curvature. Formula: cracking and yield moments of AIJ, secant stiffness at yield after Sugano, 1 % after yield. "
+                        "Fibre: trilinear curve of the same area as moment and curvature, integrated along the member, with the slip of the bars at its end. K = 6EI/L of the gross section."
+                    }
+                }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn sheet(survey: &SectionSurvey) -> Markup {
+    let section = &survey.section;
+    html! {
+        section {
+            h2 { (survey.name) }
+            p {
+                (fixed(section.width * 1e3, 0)) " × " (fixed(section.depth * 1e3, 0)) " mm, "
+                (section.bars.len()) " bars (" (fixed(section.steel_area() / section.area() * 100.0, 2)) " %); concrete "
+                (significant(section.concrete.strength * 1e-6, 3)) " MPa, steel " (fixed(section.steel.yield_strength * 1e-6, 0))
+                " MPa; axial compression " (fixed(survey.compression * 1e-3, 0)) " kN, "
+                (fixed(section.axial_ratio(survey.compression), 2)) " of the concrete; length " (fixed(survey.length, 2)) " m."
+            }
+            div style="display:flex;flex-wrap:wrap;gap:1rem;align-items:flex-start" {
+                figure style="flex:0 1 15rem" { (drawing(section)) figcaption class="quiet" { "Positive moment stretches the bottom." } }
+                @match &survey.analysis {
+                    Ok(analysis) => {
+                        @for &side in survey.sides() {
+                            figure style="flex:1 1 24rem;max-width:34rem" { (plot(survey, analysis, side)) figcaption class="quiet" { (caption(survey, side)) } }
+                        }
+                    }
+                    Err(error) => { p class="note" { "No moment–curvature analysis: " (error.to_string()) "." } }
+                }
+            }
+            div class="scroll" {
+                table {
+                    thead { tr { th { "method" } th { "cracking [kN·m]" } th { "at [mrad]" } th { "yield [kN·m]" } th { "at [mrad]" } th { "secant at yield / K" } th { "after yield / K" } } }
+                    tbody {
+                        @for &side in survey.sides() {
+                            (row(survey, "formula", &survey.formula, side))
+                            @if let Ok(analysis) = &survey.analysis { (row(survey, "fibre", &analysis.ends, side)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn side_name(survey: &SectionSurvey, side: Side) -> &'static str {
+    match (survey.is_symmetric(), side) {
+        (true, _) => "",
+        (_, Side::Positive) => ", positive",
+        (_, Side::Negative) => ", negative",
+    }
+}
+
+fn caption(survey: &SectionSurvey, side: Side) -> String {
+    format!(
+        "Moment and curvature{}: analysis, and the trilinear curve of equal area (dashed).",
+        side_name(survey, side)
+    )
+}
+
+fn row(survey: &SectionSurvey, name: &str, ends: &EndCurve, side: Side) -> Markup {
+    let end = ends.sides[side.index()];
+    let gross = survey.gross_stiffness();
+    html! {
+        tr {
+            td { (name) (side_name(survey, side)) }
+            td { (fixed(end.cracking.force * 1e-3, 1)) }
+            td { (fixed(end.cracking.deformation * 1e3, 3)) }
+            td { (fixed(end.yielding.force * 1e-3, 1)) }
+            td { (fixed(end.yielding.deformation * 1e3, 3)) }
+            td { (fixed(end.yielding.force / end.yielding.deformation / gross, 3)) }
+            td { (fixed(end.post_yield / gross, 4)) }
+        }
+    }
+}
+
+/// The section with its bars, to scale.
+fn drawing(section: &Section) -> Markup {
+    let scale = (DRAWING - 60.0) / section.width.max(section.depth);
+    let (width, depth) = (section.width * scale, section.depth * scale);
+    let (left, top) = (0.5 * (DRAWING - 20.0 - width), 14.0);
+    let inset = section.cover * scale;
+    html! {
+        svg viewBox={ "0 0 " (DRAWING) " " (depth + 50.0) } role="img" aria-label="Cross-section with its bars" {
+            rect x=(left) y=(top) width=(width) height=(depth) fill="var(--c0)" fill-opacity="0.10" stroke="var(--ink)" stroke-width="1.5" {}
+            @if section.ties.is_some() {
+                rect x=(left + inset - 2.0) y=(top + inset - 2.0) width=(width - 2.0 * inset + 4.0) height=(depth - 2.0 * inset + 4.0)
+                    rx="4" fill="none" stroke="var(--ink)" stroke-width="1.2" {}
+            }
+            @for bar in &section.bars {
+                circle cx=(left + bar.x * scale) cy=(top + bar.depth * scale) r=(0.5 * bar.diameter * scale) fill="var(--c1)" {}
+            }
+            g class="grid" {
+                text x=(left + 0.5 * width) y=(top + depth + 20.0) text-anchor="middle" { (fixed(section.width * 1e3, 0)) " mm" }
+                text x=(left + width + 8.0) y=(top + 0.5 * depth + 4.0) { (fixed(section.depth * 1e3, 0)) }
+            }
+        }
+    }
+}
+
+/// A step of one, two or five times a power of ten, five or so of which make up the largest value.
+fn round_step(largest: f64) -> f64 {
+    let rough = largest / 5.0;
+    let power = 10f64.powf(rough.log10().floor());
+    [1.0, 2.0, 5.0]
+        .into_iter()
+        .map(|factor| factor * power)
+        .find(|step| *step >= rough)
+        .unwrap_or(10.0 * power)
+}
+
+fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
+    let (curve, fit) = (&analysis.curves[side.index()], &analysis.fits[side.index()]);
+    let largest = |of: fn(&Corner) -> f64| curve.points.iter().map(of).fold(1e-12, f64::max);
+    let (far, high) = (
+        1.03 * largest(|point| point.deformation),
+        1.12 * largest(|point| point.force).max(fit.yielding.force),
+    );
+    let [left, top, width, height] = AREA;
+    let place = |corner: &Corner| {
+        [
+            left + corner.deformation / far * width,
+            top + height - corner.force / high * height,
+        ]
+    };
+    let path = |points: &[Corner]| {
+        let text: Vec<String> = points
+            .iter()
+            .map(|point| {
+                let [x, y] = place(point);
+                format!("{x:.1},{y:.1}")
+            })
+            .collect();
+        format!("M{}", text.join(" L"))
+    };
+    let fitted = [Corner::default(), fit.cracking, fit.yielding, fit.ultimate];
+    let ticks = |largest: f64| {
+        let step = round_step(largest);
+        (0..=(largest / step).floor() as i32).map(move |n| f64::from(n) * step)
+    };
+    html! {
+        svg viewBox="0 0 500 320" role="img" aria-label={ "Moment against curvature" (side_name(survey, side)) } {
+            g class="grid" {
+                @for moment in ticks(high * 1e-3) {
+                    @let [_, y] = place(&Corner { deformation: 0.0, force: moment * 1e3 });
+                    line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
+                    text x=(left - 8.0) y=(y + 4.0) text-anchor="end" { (significant_tick(moment)) }
+                }
+                @for curvature in ticks(far * 1e3) {
+                    @let [x, _] = place(&Corner { deformation: curvature * 1e-3, force: 0.0 });
+                    line x1=(x) x2=(x) y1=(top) y2=(top + height) {}
+                    text x=(x) y=(top + height + 18.0) text-anchor="middle" { (significant_tick(curvature)) }
+                }
+                text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { "curvature [1/km]" }
+                text x="14" y=(top + height / 2.0) text-anchor="middle" transform={ "rotate(-90 14 " (top + height / 2.0) ")" } { "moment [kN·m]" }
+            }
+            path class="line" style="--c:var(--c0)" d=(path(&curve.points)) {}
+            path class="line dashed" style="--c:var(--c1)" d=(path(&fitted)) {}
+            @for (number, event) in curve.events.iter().enumerate() {
+                @let [x, y] = place(&Corner { deformation: event.curvature, force: event.moment });
+                circle cx=(x) cy=(y) r="3.5" fill="var(--c0)" {}
+                text x=(x + if number % 2 == 0 { -6.0 } else { 6.0 }) y=(y - 8.0) text-anchor="middle" font-size="11" fill="var(--ink)" { (number + 1) }
+            }
+            @for (number, event) in curve.events.iter().enumerate() {
+                text x=(left + width - 8.0) y=(top + height - 8.0 - 15.0 * (curve.events.len() - 1 - number) as f64) text-anchor="end" font-size="11" fill="var(--ink)" {
+                    (number + 1) " " (event.kind.describe()) ", " (fixed(event.moment * 1e-3, 1)) " kN·m"
+                }
+            }
+        }
+    }
+}
+
+fn significant_tick(value: f64) -> String {
+    crate::format::plain(value, 3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round() {
+        assert_eq!(round_step(430.0), 100.0);
+        assert_eq!(round_step(26.0), 10.0);
+        assert!((round_step(0.9) - 0.2).abs() < 1e-12);
+    }
+}

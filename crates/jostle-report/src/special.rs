@@ -1,0 +1,240 @@
+//! What a building has beyond the plain case: base springs, gravity, shear deformation, joints, reinforcement.
+
+use jostle::model::{Base, Building, Joint, Structure};
+use jostle_section::Section;
+use jostle_section::formula::Member;
+
+use crate::describe::{Facts, grouped};
+use crate::{Page, ReinforcedSection, format};
+
+/// One fact for each thing out of the ordinary.
+pub(crate) fn facts(building: &Building) -> Facts {
+    let mut facts = base(&building.base);
+    let gravity = match (building.gravity.preload, building.gravity.p_delta) {
+        (true, true) => Some("starts bent under its weight; P-Delta"),
+        (true, false) => Some("starts bent under its weight"),
+        (false, true) => Some("P-Delta of every column"),
+        (false, false) => None,
+    };
+    facts.extend(gravity.map(|text| ("gravity", text.to_owned())));
+    if let Structure::Frame(frame) = &building.structure {
+        for (name, sections) in [("columns, GA", &frame.columns), ("beams, GA", &frame.beams)] {
+            let values: Vec<f64> = sections
+                .iter()
+                .map(|section| section.shear_rigidity.unwrap_or(f64::INFINITY))
+                .collect();
+            if values.iter().any(|value| value.is_finite()) {
+                let text = |value: f64| match value.is_finite() {
+                    true => format::force(value),
+                    false => "rigid".into(),
+                };
+                facts.push((name, grouped(&values, text)));
+            }
+        }
+    }
+    facts
+}
+
+fn base(base: &Base) -> Facts {
+    if base.is_fixed() {
+        return Vec::new();
+    }
+    let mut facts: Facts = vec![(
+        "base",
+        springs(&[
+            ("rotation", base.rotational_stiffness, "N·m/rad"),
+            ("sideways", base.horizontal_stiffness, "N/m"),
+            ("vertical", base.vertical_stiffness, "N/m"),
+        ]),
+    )];
+    let dashpots = springs(&[
+        ("rotation", positive(base.rotational_damping), "N·m·s/rad"),
+        ("sideways", positive(base.horizontal_damping), "N·s/m"),
+        ("vertical", positive(base.vertical_damping), "N·s/m"),
+    ]);
+    if !dashpots.is_empty() {
+        facts.push(("base dashpots", dashpots));
+    }
+    if base.mass > 0.0 {
+        facts.push(("footing mass", format::tonnes(base.mass)));
+    }
+    facts
+}
+
+fn positive(value: f64) -> Option<f64> {
+    (value > 0.0).then_some(value)
+}
+
+/// "rotation 2 × 10⁸ N·m/rad, sideways …" of those that give way.
+fn springs(parts: &[(&str, Option<f64>, &str)]) -> String {
+    let known = parts.iter().filter_map(|(name, value, unit)| {
+        let value = format::plain((*value)?, 3);
+        Some(format!("{name} {value}\u{a0}{unit}"))
+    });
+    known.collect::<Vec<_>>().join(", ")
+}
+
+/// How beams are joined to columns.
+pub(crate) fn joint(joint: &Joint) -> String {
+    if *joint == Joint::default() {
+        return "rigid".into();
+    }
+    springs(&[
+        ("rotation", joint.rotational_stiffness, "N·m/rad"),
+        ("sideways", joint.horizontal_stiffness, "N/m"),
+        ("vertical", joint.vertical_stiffness, "N/m"),
+    ])
+}
+
+/// The reinforced sections of a building.
+pub(crate) fn sections(page: &Page, building: usize) -> Facts {
+    let own = page.sections.iter().filter(|s| s.building == building);
+    own.map(|known| {
+        let name = match known.member {
+            Member::Column => "column section",
+            Member::Beam => "beam section",
+        };
+        (name, section(known))
+    })
+    .collect()
+}
+
+fn section(known: &ReinforcedSection) -> String {
+    let section = known.section;
+    let floors = match known.floors {
+        [low, high] if low == high => format!("{low}: "),
+        [low, high] => format!("{low}–{high}: "),
+    };
+    let size = |metres: f64| format::plain(metres * 1e3, 4);
+    let mut text = format!(
+        "{floors}{} × {}\u{a0}mm, {} ({}\u{a0}%), concrete {}\u{a0}MPa, steel {}\u{a0}MPa",
+        size(section.width),
+        size(section.depth),
+        bars(section),
+        format::fixed(section.steel_area() / section.area() * 100.0, 2),
+        format::plain(section.concrete.strength * 1e-6, 3),
+        format::plain(section.steel.yield_strength * 1e-6, 3),
+    );
+    if let Some(ties) = &section.ties {
+        text.push_str(&format!(
+            ", ties d{} at {}\u{a0}mm",
+            size(ties.diameter),
+            size(ties.spacing)
+        ));
+    }
+    if known.member == Member::Column {
+        let [low, high] = known.compression.map(format::force);
+        let range = if low == high {
+            low
+        } else {
+            format!("{low} to {high}")
+        };
+        text.push_str(&format!(", axial compression {range}"));
+    }
+    text
+}
+
+/// "12 d22", or "4 d22 + 2 d20 top, 3 d22 bottom" where top and bottom differ.
+fn bars(section: &Section) -> String {
+    if section.is_symmetric() {
+        return counted(section, |_| true);
+    }
+    let middle = 0.5 * section.depth;
+    let (top, bottom) = (
+        counted(section, |depth| depth < middle),
+        counted(section, |depth| depth >= middle),
+    );
+    format!("{top} top, {bottom} bottom")
+}
+
+/// Bars at the depths asked for, by diameter.
+fn counted(section: &Section, wanted: impl Fn(f64) -> bool) -> String {
+    let mut sizes: Vec<(f64, usize)> = Vec::new();
+    for bar in section.bars.iter().filter(|bar| wanted(bar.depth)) {
+        match sizes.iter_mut().find(|(size, _)| *size == bar.diameter) {
+            Some((_, count)) => *count += 1,
+            None => sizes.push((bar.diameter, 1)),
+        }
+    }
+    let texts: Vec<String> = sizes
+        .iter()
+        .map(|(size, count)| format!("{count}\u{a0}d{}", format::plain(size * 1e3, 3)))
+        .collect();
+    texts.join(" + ")
+}
+
+#[cfg(test)]
+mod tests {
+    use jostle::{Damping, Gravity, Shear};
+    use jostle_section::{Concrete, Reinforcement, Steel, StrengthLevel};
+
+    use super::*;
+
+    #[test]
+    fn plain_buildings_have_nothing_special() {
+        let mut building = Building {
+            name: "A".into(),
+            structure: Structure::Shear(Shear {
+                mass: vec![1e4],
+                stiffness: vec![1e7],
+                storey_heights: vec![3.0],
+            }),
+            damping: Damping::Rayleigh {
+                alpha: 0.0,
+                beta: 0.0,
+            },
+            base: Base::default(),
+            gravity: Gravity::default(),
+            hinges: None,
+        };
+        assert!(facts(&building).is_empty());
+        building.base.horizontal_stiffness = Some(5e8);
+        building.base.mass = 3e3;
+        building.gravity.p_delta = true;
+        let names: Vec<&str> = facts(&building).iter().map(|fact| fact.0).collect();
+        assert_eq!(names, ["base", "footing mass", "gravity"]);
+        assert_eq!(
+            joint(&Joint {
+                horizontal_stiffness: Some(2e8),
+                ..Joint::default()
+            }),
+            "sideways 2\u{202f}×\u{202f}10⁸\u{a0}N/m"
+        );
+    }
+
+    #[test]
+    fn sections_say_their_bars_and_loads() {
+        let level = StrengthLevel::default();
+        let lay = |width: f64, bars: &str| {
+            Section::new(
+                width,
+                0.5,
+                Concrete::grade("C30", level).expect("known"),
+                Steel::grade("HRB400", level).expect("known"),
+                &Reinforcement::parse(bars).expect("bars"),
+                0.035,
+                None,
+            )
+            .expect("fits")
+        };
+        let beam = lay(0.3, "4 d22 top, 3 d20 bottom");
+        assert_eq!(
+            bars(&beam).replace('\u{a0}', " "),
+            "4 d22 top, 3 d20 bottom"
+        );
+        let column = lay(0.5, "12 d22");
+        let mut known = ReinforcedSection {
+            building: 0,
+            member: Member::Column,
+            section: &column,
+            floors: [1, 1],
+            compression: [9e5; 2],
+        };
+        known.add(5, 1e5);
+        let text = section(&known).replace('\u{a0}', " ");
+        assert_eq!(
+            text,
+            "1–5: 500 × 500 mm, 12 d22 (1.82 %), concrete 20.1 MPa, steel 400 MPa, axial compression 100.0 kN to 900.0 kN"
+        );
+    }
+}
