@@ -1,5 +1,6 @@
 //! Arguments as typed.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
@@ -18,6 +19,17 @@ pub(crate) struct Args {
     pub(crate) command: Command,
 }
 
+impl Args {
+    /// Parses, or says what is wrong (or what was asked for, as with `--help`) and returns the exit code.
+    pub(crate) fn of(arguments: impl IntoIterator<Item = OsString>) -> Result<Self, u8> {
+        Self::try_parse_from(arguments).map_err(|error| {
+            // A closed pipe, as of `head`, is the reader's wish.
+            let _ = error.print();
+            u8::try_from(error.exit_code()).unwrap_or(2)
+        })
+    }
+}
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Analyse a model and write summary, histories, impacts and a report
@@ -26,8 +38,17 @@ pub(crate) enum Command {
     Check(ModelArgs),
     /// Natural periods, participation and shapes
     Modes(ModesArgs),
+    /// Two free masses meet under one contact law, or under all of them
+    Collide(Box<CollideArgs>),
     /// Size and accuracy of the step equations in every form, on your own buildings
     Method(MethodArgs),
+    /// Cracking and yield of reinforced-concrete sections, by formulas and fibre by fibre
+    Section(SectionArgs),
+    /// Ground motions: look at them, convert them, make them
+    #[command(subcommand)]
+    Motion(Box<crate::motion::MotionCommand>),
+    /// Push buildings sideways until they have swayed far enough or can stand no more
+    Pushover(PushoverArgs),
     /// Write a commented starter file
     New(NewArgs),
     /// Print the JSON Schema of model files
@@ -81,12 +102,150 @@ pub(crate) struct ModesArgs {
 }
 
 #[derive(Debug, clap::Args)]
+pub(crate) struct CollideArgs {
+    /// Contact law
+    #[arg(long, value_name = "LAW", default_value = "hertz-damp", value_parser = jostle_io::LAW_NAMES)]
+    pub(crate) law: String,
+    /// Every law
+    #[arg(long, conflicts_with = "law")]
+    pub(crate) all: bool,
+    /// Mass of the one body
+    #[arg(long, value_name = "QUANTITY")]
+    pub(crate) m1: String,
+    /// Mass of the other
+    #[arg(long, value_name = "QUANTITY")]
+    pub(crate) m2: String,
+    /// Speed at which they close
+    #[arg(long, value_name = "QUANTITY")]
+    pub(crate) speed: String,
+    /// Contact stiffness in N/m^1.5 or N/m; for laws of the other family the one with the same secant at the greatest
+    /// elastic Hertz indentation [default: 2e9 N/m^1.5]
+    #[arg(long, value_name = "QUANTITY")]
+    pub(crate) stiffness: Option<String>,
+    /// Coefficient of restitution
+    #[arg(long, value_name = "NUMBER", default_value = "0.65")]
+    pub(crate) restitution: String,
+    /// Whether the published formula takes it, or the masses really rebound with it
+    #[arg(long, value_name = "MEANING", default_value = "input", value_parser = ["input", "realised"])]
+    pub(crate) restitution_is: String,
+    /// Of modified-kelvin
+    #[arg(long, default_value = "ye", value_parser = ["ye", "mahmoud-jankowski"])]
+    pub(crate) variant: String,
+    /// Of bilinear: yield ÷ greatest design indentation
+    #[arg(long, value_name = "NUMBER", default_value = "0.1")]
+    pub(crate) yield_share: String,
+    /// Of bilinear: speed for which its stiffnesses are computed [default: --speed]
+    #[arg(long, value_name = "QUANTITY")]
+    pub(crate) design_speed: Option<String>,
+    /// Of rubber: thickness of the bumper
+    #[arg(long, value_name = "QUANTITY", default_value = "50 mm")]
+    pub(crate) thickness: String,
+    /// Of rubber: exponent of the compression
+    #[arg(long, value_name = "NUMBER", default_value = "2.65")]
+    pub(crate) exponent: String,
+    /// Write the curves to this file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Write a page with table and charts to this file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
+    /// Print JSON and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
 pub(crate) struct MethodArgs {
     /// Model file, or the name of a built-in example; without it, the built-in "paper"
     pub(crate) model: Option<PathBuf>,
     /// Folder for a page with tables and plots, method.html
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Either a model, or --width, --depth and --bars:\n  \
+                  jostle section --width 500mm --depth 500mm --bars \"12 d20\" --axial-load 800kN --length 3.2m")]
+pub(crate) struct SectionArgs {
+    /// Model file, or the name of a built-in example: every reinforced member
+    #[arg(conflicts_with_all = ["width", "depth", "bars"])]
+    pub(crate) model: Option<PathBuf>,
+    /// Width, across the direction of bending
+    #[arg(long, value_name = "QUANTITY", required_unless_present = "model")]
+    pub(crate) width: Option<String>,
+    /// Depth, in the direction of bending
+    #[arg(long, value_name = "QUANTITY", required_unless_present = "model")]
+    pub(crate) depth: Option<String>,
+    /// Bars, such as "12 d20" around, or "4 d25 top, 3 d25 bottom"
+    #[arg(long, value_name = "BARS", required_unless_present = "model")]
+    pub(crate) bars: Option<String>,
+    /// Grade C20 to C60 of GB 50010, or prismatic strength
+    #[arg(long, value_name = "GRADE", default_value = "C30")]
+    pub(crate) concrete: String,
+    /// Grade HRB335 to HRB500, or yield strength
+    #[arg(long, value_name = "GRADE", default_value = "HRB400")]
+    pub(crate) steel: String,
+    /// Strength that a grade stands for
+    #[arg(long, value_name = "LEVEL", default_value = jostle_section::StrengthLevel::NAMES[0], value_parser = jostle_section::StrengthLevel::NAMES)]
+    pub(crate) strength: String,
+    /// Concrete over the surfaces of the bars
+    #[arg(long, value_name = "QUANTITY", default_value = "35mm")]
+    pub(crate) cover: String,
+    /// Ties that confine the core, such as "d10 @ 100 mm"
+    #[arg(long, value_name = "TIES")]
+    pub(crate) ties: Option<String>,
+    /// Axial compression; without it, a beam
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
+    pub(crate) axial_load: Option<String>,
+    /// Length of the member, bent in double curvature
+    #[arg(long, value_name = "QUANTITY", default_value = "3m")]
+    pub(crate) length: String,
+    /// Print JSON and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Write a page with the curves and the sections
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct PushoverArgs {
+    /// Model file, or the name of a built-in example; without it, the built-in "paper"
+    pub(crate) model: Option<PathBuf>,
+    /// Push only this building
+    #[arg(long, value_name = "NAME")]
+    pub(crate) building: Option<String>,
+    /// How the load is spread over the height: mass times first mode, mass, or mass times height
+    #[arg(long, value_enum, default_value_t = Spread::FirstMode)]
+    pub(crate) pattern: Spread,
+    /// Roof displacement over height at which to stop
+    #[arg(long, value_name = "RATIO", default_value = "0.02")]
+    pub(crate) drift: String,
+    /// Which way to push
+    #[arg(long, value_enum, default_value_t = Push::Right)]
+    pub(crate) direction: Push,
+    /// Folder for the results [default: jostle-out/MODEL; with --json, none]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print JSON and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// How the load of a pushover is spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Spread {
+    FirstMode,
+    Uniform,
+    Triangular,
+}
+
+/// Which way to push.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Push {
+    Left,
+    Right,
+    Both,
 }
 
 #[derive(Debug, clap::Args)]

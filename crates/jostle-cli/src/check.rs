@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
+use jostle::hysteresis::{Hysteresis, Side};
 use jostle::modal::Mode;
-use jostle::model::Structure;
+use jostle::model::{Hinges, Structure};
 use jostle::stepping::StepEquations;
 use jostle::system::BuildingSystem;
-use jostle::{Model, Plan, RiccatiSweep, System};
+use jostle::{Building, Model, Plan, RiccatiSweep, System};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
@@ -25,6 +26,7 @@ pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
     if opened.input.motion.is_some() {
         let (motion, plan) = opened.plan()?;
         let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
+        let _ = writeln!(text, "  {}", plan.integrator);
         let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
     } else {
         let _ = writeln!(
@@ -51,6 +53,13 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             }
         };
         describe_building(text, building, &kind)?;
+        for line in special(&model.buildings[index]) {
+            writeln!(text, "  {line}")?;
+        }
+        if let Some(hinges) = &model.buildings[index].hinges {
+            describe_hinges(text, hinges)?;
+        }
+        writeln!(text)?;
     }
     for (index, gap) in model.gaps.iter().enumerate() {
         let contacts: Vec<_> = system
@@ -121,9 +130,140 @@ fn describe_building(text: &mut String, building: &BuildingSystem, kind: &str) -
     writeln!(text, "  lateral periods {} s", periods.join(", "))?;
     writeln!(
         text,
-        "  Rayleigh damping α = {:.5} 1/s, β = {:.6} s\n",
+        "  Rayleigh damping α = {:.5} 1/s, β = {:.6} s",
         equations.alpha, equations.beta
     )
+}
+
+/// What a building has beyond the plain case, one line each.
+fn special(building: &Building) -> Vec<String> {
+    let mut lines = Vec::new();
+    let list = |parts: &[(&str, Option<f64>, &str)]| {
+        let known = parts.iter().filter_map(|(name, value, unit)| {
+            let value = value.filter(|value| *value > 0.0)?;
+            Some(format!("{name} {} {unit}", short(value)))
+        });
+        known.collect::<Vec<_>>().join(", ")
+    };
+    let base = &building.base;
+    if !base.is_fixed() {
+        let springs = list(&[
+            ("rotation", base.rotational_stiffness, "N.m/rad"),
+            ("sideways", base.horizontal_stiffness, "N/m"),
+            ("vertical", base.vertical_stiffness, "N/m"),
+        ]);
+        lines.push(format!("base on springs: {springs}"));
+        let dashpots = list(&[
+            ("rotation", Some(base.rotational_damping), "N.m.s/rad"),
+            ("sideways", Some(base.horizontal_damping), "N.s/m"),
+            ("vertical", Some(base.vertical_damping), "N.s/m"),
+        ]);
+        if !dashpots.is_empty() {
+            lines.push(format!("base with dashpots: {dashpots}"));
+        }
+        if base.mass > 0.0 {
+            lines.push(format!("footings of {:.2} t", base.mass * 1e-3));
+        }
+    }
+    if building.gravity.preload {
+        lines.push("gravity: starts from the displacements under its weight".into());
+    }
+    if building.gravity.p_delta {
+        lines.push("P-Delta: the weight above leans on the sway of every column".into());
+    }
+    if let Structure::Frame(frame) = &building.structure {
+        let least = |sections: &[jostle::Section]| {
+            let known = sections.iter().filter_map(|section| section.shear_rigidity);
+            known.min_by(f64::total_cmp)
+        };
+        let shear = list(&[
+            ("columns from", least(&frame.columns), "N"),
+            ("beams from", least(&frame.beams), "N"),
+        ]);
+        if !shear.is_empty() {
+            lines.push(format!("members deform in shear, GA: {shear}"));
+        }
+        let joint = list(&[
+            ("rotation", frame.joint.rotational_stiffness, "N.m/rad"),
+            ("sideways", frame.joint.horizontal_stiffness, "N/m"),
+            ("vertical", frame.joint.vertical_stiffness, "N/m"),
+        ]);
+        if !joint.is_empty() {
+            lines.push(format!("beam ends on springs: {joint}"));
+        }
+    }
+    lines
+}
+
+/// A stiffness with three digits.
+fn short(value: f64) -> String {
+    format!("{value:.2e}")
+}
+
+fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
+    match hinges {
+        Hinges::Frame(hinges) => {
+            for (name, rows) in [("columns", &hinges.columns), ("beams", &hinges.beams)] {
+                let springs: Vec<&Hysteresis> = rows.iter().flatten().collect();
+                let sides = [(Side::Positive, " +"), (Side::Negative, " −")];
+                let differ = springs
+                    .iter()
+                    .any(|spring| spring.backbone().mirrored() != *spring.backbone());
+                for (side, sign) in sides {
+                    if springs.is_empty() || (side == Side::Negative && !differ) {
+                        continue;
+                    }
+                    let sign = if differ { sign } else { "" };
+                    let rule = springs[0].rule().name();
+                    let [cracking, yielding] = extents(&springs, side);
+                    writeln!(
+                        text,
+                        "  hinges {rule}, {name}{sign}: crack at {} kN.m, yield at {} kN.m",
+                        range(cracking, 1e-3),
+                        range(yielding, 1e-3)
+                    )?;
+                }
+            }
+        }
+        Hinges::Storeys(springs) => {
+            let springs: Vec<&Hysteresis> = springs.iter().collect();
+            if let Some(first) = springs.first() {
+                let [cracking, yielding] = extents(&springs, Side::Positive);
+                writeln!(
+                    text,
+                    "  storeys {}: crack at {} kN, yield at {} kN",
+                    first.rule().name(),
+                    range(cracking, 1e-3),
+                    range(yielding, 1e-3)
+                )?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Least and greatest cracking and yield force of some springs.
+fn extents(springs: &[&Hysteresis], side: Side) -> [[f64; 2]; 2] {
+    springs
+        .iter()
+        .fold([[f64::INFINITY, 0.0]; 2], |extents, spring| {
+            let side = spring.backbone().side(side);
+            let [c, y] = [side.cracking.force, side.yielding.force];
+            [
+                [extents[0][0].min(c), extents[0][1].max(c)],
+                [extents[1][0].min(y), extents[1][1].max(y)],
+            ]
+        })
+}
+
+/// A range, or one number where its ends look the same.
+fn range([low, high]: [f64; 2], scale: f64) -> String {
+    let [low, high] = [low, high].map(|value| format!("{:.1}", value * scale));
+    if low == high {
+        low
+    } else {
+        format!("{low} to {high}")
+    }
 }
 
 fn describe_work(
@@ -150,4 +290,47 @@ fn describe_work(
         grouped(couplings as u64),
         grouped(2 * couplings as u64)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use jostle::{Base, Damping, Gravity, Shear};
+
+    use super::*;
+
+    #[test]
+    fn what_is_special_gets_one_line_each() {
+        let mut building = Building {
+            name: "A".into(),
+            structure: Structure::Shear(Shear {
+                mass: vec![1e4],
+                stiffness: vec![1e7],
+                storey_heights: vec![3.0],
+            }),
+            damping: Damping::Rayleigh {
+                alpha: 0.0,
+                beta: 0.0,
+            },
+            base: Base::default(),
+            gravity: Gravity::default(),
+            hinges: None,
+        };
+        assert_eq!(special(&building), Vec::<String>::new());
+        building.gravity.p_delta = true;
+        building.base = Base {
+            horizontal_stiffness: Some(5e8),
+            horizontal_damping: 2e6,
+            mass: 3e3,
+            ..Base::default()
+        };
+        assert_eq!(
+            special(&building),
+            [
+                "base on springs: sideways 5.00e8 N/m",
+                "base with dashpots: sideways 2.00e6 N.s/m",
+                "footings of 3.00 t",
+                "P-Delta: the weight above leans on the sway of every column",
+            ]
+        );
+    }
 }

@@ -1,7 +1,5 @@
 //! How a command can fail, and what the shell is told.
 
-use std::process::ExitCode;
-
 use jostle_io::{InputError, OutputError};
 
 use crate::terminal;
@@ -18,18 +16,18 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// Prints the failure and turns it into an exit code.
-    pub(crate) fn report(self) -> ExitCode {
+    /// Prints the failure and returns the exit code.
+    pub(crate) fn report(self) -> u8 {
         match self {
             Self::Input(text) => {
                 terminal::error(&text);
-                ExitCode::from(2)
+                2
             }
             Self::Analysis(text) => {
                 terminal::error(&text);
-                ExitCode::from(1)
+                1
             }
-            Self::Stopped => ExitCode::from(130),
+            Self::Stopped => 130,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use jostle::System;
 use jostle::modal::{self, Mode};
 use jostle::system::BuildingSystem;
 use jostle_io::Overrides;
@@ -15,19 +16,9 @@ use crate::terminal::{self, BOLD, DIM, styled};
 pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
     let opened = open(args.model.as_deref(), &Overrides::default())?;
     let count = args.count as usize;
-    let mut listed = Vec::new();
-    for building in &opened.system.buildings {
-        let modes = modal::modes(building, count).map_err(|problem| {
-            Failure::Analysis(format!("no modes of \"{}\": {problem}", building.name))
-        })?;
-        listed.push((building, modes));
-    }
+    let listed = list(&opened.system, count).map_err(Failure::Analysis)?;
     if args.json {
-        let buildings: Vec<Value> = listed
-            .iter()
-            .map(|(building, modes)| as_json(building, modes, count))
-            .collect();
-        return terminal::print(&format!("{:#}", json!({ "buildings": buildings })));
+        return terminal::print(&format!("{:#}", listed_as_json(&listed, count)));
     }
     let mut text = String::new();
     for (building, modes) in &listed {
@@ -40,6 +31,33 @@ pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
          Riccati recursion (Wittrick and Williams), shapes by inverse iteration."
     );
     terminal::print(&text)
+}
+
+/// The JSON of `jostle modes`: up to `count` modes of every building, from the longest period down.
+///
+/// # Errors
+/// Names the building whose modes were not found, and why.
+pub fn modes_json(system: &System, count: usize) -> Result<Value, String> {
+    Ok(listed_as_json(&list(system, count)?, count))
+}
+
+type Listed<'a> = Vec<(&'a BuildingSystem, Vec<Mode>)>;
+
+fn list(system: &System, count: usize) -> Result<Listed<'_>, String> {
+    let modes = system.buildings.iter().map(|building| {
+        let modes = modal::modes(building, count)
+            .map_err(|problem| format!("no modes of \"{}\": {problem}", building.name))?;
+        Ok((building, modes))
+    });
+    modes.collect()
+}
+
+fn listed_as_json(listed: &Listed<'_>, count: usize) -> Value {
+    let buildings: Vec<Value> = listed
+        .iter()
+        .map(|(building, modes)| as_json(building, modes, count))
+        .collect();
+    json!({ "buildings": buildings })
 }
 
 fn as_json(building: &BuildingSystem, modes: &[Mode], count: usize) -> Value {

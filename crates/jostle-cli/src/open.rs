@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use jostle::model::ModelFault;
 use jostle::{GroundMotion, Plan, System};
-use jostle_io::{Dimension, Input, InputError, Overrides, parse_quantity};
+use jostle_io::{Dimension, Input, Overrides, parse_quantity};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
@@ -25,17 +24,11 @@ pub(crate) struct Opened {
 /// Reads a model file, or a built-in example, and assembles it.
 pub(crate) fn open(model: Option<&Path>, overrides: &Overrides) -> Result<Opened, Failure> {
     let path = model.unwrap_or(Path::new(EXAMPLE));
-    let builtin = path
-        .to_str()
-        .filter(|name| !path.exists() && jostle_io::model_names().contains(name));
-    let mut input = match builtin {
-        Some(name) => jostle_io::builtin_model(name)?,
-        None => jostle_io::read_model_file(path)?,
-    };
+    let mut input = read(path)?;
     input
         .apply(overrides)
         .map_err(|error| Failure::Input(error.to_string()))?;
-    let system = System::assemble(&input.model).map_err(|faults| point_at(&input, faults))?;
+    let system = System::assemble(&input.model).map_err(|faults| input.faults(faults))?;
     let name = path.file_stem().map_or_else(
         || EXAMPLE.to_owned(),
         |stem| stem.to_string_lossy().into_owned(),
@@ -45,6 +38,17 @@ pub(crate) fn open(model: Option<&Path>, overrides: &Overrides) -> Result<Opened
         name,
         system,
         other_record: overrides.record.is_some(),
+    })
+}
+
+/// Reads a model file, or a built-in example.
+pub(crate) fn read(path: &Path) -> Result<Input, Failure> {
+    let builtin = path
+        .to_str()
+        .filter(|name| !path.exists() && jostle_io::model_names().contains(name));
+    Ok(match builtin {
+        Some(name) => jostle_io::builtin_model(name)?,
+        None => jostle_io::read_model_file(path)?,
     })
 }
 
@@ -61,7 +65,7 @@ impl Opened {
                 _ => error.into(),
             })?;
         let plan = Plan::choose(&self.system, &motion, &self.input.model.analysis)
-            .map_err(|faults| point_at(&self.input, faults))?;
+            .map_err(|faults| self.input.faults(faults))?;
         Ok((motion, plan))
     }
 }
@@ -82,19 +86,4 @@ impl ModelArgs {
             record: self.record.clone(),
         })
     }
-}
-
-/// Faults that only assembly shows, at their lines of the file.
-fn point_at(input: &Input, faults: Vec<ModelFault>) -> Failure {
-    let mut errors = faults
-        .into_iter()
-        .map(|fault| input.fault(&fault.path, fault.problem));
-    let Some(first) = errors.next() else {
-        return Failure::Input("the model is wrong".to_owned());
-    };
-    let all = errors.fold(first, |mut all: InputError, error| {
-        all.faults.extend(error.faults);
-        all
-    });
-    all.into()
 }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle::stepping::Progress;
 use jostle::{GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Summary, simulate};
-use jostle_report::Page;
+use jostle_report::{Page, ReinforcedSection};
 
 use crate::args::RunArgs;
 use crate::failure::Failure;
@@ -72,14 +72,21 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     if let (Some(out), Some(history)) = (&out, &outcome.history) {
         jostle_io::write_history_parquet(&out.join("history.parquet"), model, &summary, history)?;
         jostle_io::write_impacts_parquet(&out.join("impacts.parquet"), &summary)?;
+        if !outcome.springs.is_empty() {
+            let path = out.join("hinges.parquet");
+            jostle_io::write_hinges_parquet(&path, &opened.system, &outcome, &summary)?;
+        }
         if !args.no_report {
             let without_contact = twin.as_ref().and_then(|twin| twin.history.as_ref());
+            let sections = reinforced(&opened);
             let page = Page {
                 model,
                 motion: &motion,
                 summary: &summary,
                 history,
                 without_contact,
+                springs: outcome.spring_history.as_ref(),
+                sections: &sections,
             };
             jostle_io::write_atomically(
                 &out.join("report.html"),
@@ -95,6 +102,29 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         terminal::print(&run_text::describe(&summary, report.as_deref()))?;
     }
     ending(&outcome.end, out.as_deref())
+}
+
+/// Reinforced sections of the model, alike ones told once.
+fn reinforced(opened: &Opened) -> Vec<ReinforcedSection<'_>> {
+    let mut sections: Vec<ReinforcedSection<'_>> = Vec::new();
+    for member in &opened.input.reinforced {
+        let alike = sections.iter_mut().find(|known| {
+            known.building == member.building
+                && known.member == member.member
+                && *known.section == member.section
+        });
+        match alike {
+            Some(known) => known.add(member.floor, member.compression),
+            None => sections.push(ReinforcedSection {
+                building: member.building,
+                member: member.member,
+                section: &member.section,
+                floors: [member.floor; 2],
+                compression: [member.compression; 2],
+            }),
+        }
+    }
+    sections
 }
 
 /// The folder for results, if any are to be written.

@@ -12,6 +12,12 @@ use crate::terminal::{BOLD, DIM, LOUD, styled};
 /// Contacts listed at most.
 const LISTED: usize = 10;
 
+/// The summary of a run on one screen, as `jostle run` prints it, without colours.
+#[must_use]
+pub fn summary_text(summary: &Summary) -> String {
+    anstream::adapter::strip_str(&describe(summary, None)).to_string()
+}
+
 /// The summary as text; `result` is the file to open next.
 pub(crate) fn describe(summary: &Summary, result: Option<&Path>) -> String {
     let mut text = String::new();
@@ -40,6 +46,7 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
         )?;
     }
     write_buildings(text, &summary.buildings)?;
+    write_hinges(text, &summary.buildings)?;
     for gap in &summary.gaps {
         write_gap(text, gap, summary)?;
     }
@@ -51,11 +58,15 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     }
     let (energy, work) = (&summary.energy, &summary.work);
     let accounting = format!(
-        "energy balance {:.0e} · {} steps of {:.3} ms ({} in contact) · {} · {} · {:.3} s",
+        "energy balance {:.0e} · {} steps of {:.3} ms ({} in contact{}) · {} · {} · {:.3} s",
         energy.worst_imbalance,
         grouped(work.steps),
         work.step_s * 1e3,
         grouped(work.contact_steps),
+        match work.halved_steps {
+            0 => String::new(),
+            halved => format!(", {} halved", grouped(halved)),
+        },
         counted_grouped(work.factorizations, "factorisation"),
         counted_grouped(work.solves, "solution"),
         work.wall_s
@@ -104,6 +115,30 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
             drift * 100.0,
             kn(building.base_shear_peak_n)
         )?;
+    }
+    Ok(())
+}
+
+/// One line for every building that can crack and yield.
+fn write_hinges(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    let mut between = "\n";
+    for building in buildings
+        .iter()
+        .filter(|building| building.hinges.total > 0)
+    {
+        let hinges = &building.hinges;
+        let first = hinges.first_yield_s.map_or_else(String::new, |first| {
+            format!(
+                ", first at {first:.3} s, with a ductility up to {:.1}",
+                hinges.ductility
+            )
+        });
+        writeln!(
+            text,
+            "{between}{} yields at {} of {} places{first}; cracked: {}",
+            building.name, hinges.yielded, hinges.total, hinges.cracked
+        )?;
+        between = "";
     }
     Ok(())
 }
@@ -168,6 +203,15 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
             counted(hit.len() - LISTED, "contact")
         )?;
     }
+    if gap.multiple_pounding_count > 0 {
+        writeln!(
+            text,
+            "  {} of {} at several floors at the same time, at most {} at once.",
+            gap.multiple_pounding_count,
+            counted(gap.pounding_count, "pounding"),
+            gap.most_at_once
+        )?;
+    }
     if let Some(closing) = gap.closing_without_contact_m {
         writeln!(
             text,
@@ -200,4 +244,53 @@ fn write_code_joint(text: &mut String, gap: &GapSummary, summary: &Summary) -> s
         "  GB 50011 asks frames {lower:.1} m high for {} mm at intensity 6 / 7 / 8 / 9.",
         joints.join(" / ")
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use jostle::summary::HingeSummary;
+
+    use super::*;
+
+    fn building(name: &str, hinges: HingeSummary) -> BuildingSummary {
+        BuildingSummary {
+            name: name.to_owned(),
+            mass_kg: 0.0,
+            periods_s: Vec::new(),
+            rayleigh_alpha_per_s: 0.0,
+            rayleigh_beta_s: 0.0,
+            floors: Vec::new(),
+            base_shear_peak_n: 0.0,
+            residual_roof_displacement_m: 0.0,
+            hinges,
+        }
+    }
+
+    #[test]
+    fn only_buildings_with_hinges_speak_of_them() {
+        let some = HingeSummary {
+            total: 50,
+            cracked: 40,
+            yielded: 7,
+            first_yield_s: Some(2.134_4),
+            ductility: 2.44,
+            ..HingeSummary::default()
+        };
+        let uncracked = HingeSummary {
+            total: 4,
+            ..HingeSummary::default()
+        };
+        let buildings = [
+            building("A", some),
+            building("B", HingeSummary::default()),
+            building("C", uncracked),
+        ];
+        let mut text = String::new();
+        let _ = write_hinges(&mut text, &buildings);
+        assert_eq!(
+            text,
+            "\nA yields at 7 of 50 places, first at 2.134 s, with a ductility up to 2.4; cracked: 40\n\
+             C yields at 0 of 4 places; cracked: 0\n"
+        );
+    }
 }

@@ -305,3 +305,88 @@ fn the_product_is_refused_where_it_would_lose_its_digits() {
     let said = printed(&forced) + &complained(&forced);
     assert!(said.contains("do not trust this run"), "{said}");
 }
+
+/// A shear building that yields and leans.
+const SWAYING: &str = r#"title = "swaying"
+[[building]]
+name = "S"
+kind = "shear"
+mass = ["60 t", "50 t"]
+stiffness = ["60 MN/m", "50 MN/m"]
+storey_height = ["4 m", "3 m"]
+p_delta = true
+hinges = { rule = "peak-oriented", cracking = "4 mm", yield = "15 mm", post_cracking = 0.4, post_yield = 0.005 }
+"#;
+
+#[test]
+fn pushover_tells_strength_and_writes_the_curve() {
+    let folder = folder();
+    std::fs::write(folder.path().join("s.toml"), SWAYING).expect("a model file");
+    let output = jostle(
+        folder.path(),
+        &[
+            "pushover",
+            "s.toml",
+            "--direction",
+            "both",
+            "--drift",
+            "3 %",
+            "--pattern",
+            "uniform",
+        ],
+    );
+    assert!(output.status.success(), "{}", complained(&output));
+    let text = printed(&output);
+    for part in [
+        "pushed to the left",
+        "first yield",
+        "FEMA 356",
+        "storey 1",
+        "pushover.html",
+    ] {
+        assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");
+    }
+    let results = folder.path().join("jostle-out/s");
+    let table = std::fs::read_to_string(results.join("pushover.csv")).expect("a table");
+    let header = table.lines().next().expect("a header");
+    assert!(
+        header.starts_with("building,direction,point,roof_displacement_m,roof_drift,base_shear_n")
+    );
+    assert!(header.ends_with("storey1_drift,storey2_drift,events"));
+    assert!(table.contains("storey 1 yields"), "{table}");
+    let json = std::fs::read_to_string(results.join("pushover.json")).expect("JSON");
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    let curves = json["curves"].as_array().expect("curves");
+    assert_eq!(curves.len(), 2);
+    // By hand: storey 1 carries all of the load, and P-Delta takes (60 t + 50 t) g / 4 m from it.
+    let force = 60e6 * (0.004 + 0.4 * 0.011) - 110e3 * 9.80665 / 4.0 * 0.015;
+    let yields = curves[0]["first_yield"]["base_shear_n"]
+        .as_f64()
+        .expect("a number");
+    assert!((yields / force - 1.0).abs() < 1e-12, "{yields} {force}");
+    assert_eq!(curves[0]["peak"], curves[1]["peak"]);
+    assert_eq!(curves[0]["end"]["target_reached"], Value::Bool(true));
+}
+
+#[test]
+fn pushover_says_what_is_wrong() {
+    let folder = folder();
+    for (arguments, remedy) in [
+        (["--building", "J9"], "it has \"J1\", \"J2\""),
+        (["--drift", "0"], "must lie above 0"),
+        (["--drift", "3 mm"], "--drift"),
+    ] {
+        let output = jostle(folder.path(), &[&["pushover"], &arguments[..]].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(
+            complained(&output).contains(remedy),
+            "{}",
+            complained(&output)
+        );
+    }
+    let elastic = jostle(folder.path(), &["pushover", "--json"]);
+    assert!(elastic.status.success());
+    let json: Value = serde_json::from_str(&printed(&elastic)).expect("nothing but JSON");
+    assert_eq!(json["curves"][0]["hinges"], 0);
+    assert!(!folder.path().join("jostle-out").exists());
+}

@@ -1,0 +1,47 @@
+//! Command line of jostle: parse, do, say how it went. The program itself is `bin/jostle`.
+
+mod args;
+mod check;
+mod collide;
+mod failure;
+mod method;
+mod modes;
+mod motion;
+mod numbers;
+mod open;
+mod pushover;
+mod pushover_text;
+mod run;
+mod run_text;
+mod section;
+mod starter;
+mod terminal;
+
+use args::{Args, Command};
+
+pub use modes::modes_json;
+pub use run_text::summary_text;
+
+/// Does what the arguments say, the first of which names the program, and returns the exit code.
+pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
+    let args = match Args::of(arguments) {
+        Ok(args) => args,
+        Err(code) => return code,
+    };
+    let done = match args.command {
+        Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::Modes(args) => modes::modes(&args),
+        Command::Collide(args) => collide::collide(&args),
+        Command::Method(args) => method::method(&args),
+        Command::Pushover(args) => pushover::pushover(&args),
+        Command::Motion(command) => motion::run(&command),
+        Command::Section(args) => section::section(&args),
+        Command::New(args) => starter::new(&args),
+        Command::Schema => terminal::print(&jostle_io::model_schema()),
+    };
+    match done {
+        Ok(()) => 0,
+        Err(failure) => failure.report(),
+    }
+}

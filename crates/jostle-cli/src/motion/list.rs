@@ -1,0 +1,21 @@
+//! `jostle motion list`: what comes with the program.
+
+use crate::failure::Failure;
+use crate::terminal::{self, BOLD, styled};
+
+pub(super) fn list() -> Result<(), Failure> {
+    let motions = jostle_io::builtin_motions();
+    let width = motions
+        .iter()
+        .map(|(name, _)| name.len())
+        .max()
+        .unwrap_or(0);
+    let lines: Vec<String> = motions
+        .iter()
+        .map(|(name, description)| {
+            let gap = " ".repeat(width - name.len());
+            format!("{}{gap}  {description}", styled(BOLD, name))
+        })
+        .collect();
+    terminal::print(&lines.join("\n"))
+}

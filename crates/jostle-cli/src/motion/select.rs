@@ -1,0 +1,152 @@
+//! `jostle motion select`: whether a set of motions serves for time-history analysis.
+
+use std::fmt::Write;
+
+use jostle_io::{Dimension, write_atomically};
+use jostle_motion::{Candidate, MainPeriod, Origin, SelectionCheck, check_selection};
+use jostle_report::{SelectionPage, render_selection};
+use serde_json::{Value, json};
+
+use super::args::SelectArgs;
+use super::source::{open, quantities, quantity, wrong};
+use crate::failure::Failure;
+use crate::terminal::{self, BOLD, LOUD, styled};
+
+pub(super) fn select(args: &SelectArgs) -> Result<(), Failure> {
+    let target = args.target.open()?;
+    let damping = quantity("--damping", &args.damping, Dimension::Dimensionless)?;
+    let peak = match &args.pga {
+        _ if args.unscaled => None,
+        Some(text) => Some(quantity("--pga", text, Dimension::Acceleration)?),
+        None => target.peak_ground_acceleration(),
+    };
+    let periods = main_periods(args)?;
+    let mut set = Vec::new();
+    for (names, origin) in [
+        (&args.natural, Origin::Natural),
+        (&args.artificial, Origin::Artificial),
+    ] {
+        for name in names {
+            let record = open(name)?;
+            let motion = match peak {
+                Some(peak) => record.motion.scaled_to_peak(peak).map_err(wrong)?,
+                None => record.motion,
+            };
+            set.push(Candidate {
+                name: record.name,
+                motion,
+                origin,
+            });
+        }
+    }
+    if set.is_empty() {
+        return Err(Failure::Input(
+            "no motions; name some with --natural and --artificial".into(),
+        ));
+    }
+    let check = check_selection(&set, &target, &periods, damping).map_err(wrong)?;
+    if let Some(path) = &args.html {
+        let page = SelectionPage {
+            target: &target,
+            damping,
+            periods: &periods,
+            set: &set,
+            check: &check,
+        };
+        write_atomically(path, render_selection(&page).map_err(wrong)?.as_bytes())?;
+    }
+    if args.json {
+        return terminal::print(&format!("{:#}", as_json(&set, &check, &periods)));
+    }
+    let mut text = format!("{}\n", styled(BOLD, &target.name()));
+    describe(&mut text, &set, &check, &periods);
+    if let Some(path) = &args.html {
+        let _ = writeln!(text, "\n{}", path.display());
+    }
+    terminal::print(&text)
+}
+
+fn main_periods(args: &SelectArgs) -> Result<Vec<MainPeriod>, Failure> {
+    let periods = quantities("--periods", &args.periods, Dimension::Time)?;
+    let ratios = quantities("--mass-ratios", &args.mass_ratios, Dimension::Dimensionless)?;
+    if !ratios.is_empty() && ratios.len() != periods.len() {
+        let problem = format!(
+            "--mass-ratios: {} values for {} periods",
+            ratios.len(),
+            periods.len()
+        );
+        return Err(Failure::Input(problem));
+    }
+    let ratio = |i: usize| ratios.get(i).copied().unwrap_or(1.0);
+    let pairs = periods.into_iter().enumerate();
+    Ok(pairs
+        .map(|(i, period)| MainPeriod {
+            period,
+            mass_ratio: ratio(i),
+        })
+        .collect())
+}
+
+fn as_json(set: &[Candidate], check: &SelectionCheck, periods: &[MainPeriod]) -> Value {
+    let motions: Vec<Value> = set
+        .iter()
+        .enumerate()
+        .map(|(i, candidate)| {
+            json!({
+                "name": candidate.name,
+                "artificial": candidate.origin == Origin::Artificial,
+                "pga_m_s2": candidate.motion.peak(),
+                "ratios": check.ratios[i],
+                "base_shear_ratio": check.base_shear[i],
+                "effective_duration_s": check.effective_duration[i],
+            })
+        })
+        .collect();
+    let of_mean = |k: usize| check.mean.iter().map(|mean| mean[k]).collect::<Vec<_>>();
+    json!({
+        "periods_s": periods.iter().map(|main| main.period).collect::<Vec<_>>(),
+        "code_m_s2": of_mean(0),
+        "mean_m_s2": of_mean(1),
+        "mean_difference": of_mean(2),
+        "motions": motions,
+        "enough": check.enough,
+        "mean_agrees": check.mean_agrees,
+        "base_shear_agrees": check.base_shear_agrees,
+        "long_enough": check.long_enough,
+        "passes": check.passes(),
+    })
+}
+
+fn describe(text: &mut String, set: &[Candidate], check: &SelectionCheck, periods: &[MainPeriod]) {
+    // Writing to a string cannot fail.
+    let _ = write!(text, "  {:32}", "response over code at T =");
+    for main in periods {
+        let _ = write!(text, "{:>9}", format!("{} s", main.period));
+    }
+    let _ = writeln!(text, "{:>12}{:>12}", "base shear", "duration");
+    for (i, candidate) in set.iter().enumerate() {
+        let name: String = candidate.name.chars().take(30).collect();
+        let _ = write!(text, "  {name:32}");
+        for ratio in &check.ratios[i] {
+            let _ = write!(text, "{ratio:9.3}");
+        }
+        let duration = format!("{:.1} s", check.effective_duration[i]);
+        let _ = writeln!(text, "{:12.3}{duration:>12}", check.base_shear[i]);
+    }
+    let _ = write!(text, "  {:32}", "mean");
+    for [_, _, difference] in &check.mean {
+        let _ = write!(text, "{:9.3}", 1.0 + difference);
+    }
+    let mean = check.base_shear.iter().sum::<f64>() / set.len() as f64;
+    let _ = writeln!(text, "{mean:12.3}\n");
+    let [natural, artificial] = check.counts;
+    for (good, rule) in [
+        (check.enough, format!("{natural} recorded and {artificial} artificial: at least 2 and 1, or 5 and 1 of seven")),
+        (check.mean_agrees, "mean spectrum within 20 % of the code at the main periods".to_owned()),
+        (check.base_shear_agrees, "base shear of each within 65–135 %, of the mean within 80–120 % (estimated from the modes)".to_owned()),
+        (check.long_enough, "effective duration at least five times the longest main period".to_owned()),
+    ] {
+        let verdict = if good { "yes".to_owned() } else { styled(LOUD, "no ") };
+        let _ = writeln!(text, "  {verdict}  {rule}");
+    }
+}

@@ -1,0 +1,157 @@
+//! Motions, spectra and quantities from arguments; files to write.
+
+use std::path::Path;
+
+use jostle::GroundMotion;
+use jostle_io::{
+    Dimension, MotionSource, MotionSpec, RecordFormat, TargetWords, at2_text, csv_text,
+    parse_quantity, read_target_file, write_atomically,
+};
+use jostle_motion::{Accelerogram, MotionFault, TargetSpectrum};
+
+use super::args::{RecordArgs, TargetArgs};
+use crate::failure::Failure;
+
+/// A motion with its name.
+pub(super) struct Named {
+    pub(super) name: String,
+    pub(super) motion: Accelerogram,
+}
+
+impl RecordArgs {
+    pub(super) fn open(&self) -> Result<Named, Failure> {
+        let mut spec = MotionSpec::record(&self.record);
+        let step = self
+            .step
+            .as_deref()
+            .map(|text| quantity("--step", text, Dimension::Time));
+        let format = self.format.as_deref().map(|key| {
+            RecordFormat::from_key(key).map_err(|error| Failure::Input(format!("--format{error}")))
+        });
+        if let MotionSource::Record { options, .. } = &mut spec.source {
+            options.unit.clone_from(&self.unit);
+            options.step = step.transpose()?;
+            options.column = self.column;
+            options.component.clone_from(&self.component);
+            options.format = format.transpose()?;
+            options.scale = self.record_scale;
+            options.remove_mean = self.remove_mean.then_some(true);
+        }
+        resolve(&spec)
+    }
+}
+
+/// A motion by built-in name or path.
+pub(super) fn open(name: &str) -> Result<Named, Failure> {
+    resolve(&MotionSpec::record(name))
+}
+
+fn resolve(spec: &MotionSpec) -> Result<Named, Failure> {
+    let motion = spec
+        .resolve()
+        .map_err(|error| Failure::Input(error.to_string()))?;
+    let GroundMotion { name, wave, .. } = motion;
+    match wave {
+        jostle::Wave::Sampled { step, acceleration } => Ok(Named {
+            name,
+            motion: Accelerogram::new(step, acceleration).map_err(wrong)?,
+        }),
+        _ => Err(Failure::Input(format!("{name} is no record"))),
+    }
+}
+
+impl TargetArgs {
+    pub(super) fn open(&self) -> Result<TargetSpectrum, Failure> {
+        if let Some(path) = &self.target {
+            let mut target = read_target_file(path).map_err(|e| Failure::Input(e.to_string()))?;
+            if let Some(factor) = &self.factor {
+                target.factor = quantity("--factor", factor, Dimension::Dimensionless)?;
+            }
+            return Ok(target);
+        }
+        let words = TargetWords {
+            code: self.code.clone(),
+            intensity: self.intensity.clone(),
+            site: self.site.clone(),
+            group: self.group.clone(),
+            level: self.level.clone(),
+            kind: self.kind.clone(),
+            ground: self.ground.clone(),
+            ag: self.ag.clone(),
+            sds: self.sds.clone(),
+            sd1: self.sd1.clone(),
+            tl: self.tl.clone(),
+            factor: self.factor.clone(),
+        };
+        words
+            .target()
+            .map_err(|error| Failure::Input(format!("--{error}")))
+    }
+}
+
+/// A quantity of an option.
+pub(super) fn quantity(option: &str, text: &str, dimension: Dimension) -> Result<f64, Failure> {
+    parse_quantity(text, dimension).map_err(|error| Failure::Input(format!("{option}: {error}")))
+}
+
+/// Several of them.
+pub(super) fn quantities(
+    option: &str,
+    texts: &[String],
+    dimension: Dimension,
+) -> Result<Vec<f64>, Failure> {
+    texts
+        .iter()
+        .map(|text| quantity(option, text, dimension))
+        .collect()
+}
+
+/// A fault of what was asked for.
+pub(super) fn wrong(fault: MotionFault) -> Failure {
+    Failure::Input(fault.to_string())
+}
+
+/// Writes a motion in the format of the file's extension.
+pub(super) fn write(
+    path: &Path,
+    force: bool,
+    name: &str,
+    motion: &Accelerogram,
+) -> Result<(), Failure> {
+    let extension = path
+        .extension()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_lowercase();
+    let text = match extension.as_str() {
+        "at2" => at2_text(name, motion.step(), motion.acceleration()),
+        "csv" => csv_text(name, motion.step(), motion.acceleration()),
+        _ => {
+            let shown = path.display();
+            let problem =
+                format!("{shown}: a motion is written as .at2 or .csv; give the file such a name");
+            return Err(Failure::Input(problem));
+        }
+    };
+    if path.exists() && !force {
+        let problem = format!(
+            "{} exists already; choose another name, or add --force",
+            path.display()
+        );
+        return Err(Failure::Input(problem));
+    }
+    write_atomically(path, text.as_bytes())?;
+    Ok(())
+}
+
+/// One line about a motion.
+pub(super) fn in_short(motion: &Accelerogram) -> String {
+    format!(
+        "{} values, step {} s, {:.2} s, PGA {:.4} m/s² ({:.4} g)",
+        motion.points(),
+        motion.step(),
+        motion.duration(),
+        motion.peak(),
+        motion.peak() / jostle_motion::STANDARD_GRAVITY
+    )
+}

@@ -1,0 +1,166 @@
+//! `jostle motion spectrum`: response spectra as JSON, CSV, Parquet or a table.
+
+use std::fmt::Write;
+
+use jostle_io::{Dimension, write_atomically, write_columns_parquet};
+use jostle_motion::{
+    DuctilitySpectrum, Reading, ResponseSpectrum, ductility_spectrum, response_spectrum,
+    spaced_periods,
+};
+use serde_json::{Value, json};
+
+use super::args::{PeaksAt, SpectrumArgs};
+use super::source::{quantities, quantity, wrong};
+use crate::failure::Failure;
+use crate::terminal::{self, BOLD, styled};
+
+/// An inelastic spectrum and its damping ratio.
+type Inelastic = (f64, DuctilitySpectrum);
+
+pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
+    let record = args.record.open()?;
+    let dampings = quantities("--damping", &args.damping, Dimension::Dimensionless)?;
+    let mut periods = quantities("--periods", &args.periods, Dimension::Time)?;
+    if periods.is_empty() {
+        periods = spaced_periods(0.02, 10.0, 200);
+    }
+    let reading = match args.peaks {
+        PeaksAt::Steps => Reading::Steps,
+        PeaksAt::Between => Reading::Between,
+    };
+    let elastic = response_spectrum(&record.motion, &periods, &dampings, reading).map_err(wrong)?;
+    let post_yield = quantity("--post-yield", &args.post_yield, Dimension::Dimensionless)?;
+    let mut inelastic = Vec::new();
+    for &damping in &dampings {
+        for &ductility in &quantities("--ductility", &args.ductility, Dimension::Dimensionless)? {
+            let found =
+                ductility_spectrum(&record.motion, &periods, ductility, damping, post_yield);
+            inelastic.push((damping, found.map_err(wrong)?));
+        }
+    }
+    let mut written = Vec::new();
+    if let Some(path) = &args.csv {
+        write_atomically(path, csv(&columns(&elastic, &inelastic)).as_bytes())?;
+        written.push(path.display().to_string());
+    }
+    if let Some(path) = &args.parquet {
+        write_columns_parquet(path, &record.name, columns(&elastic, &inelastic))?;
+        written.push(path.display().to_string());
+    }
+    if args.json {
+        terminal::print(&format!("{:#}", as_json(&elastic, &inelastic)))
+    } else if written.is_empty() {
+        terminal::print(&table(&record.name, &elastic, &inelastic))
+    } else {
+        terminal::print(&format!("{} written", written.join(" and ")))
+    }
+}
+
+fn as_json(elastic: &ResponseSpectrum, inelastic: &[Inelastic]) -> Value {
+    let curve = |curve: &jostle_motion::SpectrumCurve| {
+        json!({
+            "damping": curve.damping,
+            "displacement_m": curve.displacement,
+            "pseudo_velocity_m_s": curve.pseudo_velocity,
+            "pseudo_acceleration_m_s2": curve.pseudo_acceleration,
+            "total_acceleration_m_s2": curve.total_acceleration,
+        })
+    };
+    let ductile = |(damping, spectrum): &Inelastic| {
+        json!({
+            "damping": damping,
+            "ductility": spectrum.ductility,
+            "yield_acceleration_m_s2": spectrum.yield_acceleration,
+            "reduction": spectrum.reduction,
+            "displacement_m": spectrum.displacement,
+        })
+    };
+    let mut value = json!({
+        "periods_s": elastic.periods,
+        "spectra": elastic.curves.iter().map(curve).collect::<Vec<_>>(),
+    });
+    if !inelastic.is_empty() {
+        value["inelastic"] = inelastic.iter().map(ductile).collect();
+    }
+    value
+}
+
+/// Columns of a table, named with damping in percent, ductility and unit.
+fn columns(elastic: &ResponseSpectrum, inelastic: &[Inelastic]) -> Vec<(String, Vec<f64>)> {
+    let mut columns = vec![("period_s".to_owned(), elastic.periods.clone())];
+    let percent = |damping: f64| format!("{}pct", (1e4 * damping).round() / 100.0);
+    for curve in &elastic.curves {
+        let z = percent(curve.damping);
+        columns.push((format!("sd_{z}_m"), curve.displacement.clone()));
+        columns.push((format!("psv_{z}_m_s"), curve.pseudo_velocity.clone()));
+        columns.push((format!("psa_{z}_m_s2"), curve.pseudo_acceleration.clone()));
+        columns.push((format!("sa_{z}_m_s2"), curve.total_acceleration.clone()));
+    }
+    for (damping, spectrum) in inelastic {
+        let kind = format!("mu{}_{}", spectrum.ductility, percent(*damping));
+        columns.push((
+            format!("ay_{kind}_m_s2"),
+            spectrum.yield_acceleration.clone(),
+        ));
+        columns.push((format!("reduction_{kind}"), spectrum.reduction.clone()));
+        columns.push((format!("sd_{kind}_m"), spectrum.displacement.clone()));
+    }
+    columns
+}
+
+fn csv(columns: &[(String, Vec<f64>)]) -> String {
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    let mut text = names.join(",") + "\n";
+    for row in 0..columns.first().map_or(0, |(_, values)| values.len()) {
+        let fields: Vec<String> = columns
+            .iter()
+            .map(|(_, values)| values[row].to_string())
+            .collect();
+        text += &(fields.join(",") + "\n");
+    }
+    text
+}
+
+fn table(name: &str, elastic: &ResponseSpectrum, inelastic: &[Inelastic]) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    for curve in &elastic.curves {
+        let _ = writeln!(
+            text,
+            "{}, damping {} %",
+            styled(BOLD, name),
+            100.0 * curve.damping
+        );
+        let _ = writeln!(text, "  period s     SD mm   PSV mm/s  PSA m/s²   SA m/s²");
+        for (k, period) in elastic.periods.iter().enumerate() {
+            let _ = writeln!(
+                text,
+                "  {period:8.4} {:9.3} {:10.2} {:9.4} {:9.4}",
+                1e3 * curve.displacement[k],
+                1e3 * curve.pseudo_velocity[k],
+                curve.pseudo_acceleration[k],
+                curve.total_acceleration[k]
+            );
+        }
+    }
+    for (damping, spectrum) in inelastic {
+        let _ = writeln!(
+            text,
+            "{}, damping {} %, ductility {}",
+            styled(BOLD, name),
+            100.0 * damping,
+            spectrum.ductility
+        );
+        let _ = writeln!(text, "  period s  yield m/s²  reduction     SD mm");
+        for (k, period) in spectrum.periods.iter().enumerate() {
+            let _ = writeln!(
+                text,
+                "  {period:8.4} {:11.4} {:10.3} {:9.3}",
+                spectrum.yield_acceleration[k],
+                spectrum.reduction[k],
+                1e3 * spectrum.displacement[k]
+            );
+        }
+    }
+    text
+}

@@ -1,0 +1,108 @@
+//! `jostle pushover`: how far buildings can be pushed sideways.
+
+use std::path::{Path, PathBuf};
+
+use jostle::statics::{
+    LoadPattern, PushDirection, PushSettings, PushedBuilding, Pushover, pushover as push,
+};
+use jostle::system::BuildingSystem;
+use jostle_io::{Dimension, Overrides, parse_quantity};
+
+use crate::args::{Push, PushoverArgs, Spread};
+use crate::failure::Failure;
+use crate::open::open;
+use crate::{pushover_text, terminal};
+
+/// Where results go when nothing else is said.
+const RESULTS: &str = "jostle-out";
+
+pub(crate) fn pushover(args: &PushoverArgs) -> Result<(), Failure> {
+    let drift = drift(&args.drift)?;
+    let opened = open(args.model.as_deref(), &Overrides::default())?;
+    let buildings = chosen(&opened.system.buildings, args.building.as_deref())?;
+    let directions: &[PushDirection] = match args.direction {
+        Push::Right => &[PushDirection::Right],
+        Push::Left => &[PushDirection::Left],
+        Push::Both => &[PushDirection::Right, PushDirection::Left],
+    };
+    let pattern = match args.pattern {
+        Spread::FirstMode => LoadPattern::FirstMode,
+        Spread::Uniform => LoadPattern::Uniform,
+        Spread::Triangular => LoadPattern::Triangular,
+    };
+    let mut pushed = Vec::new();
+    for building in buildings {
+        let curves = directions.iter().map(|&direction| {
+            let settings = PushSettings {
+                pattern,
+                direction,
+                drift,
+            };
+            push(building, settings)
+        });
+        let curves: Result<Vec<Pushover>, _> = curves.collect();
+        pushed.push(PushedBuilding {
+            building,
+            curves: curves.map_err(|problem| {
+                Failure::Analysis(format!("\"{}\": {problem}", building.name))
+            })?,
+        });
+    }
+    let title = &opened.input.model.title;
+    let json = jostle_io::pushover_json(title, &pushed);
+    let default = || (!args.json).then(|| Path::new(RESULTS).join(&opened.name));
+    let out: Option<PathBuf> = args.out.clone().or_else(default);
+    if let Some(out) = &out {
+        std::fs::create_dir_all(out).map_err(|error| {
+            Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
+        })?;
+        let write =
+            |name: &str, text: &str| jostle_io::write_atomically(&out.join(name), text.as_bytes());
+        write("pushover.csv", &jostle_io::pushover_csv(&pushed))?;
+        write("pushover.json", &json)?;
+        write(
+            "pushover.html",
+            &jostle_report::render_pushover(title, &pushed),
+        )?;
+    }
+    if args.json {
+        return terminal::print(&json);
+    }
+    let page = out.map(|out| out.join("pushover.html"));
+    terminal::print(&pushover_text::describe(title, &pushed, page.as_deref()))
+}
+
+/// The drift to push to.
+fn drift(text: &str) -> Result<f64, Failure> {
+    let wrong = |problem: String| Failure::Input(format!("--drift: {problem}"));
+    let drift =
+        parse_quantity(text, Dimension::Dimensionless).map_err(|error| wrong(error.to_string()))?;
+    if drift > 0.0 && drift <= 0.5 {
+        Ok(drift)
+    } else {
+        Err(wrong(format!(
+            "must lie above 0 and be at most 0.5 (the roof displacement over the height), found {text}"
+        )))
+    }
+}
+
+/// The building of a name, or all.
+fn chosen<'a>(
+    buildings: &'a [BuildingSystem],
+    name: Option<&str>,
+) -> Result<Vec<&'a BuildingSystem>, Failure> {
+    let Some(name) = name else {
+        return Ok(buildings.iter().collect());
+    };
+    let found = buildings.iter().find(|building| building.name == name);
+    found.map(|building| vec![building]).ok_or_else(|| {
+        let names = buildings
+            .iter()
+            .map(|building| format!("\"{}\"", building.name));
+        let names: Vec<String> = names.collect();
+        Failure::Input(format!(
+            "--building: there is no building \"{name}\" in the model; it has {}",
+            names.join(", ")
+        ))
+    })
+}

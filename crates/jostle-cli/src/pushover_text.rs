@@ -1,0 +1,156 @@
+//! Capacity curves on a terminal.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use jostle::hysteresis::Stage;
+use jostle::statics::{Bilinear, PushEnd, PushEventKind, PushPoint, PushedBuilding, Pushover};
+
+use crate::numbers::{counted, kn, mm};
+use crate::terminal::{BOLD, DIM, LOUD, styled};
+
+/// Points listed of every curve: the first ones, then the first at which hinges yield.
+const FIRST: usize = 4;
+const YIELDING: usize = 8;
+/// Hinges named at most in a line.
+const NAMED: usize = 2;
+
+/// The curves as text; `page` is the file to open next.
+pub(crate) fn describe(title: &str, pushed: &[PushedBuilding], page: Option<&Path>) -> String {
+    let mut text = format!("{}\n", styled(BOLD, title));
+    // Writing to a string cannot fail.
+    for one in pushed {
+        for curve in &one.curves {
+            let _ = write_curve(&mut text, one, curve);
+        }
+    }
+    if let Some(page) = page {
+        let _ = writeln!(text, "\n→ {}", styled(BOLD, &page.display().to_string()));
+    }
+    text
+}
+
+fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std::fmt::Result {
+    let settings = curve.settings;
+    writeln!(
+        text,
+        "\n{}  pushed to the {}, {} load; {}, {:.1} m, {:.0} kN",
+        styled(BOLD, &one.building.name),
+        settings.direction.name(),
+        settings.pattern.name(),
+        counted(one.building.floors.len(), "storey"),
+        curve.height,
+        curve.weight * 1e-3
+    )?;
+    writeln!(
+        text,
+        "{}",
+        styled(
+            DIM,
+            "                 base shear   of weight         roof     drift"
+        )
+    )?;
+    let mut row = |name: &str, point: Option<&PushPoint>| match point {
+        Some(point) if point.roof == 0.0 => {
+            writeln!(text, "  {name:<12}{:>15}   under gravity alone", "at rest")
+        }
+        Some(point) => writeln!(
+            text,
+            "  {name:<12}{:>12} kN{:>12.4}{:>10} mm{:>8.3} %",
+            kn(point.base_shear),
+            curve.coefficient(point),
+            mm(point.roof),
+            100.0 * curve.drift(point)
+        ),
+        None => writeln!(text, "  {name:<12}{:>12}", "none"),
+    };
+    let springs = one.building.equations.springs.len();
+    if springs > 0 {
+        row("first crack", curve.first(Stage::Cracked))?;
+        row("first yield", curve.first(Stage::Yielded))?;
+        row("greatest", Some(curve.peak()))?;
+    }
+    row("at the end", curve.points.last())?;
+    if springs == 0 {
+        return writeln!(
+            text,
+            "  The building has no hinges: it stays elastic, and the curve is a straight line."
+        );
+    }
+    if let Some(two) = Bilinear::of(&curve.points) {
+        writeln!(
+            text,
+            "  bilinear of equal energy (FEMA 356): yields at {} kN and {} mm, then {:.1} % of the stiffness; ductility {:.2}",
+            kn(two.yield_force),
+            mm(two.yield_displacement),
+            100.0 * two.hardening(),
+            two.ductility()
+        )?;
+    }
+    let [cracked, yielded] = curve.counts(springs);
+    let ended = match curve.end {
+        PushEnd::Target => String::new(),
+        other => format!(" {}", styled(LOUD, &format!("Ended early: {other}."))),
+    };
+    writeln!(
+        text,
+        "  {cracked} of {} crack, {yielded} yield.{ended}",
+        counted(springs, "hinge")
+    )?;
+    write_events(text, one, curve)
+}
+
+fn write_events(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std::fmt::Result {
+    let eventful: Vec<&PushPoint> = curve
+        .points
+        .iter()
+        .filter(|point| !point.events.is_empty())
+        .collect();
+    let yields = |point: &PushPoint| {
+        let mut kinds = point.events.iter().map(|event| event.kind);
+        kinds.any(|kind| kind == PushEventKind::Yields)
+    };
+    let mut yielding = 0;
+    let listed = eventful.iter().enumerate().filter(|(index, point)| {
+        yielding += usize::from(yields(point));
+        *index < FIRST || (yields(point) && yielding <= YIELDING)
+    });
+    let listed: Vec<&PushPoint> = listed.map(|(_, point)| *point).collect();
+    for point in &listed {
+        let mut said = Vec::new();
+        let mut kinds: Vec<&str> = point.events.iter().map(|event| event.kind.name()).collect();
+        kinds.dedup();
+        for kind in kinds {
+            let places: Vec<String> = point
+                .events
+                .iter()
+                .filter(|event| event.kind.name() == kind)
+                .map(|event| one.place(event.spring))
+                .collect();
+            let named: Vec<&str> = places.iter().take(NAMED).map(String::as_str).collect();
+            let more = match places.len() - named.len() {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            said.push(format!("{kind:<7} {}{more}", named.join(" · ")));
+        }
+        writeln!(
+            text,
+            "    {:>7.3} %{:>10.4}   {}",
+            100.0 * curve.drift(point),
+            curve.coefficient(point),
+            said.join(" | ")
+        )?;
+    }
+    match eventful.len() - listed.len() {
+        0 => Ok(()),
+        more => writeln!(
+            text,
+            "    {}",
+            styled(
+                DIM,
+                &format!("and at {more} points more, all in pushover.csv")
+            )
+        ),
+    }
+}

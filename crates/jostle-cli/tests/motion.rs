@@ -1,0 +1,277 @@
+//! `jostle motion` as a user meets it.
+
+mod common;
+
+use common::{complained, folder, jostle, printed};
+use serde_json::Value;
+
+fn json_of(folder: &std::path::Path, arguments: &[&str]) -> Value {
+    let output = jostle(folder, arguments);
+    assert!(
+        output.status.success(),
+        "{arguments:?}: {}",
+        complained(&output)
+    );
+    serde_json::from_str(&printed(&output)).expect("nothing but JSON")
+}
+
+fn near(value: &Value, wanted: f64, relative: f64) -> bool {
+    value
+        .as_f64()
+        .is_some_and(|value| (value / wanted - 1.0).abs() <= relative)
+}
+
+#[test]
+fn spectra_have_the_shape_of_the_contract() {
+    let folder = folder();
+    let arguments = [
+        "motion",
+        "spectrum",
+        "el-centro-1940-ns",
+        "--damping",
+        "0.02,0.05",
+        "--periods",
+        "0.5,1,2",
+        "--json",
+    ];
+    let spectrum = json_of(folder.path(), &arguments);
+    assert_eq!(spectrum["periods_s"], serde_json::json!([0.5, 1.0, 2.0]));
+    assert_eq!(spectrum["spectra"][1]["damping"], 0.05);
+    // Chopra, Dynamics of Structures: 2.67, 5.97 and 7.47 in.
+    for (k, inches) in [2.67, 5.97, 7.47].into_iter().enumerate() {
+        let value = &spectrum["spectra"][0]["displacement_m"][k];
+        assert!(
+            near(value, inches * 0.0254, 5e-3),
+            "{value} for {inches} in"
+        );
+    }
+    assert!(spectrum["spectra"][0]["pseudo_acceleration_m_s2"][2].is_f64());
+    assert!(spectrum.get("inelastic").is_none());
+}
+
+#[test]
+fn show_prints_measures_and_writes_a_page() {
+    let folder = folder();
+    let shown = json_of(
+        folder.path(),
+        &[
+            "motion",
+            "show",
+            "el-centro-1940-ns",
+            "--json",
+            "--html",
+            "page.html",
+        ],
+    );
+    for (key, wanted) in [
+        ("points", 1560.0),
+        ("step_s", 0.02),
+        ("pga_m_s2", 0.31882 * 9.81),
+        ("pgv_m_s", 0.3608),
+        ("pgd_m", 0.212),
+        ("arias_m_s", 1.8010),
+        ("d5_95_s", 23.84),
+    ] {
+        assert!(near(&shown[key], wanted, 1e-3), "{key}: {}", shown[key]);
+    }
+    let page = std::fs::read_to_string(folder.path().join("page.html")).expect("the page");
+    assert!(page.contains("Response spectra") && !page.contains("http://www.example"));
+    let text = printed(&jostle(folder.path(), &["motion", "show", "el-centro"]));
+    assert!(
+        text.contains("Arias intensity") && text.contains("23.84 s"),
+        "{text}"
+    );
+}
+
+#[test]
+fn waves_are_made_converted_and_checked() {
+    let folder = folder();
+    let run = |arguments: &[&str]| {
+        let output = jostle(folder.path(), arguments);
+        assert!(
+            output.status.success(),
+            "{arguments:?}: {}",
+            complained(&output)
+        );
+        printed(&output)
+    };
+    let text = run(&[
+        "motion",
+        "synth",
+        "recipe",
+        "nanjing-artificial",
+        "-o",
+        "nj.csv",
+    ]);
+    assert!(
+        text.contains("PGA 0.3500 m/s²") && text.contains("largest difference"),
+        "{text}"
+    );
+    run(&[
+        "motion",
+        "synth",
+        "noise",
+        "--pga",
+        "0.1 g",
+        "-o",
+        "noise.at2",
+    ]);
+    run(&[
+        "motion",
+        "synth",
+        "pulse",
+        "--shape",
+        "makris-b",
+        "--velocity",
+        "0.5 m/s",
+        "--period",
+        "1 s",
+        "-o",
+        "pulse.csv",
+    ]);
+    let text = run(&[
+        "motion",
+        "convert",
+        "nj.csv",
+        "half.at2",
+        "--to",
+        "20 s",
+        "--resample",
+        "0.02 s",
+        "--low-pass",
+        "15 Hz",
+        "--detrend",
+        "1",
+        "--scale",
+        "-2",
+    ]);
+    assert!(text.contains("1001 values, step 0.02 s"), "{text}");
+    let shown = json_of(folder.path(), &["motion", "show", "half.at2", "--json"]);
+    assert_eq!(shown["points"], 1001);
+    run(&[
+        "motion",
+        "spectrum",
+        "half.at2",
+        "--ductility",
+        "2",
+        "--periods",
+        "0.3,0.6",
+        "--csv",
+        "s.csv",
+        "--parquet",
+        "s.parquet",
+    ]);
+    let csv = std::fs::read_to_string(folder.path().join("s.csv")).expect("a table");
+    assert!(
+        csv.starts_with("period_s,sd_5pct_m,psv_5pct_m_s,psa_5pct_m_s2"),
+        "{csv}"
+    );
+    assert!(
+        csv.contains("reduction_mu2_5pct") && csv.lines().count() == 3,
+        "{csv}"
+    );
+    assert!(
+        std::fs::metadata(folder.path().join("s.parquet"))
+            .expect("a table")
+            .len()
+            > 100
+    );
+    let code = [
+        "--code",
+        "gb50011",
+        "--intensity",
+        "7",
+        "--site",
+        "II",
+        "--group",
+        "1",
+    ];
+    let mut arguments = vec![
+        "motion",
+        "select",
+        "--natural",
+        "nj.csv,nj.csv",
+        "--artificial",
+        "nj.csv",
+        "--periods",
+        "0.8,0.25",
+        "--json",
+        "--html",
+        "set.html",
+    ];
+    arguments.extend(code);
+    let checked = json_of(folder.path(), &arguments);
+    assert_eq!(checked["passes"], true, "{checked}");
+    assert!(folder.path().join("set.html").exists());
+}
+
+#[test]
+fn mistakes_name_the_remedy() {
+    let folder = folder();
+    for (arguments, part) in [
+        (&["motion", "show", "el-zentro"][..], "did you mean"),
+        (
+            &["motion", "spectrum", "el-centro", "--damping", "1.5"],
+            "damping ratio must lie from 0 to below 1",
+        ),
+        (
+            &["motion", "spectrum", "el-centro", "--periods", "2 kg"],
+            "--periods: expected a time",
+        ),
+        (
+            &["motion", "convert", "el-centro", "x.mseed"],
+            "written as .at2 or .csv",
+        ),
+        (
+            &[
+                "motion",
+                "convert",
+                "el-centro",
+                "x.csv",
+                "--low-pass",
+                "30 Hz",
+            ],
+            "corner frequency must lie between 0 and half",
+        ),
+        (
+            &[
+                "motion",
+                "synth",
+                "spectrum",
+                "--code",
+                "gb50011",
+                "--intensity",
+                "7",
+                "-o",
+                "x.csv",
+            ],
+            "--site is missing; one of I0",
+        ),
+        (
+            &[
+                "motion",
+                "synth",
+                "pulse",
+                "--shape",
+                "square",
+                "--velocity",
+                "1",
+                "--period",
+                "1",
+                "-o",
+                "x.csv",
+            ],
+            "--shape must be one of",
+        ),
+        (
+            &["motion", "synth", "recipe", "taft", "-o", "x.csv"],
+            "known: nanjing-artificial",
+        ),
+    ] {
+        let output = jostle(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let text = complained(&output);
+        assert!(text.contains(part), "{arguments:?}: {text}");
+        assert!(!folder.path().join("x.csv").exists(), "nothing is written");
+    }
+}
