@@ -2,7 +2,6 @@
 
 use jostle::modal::modes;
 use jostle::skeleton::Idealisation;
-use jostle::stepping::Newmark;
 use jostle::system::BuildingSystem;
 use jostle::{Building, Damping, GroundMotion, Plan, Shear, Structure, System};
 use serde_json::Value;
@@ -41,7 +40,7 @@ fn newmark_tables() -> Vec<Row> {
     let mut rows = Vec::new();
     for (name, beta) in [("average", 0.25), ("linear", 1.0 / 6.0)] {
         let plan = Plan {
-            newmark: Newmark { beta, gamma: 0.5 },
+            integrator: jostle::Integrator::newmark(beta, 0.5),
             ..uniform(step)
         };
         let published = numbers(&case, &format!("/published/{name}"));
@@ -133,6 +132,9 @@ fn shear_frame(case: &Value) -> BuildingSystem {
             alpha: 0.0,
             beta: 0.0,
         },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
     };
     BuildingSystem::new(&building.name, Idealisation::of(&building))
 }

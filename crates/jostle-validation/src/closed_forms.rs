@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use jostle::skeleton::{Idealisation, Member, Node, Skeleton, Spring, Support};
-use jostle::stepping::{Newmark, StepEquations};
+use jostle::stepping::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{Damping, GroundMotion, Plan, RiccatiFactor, RiccatiSweep, State, System, Wave};
 use serde_json::Value;
@@ -35,7 +35,7 @@ pub(crate) fn static_answer(building: &BuildingSystem, mut load: Vec<f64>) -> Ve
     let sweep = RiccatiSweep::of(building);
     let mut factor = RiccatiFactor::default();
     sweep
-        .factorize(1.0, 0.0, &mut factor)
+        .factorize(&jostle::stepping::StepMatrix::STATIC, &[], &mut factor)
         .expect("the structure is supported");
     sweep.solve(&factor, &mut load);
     load
@@ -75,6 +75,8 @@ fn building(
         hinges: Vec::new(),
     };
     let idealisation = Idealisation {
+        foot: None,
+        spring_places: Vec::new(),
         skeleton,
         left_face: floors.clone(),
         right_face: floors.clone(),
@@ -179,7 +181,7 @@ fn newmark(basic: &Value, key: &str, beta: f64) -> Vec<Row> {
         value("zeta"),
     )]);
     let plan = Plan {
-        newmark: Newmark { beta, gamma: 0.5 },
+        integrator: jostle::Integrator::newmark(beta, 0.5),
         ..uniform(step)
     };
     let rows = entries(basic, &format!("/{key}/after")).map(|(steps, expected)| {
@@ -282,10 +284,7 @@ fn equal_storeys(storeys: usize) -> Vec<Row> {
             mass,
             ..node(0.0, 3.0 * floor as f64, Support::Guided)
         });
-        springs.push(Spring {
-            ends: [floor - 1, floor],
-            stiffness,
-        });
+        springs.push(Spring::elastic([floor - 1, floor], stiffness));
     }
     let tower = building("tower", nodes, Vec::new(), springs, (1..=storeys).collect());
     let formula = |j: usize| {

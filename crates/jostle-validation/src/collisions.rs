@@ -1,6 +1,9 @@
 //! Two free masses meet: contact laws against closed forms, in formulae and by stepping.
 
-use jostle::contact::{HERTZ_DURATION, effective_mass, hertz_damping, hertz_indentation};
+use jostle::contact::{
+    BilinearShape, FreeCollision, HERTZ_DURATION, ModifiedKelvin, effective_mass, hertz_damping,
+    hertz_indentation,
+};
 use jostle::{ContactLaw, Impact, LawKind, RestitutionIs, State};
 use serde_json::Value;
 
@@ -15,6 +18,9 @@ pub fn rows() -> Vec<Row> {
     rows.extend(restitutions());
     rows.extend(single_collisions());
     rows.extend(order_of_convergence());
+    rows.extend(precise_collisions());
+    rows.extend(momentum_law());
+    rows.extend(calibrated());
     rows
 }
 
@@ -183,6 +189,116 @@ fn restitutions() -> Vec<Row> {
     }
     rows
 }
+
+/// Laws of the table that a precise integration of theirs and ours should agree on.
+fn precise_collisions() -> Vec<Row> {
+    const SOURCE: &str = "theory/oracle_contact";
+    let stored = document(include_str!("../data/theory/oracle_contact.json"));
+    let value = |key: &str| number(&stored, &format!("/{key}"));
+    let mut rows = Vec::new();
+    for row in list(&stored, "/rows") {
+        let e = number(row, "/e");
+        let cases = [
+            ("/kelvin_clipped", LawKind::KelvinNoTension, 1e-8),
+            (
+                "/modkelvin_formula",
+                LawKind::ModifiedKelvin(ModifiedKelvin::Ye),
+                1e-9,
+            ),
+            ("/hertzdamp_MD06", LawKind::HertzDamp, 1e-9),
+            ("/hertzdamp_Ye09_formula", LawKind::Ye, 1e-9),
+            ("/jank06", LawKind::Jankowski, 1e-6),
+            ("/bilin", LawKind::Bilinear(BilinearShape::USUAL), 1e-4),
+        ];
+        for (key, kind, tolerance) in cases {
+            let stiffness = if kind.is_hertzian() {
+                value("k")
+            } else {
+                value("k_linear")
+            };
+            let law = law(kind, stiffness, e, RestitutionIs::Input);
+            let numbers = law.between(value("m1"), value("m2"));
+            let got = FreeCollision::of(&numbers, value("m1"), value("m2"), value("v0"));
+            rows.push(Row::relative(
+                SOURCE,
+                format!("e = {e}: {}, integrated, restitution [–]", kind.full_name()),
+                number(row, key),
+                got.realised_restitution(),
+                tolerance,
+            ));
+        }
+    }
+    rows
+}
+
+/// The momentum law, as a run applies it.
+fn momentum_law() -> Vec<Row> {
+    const SOURCE: &str = "literature/A08_stereomechanical";
+    let case = document(include_str!("../data/literature/A08_stereomechanical.json"));
+    let input = |key: &str| number(&case, &format!("/inputs/{key}"));
+    let expected = |key: &str| number(&case, &format!("/expected/{key}"));
+    let bodies = Bodies {
+        masses: [input("m1"), input("m2")],
+        velocities: [input("v1"), input("v2")],
+    };
+    let law = law(
+        LawKind::Restitution,
+        1e9,
+        input("e_in"),
+        RestitutionIs::Input,
+    );
+    let got = collide(&law, bodies, 50.0);
+    [
+        ("left velocity after [m/s]", "v1_after", got.velocities[0]),
+        ("right velocity after [m/s]", "v2_after", got.velocities[1]),
+        ("impulse [N·s]", "impulse", got.impact.impulse),
+        ("energy lost [J]", "dissipated", got.impact.dissipated),
+        (
+            "restitution [–]",
+            "e_out",
+            got.impact.realised_restitution(),
+        ),
+    ]
+    .map(|(what, key, got)| {
+        Row::relative(
+            SOURCE,
+            format!("restitution, {what}"),
+            expected(key),
+            got,
+            1e-9,
+        )
+    })
+    .to_vec()
+}
+
+/// Every dissipative law, calibrated: the rebound by precise integration.
+fn calibrated() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for kind in LawKind::ALL
+        .into_iter()
+        .filter(|kind| kind.is_dissipative())
+    {
+        let realised: Vec<f64> = CALIBRATED
+            .iter()
+            .map(|e| {
+                let stiffness = if kind.is_hertzian() { 2e9 } else { 1e8 };
+                let law = law(kind, stiffness, *e, RestitutionIs::Realised);
+                FreeCollision::of(&law.between(4e4, 7e4), 4e4, 7e4, 0.6).realised_restitution()
+            })
+            .collect();
+        rows.push(Row::worst_of(
+            "restitution asked for",
+            format!("{}, realised e for e = 0.3 … 0.95 [–]", kind.full_name()),
+            &CALIBRATED,
+            &realised,
+            1e-9,
+        ));
+    }
+    rows
+}
+
+/// Restitutions that every law can realise.
+const CALIBRATED: [f64; 8] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95];
 
 /// One collision of each law, stepped.
 fn single_collisions() -> Vec<Row> {

@@ -8,13 +8,16 @@ pub mod closed_forms;
 pub mod collisions;
 pub mod document;
 pub mod frames;
+pub mod loops;
 pub mod modes;
 pub mod oscillators;
+pub mod pairs;
 pub mod paper;
 pub mod pounding;
 pub mod row;
 pub mod shear_buildings;
 pub mod towers;
+pub mod work_precision;
 
 mod data;
 mod files;
@@ -45,7 +48,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 11] = [
+const FAMILIES: [(&str, &str, Make); 12] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulae and against an \
@@ -89,7 +92,7 @@ const FAMILIES: [(&str, &str, Make); 11] = [
     ),
     (
         "Two towers",
-        "A light, soft tower beside a heavy, stiff block under El Centro, through a model file, with four contact \
+        "A light, soft tower beside a heavy, stiff block under El Centro, through a model file, with seven contact \
          laws, against an event-driven integration at a relative tolerance of 10⁻¹². The stored Kelvin results are \
          those of the law cut at F = 0.",
         towers::rows,
@@ -111,6 +114,12 @@ const FAMILIES: [(&str, &str, Make); 11] = [
         "The built-in model with steps chosen from a tolerance, against runs of the same program at a uniform step of \
          10 µs. What the tolerance promises is the peak contact force and the peak displacement.",
         |_| paper::step_rows(),
+    ),
+    (
+        "Random pairs",
+        "Pairs of shear buildings drawn at random, with all laws whose force acts over time, in steps chosen from a \
+         tolerance of 10⁻³, against uniform steps of 25 µs.",
+        pairs::rows,
     ),
 ];
 

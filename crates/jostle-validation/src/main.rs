@@ -4,16 +4,40 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use jostle_io::write_atomically;
-use jostle_validation::{Extent, document, families, misses, paper};
+use jostle_validation::{Extent, document, families, loops, misses, pairs, paper, work_precision};
 
 const USAGE: &str = "\
-usage: jostle-validation [--full] [--check] [--reference]
+usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [TOLERANCE]]] [--work-precision] [--figures]
   --full        small steps as well; takes minutes
   --check       writes nothing; exits with 1 if a number misses
+  --pairs       compares automatic with uniform steps on random pairs of buildings, by default seeds 1 to 1000, and prints
+                the distribution of the errors; takes minutes
+  --work-precision  writes docs/work-precision.md and its figure; takes minutes
+  --figures     writes the figure of the contact laws
   --reference   makes the reference runs of the built-in model anew; takes minutes";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if arguments.first().is_some_and(|a| a == "--pairs") {
+        return random_pairs(&arguments[1..]);
+    }
+    if arguments.first().is_some_and(|a| a == "--work-precision") {
+        let ways = work_precision::study();
+        let figure = in_crate("../../docs/figures/work-precision.svg");
+        if written(&figure, &work_precision::figure(&ways)) == ExitCode::FAILURE {
+            return ExitCode::FAILURE;
+        }
+        return written(
+            &in_crate("../../docs/work-precision.md"),
+            &work_precision::page(&ways),
+        );
+    }
+    if arguments.first().is_some_and(|a| a == "--figures") {
+        return written(
+            &in_crate("../../docs/figures/contact-loops.svg"),
+            &loops::figure(),
+        );
+    }
     let asked = |option: &str| arguments.iter().any(|argument| argument == option);
     if let Some(unknown) = arguments
         .iter()
@@ -51,6 +75,25 @@ fn main() -> ExitCode {
     } else {
         ExitCode::SUCCESS
     }
+}
+
+fn random_pairs(arguments: &[String]) -> ExitCode {
+    let number = |index: usize, usual: f64| match arguments.get(index) {
+        Some(text) => text.parse().ok(),
+        None => Some(usual),
+    };
+    let (Some(first), Some(last), Some(tolerance)) =
+        (number(0, 1.0), number(1, 1000.0), number(2, 1e-3))
+    else {
+        say(USAGE);
+        return ExitCode::from(2);
+    };
+    let compared = pairs::study(first as u64..=last as u64, tolerance);
+    for pair in &compared {
+        say(&format!("{pair:?}"));
+    }
+    say(&pairs::describe(&compared, tolerance));
+    ExitCode::SUCCESS
 }
 
 fn in_crate(path: &str) -> PathBuf {

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use jostle::contact::ForceLaw;
 use jostle::skeleton::{Hinge, Idealisation, Member, Node, Skeleton, Spring, Support};
-use jostle::stepping::{ContactSteps, Newmark, simulate_from};
+use jostle::stepping::{ContactSteps, simulate_from};
 use jostle::system::{BuildingSystem, Contact};
 use jostle::{GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Solver, State, System};
 use serde_json::Value;
@@ -43,8 +43,11 @@ pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
         } else {
             skeleton.hinges.push(Hinge {
                 ends,
-                rotational_stiffness: number(element, "/Ktheta"),
+                rotational_stiffness: Some(number(element, "/Ktheta")),
+                hysteresis: None,
                 translational_stiffness: [or_rigid("/Kx"), or_rigid("/Ky")],
+                dashpots: [0.0; 3],
+                proportional_damping: true,
             });
         }
     }
@@ -55,6 +58,8 @@ pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
     let left_face: Vec<usize> = joints.iter().map(|floor| floor[0]).collect();
     let right_face = joints.iter().map(|floor| floor[floor.len() - 1]).collect();
     let idealisation = Idealisation {
+        foot: None,
+        spring_places: Vec::new(),
         skeleton,
         floors: left_face.clone(),
         left_face,
@@ -82,15 +87,14 @@ fn single_mass(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem 
             node(HEIGHT, mass, Support::Guided),
         ],
         springs: stiffness
-            .map(|stiffness| Spring {
-                ends: [0, 1],
-                stiffness,
-            })
+            .map(|stiffness| Spring::elastic([0, 1], stiffness))
             .into_iter()
             .collect(),
         ..Skeleton::default()
     };
     let idealisation = Idealisation {
+        foot: None,
+        spring_places: Vec::new(),
         skeleton,
         floors: vec![1],
         left_face: vec![1],
@@ -149,7 +153,7 @@ pub(crate) fn uniform(step: f64) -> Plan {
     Plan {
         step,
         contact_steps: ContactSteps::Fixed(1),
-        newmark: Newmark::default(),
+        integrator: jostle::Integrator::default(),
         solver: Solver::Riccati,
     }
 }
