@@ -1,0 +1,39 @@
+//! The compiled half of the Python package `jostle`: models, motions and runs, with numbers in SI.
+//!
+//! What Python users meet (units, keywords, drawings, tables) is written in Python, in `python/jostle`.
+
+mod describe;
+mod error;
+mod histories;
+mod model;
+mod motion;
+mod quantity;
+mod run;
+mod table;
+
+/// The compiled half of the package; its contents are used by `jostle` and may change at any time.
+#[pyo3::pymodule]
+mod _jostle {
+    #[pymodule_export]
+    use super::command_line;
+    #[pymodule_export]
+    use super::model::Model;
+    #[pymodule_export]
+    use super::motion::Motion;
+    #[pymodule_export]
+    use super::quantity::quantity;
+    #[pymodule_export]
+    use super::run::{Run, run};
+    #[pymodule_export]
+    use super::table::Table;
+
+    #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "the name that Python expects")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}
+
+/// Runs the command line with the given arguments, the name of the program first, and returns its exit code.
+#[pyo3::pyfunction]
+fn command_line(py: pyo3::Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
+    py.detach(|| jostle_cli::run(arguments))
+}

@@ -1,0 +1,245 @@
+//! Ground motions.
+
+use std::path::PathBuf;
+
+use jostle::{GroundMotion, Wave};
+use jostle_io::{MotionError, MotionSource, MotionSpec, Record, RecordOptions, Scaling};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::error::argument_error;
+
+/// A ground motion: where it comes from and how it is scaled, and the same in numbers.
+#[pyclass(frozen, module = "jostle._jostle")]
+pub(crate) struct Motion {
+    pub(crate) spec: MotionSpec,
+    motion: GroundMotion,
+}
+
+impl Motion {
+    /// Reads and scales. What was read once is kept, whatever becomes of the file.
+    pub(crate) fn of(mut spec: MotionSpec) -> Result<Self, MotionError> {
+        let motion = spec.resolve()?;
+        if let (MotionSource::Record { .. }, Wave::Sampled { step, acceleration }) =
+            (&spec.source, &motion.wave)
+        {
+            let record = GroundMotion::sampled(&motion.name, *step, acceleration.clone());
+            spec.source = MotionSource::Given(record);
+        }
+        Ok(Self { spec, motion })
+    }
+
+    fn new(source: MotionSource, duration: Option<f64>) -> PyResult<Self> {
+        let spec = MotionSpec {
+            source,
+            scaling: Scaling::AsRecorded,
+            reverse: false,
+            duration,
+        };
+        Self::of(spec).map_err(|error| argument_error(error.to_string()))
+    }
+}
+
+/// Name, values and step of a record or numbers of a wave, scaling, sign, length.
+type State<'py> = (
+    String,
+    Option<Bound<'py, PyArray1<f64>>>,
+    Vec<f64>,
+    Option<f64>,
+    Option<f64>,
+    bool,
+    Option<f64>,
+);
+
+#[pymethods]
+impl Motion {
+    /// A built-in record, or a file.
+    #[staticmethod]
+    #[pyo3(signature = (name, unit=None, step=None, column=None))]
+    fn record(
+        py: Python<'_>,
+        name: &str,
+        unit: Option<String>,
+        step: Option<f64>,
+        column: Option<usize>,
+    ) -> PyResult<Self> {
+        let options = RecordOptions {
+            unit,
+            step,
+            column,
+            ..RecordOptions::default()
+        };
+        let source = MotionSource::Record {
+            name: name.to_owned(),
+            base: PathBuf::new(),
+            options,
+        };
+        py.detach(|| Self::new(source, None))
+    }
+
+    /// Equally spaced accelerations in a unit.
+    #[staticmethod]
+    fn sampled(
+        name: &str,
+        values: PyReadonlyArray1<'_, f64>,
+        unit: &str,
+        step: f64,
+    ) -> PyResult<Self> {
+        let values = values.as_array().to_vec();
+        let record = Record::of(&values, unit, step)
+            .map_err(|error| argument_error(format!("{name}{error}")))?;
+        let given = GroundMotion::sampled(name, record.step, record.acceleration);
+        Self::new(MotionSource::Given(given), None)
+    }
+
+    /// A sine wave.
+    #[staticmethod]
+    fn sine(amplitude: f64, period: f64, duration: f64) -> PyResult<Self> {
+        Self::new(MotionSource::Sine { amplitude, period }, Some(duration))
+    }
+
+    /// A Ricker pulse.
+    #[staticmethod]
+    #[pyo3(signature = (amplitude, period, centre, duration=None))]
+    fn ricker(amplitude: f64, period: f64, centre: f64, duration: Option<f64>) -> PyResult<Self> {
+        let source = MotionSource::Ricker {
+            amplitude,
+            period,
+            centre,
+        };
+        Self::new(source, duration)
+    }
+
+    /// The same motion with what is given changed.
+    #[pyo3(signature = (pga=None, factor=None, reverse=false, duration=None))]
+    fn changed(
+        &self,
+        pga: Option<f64>,
+        factor: Option<f64>,
+        reverse: bool,
+        duration: Option<f64>,
+    ) -> PyResult<Self> {
+        let mut spec = self.spec.clone();
+        if let Some(pga) = pga {
+            spec.scaling = Scaling::Pga(pga);
+        }
+        if let Some(factor) = factor {
+            spec.scaling = match spec.scaling {
+                Scaling::AsRecorded => Scaling::Factor(factor),
+                Scaling::Factor(old) => Scaling::Factor(old * factor),
+                Scaling::Pga(pga) if factor >= 0.0 => Scaling::Pga(pga * factor),
+                Scaling::Pga(pga) => {
+                    spec.reverse = !spec.reverse;
+                    Scaling::Pga(-pga * factor)
+                }
+                // What the match came to, from now on without it.
+                Scaling::Match(_) => Scaling::Factor(self.motion.scale.abs() * factor),
+            };
+        }
+        spec.reverse ^= reverse;
+        spec.duration = duration.or(spec.duration);
+        Self::of(spec).map_err(|error| argument_error(error.to_string()))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.motion.name
+    }
+
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.motion.duration
+    }
+
+    #[getter]
+    fn step(&self) -> Option<f64> {
+        self.motion.step()
+    }
+
+    #[getter]
+    fn points(&self) -> usize {
+        self.motion.points()
+    }
+
+    #[getter]
+    fn peak(&self) -> f64 {
+        self.motion.peak()
+    }
+
+    #[getter]
+    fn scale(&self) -> f64 {
+        self.motion.scale
+    }
+
+    /// Spacing of instants that shows the wave: the step of a record, a fraction of the period of a wave.
+    #[getter]
+    fn drawn_step(&self) -> f64 {
+        let of_period = self.motion.period().map(|period| period / 200.0);
+        self.motion.step().or(of_period).unwrap_or(0.01)
+    }
+
+    /// Everything, to make the same motion of it elsewhere.
+    fn state<'py>(&self, py: Python<'py>) -> State<'py> {
+        let spec = &self.spec;
+        let (values, numbers) = match &spec.source {
+            MotionSource::Given(GroundMotion {
+                wave: Wave::Sampled { step, acceleration },
+                ..
+            }) => (Some(PyArray1::from_slice(py, acceleration)), vec![*step]),
+            MotionSource::Sine { amplitude, period } => (None, vec![*amplitude, *period]),
+            MotionSource::Ricker {
+                amplitude,
+                period,
+                centre,
+            } => (None, vec![*amplitude, *period, *centre]),
+            MotionSource::Given(_) | MotionSource::Record { .. } => (None, Vec::new()),
+        };
+        let (pga, factor) = match spec.scaling.clone() {
+            Scaling::AsRecorded => (None, None),
+            Scaling::Pga(pga) => (Some(pga), None),
+            Scaling::Factor(factor) => (None, Some(factor)),
+            Scaling::Match(_) => (None, Some(self.motion.scale.abs())),
+        };
+        let name = self.motion.name.clone();
+        (
+            name,
+            values,
+            numbers,
+            pga,
+            factor,
+            spec.reverse,
+            spec.duration,
+        )
+    }
+
+    /// The motion of a state.
+    #[staticmethod]
+    fn from_state(
+        name: &str,
+        values: Option<PyReadonlyArray1<'_, f64>>,
+        numbers: Vec<f64>,
+        pga: Option<f64>,
+        factor: Option<f64>,
+        reverse: bool,
+        duration: Option<f64>,
+    ) -> PyResult<Self> {
+        let unscaled = match (values, &numbers[..]) {
+            (Some(values), &[step]) => Self::sampled(name, values, "m/s2", step),
+            (None, &[amplitude, period]) => Self::sine(amplitude, period, 10.0 * period),
+            (None, &[amplitude, period, centre]) => Self::ricker(amplitude, period, centre, None),
+            _ => Err(argument_error("this is no state of a motion")),
+        }?;
+        unscaled.changed(pga, factor, reverse, duration)
+    }
+
+    /// Ground acceleration at instants.
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        times: PyReadonlyArray1<'py, f64>,
+    ) -> Bound<'py, PyArray1<f64>> {
+        let times = times.as_array();
+        let values = times.iter().map(|t| self.motion.acceleration(*t));
+        PyArray1::from_vec(py, values.collect())
+    }
+}

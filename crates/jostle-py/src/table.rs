@@ -1,0 +1,161 @@
+//! Tables for NumPy, and for pandas, polars and pyarrow through the Arrow PyCapsule interface.
+
+use std::sync::Arc;
+
+use arrow_array::ffi::FFI_ArrowSchema;
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::{
+    ArrayRef, Float64Array, Int32Array, RecordBatch, RecordBatchIterator, RecordBatchOptions,
+    StringArray,
+};
+use arrow_schema::{ArrowError, DataType, Field, Schema};
+use jostle_io::Values;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::PyCapsule;
+
+/// A table of columns with names.
+#[pyclass(frozen, module = "jostle._jostle")]
+pub(crate) struct Table {
+    names: Vec<String>,
+    columns: Columns,
+}
+
+enum Columns {
+    /// Rows of an array that others look at too.
+    Histories(Py<PyArray2<f64>>),
+    /// Columns of their own.
+    Own(Vec<Values>),
+}
+
+impl Table {
+    pub(crate) fn of_histories(names: Vec<String>, histories: Py<PyArray2<f64>>) -> Self {
+        Self {
+            names,
+            columns: Columns::Histories(histories),
+        }
+    }
+
+    pub(crate) fn of_columns(columns: Vec<(&'static str, Values)>) -> Self {
+        let (names, columns) = columns
+            .into_iter()
+            .map(|(name, values)| (name.to_owned(), values))
+            .unzip();
+        Self {
+            names,
+            columns: Columns::Own(columns),
+        }
+    }
+
+    fn schema(&self) -> Schema {
+        let field = |(index, name): (usize, &String)| {
+            let (kind, nullable) = match &self.columns {
+                Columns::Histories(_) => (DataType::Float64, false),
+                Columns::Own(columns) => match &columns[index] {
+                    Values::Real(_) => (DataType::Float64, false),
+                    Values::Instant(_) => (DataType::Float64, true),
+                    Values::Whole(_) => (DataType::Int32, true),
+                    Values::Text(_) => (DataType::Utf8, false),
+                },
+            };
+            Field::new(name, kind, nullable)
+        };
+        Schema::new(self.names.iter().enumerate().map(field).collect::<Vec<_>>())
+    }
+
+    fn batch(&self, py: Python<'_>) -> PyResult<RecordBatch> {
+        let columns: Vec<ArrayRef> = match &self.columns {
+            Columns::Histories(histories) => {
+                let histories = histories.bind(py).try_readonly()?;
+                let rows = self.rows(py);
+                let values = histories.as_slice()?.chunks(rows.max(1));
+                let columns = values.map(|values| -> ArrayRef {
+                    Arc::new(Float64Array::from_iter_values(values.iter().copied()))
+                });
+                columns.collect()
+            }
+            Columns::Own(columns) => columns
+                .iter()
+                .map(|values| -> ArrayRef {
+                    match values {
+                        Values::Real(values) => Arc::new(Float64Array::from(values.clone())),
+                        Values::Instant(values) => Arc::new(Float64Array::from(values.clone())),
+                        Values::Whole(values) => Arc::new(Int32Array::from(values.clone())),
+                        Values::Text(values) => {
+                            Arc::new(StringArray::from_iter_values(values.iter()))
+                        }
+                    }
+                })
+                .collect(),
+        };
+        let options = RecordBatchOptions::new().with_row_count(Some(self.rows(py)));
+        RecordBatch::try_new_with_options(Arc::new(self.schema()), columns, &options)
+            .map_err(|error| failed(&error))
+    }
+
+    fn rows(&self, py: Python<'_>) -> usize {
+        match &self.columns {
+            Columns::Histories(histories) => histories.bind(py).shape()[1],
+            Columns::Own(columns) => match columns.first() {
+                Some(Values::Real(values)) => values.len(),
+                Some(Values::Instant(values)) => values.len(),
+                Some(Values::Whole(values)) => values.len(),
+                Some(Values::Text(values)) => values.len(),
+                None => 0,
+            },
+        }
+    }
+}
+
+#[pymethods]
+impl Table {
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.names.clone()
+    }
+
+    fn __len__(&self, py: Python<'_>) -> usize {
+        self.rows(py)
+    }
+
+    /// A column: an array of numbers, or a list of texts or of whole numbers that may be absent.
+    fn column<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyAny>> {
+        match &self.columns {
+            Columns::Histories(histories) => histories.bind(py).get_item(index),
+            Columns::Own(columns) => match columns.get(index) {
+                Some(Values::Real(values)) => Ok(PyArray1::from_slice(py, values).into_any()),
+                Some(Values::Instant(values)) => Ok(values.clone().into_pyobject(py)?),
+                Some(Values::Whole(values)) => Ok(values.clone().into_pyobject(py)?),
+                Some(Values::Text(values)) => Ok(values.clone().into_pyobject(py)?),
+                None => Err(pyo3::exceptions::PyIndexError::new_err(index)),
+            },
+        }
+    }
+
+    /// The table as a stream of the Arrow C interface.
+    #[pyo3(signature = (requested_schema=None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        // A request is a wish; the columns have one natural type.
+        drop(requested_schema);
+        let batch = self.batch(py)?;
+        let schema = batch.schema();
+        let reader = RecordBatchIterator::new([Ok(batch)], schema);
+        let stream = FFI_ArrowArrayStream::new(Box::new(reader));
+        PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
+    }
+
+    /// The columns and their types as a schema of the Arrow C interface.
+    fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
+        let schema = FFI_ArrowSchema::try_from(&self.schema()).map_err(|error| failed(&error))?;
+        PyCapsule::new_with_value(py, schema, c"arrow_schema")
+    }
+}
+
+fn failed(error: &ArrowError) -> PyErr {
+    PyRuntimeError::new_err(error.to_string())
+}

@@ -1,0 +1,53 @@
+"""Seismic pounding of neighbouring buildings by the transfer matrix method.
+
+>>> import jostle
+>>> result = jostle.run(jostle.Model.paper_example())
+>>> print(result)
+
+Quantities are texts with units (``"20 mm"``, ``"0.35 g"``), bare numbers in SI, or keywords with the unit in their
+name (``width_mm=20``). Arrays and results are in SI. Displacements are relative to the ground and positive to the
+right; forces of contacts are positive in compression.
+"""
+
+from ._animation import Animation
+from ._builders import Frame, Gap, Shear
+from ._errors import (
+    AnalysisError,
+    Fault,
+    InterruptedWarning,
+    JostleError,
+    JostleWarning,
+    ModelError,
+    ModelWarning,
+)
+from ._jostle import __version__
+from ._model import Model
+from ._modes import BuildingModes, modes
+from ._motion import Motion
+from ._result import Contact, Floor, Result
+from ._run import run
+from ._table import Table
+
+__all__ = [
+    "AnalysisError",
+    "Animation",
+    "BuildingModes",
+    "Contact",
+    "Fault",
+    "Floor",
+    "Frame",
+    "Gap",
+    "InterruptedWarning",
+    "JostleError",
+    "JostleWarning",
+    "Model",
+    "ModelError",
+    "ModelWarning",
+    "Motion",
+    "Result",
+    "Shear",
+    "Table",
+    "__version__",
+    "modes",
+    "run",
+]

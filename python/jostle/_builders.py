@@ -1,0 +1,206 @@
+"""Buildings and gaps, to be put together to a model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Union
+
+from ._units import Quantities, Quantity, merge, split, with_unit
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._units import FrameUnits, GapUnits, ShearUnits
+
+#: A section, a damping, … as the table of the model file.
+Table = Mapping[str, object]
+
+
+class Part:
+    """A table of the model file. It is checked when a model is made of it, by the same reader as model files."""
+
+    def __init__(self, fields: Mapping[str, object], extra: Mapping[str, object]) -> None:
+        self._fields = merge(type(self).__name__, fields, extra)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The table as it would stand in a model file."""
+        return dict(self._fields)
+
+    def __repr__(self) -> str:
+        fields = ", ".join(f"{key}={value!r}" for key, value in self._fields.items())
+        return f"{type(self).__name__}({fields})"
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and repr(self) == repr(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class Frame(Part):
+    """A plane frame of columns and beams with lumped masses.
+
+    Args:
+        name: name, by which gaps refer to the building; ``"B1"``, ``"B2"``, … by default.
+        storeys: number of storeys, 1 to 200; not needed beside a list per storey.
+        storey_height: one length, or a list from the ground up.
+        spans: widths of the bays from left to right, lengths.
+        column: section of the columns, or a list from the ground up: ``{"width": "500 mm", "depth": "500 mm"}`` or
+            ``{"EI": "150 MN.m2"}``; units may stand in the keys, ``{"width_mm": 500, "depth_mm": 500}``.
+        beam: section of the beams, or a list from the ground up.
+        elastic_modulus: modulus of elasticity.
+        concrete: grade of GB 50010 such as ``"C30"``, instead of ``elastic_modulus``.
+        stiffness_factor: factor on every EI, or ``{"column": 0.7, "beam": 0.35}``.
+        density: density of columns, 2500 kg/m³ by default.
+        beam_mass: mass per length on the beams, self weight included: one, or a list from the ground up.
+        floor_mass: further mass of a whole floor: one, or a list from the ground up.
+        column_segments: segments of a column in one storey, 4 by default.
+        beam_segments: segments of the beams, 4 by default: one count, or one per span.
+        axial: ``"rigid"`` (default) or ``"flexible"``, or ``{"columns": …, "beams": …}``.
+        joint: elastic hinges at the beam ends, ``{"rotational_stiffness": "2e8 N.m/rad"}``.
+        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
+        **units: the same with units in names, as in ``storey_height_m=3.2``.
+    """
+
+    def __init__(
+        self,
+        name: str | None = None,
+        *,
+        storeys: int | None = None,
+        storey_height: Quantities | None = None,
+        spans: Quantities | None = None,
+        column: Table | Sequence[Table] | None = None,
+        beam: Table | Sequence[Table] | None = None,
+        elastic_modulus: Quantity | None = None,
+        concrete: str | None = None,
+        stiffness_factor: float | Table | None = None,
+        density: Quantity | None = None,
+        beam_mass: Quantities | None = None,
+        floor_mass: Quantities | None = None,
+        column_segments: int | None = None,
+        beam_segments: int | Iterable[int] | None = None,
+        axial: str | Table | None = None,
+        joint: Table | None = None,
+        damping: Table | None = None,
+        **units: Unpack[FrameUnits],
+    ) -> None:
+        super().__init__(
+            {
+                "name": name,
+                "kind": "frame",
+                "storeys": storeys,
+                "storey_height": storey_height,
+                "spans": spans,
+                "column": _sections(column),
+                "beam": _sections(beam),
+                "elastic_modulus": elastic_modulus,
+                "concrete": concrete,
+                "stiffness_factor": stiffness_factor,
+                "density": density,
+                "beam_mass": beam_mass,
+                "floor_mass": floor_mass,
+                "column_segments": column_segments,
+                "beam_segments": beam_segments,
+                "axial": axial,
+                "joint": joint,
+                "damping": damping,
+            },
+            units,
+        )
+
+
+class Shear(Part):
+    """A shear building: floor masses on storey springs.
+
+    Args:
+        name: name, by which gaps refer to the building; ``"B1"``, ``"B2"``, … by default.
+        mass: floor masses from the ground up, or one for all.
+        stiffness: storey stiffnesses from the ground up, or one for all.
+        storeys: number of storeys, 1 to 200; not needed beside a list per storey.
+        storey_height: one length, or a list from the ground up; 3 m by default.
+        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
+        **units: the same with units in names, as in ``mass_t=[40, 40]``.
+    """
+
+    def __init__(
+        self,
+        name: str | None = None,
+        *,
+        mass: Quantities | None = None,
+        stiffness: Quantities | None = None,
+        storeys: int | None = None,
+        storey_height: Quantities | None = None,
+        damping: Table | None = None,
+        **units: Unpack[ShearUnits],
+    ) -> None:
+        super().__init__(
+            {
+                "name": name,
+                "kind": "shear",
+                "storeys": storeys,
+                "storey_height": storey_height,
+                "mass": mass,
+                "stiffness": stiffness,
+                "damping": damping,
+            },
+            units,
+        )
+
+
+class Gap(Part):
+    """The gap between two neighbours and the law of their contact.
+
+    Args:
+        width: width at rest, a length ≥ 0.
+        between: names of the left and the right neighbour; in order by default.
+        floors: ``"common"`` (default), pairs of floors ``[[5, 5], [4, 4]]``, or heights.
+        law: contact law, ``"hertz-damp"`` by default.
+        stiffness: contact stiffness: N/m^1.5 for Hertz laws, N/m for linear ones.
+        restitution: coefficient of restitution, 0.65 by default.
+        restitution_is: ``"input"`` (default) puts it into the published formula; with ``"realised"`` free masses
+            really rebound with it.
+        **units: the same with units in names, as in ``width_mm=20``.
+    """
+
+    def __init__(
+        self,
+        width: Quantity | None = None,
+        *,
+        between: Sequence[str] | None = None,
+        floors: str | Sequence[Sequence[int]] | Sequence[Quantity] | None = None,
+        law: str | None = None,
+        stiffness: Quantity | None = None,
+        restitution: float | None = None,
+        restitution_is: str | None = None,
+        **units: Unpack[GapUnits],
+    ) -> None:
+        super().__init__(
+            {
+                "between": between,
+                "width": width,
+                "floors": floors,
+                "law": law,
+                "stiffness": stiffness,
+                "restitution": restitution,
+                "restitution_is": restitution_is,
+            },
+            units,
+        )
+
+
+#: A building as a part, or as the table of the model file.
+Building = Union[Frame, Shear, Table]
+
+_SECTION = ("width", "depth", "mass")
+
+
+def _sections(sections: Table | Sequence[Table] | None) -> object:
+    """Sections, with units in keys turned into texts."""
+    if isinstance(sections, Mapping):
+        section: dict[str, object] = {}
+        for key, value in sections.items():
+            parts = split(key, _SECTION) if isinstance(key, str) else None
+            section[parts[0] if parts else key] = with_unit(value, parts[1]) if parts else value
+        return section
+    if isinstance(sections, (list, tuple)):
+        return [_sections(section) for section in sections]
+    return sections

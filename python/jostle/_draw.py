@@ -1,0 +1,334 @@
+"""What models, motions and results look like in a notebook: HTML with inline SVG, offline, for light and dark."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from ._model import Model
+    from ._modes import BuildingModes
+    from ._result import Contact, Result
+    from ._table import Table
+
+#: A label, instants and values.
+Curve = tuple[str, "npt.NDArray[np.float64]", "npt.NDArray[np.float64]"]
+#: Colours that can be told apart on light and on dark ground.
+COLOURS = ("#2a83c4", "#e0701f", "#12966b", "#bb6299", "#c98500", "#6f7dd8", "#7a808a")
+_FONT = "font-family:system-ui,sans-serif"
+#: Drawn width of a shear building, which has none [m].
+_NOMINAL_WIDTH = 6.0
+#: Rows of a table that a notebook shows.
+_SHOWN = 10
+
+
+def colour(index: int) -> str:
+    """Colour of a building or curve."""
+    return COLOURS[index % len(COLOURS)]
+
+
+def contact_name(contact: Contact) -> str:
+    """Where a contact is, for legends."""
+    left, right = contact.floors
+    place = f"floor {left}" if left == right else f"floors {left} | {right}"
+    if left is None or right is None:
+        place = f"{contact.height:.2f} m"
+    return f"{'–'.join(contact.between)}, {place}"
+
+
+def model_html(model: Model) -> str:
+    """The buildings to scale, and what they amount to."""
+    tree = model.description
+    rows = [
+        (
+            building["name"],
+            building["kind"],
+            f"{len(building['floor_heights_m'])}",
+            f"{building['floor_heights_m'][-1]:.6g}",
+            f"{1e-3 * building['mass_kg']:.4g}",
+            ", ".join(f"{period:.3f}" for period in building["periods_s"][:3]),
+        )
+        for building in tree["buildings"]
+    ]
+    heads = ("building", "kind", "storeys", "height [m]", "mass [t]", "periods [s]")
+    motion = "no ground motion"
+    try:
+        ground = model.motion
+        if ground is not None:
+            motion = f"{ground.name}, peak {100 * ground.pga:.4g} cm/s², {ground.duration:.4g} s"
+    except ValueError as error:
+        motion = str(error)
+    return (
+        f'<div style="{_FONT}"><b>{_text(tree["title"])}</b>{model_svg(tree)}{_rows(heads, rows)}'
+        f'<div style="opacity:.75">{_text(motion)}</div></div>'
+    )
+
+
+def model_svg(tree: dict[str, Any]) -> str:
+    """The buildings to scale; gaps are drawn wide enough to be seen."""
+    buildings, gaps = tree["buildings"], tree["gaps"]
+    widths = [sum(b["spans_m"]) or _NOMINAL_WIDTH for b in buildings]
+    tallest = max(b["floor_heights_m"][-1] for b in buildings)
+    between = 54.0
+    scale = min(300 / tallest, max(120.0, 720 - between * len(buildings)) / sum(widths))
+    base, x = tallest * scale + 26, 34.0
+    parts: list[str] = []
+    edges = []
+    for index, building in enumerate(buildings):
+        lines = [x]
+        for span in building["spans_m"] or [_NOMINAL_WIDTH]:
+            lines.append(lines[-1] + span * scale)
+        parts.append(_building(building, lines, base, scale, colour(index)))
+        edges.append((lines[0], lines[-1]))
+        x = lines[-1] + between
+    names = [building["name"] for building in buildings]
+    for gap in gaps:
+        left = names.index(gap["between"][0])
+        middle = (edges[left][1] + edges[left + 1][0]) / 2
+        for contact in gap["contacts"]:
+            y = base - contact["height_m"] * scale
+            parts.append(
+                f'<path d="M{edges[left][1] + 3:.1f},{y:.1f}H{edges[left + 1][0] - 3:.1f}" '
+                'stroke="currentColor" stroke-dasharray="2 3" opacity=".6"/>'
+            )
+        label = f"gap {1e3 * gap['width_m']:.4g} mm"
+        parts.append(_svg_text(middle, base + 34, label, "middle", 12))
+    width = x - between + 34
+    return (
+        f'<svg viewBox="0 0 {width:.0f} {base + 44:.0f}" width="{width:.0f}" role="img" '
+        f'style="max-width:100%;display:block;{_FONT}"><title>{_text(tree["title"])}</title>'
+        f'<path d="M0,{base:.1f}H{width:.0f}" stroke="currentColor" stroke-width="1.5"/>{"".join(parts)}</svg>'
+    )
+
+
+def _building(
+    building: dict[str, Any], lines: Sequence[float], base: float, scale: float, ink: str
+) -> str:
+    heights = building["floor_heights_m"]
+    roof = base - heights[-1] * scale
+    columns = "".join(f"M{x:.1f},{base:.1f}V{roof:.1f}" for x in lines)
+    floors = "".join(
+        f"M{lines[0]:.1f},{base - h * scale:.1f}H{lines[-1]:.1f}" for h in heights
+    )
+    thick = 2.5 if building["kind"] == "frame" else 5
+    middle = (lines[0] + lines[-1]) / 2
+    return (
+        f'<path d="{columns}" stroke="{ink}" stroke-width="2" fill="none"/>'
+        f'<path d="{floors}" stroke="{ink}" stroke-width="{thick}" fill="none"/>'
+        + _svg_text(middle, roof - 9, f"{heights[-1]:.4g} m", "middle", 11, 0.7)
+        + _svg_text(middle, base + 18, building["name"], "middle", 13)
+    )
+
+
+def history_svg(title: str, unit: str, curves: Sequence[Curve], height: int = 170) -> str:
+    """Curves over time in one frame, thinned to what can be seen."""
+    left, right, top, bottom, width = 64, 12, 24, 26, 760
+    series = [(label, *thinned(time, values, width)) for label, time, values in curves]
+    if not any(len(time) for _, time, _ in series):
+        return ""
+    end = max(float(time[-1]) for _, time, _ in series if len(time)) or 1.0
+    low = min(0.0, *(float(values.min()) for _, _, values in series if len(values)))
+    high = max(0.0, *(float(values.max()) for _, _, values in series if len(values)))
+    high += 1.0 if high == low else 0.0
+
+    def px(t: Any) -> Any:
+        return left + (width - left - right) * t / end
+
+    def py(value: Any) -> Any:
+        return top + (height - top - bottom) * (high - value) / (high - low)
+
+    parts = [_svg_text(left, 14, f"{title} [{unit}]", "start", 12)]
+    for value in sorted({low, 0.0, high}):
+        y = py(value)
+        parts.append(
+            f'<path d="M{left},{y:.1f}H{width - right}" stroke="currentColor" opacity=".25"/>'
+        )
+        parts.append(_svg_text(left - 6, y + 4, f"{value:.4g}".replace("-", "−"), "end", 11, 0.75))
+    for t in ticks(end):
+        anchor = "end" if px(t) > width - 30 else "middle"
+        parts.append(_svg_text(px(t), height - 8, f"{t:.6g} s", anchor, 11, 0.75))
+    for index, (label, time, values) in enumerate(series):
+        points = " ".join(f"{x:.1f},{y:.1f}" for x, y in zip(px(time), py(values)))
+        parts.append(
+            f'<polyline points="{points}" fill="none" stroke="{colour(index)}" stroke-width="1.2">'
+            f"<title>{_text(label)}</title></polyline>"
+        )
+    if len(series) > 1 or series[0][0] != title:
+        x = float(width - right)
+        for index, (label, _, _) in reversed(list(enumerate(series))):
+            parts.append(
+                f'<text x="{x:.0f}" y="14" text-anchor="end" font-size="11" fill="{colour(index)}">'
+                f"{_text(label)}</text>"
+            )
+            x -= 6.5 * len(label) + 14
+    return (
+        f'<svg viewBox="0 0 {width} {height}" width="{width}" role="img" '
+        f'style="max-width:100%;display:block;{_FONT}">{"".join(parts)}</svg>'
+    )
+
+
+def ticks(end: float) -> list[float]:
+    """Round values from zero to an end, at most eight."""
+    power = 10.0 ** math.floor(math.log10(end / 8))
+    step = next((m * power for m in (1, 2, 5, 10) if end / (m * power) <= 8), end)
+    return [step * k for k in range(int(end / step * (1 + 1e-9)) + 1)]
+
+
+def thinned(
+    time: npt.NDArray[np.float64], values: npt.NDArray[np.float64], pixels: int
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Least and greatest value of every pixel's time, and the ends."""
+    import numpy as np
+
+    kept: npt.NDArray[Any]
+    if len(time) <= 4 * pixels:
+        kept = np.arange(len(time))
+    else:
+        bins = np.floor((time - time[0]) / max(time[-1] - time[0], 1e-300) * (pixels - 1e-9))
+        starts = np.flatnonzero(np.r_[True, np.diff(bins) > 0])
+        ends = np.r_[starts[1:], len(time)]
+        extremes = [
+            first + at
+            for first, last in zip(starts, ends)
+            for at in (values[first:last].argmin(), values[first:last].argmax())
+        ]
+        kept = np.unique(np.r_[0, extremes, len(time) - 1])
+    # A long run at rest is two points.
+    still = np.zeros(len(kept), dtype=bool)
+    still[1:-1] = (values[kept[1:-1]] == values[kept[:-2]]) & (
+        values[kept[1:-1]] == values[kept[2:]]
+    )
+    kept = kept[~still]
+    return time[kept], values[kept]
+
+
+def result_html(result: Result) -> str:
+    """Summary, force history and animation."""
+    from ._animation import frame
+
+    summary = result.summary
+    parts = [
+        f"<b>{_text(summary['title'])}</b>",
+        f'<div style="margin:.3em 0 .6em">{_text(result._core.verdict())}</div>',
+    ]
+    for warning in [summary["ended_early"], *summary["warnings"]]:
+        if warning:
+            parts.append(f'<div style="color:#c0392b">{_text(warning)}</div>')
+    parts.append(_gap_rows(summary))
+    parts.append(_building_rows(summary))
+    if not result._rows:
+        return f'<div style="{_FONT}">{"".join(parts)}</div>'
+    struck = sorted(
+        (contact for contact in result.contacts if contact.impact_count),
+        key=lambda contact: -contact.peak_force,
+    )[:4]
+    time = result.time
+    if struck:
+        curves = [(contact_name(c), time, 1e-3 * c.force) for c in struck]
+        parts.append(history_svg("Contact force", "kN", curves))
+    if len(time) > 1:
+        animation = result.animate()
+        parts.append(frame(animation._page, 720))
+    return f'<div style="{_FONT}">{"".join(parts)}</div>'
+
+
+def _gap_rows(summary: dict[str, Any]) -> str:
+    rows = []
+    for gap in summary["gaps"]:
+        closing = max((c["closing_peak_m"] for c in gap["contacts"]), default=0.0)
+        first = gap["first_impact_s"]
+        rows.append(
+            (
+                "–".join(gap["between"]),
+                f"{1e3 * gap['width_m']:.5g}",
+                gap["law"],
+                f"{gap['impact_count']}",
+                f"{1e-3 * gap['peak_force_n']:.1f}",
+                f"{1e3 * closing:.1f}",
+                "" if first is None else f"{first:.3f}",
+            )
+        )
+    heads = ("gap", "width [mm]", "law", "impacts", "peak force [kN]", "closing [mm]", "first [s]")
+    return _rows(heads, rows)
+
+
+def _building_rows(summary: dict[str, Any]) -> str:
+    rows = []
+    for building in summary["buildings"]:
+        roof = building["floors"][-1]
+        peak = max(roof["displacement_max_m"], -roof["displacement_min_m"])
+        drift = max(floor["storey_drift_peak"] for floor in building["floors"])
+        acceleration = max(f["total_acceleration_peak_m_s2"] for f in building["floors"])
+        rows.append(
+            (
+                building["name"],
+                f"{1e3 * peak:.1f}",
+                f"{100 * drift:.3f}",
+                f"{acceleration:.2f}",
+                f"{1e-3 * building['base_shear_peak_n']:.1f}",
+            )
+        )
+    heads = ("building", "roof [mm]", "drift [%]", "acceleration [m/s²]", "base shear [kN]")
+    return _rows(heads, rows)
+
+
+def modes_html(modes: BuildingModes) -> str:
+    """Periods, masses and shapes."""
+    rows = []
+    for index in range(len(modes)):
+        shape = " ".join(f"{value:+.2f}" for value in modes.floor_shapes[index])
+        rows.append(
+            (
+                f"{index + 1}",
+                f"{modes.periods[index]:.4f}",
+                f"{100 * modes.effective_mass_ratios_x[index]:.2f}",
+                f"{100 * modes.effective_mass_ratios_y[index]:.2f}",
+                shape if modes.lateral[index] else "",
+            )
+        )
+    heads = ("mode", "period [s]", "mass x [%]", "mass y [%]", "floors from the ground up")
+    return f'<div style="{_FONT}"><b>{_text(modes.name)}</b>{_rows(heads, rows)}</div>'
+
+
+def table_html(table: Table) -> str:
+    """The first rows of a table."""
+    shown = [table[index] for index in range(min(len(table), _SHOWN))]
+    rows = [[_cell(value) for value in row.values()] for row in shown]
+    more = len(table) - len(shown)
+    tail = f'<div style="opacity:.75">… {more} more rows</div>' if more > 0 else ""
+    body = _rows(table.columns, rows)
+    return f'<div style="{_FONT};overflow-x:auto">{body}{tail}</div>'
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return ""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _rows(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    body = "".join(
+        "<tr>" + "".join(f"<td>{_text(cell)}</td>" for cell in row) + "</tr>" for row in rows
+    )
+    if not body:
+        return ""
+    head = "".join(f"<th>{_text(cell)}</th>" for cell in heads)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _svg_text(
+    x: float, y: float, text: str, anchor: str, size: int, opacity: float = 1.0
+) -> str:
+    return (
+        f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="{size}" '
+        f'fill="currentColor" opacity="{opacity}">{_text(text)}</text>'
+    )
+
+
+def _text(value: object) -> str:
+    return html.escape(str(value))

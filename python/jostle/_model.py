@@ -1,0 +1,249 @@
+"""Models: buildings in a row, the gaps between them, and the ground motion."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+from . import _jostle
+from ._builders import Building, Gap, Part, Table
+from ._errors import ModelWarning
+from ._motion import Motion
+from ._tree import text_of
+from ._units import Quantity, argument, refuse
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    import numpy as np
+    import numpy.typing as npt
+
+    from ._units import RunUnits
+
+
+class Model:
+    """Buildings from left to right, the gaps between them, a ground motion and settings of the analysis.
+
+    A model never changes; it may be used by many threads at once, and be pickled.
+
+    Args:
+        buildings: from left to right; tables of the model file are accepted as well.
+        gaps: one for each pair of neighbours, or one for all of them. ``between`` may be left out of all.
+        motion: a :class:`Motion`, the name or path of a record, or ``[motion]`` of the model file.
+        title: printed on summaries and reports.
+        analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
+
+    Raises:
+        ModelError: every fault at once, with the text of the command line.
+    """
+
+    _core: _jostle.Model
+    _recipe: tuple[Any, ...]
+
+    def __init__(
+        self,
+        buildings: Building | Sequence[Building],
+        gaps: Gap | Table | Sequence[Gap | Table] = (),
+        *,
+        motion: Motion | str | os.PathLike[str] | Table | None = None,
+        title: str | None = None,
+        analysis: Table | None = None,
+    ) -> None:
+        row = [buildings] if isinstance(buildings, (Part, Mapping)) else buildings
+        tree: dict[str, Any] = {"building": [_table(building) for building in row]}
+        tree["gap"] = _gaps(gaps, tree["building"])
+        if title is not None:
+            tree["title"] = title
+        if analysis is not None:
+            tree["analysis"] = analysis
+        if isinstance(motion, (str, os.PathLike)):
+            tree["motion"] = {"record": motion}
+        elif motion is not None and not isinstance(motion, Motion):
+            tree["motion"] = motion
+        given = motion if isinstance(motion, Motion) else None
+        self._build("read", ("model", text_of(tree), True, os.getcwd(), False), given)
+
+    def _build(self, how: str, arguments: tuple[Any, ...], motion: Motion | None = None) -> None:
+        core = getattr(_jostle.Model, how)(*arguments)
+        for text in core.warnings:
+            warnings.warn(text, ModelWarning, stacklevel=3)
+        self._recipe = (how, arguments, motion, None, None, None)
+        self._core = core if motion is None else core.changed(motion=motion._core)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Model:
+        """Reads a model file: JSON if its name ends in ``.json``, else TOML.
+
+        Raises:
+            ModelError: every fault of the file at once, each with its line and a remedy.
+        """
+        name = os.fspath(path)
+        model = cls.__new__(cls)
+        model._build("load", (name,))
+        # A pickled model brings its text along; the records stay where they are.
+        text, folder = model._core.text, os.path.dirname(os.path.abspath(name))
+        is_json = name.lower().endswith(".json")
+        model._recipe = ("read", (name, text, is_json, folder, True), None, None, None, None)
+        return model
+
+    @classmethod
+    def loads(cls, text: str, *, name: str = "model", folder: str | os.PathLike[str] = "") -> Model:
+        """Reads the text of a model file, TOML, or JSON if it begins with a brace.
+
+        Args:
+            text: the text.
+            name: stands in messages.
+            folder: from where records are looked for; the current folder by default.
+        """
+        if not isinstance(text, str):
+            raise TypeError(f"text: expected a text, found {type(text).__name__}")
+        is_json = text.lstrip().startswith("{")
+        model = cls.__new__(cls)
+        model._build("read", (name, text, is_json, os.path.abspath(folder), True))
+        return model
+
+    @classmethod
+    def from_dict(cls, tree: Mapping[str, Any], *, folder: str | os.PathLike[str] = "") -> Model:
+        """A model from the tree of a model file, as ``tomllib`` or ``json`` read it; NumPy arrays are lists.
+
+        Args:
+            tree: the tree, as in ``{"building": [{"kind": "shear", "mass": "40 t", …}], "gap": […]}``.
+            folder: from where records are looked for; the current folder by default.
+        """
+        model = cls.__new__(cls)
+        model._build("read", ("model", text_of(tree), True, os.path.abspath(folder), False))
+        return model
+
+    @classmethod
+    def paper_example(cls) -> Model:
+        """The five- and ten-storey frames of Zhang et al. (2019), 100 mm apart, under El Centro at 220 cm/s²."""
+        model = cls.__new__(cls)
+        model._build("builtin", ("paper",))
+        return model
+
+    def changed(
+        self,
+        *,
+        gap: Quantity | None = None,
+        pga: Quantity | None = None,
+        motion: Motion | str | os.PathLike[str] | None = None,
+        **units: Unpack[RunUnits],
+    ) -> Model:
+        """The same model with another width of every gap, another peak acceleration or another ground motion.
+
+        Args:
+            gap: width of every gap, a length ≥ 0; also ``gap_mm=20``.
+            pga: scales the ground motion to this peak, > 0; also ``pga_g=0.2``.
+            motion: a :class:`Motion` is taken as it is; a record by name or path keeps the scaling of the model,
+                as ``--record`` of the command line does.
+
+        Raises:
+            ModelError: there is nothing to change, or a value is out of range.
+        """
+        extra: dict[str, Any] = dict(units)
+        width = argument("gap", gap, "length", extra)
+        peak = argument("pga", pga, "acceleration", extra)
+        refuse("changed", extra)
+        given = motion if isinstance(motion, Motion) else None
+        record = None if motion is None or given is not None else os.fspath(cast(str, motion))
+        model = type(self).__new__(type(self))
+        model._core = self._core.changed(
+            gap=width, pga=peak, motion=None if given is None else given._core, record=record
+        )
+        model._recipe = (self._recipe, (), given, width, peak, record)
+        return model
+
+    @property
+    def title(self) -> str:
+        """Title."""
+        return self._core.title
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is valid but may not be meant."""
+        return self._core.warnings
+
+    @property
+    def motion(self) -> Motion | None:
+        """The ground motion as it will be used; ``None`` if the model has none.
+
+        Raises:
+            ModelError: the record cannot be read or scaled.
+        """
+        core = self._core.motion()
+        return None if core is None else Motion._of(core)
+
+    @property
+    def description(self) -> dict[str, Any]:
+        """Buildings and gaps in numbers: geometry, masses, periods, contacts; names carry units."""
+        return cast("dict[str, Any]", json.loads(self._core.describe()))
+
+    @property
+    def buildings(self) -> list[str]:
+        """Names of the buildings from left to right."""
+        return [building["name"] for building in self.description["buildings"]]
+
+    def periods(self, building: str | int = 0) -> npt.NDArray[np.float64]:
+        """Periods of the lateral modes of a building, by name or position, longest first [s]."""
+        import numpy as np
+
+        from ._result import position
+
+        at = position(building, self.buildings)
+        return np.array(self.description["buildings"][at]["periods_s"])
+
+    def __repr__(self) -> str:
+        return f"<Model {self.title!r}: {', '.join(self.buildings)}>"
+
+    def _repr_html_(self) -> str:
+        from ._draw import model_html
+
+        return model_html(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_rebuild, self._recipe)
+
+
+def _rebuild(
+    how: str | tuple[Any, ...],
+    arguments: tuple[Any, ...],
+    motion: Motion | None,
+    gap: float | None,
+    pga: float | None,
+    record: str | None,
+) -> Model:
+    model = Model.__new__(Model)
+    if isinstance(how, tuple):
+        core = _rebuild(*how)._core
+    else:
+        core = getattr(_jostle.Model, how)(*arguments)
+    given = None if motion is None else motion._core
+    model._core = core.changed(gap=gap, pga=pga, motion=given, record=record)
+    model._recipe = (how, arguments, motion, gap, pga, record)
+    return model
+
+
+def _table(part: object) -> object:
+    return part.to_dict() if isinstance(part, Part) else part
+
+
+def _gaps(gaps: Gap | Table | Sequence[Gap | Table], buildings: list[Any]) -> list[Any]:
+    """Tables of the gaps; those without names stand between neighbours in order."""
+    tables: list[Any]
+    if isinstance(gaps, (Part, Mapping)):
+        one = _table(gaps)
+        named = isinstance(one, Mapping) and "between" in one
+        tables = [one] if named else [one] * max(len(buildings) - 1, 1)
+    else:
+        tables = [_table(gap) for gap in gaps]
+    unnamed = all(isinstance(table, Mapping) and "between" not in table for table in tables)
+    if not tables or not unnamed or len(tables) != len(buildings) - 1:
+        return tables
+    names = [
+        building.get("name", f"B{i + 1}") if isinstance(building, Mapping) else f"B{i + 1}"
+        for i, building in enumerate(buildings)
+    ]
+    return [{"between": names[i : i + 2], **dict(table)} for i, table in enumerate(tables)]

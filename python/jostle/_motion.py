@@ -1,0 +1,214 @@
+"""Ground motions."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from . import _jostle
+from ._units import Quantity, argument, in_si, refuse
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    import numpy as np
+    import numpy.typing as npt
+
+    from ._units import MotionUnits
+
+
+class Motion:
+    """Horizontal ground acceleration, positive to the right.
+
+    Args:
+        acceleration: at least two values, equally spaced, the first at time zero; shape ``(points,)``.
+        step: time step, a time between 1e-6 s and 10 s.
+        unit: unit of the values, such as ``"g"`` or ``"cm/s2"``.
+        name: name on summaries.
+
+    Raises:
+        ModelError: too few values, values that are not finite or beyond 100 m/s², an unusable step or unit.
+    """
+
+    _core: _jostle.Motion
+
+    def __init__(
+        self,
+        acceleration: npt.ArrayLike,
+        *,
+        step: Quantity,
+        unit: str = "m/s2",
+        name: str = "motion",
+    ) -> None:
+        import numpy as np
+
+        values = np.ascontiguousarray(acceleration, dtype=np.float64)
+        if values.ndim != 1:
+            raise TypeError(f"acceleration: expected one row of numbers, found shape {values.shape}")
+        self._core = _jostle.Motion.sampled(name, values, unit, in_si("step", step, "time"))
+
+    @classmethod
+    def _of(cls, core: _jostle.Motion) -> Motion:
+        motion = cls.__new__(cls)
+        motion._core = core
+        return motion
+
+    @classmethod
+    def read(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        unit: str | None = None,
+        step: Quantity | None = None,
+        column: int | None = None,
+    ) -> Motion:
+        """Reads a record (PEER AT2, CSV, columns of text), or takes a built-in one by its name.
+
+        Args:
+            path: the file, or the name of a built-in record.
+            unit: unit of the values of a text file that does not state it.
+            step: time step of a text file that does not state it.
+            column: column of the acceleration in a text file, from 1.
+
+        Raises:
+            ModelError: with file, line and remedy.
+        """
+        seconds = None if step is None else in_si("step", step, "time")
+        return cls._of(_jostle.Motion.record(os.fspath(path), unit, seconds, column))
+
+    @classmethod
+    def el_centro(cls) -> Motion:
+        """El Centro 1940, north-south, as digitised by Peknold: 1560 points, 0.02 s, 0.319 g."""
+        return cls.read("el-centro-1940-ns")
+
+    @classmethod
+    def sine(cls, *, amplitude: Quantity, period: Quantity, duration: Quantity) -> Motion:
+        """``amplitude · sin(2π t / period)``, evaluated exactly at every instant."""
+        return cls._of(
+            _jostle.Motion.sine(
+                in_si("amplitude", amplitude, "acceleration"),
+                _positive("period", period),
+                _positive("duration", duration),
+            )
+        )
+
+    @classmethod
+    def ricker(
+        cls,
+        *,
+        amplitude: Quantity,
+        period: Quantity,
+        centre: Quantity | None = None,
+        duration: Quantity | None = None,
+    ) -> Motion:
+        """A Ricker pulse that peaks with ``amplitude`` at ``centre`` (1.5 periods by default)."""
+        seconds = _positive("period", period)
+        return cls._of(
+            _jostle.Motion.ricker(
+                in_si("amplitude", amplitude, "acceleration"),
+                seconds,
+                1.5 * seconds if centre is None else _positive("centre", centre),
+                None if duration is None else _positive("duration", duration),
+            )
+        )
+
+    def scaled(
+        self,
+        factor: float | None = None,
+        *,
+        pga: Quantity | None = None,
+        **units: Unpack[MotionUnits],
+    ) -> Motion:
+        """The same motion scaled to a peak (``pga="0.2 g"`` or ``pga_g=0.2``), or by a factor.
+
+        The peak refers to the whole record, also where the analysis is shorter.
+        """
+        extra: dict[str, Any] = dict(units)
+        peak = argument("pga", pga, "acceleration", extra)
+        refuse("scaled", extra)
+        if (peak is None) == (factor is None):
+            raise TypeError("scaled: give either a factor or pga")
+        if peak is not None and not peak > 0.0:
+            raise ValueError(f"pga: must be greater than zero, found {peak} m/s2")
+        by = None if factor is None else in_si("factor", factor, "number")
+        return self._of(self._core.changed(pga=peak, factor=by))
+
+    def reversed(self) -> Motion:
+        """The same motion with its sign changed."""
+        return self._of(self._core.changed(reverse=True))
+
+    def lasting(self, duration: Quantity) -> Motion:
+        """The same motion cut, or continued by a ground at rest, so that it lasts this long."""
+        return self._of(self._core.changed(duration=_positive("duration", duration)))
+
+    @property
+    def name(self) -> str:
+        """Name."""
+        return self._core.name
+
+    @property
+    def step(self) -> float | None:
+        """Time step of the record [s]; ``None`` for waves."""
+        return self._core.step
+
+    @property
+    def duration(self) -> float:
+        """Length [s]."""
+        return self._core.duration
+
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration, scale included [m/s²]."""
+        return self._core.peak
+
+    @property
+    def scale(self) -> float:
+        """Factor on the record, negative when reversed [–]."""
+        return self._core.scale
+
+    @property
+    def time(self) -> npt.NDArray[np.float64]:
+        """Instants of the record [s], shape ``(points,)``; for waves 200 a period."""
+        import numpy as np
+
+        step = self._core.drawn_step
+        points = min(int(self.duration / step * (1 + 1e-12)) + 1, 10_000_000)
+        return np.arange(points, dtype=np.float64) * step
+
+    @property
+    def acceleration(self) -> npt.NDArray[np.float64]:
+        """Ground acceleration at ``time``, scale included [m/s²]."""
+        return self._core.at(self.time)
+
+    def at(self, time: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Ground acceleration at any instants, straight between the points of a record [m/s²].
+
+        Args:
+            time: instants [s], shape ``(n,)``.
+        """
+        import numpy as np
+
+        return self._core.at(np.ascontiguousarray(time, dtype=np.float64).ravel())
+
+    def __repr__(self) -> str:
+        return f"<Motion {self.name!r}, {self.duration:.6g} s, peak {self.pga:.4g} m/s2>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_rebuild, self._core.state())
+
+    def _repr_html_(self) -> str:
+        from ._draw import history_svg
+
+        curves = [(self.name, self.time, self.acceleration)]
+        return history_svg("Ground acceleration", "m/s²", curves)
+
+
+def _positive(name: str, value: Quantity) -> float:
+    seconds = in_si(name, value, "time")
+    if not 0.0 < seconds <= 10_000.0:
+        raise ValueError(f"{name}: must lie between 0 and 10000 s, found {seconds} s")
+    return seconds
+
+
+def _rebuild(*state: Any) -> Motion:
+    return Motion._of(_jostle.Motion.from_state(*state))

@@ -1,0 +1,270 @@
+"""What a run leaves behind."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from operator import index
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+from . import _jostle
+from ._animation import Animation
+from ._model import Model
+from ._motion import Motion
+from ._table import Table
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+    from matplotlib.figure import Figure
+
+_ENERGIES = ("input", "kinetic", "strain", "damped", "hysteretic", "contact")
+
+
+@dataclass(frozen=True, eq=False)
+class Floor:
+    """Histories of one floor, arrays of shape ``(n,)`` on the instants of ``result.time``.
+
+    Attributes:
+        building: name of the building.
+        floor: floor, from 1.
+        displacement: relative to the ground, positive to the right [m].
+        velocity: relative to the ground [m/s].
+        total_acceleration: ground included [m/s²].
+    """
+
+    building: str
+    floor: int
+    displacement: npt.NDArray[np.float64]
+    velocity: npt.NDArray[np.float64]
+    total_acceleration: npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """One place where two neighbours can touch.
+
+    Attributes:
+        between: names of the left and the right building.
+        floors: floors on the left and on the right, from 1; ``None`` for a point between floors.
+        height: height above the base [m].
+        force: contact force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
+        peak_force: greatest force [N].
+        impact_count: number of impacts.
+    """
+
+    between: tuple[str, str]
+    floors: tuple[int | None, int | None]
+    height: float
+    force: npt.NDArray[np.float64]
+    peak_force: float
+    impact_count: int
+
+
+class Result:
+    """Summary, histories and impacts of a run.
+
+    Histories are NumPy views of one table that nobody copies or writes to.
+    """
+
+    _core: _jostle.Run
+    _model: Model
+    _interval: float | None
+    _twin: _jostle.Run | None
+
+    @classmethod
+    def _of(
+        cls,
+        model: Model,
+        core: _jostle.Run,
+        interval: float | None,
+        twin: _jostle.Run | None = None,
+    ) -> Result:
+        result = cls.__new__(cls)
+        result._core, result._model = core, model
+        result._interval, result._twin = interval, twin
+        return result
+
+    @property
+    def model(self) -> Model:
+        """The model as it was run."""
+        return self._model
+
+    @property
+    def motion(self) -> Motion:
+        """The ground motion as it was used."""
+        return cast(Motion, self._model.motion)
+
+    @property
+    def completed(self) -> bool:
+        """Whether the end of the motion was reached."""
+        return self._core.completed
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """Peaks, impacts, energies and work: the tree of ``summary.json``, names carry units."""
+        return cast("dict[str, Any]", json.loads(self._core.summary_json(self._twin)))
+
+    @cached_property
+    def _rows(self) -> dict[tuple[str, int, int], int]:
+        return {row: at for at, row in enumerate(self._core.rows)}
+
+    def _history(self, kind: str, place: int = 0, floor: int = 0) -> npt.NDArray[np.float64]:
+        if not self._rows:
+            raise ValueError("no histories were recorded; run with a record_interval")
+        return cast("npt.NDArray[np.float64]", self._core.histories[self._rows[kind, place, floor]])
+
+    @property
+    def time(self) -> npt.NDArray[np.float64]:
+        """Recorded instants [s], shape ``(n,)``; dense where buildings touch."""
+        return self._history("time")
+
+    @property
+    def ground_acceleration(self) -> npt.NDArray[np.float64]:
+        """Ground acceleration at ``time`` [m/s²], shape ``(n,)``."""
+        return self._history("ground_acceleration")
+
+    def floor(self, building: str | int, floor: int) -> Floor:
+        """Histories of a floor.
+
+        Args:
+            building: name of the building, or its position from the left, from 0.
+            floor: floor, from 1; -1 is the roof.
+        """
+        buildings = self.summary["buildings"]
+        at = position(building, [building["name"] for building in buildings])
+        count = len(buildings[at]["floors"])
+        number = index(floor)
+        number += count + 1 if number < 0 else 0
+        name = buildings[at]["name"]
+        if not 1 <= number <= count:
+            raise ValueError(f"{name!r} has floors 1 to {count}, found {floor}")
+        return Floor(
+            building=name,
+            floor=number,
+            displacement=self._history("displacement", at, number),
+            velocity=self._history("velocity", at, number),
+            total_acceleration=self._history("total_acceleration", at, number),
+        )
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """All contacts, gap by gap from the left, each from the lowest up, with their force histories."""
+        found: list[Contact] = []
+        for gap in self.summary["gaps"]:
+            for contact in gap["contacts"]:
+                found.append(
+                    Contact(
+                        between=tuple(gap["between"]),
+                        floors=tuple(contact["floors"]),
+                        height=contact["height_m"],
+                        force=self._history("force", len(found)),
+                        peak_force=contact["peak_force_n"],
+                        impact_count=contact["impact_count"],
+                    )
+                )
+        return tuple(found)
+
+    @property
+    def energies(self) -> dict[str, npt.NDArray[np.float64]]:
+        """Histories of the energies [J]: ``input`` = ``kinetic`` + ``strain`` + ``damped`` + ``hysteretic`` + ``contact``."""
+        return {name: self._history(f"energy_{name}") for name in _ENERGIES}
+
+    @cached_property
+    def history(self) -> Table:
+        """All histories, one row per recorded instant, columns as in ``history.parquet``."""
+        return Table._of(self._core.history_table())
+
+    @cached_property
+    def impacts(self) -> Table:
+        """One row per impact, columns as in ``impacts.parquet``."""
+        return Table._of(self._core.impact_table())
+
+    @cached_property
+    def without_contact(self) -> Result | None:
+        """The same buildings passing through each other; run when it is first asked for. ``None`` without gaps."""
+        if not self.summary["gaps"] or not self.completed:
+            return None
+        if self._twin is None:
+            twin = _jostle.run(self._model._core, False, self._interval, True)
+            if twin.interrupted:
+                raise KeyboardInterrupt
+            return Result._of(self._model, twin, self._interval)
+        return Result._of(self._model, self._twin, self._interval)
+
+    def _page(self) -> str:
+        twin = self.without_contact
+        return self._core.report(None if twin is None else twin._core)
+
+    def report(self, path: str | os.PathLike[str]) -> Path:
+        """Writes the report: one HTML page with animation, histories and tables, which opens offline.
+
+        Returns:
+            The path.
+
+        Raises:
+            OSError: the file cannot be written; it is then as it was before.
+        """
+        self._core.write(path, self._page())
+        return Path(path)
+
+    def save(self, folder: str | os.PathLike[str], *, report: bool = True) -> Path:
+        """Writes ``summary.json``, ``history.parquet``, ``impacts.parquet`` and ``report.html``, as ``jostle run`` does.
+
+        Args:
+            folder: made where it does not exist.
+            report: false leaves out the report and the run without contact that it compares with.
+
+        Returns:
+            The folder.
+        """
+        os.makedirs(folder, exist_ok=True)
+        twin = self._twin
+        if report and twin is None and self.without_contact is not None:
+            twin = self.without_contact._core
+        self._core.save(folder, report, twin)
+        return Path(folder)
+
+    def animate(self) -> Animation:
+        """The buildings in motion, for a notebook, or for a browser with ``.show()``."""
+        return Animation(self._page())
+
+    def plot(self) -> Figure:
+        """A matplotlib figure: roof displacements, contact forces, ground acceleration (needs ``jostle[plot]``)."""
+        from ._plot import figure
+
+        return figure(self)
+
+    def __str__(self) -> str:
+        return self._core.text(self._twin).rstrip()
+
+    def __repr__(self) -> str:
+        return f"<Result {self.summary['title']!r}: {self._core.verdict()}>"
+
+    def _repr_html_(self) -> str:
+        from ._draw import result_html
+
+        return result_html(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError(
+            "a Result cannot be pickled; send result.summary or arrays, or run the model where it is needed "
+            "(models can be pickled)"
+        )
+
+
+def position(building: str | int, names: Sequence[str]) -> int:
+    """Position of a building by name or position."""
+    if isinstance(building, str):
+        if building in names:
+            return names.index(building)
+        raise ValueError(f"there is no building {building!r}; the buildings are {', '.join(names)}")
+    at = index(building)
+    at += len(names) if at < 0 else 0
+    if not 0 <= at < len(names):
+        raise ValueError(f"there is no building {building}; there are {len(names)}, counted from 0")
+    return at

@@ -1,0 +1,112 @@
+"""One analysis."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import time as clock
+import warnings
+from typing import TYPE_CHECKING, Any
+
+from . import _jostle
+from ._errors import AnalysisError, InterruptedWarning, JostleWarning
+from ._model import Model
+from ._motion import Motion
+from ._progress import Observer, ProgressLine
+from ._result import Result
+from ._units import Quantity, in_si
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._units import RunUnits
+
+#: A second Ctrl-C this soon after one that stopped a run is an ordinary one [s].
+_SOON = 2.0
+_last_interrupt = float("-inf")
+
+
+def run(
+    model: Model | str | os.PathLike[str],
+    *,
+    motion: Motion | str | os.PathLike[str] | None = None,
+    gap: Quantity | None = None,
+    pga: Quantity | None = None,
+    pounding: bool = True,
+    without_contact: bool = False,
+    record_interval: Quantity | None = 0.005,
+    progress: bool | Observer = False,
+    force: bool = False,
+    **units: Unpack[RunUnits],
+) -> Result:
+    """Runs a model from rest through its ground motion.
+
+    Other Python threads go on meanwhile. The answer depends on the arguments alone, bit for bit, and is that of the
+    command line. Ctrl-C stops the run: the result then holds what was computed until then (``result.completed`` is
+    false) and an :class:`InterruptedWarning` is given; a second Ctrl-C within two seconds raises as usual.
+
+    Args:
+        model: the model, or a model file.
+        motion: another ground motion; a record by name or path keeps the scaling of the model.
+        gap: another width of every gap, a length ≥ 0; also ``gap_mm=20``.
+        pga: scales the ground motion to this peak, > 0; also ``pga_g=0.2``.
+        pounding: false lets the buildings pass through each other.
+        without_contact: makes a second run in which they do, as the command line does for its report; the summary
+            then knows the smallest gap without pounding.
+        record_interval: least time between recorded instants in free flight, zero for every step (every step of a
+            closed contact is recorded); ``None`` records no histories.
+        progress: true shows a progress line; or a function that is called with the time reached and the time to
+            reach [s] a few times a second.
+        force: runs even where ``solver = "product"`` is expected to lose its digits.
+
+    Raises:
+        ModelError: model, motion or an argument is wrong.
+        AnalysisError: a step failed; ``error.result`` holds what was computed until then.
+    """
+    if not isinstance(model, Model):
+        model = Model.load(model)
+    if units or not (motion is None and gap is None and pga is None):
+        model = model.changed(motion=motion, gap=gap, pga=pga, **units)
+    interval = None if record_interval is None else in_si("record_interval", record_interval, "time")
+    if interval is not None and interval < 0.0:
+        raise ValueError(f"record_interval: must not be negative, found {interval} s")
+    core = _walk(model, bool(pounding), interval, progress, bool(force), "pounding  ")
+    result = Result._of(model, core, interval)
+    if core.warning is not None:
+        warnings.warn(core.warning, JostleWarning, stacklevel=2)
+    for text in core.doubts if core.completed else ():
+        warnings.warn(text, JostleWarning, stacklevel=2)
+    if core.failure is not None:
+        raise AnalysisError(core.failure, result)
+    if core.interrupted:
+        _interrupted(result)
+    elif without_contact and pounding:
+        twin = _walk(model, False, interval, progress, bool(force), "no contact  ")
+        if twin.interrupted:
+            _interrupted(result)
+        result = Result._of(model, core, interval, twin)
+    return result
+
+
+def _walk(
+    model: Model, pounding: bool, interval: float | None, progress: Any, force: bool, label: str
+) -> _jostle.Run:
+    line = ProgressLine(label) if progress is True else contextlib.nullcontext()
+    with line as shown:
+        observer = shown or (progress if callable(progress) else None)
+        return _jostle.run(model._core, pounding, interval, force, observer)
+
+
+def _interrupted(result: Result) -> None:
+    """Says that a run was stopped, or raises if the user means it."""
+    global _last_interrupt
+    now = clock.monotonic()
+    soon, _last_interrupt = now - _last_interrupt < _SOON, now
+    if soon:
+        raise KeyboardInterrupt
+    reason = result.summary["ended_early"] or "the run without contact was stopped"
+    warnings.warn(
+        f"{reason}; the result holds what was computed until then (Ctrl-C again raises KeyboardInterrupt)",
+        InterruptedWarning,
+        stacklevel=3,
+    )

@@ -1,0 +1,183 @@
+"""Quantities: texts with units, numbers in SI, and keywords with the unit in their name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterable, Mapping
+from numbers import Integral, Real
+from typing import TYPE_CHECKING, Any, TypedDict, Union
+
+from . import _jostle
+from ._errors import ModelError
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+#: A text with a unit, or a number in SI.
+Quantity = Union[str, float]
+#: A quantity, or one per storey or span.
+Quantities = Union[Quantity, "Iterable[Quantity]", "npt.NDArray[np.floating[Any]]"]
+#: Numbers in the unit of the keyword: one, or one per storey or span.
+Numbers = Union[float, "Iterable[float]", "npt.NDArray[np.floating[Any]]"]
+
+#: Units in names of keywords, as in ``width_mm`` or ``stiffness_mn_m``.
+UNITS: dict[str, str] = {
+    "m": "m", "cm": "cm", "mm": "mm", "ft": "ft", "in": "in",
+    "s": "s", "ms": "ms",
+    "m_s2": "m/s2", "cm_s2": "cm/s2", "g": "g", "gal": "gal",
+    "kg": "kg", "t": "t", "kn": "kN", "mn": "MN", "n": "N",
+    "n_m": "N/m", "kn_m": "kN/m", "mn_m": "MN/m", "n_m1_5": "N/m^1.5",
+    "pa": "Pa", "mpa": "MPa", "gpa": "GPa",
+    "kg_m": "kg/m", "t_m": "t/m", "kg_m3": "kg/m3", "kn_m3": "kN/m3",
+}  # fmt: skip
+
+class MotionUnits(TypedDict, total=False):
+    """Keywords with units in their names."""
+
+    pga_m_s2: float
+    pga_cm_s2: float
+    pga_g: float
+    pga_gal: float
+
+
+class RunUnits(MotionUnits, total=False):
+    """Keywords with units in their names."""
+
+    gap_m: float
+    gap_cm: float
+    gap_mm: float
+    gap_in: float
+
+
+class HeightUnits(TypedDict, total=False):
+    """Keywords with units in their names."""
+
+    storey_height_m: Numbers
+    storey_height_cm: Numbers
+    storey_height_mm: Numbers
+    storey_height_ft: Numbers
+
+
+class FrameUnits(HeightUnits, total=False):
+    """Keywords with units in their names."""
+
+    spans_m: Iterable[float]
+    spans_cm: Iterable[float]
+    spans_mm: Iterable[float]
+    spans_ft: Iterable[float]
+    elastic_modulus_pa: float
+    elastic_modulus_mpa: float
+    elastic_modulus_gpa: float
+    density_kg_m3: float
+    density_kn_m3: float
+    beam_mass_kg_m: Numbers
+    beam_mass_t_m: Numbers
+    beam_mass_kn_m: Numbers
+    floor_mass_kg: Numbers
+    floor_mass_t: Numbers
+    floor_mass_kn: Numbers
+
+
+class ShearUnits(HeightUnits, total=False):
+    """Keywords with units in their names."""
+
+    mass_kg: Numbers
+    mass_t: Numbers
+    mass_kn: Numbers
+    stiffness_n_m: Numbers
+    stiffness_kn_m: Numbers
+    stiffness_mn_m: Numbers
+
+
+class GapUnits(TypedDict, total=False):
+    """Keywords with units in their names."""
+
+    width_m: float
+    width_cm: float
+    width_mm: float
+    width_in: float
+    stiffness_n_m: float
+    stiffness_kn_m: float
+    stiffness_mn_m: float
+    stiffness_n_m1_5: float
+
+
+def number(value: object) -> float | int | None:
+    """A plain number from anything that is one, NumPy's included; ``None`` for anything else."""
+    if isinstance(value, Integral):
+        return int(value)
+    if isinstance(value, Real):
+        return float(value)
+    return None
+
+
+def in_si(name: str, value: object, kind: str) -> float:
+    """An argument that is a text with a unit or a number in SI."""
+    plain = number(value)
+    if isinstance(value, bool) or (plain is None and not isinstance(value, str)):
+        raise TypeError(
+            f"{name}: expected a text with a unit or a number in SI, found {type(value).__name__}"
+        )
+    text = value if isinstance(value, str) else repr(plain)
+    try:
+        return _jostle.quantity(text, kind)
+    except ModelError as error:
+        raise ModelError(f"{name}: {error}") from None
+
+
+def split(key: str, bases: Collection[str]) -> tuple[str, str] | None:
+    """The keyword and the unit of a name such as ``width_mm``, if it is one of these keywords with a known unit."""
+    for unit, text in UNITS.items():
+        base = key[: -len(unit) - 1]
+        if key.endswith(f"_{unit}") and base in bases:
+            return base, text
+    return None
+
+
+def with_unit(value: object, unit: str) -> object:
+    """A number, or every number of a list, as a text with its unit; anything else stays for the reader to refuse."""
+    plain = number(value)
+    if plain is not None and not isinstance(value, bool):
+        if not math.isfinite(plain):
+            return plain
+        return f"{plain!r} {unit}"
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
+        return value
+    return [with_unit(entry, unit) for entry in value]
+
+
+def merge(what: str, fields: Mapping[str, object], extra: Mapping[str, object]) -> dict[str, Any]:
+    """Fields that were given, with those whose unit is in the name of the keyword."""
+    merged = {key: value for key, value in fields.items() if value is not None}
+    for key, value in extra.items():
+        if value is None:
+            continue
+        parts = split(key, fields.keys())
+        name, value = (parts[0], with_unit(value, parts[1])) if parts else (key, value)
+        if name in merged:
+            raise TypeError(f"{what}: {name} is given twice, the second time as {key}")
+        merged[name] = value
+    return merged
+
+
+def argument(
+    name: str, value: Quantity | None, kind: str, extra: dict[str, Any]
+) -> float | None:
+    """A quantity in SI from its keyword or from one with a unit in its name, which is taken from ``extra``."""
+    for key in list(extra):
+        parts = split(key, (name,))
+        if parts:
+            if value is not None:
+                raise TypeError(f"{name} is given twice, the second time as {key}")
+            given = with_unit(extra.pop(key), parts[1])
+            if not isinstance(given, str):
+                raise TypeError(f"{key}: expected a number, found {type(given).__name__}")
+            value = given
+    return None if value is None else in_si(name, value, kind)
+
+
+def refuse(function: str, extra: Mapping[str, object]) -> None:
+    """No keyword may be left over."""
+    for key in extra:
+        raise TypeError(f"{function}() got an unexpected keyword argument {key!r}")

@@ -1,0 +1,216 @@
+"""Models from files, texts, dicts and builders, and what is said when they are wrong."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import TOWERS, Program, build_towers
+
+import jostle
+from jostle import Frame, Gap, Model, ModelError, Shear
+
+TREE: dict[str, Any] = {
+    "building": [{"kind": "shear", "storeys": 2, "mass": "40 t", "stiffness": "60 MN/m", "storey_height": 3}]
+}
+
+
+def frame(**changes: Any) -> Frame:
+    fields: dict[str, Any] = {
+        "storeys": 2,
+        "storey_height": "3 m",
+        "spans": ["6 m"],
+        "column": {"width": "500 mm", "depth": "500 mm"},
+        "beam": {"width": "300 mm", "depth": "600 mm"},
+        "elastic_modulus": "30 GPa",
+        "beam_mass": "3600 kg/m",
+    }
+    return Frame(**{**fields, **changes})
+
+
+def test_units_in_names_are_units_in_texts() -> None:
+    named = Frame(
+        storeys=2,
+        storey_height_cm=300,
+        spans_m=[6],
+        column={"width_mm": 500, "depth_mm": np.int64(500)},
+        beam=[{"width_mm": 300, "depth_m": 0.6}] * 2,
+        elastic_modulus_gpa=30,
+        beam_mass_kg_m=np.array([3600.0, 3600.0]),
+    )
+    said = frame(storey_height="300 cm", beam=[{"width": "300 mm", "depth": "0.6 m"}] * 2)
+    assert Model([named]).description == Model([said]).description
+
+
+@pytest.mark.parametrize(
+    ("named", "said"),
+    [
+        (Shear(storeys=1, mass_t=40, stiffness_mn_m=60), Shear(storeys=1, mass="40 t", stiffness="60 MN/m")),
+        (Shear(storeys=1, mass_kg=4e4, stiffness_kn_m=6e4), Shear(storeys=1, mass=4e4, stiffness=6e7)),
+        (Shear(storeys=1, mass_kn=400, stiffness_n_m=6e7), Shear(storeys=1, mass="400 kN", stiffness="6e7 N/m")),
+        (frame(beam_mass=None, beam_mass_kn_m=30), frame(beam_mass="30 kN/m")),
+        (frame(density_kg_m3=2400), frame(density="2400 kg/m3")),
+        (frame(floor_mass_t=[1, 2]), frame(floor_mass=["1 t", "2 t"])),
+        (frame(elastic_modulus=None, elastic_modulus_mpa=3e4), frame(elastic_modulus="30000 MPa")),
+        (frame(storey_height=None, storey_height_ft=10), frame(storey_height="10 ft")),
+    ],
+)  # fmt: skip
+@pytest.mark.filterwarnings("ignore::jostle.ModelWarning")
+def test_every_unit_of_names(named: Frame | Shear, said: Frame | Shear) -> None:
+    assert Model([named]).description == Model([said]).description
+
+
+def test_gaps_find_their_neighbours() -> None:
+    row = [Shear(n, storeys=2, mass="40 t", stiffness="60 MN/m", storey_height=3) for n in "abc"]
+    model = Model(row, [Gap("10 mm"), Gap(width_mm=20, law="linear", stiffness_mn_m=500)])
+    assert [gap["between"] for gap in model.description["gaps"]] == [["a", "b"], ["b", "c"]]
+    assert [gap["width_m"] for gap in model.description["gaps"]] == [0.01, 0.02]
+    same = Model(row, Gap("10 mm"))
+    assert [gap["width_m"] for gap in same.description["gaps"]] == [0.01, 0.01]
+    nameless = [Shear(storeys=2, mass="40 t", stiffness="60 MN/m", storey_height=3)] * 2
+    assert Model(nameless, Gap("5 mm")).description["gaps"][0]["between"] == ["B1", "B2"]
+
+
+def test_a_gap_between_strangers_is_refused() -> None:
+    row = [Shear(n, storeys=2, mass="40 t", stiffness="60 MN/m", storey_height=3) for n in "ab"]
+    with pytest.raises(ModelError, match='there is no building "c"'):
+        Model(row, Gap("10 mm", between=["a", "c"]))
+
+
+def test_errors_are_those_of_the_command_line(program: Program, tmp_path: Path) -> None:
+    path = tmp_path / "bad.toml"
+    path.write_text(TOWERS.replace('"3.2 m"', '"3.2 kg"', 1).replace("restitution =", "restituton ="))
+    done = program("check", str(path))
+    assert done.returncode == 2
+    with pytest.raises(ModelError) as caught:
+        Model.load(path)
+    assert f"error: {caught.value}".strip() == done.stderr.strip()
+    faults = caught.value.faults
+    assert [fault.path for fault in faults] == ["building[0].storey_height", "gap[0].restituton"]
+    assert faults[0].line == 12 and faults[0].column == 17
+    assert faults[1].remedy == 'did you mean "restitution"?'
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert str(again) == str(caught.value) and again.faults == faults
+
+
+def test_errors_of_models_made_in_python_name_the_field() -> None:
+    with pytest.raises(ModelError) as caught:
+        Model([Shear("a", mass="40 kg/m", stiffness="60 MN/m", storeys=2, storey_height=3)])
+    assert str(caught.value) == (
+        'model: building[0].mass: expected a mass (such as "40 t"), found "40 kg/m"\n\n1 fault in model'
+    )
+    assert caught.value.faults[0].line is None
+
+
+def test_errors_end_in_the_users_own_line() -> None:
+    with pytest.raises(ModelError) as caught:
+        Model.from_dict({})
+    assert len(caught.traceback) <= 3, "short tracebacks"
+
+
+def test_faults_that_only_assembly_shows_name_their_line() -> None:
+    text = TOWERS.replace('storey_height = "3.2 m"', 'storey_height = "3.2 m"\ndamping = { modes = [1, 9] }', 1)
+    with pytest.raises(ModelError) as caught:
+        Model.loads(text, name="x.toml")
+    assert caught.value.faults[0].line == 13
+
+
+@pytest.mark.parametrize(
+    ("tree", "problem"),
+    [
+        ({"building": [{"mass": float("nan")}]}, r"building\[0\].mass: expected a finite number"),
+        ({"building": [{"mass": [1.0, float("inf")]}]}, r"building\[0\].mass\[1\]"),
+        ({"building": {1: 2}}, "building: keys are texts, found int"),
+        ({"building": b"x"}, "building: a model cannot hold a bytes"),
+        ({"building": object()}, "a model cannot hold a object"),
+        ({"title": 10**400}, "title: expected a number of usable size"),
+    ],
+)
+def test_what_no_file_can_hold_is_named(tree: Any, problem: str) -> None:
+    with pytest.raises(ModelError, match=problem):
+        Model.from_dict(tree)
+
+
+def test_endless_trees_are_refused() -> None:
+    tree: dict[str, Any] = {}
+    tree["building"] = [tree]
+    with pytest.raises(ModelError, match="nested too deeply"):
+        Model.from_dict(tree)
+
+
+def test_numpy_stands_for_numbers_and_lists() -> None:
+    tree = {"building": [{**TREE["building"][0], "mass": np.array([4e4, 4e4]), "stiffness": np.float32(6e7)}]}
+    assert Model.from_dict(tree).description == Model.from_dict(TREE).description
+
+
+def test_json_is_read_as_well(tmp_path: Path) -> None:
+    path = tmp_path / "model.json"
+    path.write_text(json.dumps(TREE))
+    expected = Model.from_dict(TREE).description
+    assert Model.load(path).description == expected
+    assert Model.loads(json.dumps(TREE)).description == expected
+
+
+def test_the_words_of_arguments() -> None:
+    model = build_towers()
+    with pytest.raises(ModelError, match="^gap: expected a length"):
+        model.changed(gap="3 kg")
+    with pytest.raises(TypeError, match="gap is given twice"):
+        model.changed(gap="3 mm", gap_mm=3)
+    with pytest.raises(TypeError, match="unexpected keyword argument 'gap_pt'"):
+        model.changed(gap_pt=3)  # type: ignore[call-arg]
+    with pytest.raises(ModelError, match="must not be negative"):
+        model.changed(gap=-0.1)
+    with pytest.raises(TypeError, match="width is given twice"):
+        Gap("3 mm", width_mm=3)
+    with pytest.raises(ModelError, match="^model: gap"):
+        Model([Shear("a", mass=1, stiffness=1, storeys=1, storey_height=3)], Gap("3 mm"))
+    with pytest.raises(TypeError, match="expected a Model"):
+        jostle.modes("paper")  # type: ignore[arg-type]
+
+
+def test_changes_leave_the_model_alone(towers: Model) -> None:
+    before = towers.description
+    wide = towers.changed(gap_mm=35, pga="1 m/s2")
+    assert towers.description == before
+    assert wide.description["gaps"][0]["width_m"] == 0.035
+    assert wide.motion is not None and wide.motion.pga == 1.0
+
+
+def test_models_travel(towers_file: Path) -> None:
+    pulse = jostle.Motion.ricker(amplitude="3 m/s2", period="0.5 s").scaled(2.0).reversed()
+    for model in (
+        Model.paper_example(),
+        Model.load(towers_file).changed(gap="5 mm").changed(pga="1 m/s2"),
+        build_towers().changed(motion=pulse),
+    ):
+        copy = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(model))))
+        assert copy.description == model.description
+        ours, theirs = copy.motion, model.motion
+        assert ours is not None and theirs is not None
+        assert ours.acceleration.tobytes() == theirs.acceleration.tobytes()
+
+
+def test_what_may_not_be_meant_is_a_warning() -> None:
+    with pytest.warns(jostle.ModelWarning, match="storeys of 3 m are assumed"):
+        model = Model([Shear("a", mass=["40 t", "40 t"], stiffness="60 MN/m")])
+    assert len(model.warnings) == 1
+
+
+def test_records_are_found_beside_the_file(tmp_path: Path) -> None:
+    (tmp_path / "quake.csv").write_text("# step = 0.01 s\n# unit = m/s2\n" + "0\n1\n-1\n" * 20)
+    tree = {**TREE, "motion": {"record": "quake.csv"}}
+    path = tmp_path / "model.json"
+    path.write_text(json.dumps(tree))
+    for model in (Model.load(path), Model.from_dict(tree, folder=tmp_path)):
+        assert model.motion is not None and model.motion.name == "quake"
+    lost = Model.from_dict(tree)
+    with pytest.raises(ModelError, match='there is no record "quake.csv"'):
+        jostle.run(lost)
+    with pytest.raises(ModelError, match="^motion: there is no record"):
+        jostle.run(lost, motion="quake2.csv")
+    assert jostle.run(lost, motion=jostle.Motion.read(tmp_path / "quake.csv")).completed

@@ -1,0 +1,89 @@
+"""What a notebook shows: complete, offline, and nobody's script."""
+
+from __future__ import annotations
+
+import html.parser
+import re
+
+import pytest
+
+import jostle
+
+
+class Reader(html.parser.HTMLParser):
+    """Collects elements and complains about those left open."""
+
+    VOID = {"meta", "link", "input", "path", "br"}
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.seen: list[tuple[str, dict[str, str | None]]] = []
+        self.feed(page)
+        self.close()
+        assert not self.open, self.open
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append((tag, dict(attrs)))
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open and self.open.pop() == tag, tag
+
+
+def shown(thing: object) -> str:
+    page = thing._repr_html_()  # type: ignore[attr-defined]
+    assert isinstance(page, str)
+    reader = Reader(page)
+    assert not re.search(r"(?:src|href)\s*=\s*[\"']?(?:https?:)?//", page), "nothing from elsewhere"
+    for tag, attributes in reader.seen:
+        assert tag != "script", "scripts only inside the frame"
+        if tag == "iframe":
+            assert attributes["sandbox"] == "allow-scripts"
+            assert "default-src 'none'" in (attributes["srcdoc"] or "")
+    return page
+
+
+def test_everything_shows_itself(towers: jostle.Model, result: jostle.Result) -> None:
+    assert shown(towers).count("<svg") == 1
+    assert "20 mm" in shown(towers) and "storeys" in shown(towers)
+    page = shown(result)
+    assert "Contact force [kN]" in page and "<iframe" in page and result.summary["title"] in page
+    assert len(page) < 1_500_000
+    assert "<polyline" in shown(jostle.Motion.el_centro())
+    assert "+1.00" in shown(jostle.modes(towers)["soft"])
+    assert "more rows" in shown(result.history)
+    assert "<iframe" in shown(result.animate())
+
+
+def test_names_are_only_names() -> None:
+    evil = '<script>alert("&")</script>'
+    building = jostle.Shear(evil, mass="40 t", stiffness="60 MN/m", storeys=2, storey_height=3)
+    model = jostle.Model([building], title=evil, motion=jostle.Motion([0, 1, 0], step=0.1, name=evil))
+    result = jostle.run(model)
+    for thing in (model, model.motion, result, jostle.modes(model)[evil], result.history):
+        shown(thing)
+
+
+def test_a_model_without_motion_still_draws_itself() -> None:
+    tree = {"building": [{"kind": "shear", "storeys": 2, "mass": "4 t", "stiffness": "6 MN/m", "storey_height": 3}]}
+    assert "no ground motion" in shown(jostle.Model.from_dict(tree))
+    lost = jostle.Model.from_dict({**tree, "motion": {"record": "lost.at2"}})
+    assert "there is no record" in shown(lost)
+
+
+@pytest.mark.parametrize("thing", ["Model", "Motion", "Result", "Table", "Animation"])
+def test_reprs_are_one_line(thing: str, towers: jostle.Model, result: jostle.Result) -> None:
+    things = {
+        "Model": towers,
+        "Motion": towers.motion,
+        "Result": result,
+        "Table": result.impacts,
+        "Animation": result.animate(),
+    }
+    text = repr(things[thing])
+    assert text.startswith(f"<{thing}") and "\n" not in text

@@ -1,0 +1,214 @@
+"""Histories, contacts, tables, pictures and pages of a run."""
+
+from __future__ import annotations
+
+import gc
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import polars as pl
+import pyarrow as pa
+import pytest
+
+import jostle
+
+
+def test_histories_are_views_that_nobody_writes_to(result: jostle.Result) -> None:
+    floor = result.floor("soft", 3)
+    for values in (result.time, floor.displacement, floor.velocity, result.contacts[0].force):
+        assert values.dtype == np.float64 and values.shape == result.time.shape
+        assert values.flags.c_contiguous and not values.flags.owndata
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 1.0
+        with pytest.raises(ValueError, match="WRITEABLE"):
+            values.flags.writeable = True
+    assert np.shares_memory(floor.displacement, result.floor(0, -1).displacement)
+    assert np.shares_memory(floor.displacement, result.history["soft.floor3.displacement_m"])
+
+
+def test_views_outlive_the_result(towers: jostle.Model, result: jostle.Result) -> None:
+    kept = jostle.run(towers).floor("stiff", 1).displacement
+    gc.collect()
+    assert np.array_equal(kept, result.floor("stiff", 1).displacement)
+
+
+def test_histories_agree_with_the_summary(result: jostle.Result) -> None:
+    summary = result.summary
+    roof = summary["buildings"][0]["floors"][-1]
+    displacement = result.floor("soft", -1).displacement
+    # Peaks lie between recorded instants.
+    assert displacement.max() == pytest.approx(roof["displacement_max_m"], rel=5e-3)
+    assert displacement.max() <= roof["displacement_max_m"]
+    assert np.all(np.diff(result.time) > 0)
+    assert sum(contact.impact_count for contact in result.contacts) == len(result.impacts) > 0
+
+
+def test_impulses_are_the_areas_under_the_forces(result: jostle.Result) -> None:
+    for contact, told in zip(result.contacts, result.summary["gaps"][0]["contacts"]):
+        force, time = contact.force, result.time
+        area = np.sum((force[1:] + force[:-1]) / 2 * np.diff(time))
+        assert area == pytest.approx(told["impulse_n_s"], rel=2e-3, abs=1.0)
+        assert contact.between == ("soft", "stiff") and contact.floors == (contact.floors[0],) * 2
+
+
+def test_energies_balance(result: jostle.Result) -> None:
+    energies = result.energies
+    spent = sum(energies[name] for name in energies if name != "input")
+    assert np.abs(energies["input"] - spent).max() < 1e-8 * np.abs(energies["input"]).max()
+
+
+def test_one_storey_moves_as_the_closed_form_says() -> None:
+    mass, stiffness, omega = 4e4, 6e7, 2 * np.pi / 0.7
+    building = jostle.Shear(
+        "one", mass=[mass], stiffness=[stiffness], storey_height=3, damping={"alpha": 0, "beta": 0}
+    )
+    shaking = jostle.Motion.sine(amplitude="2 m/s2", period="0.7 s", duration="4 s")
+    result = jostle.run(
+        jostle.Model([building], motion=shaking, analysis={"step": 2e-4}), record_interval=0
+    )
+    natural = np.sqrt(stiffness / mass)
+    t = result.time
+    forced = -2.0 / (natural**2 - omega**2)
+    exact = forced * (np.sin(omega * t) - omega / natural * np.sin(natural * t))
+    error = np.abs(result.floor("one", 1).displacement - exact).max()
+    # Newmark lengthens periods by (ω h)²/12 = 5e-6: after 25 periods 8e-4 of the free part.
+    assert error < 1e-3 * np.abs(exact).max()
+    assert result.contacts == () and result.without_contact is None
+    assert len(result.impacts) == 0 and result.impacts["peak_force_n"].shape == (0,)
+
+
+def test_tables_go_where_users_are(result: jostle.Result) -> None:
+    table = result.history
+    assert len(table) == len(result.time) and "time_s" in table
+    in_polars, in_arrow = pl.DataFrame(table), pa.table(table)
+    in_pandas = table.to_pandas()
+    # pandas takes Arrow tables itself from version 3 on.
+    by_arrow = getattr(pd.DataFrame, "from_arrow", lambda table: pa.table(table).to_pandas())(table)
+    assert in_polars.columns == in_arrow.column_names == table.columns == list(in_pandas.columns)
+    for name in table.columns:
+        ours = table[name]
+        assert np.array_equal(in_polars[name].to_numpy(), ours)
+        assert np.array_equal(in_arrow[name].to_numpy(), ours)
+        assert np.array_equal(in_pandas[name].to_numpy(), ours)
+        assert np.array_equal(by_arrow[name].to_numpy(), ours)
+    assert pa.schema(table).names == table.columns
+
+
+def test_rows_of_impacts(result: jostle.Result) -> None:
+    impacts = result.impacts
+    rows = list(impacts)
+    assert len(rows) == len(impacts) and rows[-1] == impacts[-1] and rows[0] == impacts[0]
+    told = [i for c in result.summary["gaps"][0]["contacts"] for i in c["impacts"]]
+    for row, impact in zip(rows, told):
+        assert {key: row[key] for key in impact} == impact
+        assert row["gap"] == "soft-stiff" and isinstance(row["left_floor"], int)
+    assert pl.DataFrame(impacts).height == len(rows) == len(impacts.to_pandas())
+    with pytest.raises(IndexError):
+        impacts[len(impacts)]
+    with pytest.raises(KeyError, match="peak_force_n"):
+        impacts["peak_force"]
+
+
+def test_contacts_between_floors_have_no_floor(towers: jostle.Model) -> None:
+    tower = {"kind": "frame", "storeys": 2, "storey_height": "3 m", "spans": ["6 m"], "concrete": "C30",
+             "column": {"width": "400 mm", "depth": "400 mm"}, "beam": {"width": "300 mm", "depth": "600 mm"},
+             "beam_mass": "3600 kg/m"}  # fmt: skip
+    other = {"kind": "shear", "storeys": 2, "mass": "90 t", "stiffness": "400 MN/m", "storey_height": "2.25 m"}
+    model = jostle.Model([tower, other], jostle.Gap(width_mm=2, floors=["2.25 m"]))
+    result = jostle.run(model, motion=jostle.Motion.el_centro().scaled(pga="0.4 g").lasting("6 s"))
+    assert len(result.impacts) > 0
+    assert result.impacts[0]["left_floor"] is None and result.impacts[0]["right_floor"] == 1
+    assert pa.table(result.impacts)["left_floor"].null_count == len(result.impacts)
+    assert result.contacts[0].floors == (None, 1)
+
+
+def test_floors_are_found(result: jostle.Result) -> None:
+    assert result.floor("stiff", 2).building == result.floor(1, 2).building == "stiff"
+    assert result.floor(-1, -1).floor == 3
+    with pytest.raises(ValueError, match="'stif'; the buildings are soft, stiff"):
+        result.floor("stif", 1)
+    with pytest.raises(ValueError, match="has floors 1 to 3"):
+        result.floor("stiff", 4)
+    with pytest.raises(ValueError, match="has floors 1 to 3"):
+        result.floor("stiff", 0)
+    with pytest.raises(ValueError, match="there are 2"):
+        result.floor(2, 1)
+
+
+def test_runs_without_histories(towers: jostle.Model, result: jostle.Result) -> None:
+    bare = jostle.run(towers, record_interval=None)
+    assert bare.summary["gaps"] == result.summary["gaps"]
+    assert bare.impacts[0] == result.impacts[0]
+    with pytest.raises(ValueError, match="no histories were recorded"):
+        _ = bare.time
+    assert len(bare.history) == 0 and pa.table(bare.history).num_columns == 0
+    assert "svg" not in bare._repr_html_()
+    with pytest.raises(ValueError, match="must not be negative"):
+        jostle.run(towers, record_interval=-1.0)
+
+
+def test_pounding_can_be_left_out(towers: jostle.Model, result: jostle.Result) -> None:
+    free = jostle.run(towers, pounding=False)
+    assert len(free.impacts) == 0
+    twin = result.without_contact
+    assert twin is not None and twin.summary["buildings"] == free.summary["buildings"]
+    with_twin = jostle.run(towers, without_contact=True)
+    closing = with_twin.summary["gaps"][0]["closing_without_contact_m"]
+    assert closing == max(c["closing_peak_m"] for c in free.summary["gaps"][0]["contacts"])
+    # What it says: from that width on they no longer touch.
+    assert len(jostle.run(towers, gap=closing * (1 + 1e-9)).impacts) == 0
+    assert len(jostle.run(towers, gap=closing * 0.999).impacts) > 0
+
+
+def test_plot(result: jostle.Result, tmp_path: Path) -> None:
+    figure = result.plot()
+    assert len(figure.axes) == 3
+    lines = figure.axes[0].get_lines()
+    assert np.array_equal(lines[0].get_ydata(), 1e3 * result.floor("soft", -1).displacement)
+    figure.savefig(tmp_path / "x.png")
+    import matplotlib.pyplot as plt
+
+    plt.close(figure)
+
+
+def test_pages(result: jostle.Result, tmp_path: Path) -> None:
+    path = result.report(tmp_path / "x.html")
+    page = path.read_text(encoding="utf-8")
+    assert page.startswith("<!DOCTYPE html>") and "also without contact" in page
+    assert "src=" not in page.split("<body")[0]
+    animation = result.animate()
+    assert "display:none" in animation.save(tmp_path / "a.html").read_text(encoding="utf-8")
+    with pytest.raises(OSError, match="cannot be written"):
+        result.report(tmp_path / "no" / "such" / "x.html")
+
+
+def test_results_stay_where_they_are(result: jostle.Result) -> None:
+    with pytest.raises(TypeError, match="cannot be pickled; send result.summary"):
+        pickle.dumps(result)
+
+
+def test_the_published_form_runs_where_it_keeps_its_digits() -> None:
+    building = {"kind": "shear", "storeys": 1, "mass": "40 t", "stiffness": "60 MN/m", "storey_height": 3}
+    model = jostle.Model([building], motion="el-centro", analysis={"solver": "product"})
+    assert jostle.run(model).completed
+
+
+def test_lost_digits_are_refused_unless_forced() -> None:
+    tree = {
+        "building": [{"kind": "frame", "storeys": 30, "storey_height": "3.2 m", "spans": ["6 m"], "concrete": "C30",
+                      "column": {"width": "500 mm", "depth": "500 mm"}, "beam": {"width": "300 mm", "depth": "600 mm"},
+                      "beam_mass": "3600 kg/m"}],
+        "analysis": {"solver": "product", "step": "0.5 ms"},
+        "motion": {"record": "el-centro", "duration": "0.05 s"},
+    }  # fmt: skip
+    model = jostle.Model.from_dict(tree)
+    with pytest.raises(jostle.ModelError, match="force=True runs it all the same") as caught:
+        jostle.run(model)
+    assert caught.value.faults[0].path == "analysis.solver"
+    with pytest.warns(jostle.JostleWarning):
+        try:
+            jostle.run(model, force=True)
+        except jostle.AnalysisError as error:
+            assert error.result is not None
