@@ -1,0 +1,59 @@
+//! What every fuzz target does: read, and check that what is accepted can be used.
+
+use std::path::Path;
+
+use jostle_io::{Format, RecordFormat, RecordOptions, parse_info, parse_record, read_model_text};
+
+/// Options that complete what a file may leave open, so that fuzzing reaches behind these questions.
+fn completing(format: Option<RecordFormat>) -> [RecordOptions; 2] {
+    let bare = RecordOptions {
+        format,
+        ..RecordOptions::default()
+    };
+    let full = RecordOptions {
+        unit: Some("gal".into()),
+        step: Some(0.01),
+        column: Some(2),
+        component: Some("1".into()),
+        scale: Some(1e-3),
+        remove_mean: Some(true),
+        format,
+    };
+    [bare, full]
+}
+
+fn read(bytes: &[u8], format: Option<RecordFormat>) {
+    for options in completing(format) {
+        match parse_record(bytes, &options) {
+            Ok(record) => {
+                assert!((1e-6..=10.0).contains(&record.step));
+                assert!(record.acceleration.len() >= 2);
+                assert!(record.acceleration.iter().all(|a| a.abs() <= 100.0));
+            }
+            Err(error) => assert!(error.to_string().starts_with(':')),
+        }
+        if let Ok(info) = parse_info(bytes, &options) {
+            assert!(info.channels.iter().all(|channel| channel.largest.is_finite()));
+        }
+    }
+}
+
+/// Reads a record in one format.
+pub fn read_as(key: &str, bytes: &[u8]) {
+    read(bytes, RecordFormat::from_key(key).ok());
+}
+
+/// Reads a record in the format that its content tells.
+pub fn read_any(bytes: &[u8]) {
+    read(bytes, None);
+}
+
+/// Reads a model file in both syntaxes.
+pub fn read_model(bytes: &[u8]) {
+    let text = String::from_utf8_lossy(bytes);
+    for format in [Format::Toml, Format::Json] {
+        if let Err(error) = read_model_text("m", &text, format, Path::new("/nonexistent")) {
+            assert!(!error.faults.is_empty());
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Writes small valid files into corpus/TARGET, for fuzzing to start from.
+
+#[path = "../../crates/jostle-io/tests/fixture/mod.rs"]
+mod fixture;
+
+use std::fs;
+use std::path::Path;
+
+use jostle_io::{RecordFormat, TEMPLATE_NAMES, template};
+
+fn main() -> std::io::Result<()> {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
+    let write = |target: &str, name: &str, bytes: &[u8]| {
+        let folder = corpus.join(target);
+        fs::create_dir_all(&folder)?;
+        fs::write(folder.join(name.replace([' ', ','], "-")), bytes)
+    };
+    for fixture in fixture::all(100) {
+        write("detect", fixture.name, &fixture.bytes)?;
+        if let Ok(format) = RecordFormat::detect(&fixture.bytes) {
+            write(format.key(), fixture.name, &fixture.bytes)?;
+        }
+    }
+    for name in TEMPLATE_NAMES {
+        let text = template(name, "seed").unwrap_or_default();
+        write("model", name, text.as_bytes())?;
+    }
+    Ok(())
+}
