@@ -59,6 +59,24 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         if let Some(hinges) = &model.buildings[index].hinges {
             describe_hinges(text, hinges)?;
         }
+        for (name, hinge, unit) in [
+            (
+                "rocks",
+                model.buildings[index].base.rotational_hinge,
+                "kN.m",
+            ),
+            ("slides", model.buildings[index].base.horizontal_hinge, "kN"),
+        ] {
+            if let Some(hinge) = hinge {
+                let yielding = hinge.backbone().side(Side::Positive).yielding.force;
+                writeln!(
+                    text,
+                    "  base {name} by {}: yields at {:.0} {unit}",
+                    hinge.rule().name(),
+                    yielding * 1e-3
+                )?;
+            }
+        }
         writeln!(text)?;
     }
     for (index, gap) in model.gaps.iter().enumerate() {

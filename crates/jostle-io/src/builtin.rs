@@ -29,7 +29,13 @@ pub const BUILTIN_RECORDS: &[BuiltinRecord] = &[BuiltinRecord {
 }];
 
 /// Names and texts of the built-in models.
-const MODELS: &[(&str, &str)] = &[("paper", include_str!("../data/paper.toml"))];
+const MODELS: &[(&str, &str)] = &[
+    ("paper", include_str!("../data/paper.toml")),
+    (
+        "paper-inelastic",
+        include_str!("../data/paper-inelastic.toml"),
+    ),
+];
 
 /// A built-in ground motion by name, unscaled; `None` if there is none of that name.
 #[must_use]

@@ -35,6 +35,10 @@ pub(crate) enum Section {
     Hinge,
     /// One side of them.
     HingeSide,
+    /// How the rotational spring of a base yields.
+    BaseRocking,
+    /// How its horizontal spring yields.
+    BaseSliding,
     /// Inelastic storeys of a shear building.
     StoreyHinges,
     /// Reinforcement in rows.
@@ -315,10 +319,12 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::ShearBase, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal spring to the ground."),
     default(S::ShearBase, "horizontal_damping", Quantity(D::Damping), "0", "Dashpot beside the horizontal spring."),
+    optional(S::ShearBase, "horizontal_hinge", Kind::Table(S::BaseSliding), "How the horizontal spring yields; without it it stays elastic."),
     default(S::ShearBase, "mass", Quantity(D::Mass), "0", "Mass of the footing."),
     default(S::FrameBase, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical spring to the ground."),
     default(S::FrameBase, "vertical_damping", Quantity(D::Damping), "0", "Dashpot beside the vertical spring."),
     default(S::FrameBase, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational spring to the ground."),
+    optional(S::FrameBase, "rotational_hinge", Kind::Table(S::BaseRocking), "How the rotational spring yields; without it it stays elastic."),
     default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot beside the rotational spring."),
 
     default(S::Joint, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal stiffness between beam end and column."),
@@ -348,6 +354,20 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::HingeSide, "yield", Quantity(D::Moment), "Yield moment of this side."),
     optional(S::HingeSide, "post_cracking", Quantity(D::Dimensionless), "Stiffness after cracking over the initial one."),
     optional(S::HingeSide, "post_yield", Quantity(D::Dimensionless), "Stiffness after yield over the initial one."),
+
+    required(S::BaseRocking, "rule", Choice(RULES), "How the base unloads and loads again."),
+    default(S::BaseRocking, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    optional(S::BaseRocking, "cracking", Quantity(D::Moment), "Moment at the first corner; not for bilinear."),
+    optional(S::BaseRocking, "yield", Quantity(D::Moment), "Moment at yield."),
+    optional(S::BaseRocking, "post_cracking", Quantity(D::Dimensionless), "Stiffness after the first corner over rotational_stiffness."),
+    optional(S::BaseRocking, "post_yield", Quantity(D::Dimensionless), "Stiffness after yield over rotational_stiffness."),
+
+    required(S::BaseSliding, "rule", Choice(RULES), "How the base unloads and loads again."),
+    default(S::BaseSliding, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    optional(S::BaseSliding, "cracking", Quantity(D::Force), "Force at the first corner; not for bilinear."),
+    optional(S::BaseSliding, "yield", Quantity(D::Force), "Force at yield."),
+    optional(S::BaseSliding, "post_cracking", Quantity(D::Dimensionless), "Stiffness after the first corner over horizontal_stiffness."),
+    optional(S::BaseSliding, "post_yield", Quantity(D::Dimensionless), "Stiffness after yield over horizontal_stiffness."),
 
     required(S::StoreyHinges, "rule", Choice(RULES), "How storeys unload and load again."),
     default(S::StoreyHinges, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),

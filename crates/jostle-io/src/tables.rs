@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use jostle::skeleton::{MemberEnd, SpringPlace};
+use jostle::skeleton::{BaseMotion, MemberEnd, SpringPlace};
 use jostle::summary::{ContactSummary, ImpactSummary, SpringSummary};
 use jostle::{Column, EnergyTerm, History, Model, Outcome, Summary, System, springs_of};
 use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical, ZstdLevel};
@@ -225,6 +225,13 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
             ("beam", Some(floor), Some(bay), end)
         }
         Some(SpringPlace::Storey { storey }) => ("storey", Some(storey), None, ""),
+        Some(SpringPlace::Base { line, motion }) => {
+            let motion = match motion {
+                BaseMotion::Rocking => "rocking",
+                BaseMotion::Sliding => "sliding",
+            };
+            ("base", Some(0), Some(line), motion)
+        }
         None => ("", None, None, ""),
     }
 }

@@ -393,3 +393,45 @@ fn overload_and_soft_members_are_said_with_their_place() {
     let found = faults(&soft);
     assert!(found[0].contains("raise stiffness_factor"), "{found:?}");
 }
+
+#[test]
+fn a_base_may_yield() {
+    let base = r#"base = { rotational_stiffness = "200 MN.m/rad", horizontal_stiffness = "90 MN/m",
+        rotational_hinge = { rule = "bilinear", yield = "400 kN.m", post_yield = 0.02 },
+        horizontal_hinge = { rule = "peak-oriented", cracking = "100 kN", yield = "300 kN", post_cracking = 0.3, post_yield = 0.01 } }"#;
+    // Inline tables end with their line.
+    let base = base.replace('\n', " ");
+    let input = read(&frame("", "", &base)).unwrap_or_else(|error| panic!("{error}"));
+    let base = input.model.buildings[0].base;
+    let rocking = base.rotational_hinge.expect("read");
+    assert_eq!(rocking.rule(), HysteresisRule::Bilinear);
+    assert_eq!(rocking.backbone().initial(), 200e6);
+    let sliding = base.horizontal_hinge.expect("read");
+    let side = sliding.backbone().side(Side::Negative);
+    assert_eq!([side.cracking.force, side.yielding.force], [100e3, 300e3]);
+}
+
+#[test]
+fn a_base_yields_only_where_it_gives_way() {
+    for (base, said) in [
+        (
+            r#"base = { horizontal_hinge = { rule = "bilinear", yield = "300 kN", post_yield = 0 } }"#,
+            "add horizontal_stiffness",
+        ),
+        (
+            r#"base = { horizontal_stiffness = "1 MN/m", horizontal_hinge = { rule = "normal", yield = "300 kN", post_yield = 0 } }"#,
+            "add cracking",
+        ),
+        (
+            r#"base = { horizontal_stiffness = "1 MN/m", horizontal_hinge = { rule = "bilinear", yield = "300 kN.m", post_yield = 0 } }"#,
+            "expected a force",
+        ),
+        (
+            r#"base = { horizontal_stiffness = "1 MN/m", horizontal_hinge = { rule = "bilinear", yield = "-3 kN", post_yield = 0 } }"#,
+            "base.horizontal_hinge.yield",
+        ),
+    ] {
+        let error = read(&shear(base)).expect_err(base);
+        assert!(error.contains(said), "{error}");
+    }
+}

@@ -200,6 +200,9 @@ class Scene {
         const [from, to] = [lines[line - 1], lines[line]].map((x) => this.px(x + f * sway[level]));
         const off = Math.min(2.4 * size, 0.3 * (to - from));
         mark(hinge, [end ? to - off : from + off, this.py(heights[level])]);
+      } else if (kind === "f") {
+        // Below the ground line: rocking first, sliding beneath it.
+        mark(hinge, [this.px(lines[line - 1] + f * sway[0]), this.py(0) + (end ? 4.6 : 2.2) * size]);
       } else {
         for (const x of [lines[0], lines[lines.length - 1]]) mark(hinge, onColumn(level, x, 0.5));
       }

@@ -1,7 +1,7 @@
 //! Curves of first loading of the hinges of a building, as small pictures that need no script.
 
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
-use jostle::model::Hinges;
+use jostle::model::{Building, Hinges};
 use maud::{Markup, html};
 
 use crate::format;
@@ -18,7 +18,7 @@ const BOTTOM: f64 = 30.0;
 const REACH: f64 = 2.5;
 
 /// A picture for the columns, the beams or the storeys, with the moments in words.
-pub(crate) fn curves(building: usize, hinges: &Hinges) -> Markup {
+pub(crate) fn curves(index: usize, building: &Building) -> Markup {
     let bend = |springs: &[Hysteresis]| -> Vec<Hysteresis> {
         let springs = springs.iter().copied();
         springs
@@ -26,19 +26,26 @@ pub(crate) fn curves(building: usize, hinges: &Hinges) -> Markup {
             .collect()
     };
     let flat = |rows: &[Vec<Hysteresis>]| bend(&rows.concat());
-    let sets = match hinges {
-        Hinges::Frame(hinges) => vec![
+    let mut sets = match &building.hinges {
+        Some(Hinges::Frame(hinges)) => vec![
             ("Hinges of columns", flat(&hinges.columns), false),
             ("Hinges of beams", flat(&hinges.beams), false),
         ],
-        Hinges::Storeys(springs) => vec![("Storeys", bend(springs), true)],
+        Some(Hinges::Storeys(springs)) => vec![("Storeys", bend(springs), true)],
+        None => Vec::new(),
     };
+    for (name, hinge, slides) in [
+        ("Base, rocking", building.base.rotational_hinge, false),
+        ("Base, sliding", building.base.horizontal_hinge, true),
+    ] {
+        sets.push((name, bend(hinge.as_slice()), slides));
+    }
     html! {
         @for (name, springs, storeys) in sets.iter().filter(|(_, springs, _)| !springs.is_empty()) {
             figure.curves {
                 figcaption { (name) }
                 p.quiet { (words(springs, *storeys)) }
-                (picture(building, name, springs, *storeys))
+                (picture(index, name, springs, *storeys))
             }
         }
     }

@@ -83,7 +83,7 @@ fn building(
         div.card {
             h3 { span.swatch style=(crate::page::colour(index)) {} (building.name) }
             (list(&facts))
-            @if let Some(hinges) = &building.hinges { (backbones::curves(index, hinges)) }
+            (backbones::curves(index, building))
             @if let Some(summary) = summary {
                 @if !summary.periods_s.is_empty() {
                     table.periods {

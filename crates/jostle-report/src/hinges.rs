@@ -2,7 +2,7 @@
 
 use jostle::hysteresis::{Backbone, Hysteresis, Side};
 use jostle::model::{Building, Hinges, Model};
-use jostle::skeleton::{Idealisation, MemberEnd, SpringPlace};
+use jostle::skeleton::{BaseMotion, Idealisation, MemberEnd, SpringPlace};
 use jostle::summary::{HingeSummary, SpringSummary};
 use maud::{Markup, html};
 
@@ -31,7 +31,7 @@ pub(crate) struct Place {
 pub(crate) fn places(model: &Model) -> Vec<Place> {
     let mut places = Vec::new();
     for (index, building) in model.buildings.iter().enumerate() {
-        if building.hinges.is_none() {
+        if !building.may_yield() {
             continue;
         }
         for at in Idealisation::of(building).spring_places {
@@ -49,6 +49,12 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
 }
 
 fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
+    if let SpringPlace::Base { motion, .. } = at {
+        return match motion {
+            BaseMotion::Rocking => building.base.rotational_hinge,
+            BaseMotion::Sliding => building.base.horizontal_hinge,
+        };
+    }
     match (building.hinges.as_ref()?, at) {
         (Hinges::Frame(hinges), SpringPlace::Column { storey, line, .. }) => {
             hinges.columns.get(storey - 1)?.get(line - 1).copied()
@@ -63,9 +69,16 @@ fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
     }
 }
 
-/// Whether a place is a storey of a shear building, in m and N.
-pub(crate) fn is_storey(at: SpringPlace) -> bool {
-    matches!(at, SpringPlace::Storey { .. })
+/// Whether a place moves sideways, in m and N, and does not turn.
+pub(crate) fn slides(at: SpringPlace) -> bool {
+    matches!(
+        at,
+        SpringPlace::Storey { .. }
+            | SpringPlace::Base {
+                motion: BaseMotion::Sliding,
+                ..
+            }
+    )
 }
 
 /// Kind, level, line and end of a place, for the scripts.
@@ -75,6 +88,9 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         SpringPlace::Column { storey, line, end } => ('c', storey, line, last(end)),
         SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
         SpringPlace::Storey { storey } => ('s', storey, 0, 0),
+        SpringPlace::Base { line, motion } => {
+            ('f', 0, line, usize::from(motion == BaseMotion::Sliding))
+        }
     }
 }
 
@@ -203,8 +219,8 @@ fn sentence(name: &str, hinges: &HingeSummary, residual: f64) -> String {
 }
 
 fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
-    let storeys = order.iter().any(|(place, _)| is_storey(place.at));
-    let members = order.iter().any(|(place, _)| !is_storey(place.at));
+    let storeys = order.iter().any(|(place, _)| slides(place.at));
+    let members = order.iter().any(|(place, _)| !slides(place.at));
     let [deformation, force] = match (members, storeys) {
         (true, false) => ["mrad", "kN·m"],
         (false, true) => ["mm", "kN"],

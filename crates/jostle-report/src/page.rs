@@ -245,11 +245,11 @@ fn motion_section(page: &Page) -> Markup {
                 @if page.without_contact.is_some() && !page.model.gaps.is_empty() {
                     label { input #ghost type="checkbox"; " also without contact (dashed)" }
                 }
-                @if page.model.buildings.iter().any(|building| building.hinges.is_some()) {
+                @if page.model.buildings.iter().any(|building| building.may_yield()) {
                     label { input #show-hinges type="checkbox" checked; " cracking and yielding" }
                 }
             }
-            @if page.model.buildings.iter().any(|building| building.hinges.is_some()) {
+            @if page.model.buildings.iter().any(|building| building.may_yield()) {
                 div #hinge-legend.hinge-legend {}
             }
             p.quiet {
@@ -340,7 +340,7 @@ fn guide(page: &Page) -> Markup {
                 li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact is one closed episode of one contact." }
                 li { "Total acceleration includes the ground. Storey drift is the relative displacement of two floors divided by the height between them." }
                 li { "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic and contact energy add up to it. The imbalance is what is missing, relative to the greatest energy until then." }
-                @if page.model.buildings.iter().any(|building| building.hinges.is_some()) {
+                @if page.model.buildings.iter().any(|building| building.may_yield()) {
                     li { "A place has cracked, or yielded, once its deformation has passed the first, or second, corner of its curve, on either side. Ductility is the greatest rotation of a member end, hinge and bent member together, over that at yield, or the greatest deformation of a storey over that of yield; positive stretches the bottom of a beam and the right face of a column. Dissipated is the work done less what unloading would give back." }
                 }
                 li { "Histories are thinned for this page, least of all during impacts; key figures and tables come from the full run." }

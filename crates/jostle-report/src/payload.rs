@@ -178,7 +178,7 @@ fn loops(page: &Page, places: &[Place], time: &[f64]) -> Vec<LoopData> {
         LoopData {
             name: hinges::name(page, place),
             building: place.building,
-            storey: hinges::is_storey(place.at),
+            storey: hinges::slides(place.at),
             ductility: spring.ductility,
             dissipated: spring.dissipated_j,
             backbone: hinges::outline(place.hysteresis.backbone(), reach),

@@ -1,5 +1,6 @@
 //! What a building has beyond the plain case: base springs, gravity, shear deformation, joints, reinforcement.
 
+use jostle::hysteresis::Side;
 use jostle::model::{Base, Building, Joint, Structure};
 use jostle_section::Section;
 use jostle_section::formula::Member;
@@ -47,6 +48,16 @@ fn base(base: &Base) -> Facts {
             ("vertical", base.vertical_stiffness, "N/m"),
         ]),
     )];
+    for (name, hinge, unit) in [
+        ("base rocks", base.rotational_hinge, "kN·m"),
+        ("base slides", base.horizontal_hinge, "kN"),
+    ] {
+        if let Some(hinge) = hinge {
+            let yielding = hinge.backbone().side(Side::Positive).yielding.force;
+            let value = format::unit(format::plain(yielding * 1e-3, 4), unit);
+            facts.push((name, format!("{}, yields at {value}", hinge.rule().name())));
+        }
+    }
     let dashpots = springs(&[
         ("rotation", positive(base.rotational_damping), "N·m·s/rad"),
         ("sideways", positive(base.horizontal_damping), "N·s/m"),

@@ -139,22 +139,25 @@ fn check_base(faults: &mut Faults, path: &str, base: &Base, is_shear: bool) {
             "horizontal",
             base.horizontal_stiffness,
             base.horizontal_damping,
+            base.horizontal_hinge,
             ["N/m", "N.s/m"],
         ),
         (
             "vertical",
             base.vertical_stiffness,
             base.vertical_damping,
+            None,
             ["N/m", "N.s/m"],
         ),
         (
             "rotational",
             base.rotational_stiffness,
             base.rotational_damping,
+            base.rotational_hinge,
             ["N.m/rad", "N.m.s/rad"],
         ),
     ];
-    for (name, stiffness, damping, [stiffness_unit, damping_unit]) in directions {
+    for (name, stiffness, damping, hinge, [stiffness_unit, damping_unit]) in directions {
         if let Some(stiffness) = stiffness {
             faults.positive(
                 stiffness,
@@ -168,6 +171,18 @@ fn check_base(faults: &mut Faults, path: &str, base: &Base, is_shear: bool) {
             format!("{path}.{name}_damping"),
             || format!("has nothing to do where the base is rigid; add {name}_stiffness"),
         );
+        if let Some(hinge) = hinge {
+            let initial = hinge.backbone().initial();
+            faults.require(
+                stiffness == Some(initial),
+                format!("{path}.{name}_hinge"),
+                || {
+                    format!(
+                        "starts with {initial} {stiffness_unit}, which must be {name}_stiffness"
+                    )
+                },
+            );
+        }
         faults.require(
             !is_shear || name == "horizontal" || stiffness.is_none(),
             format!("{path}.{name}_stiffness"),

@@ -37,6 +37,16 @@ pub struct Building {
     pub hinges: Option<Hinges>,
 }
 
+impl Building {
+    /// Whether anything in it, or under it, may crack or yield.
+    #[must_use]
+    pub fn may_yield(&self) -> bool {
+        self.hinges.is_some()
+            || self.base.rotational_hinge.is_some()
+            || self.base.horizontal_hinge.is_some()
+    }
+}
+
 /// Springs and dashpots under every column of a frame, or under a shear building as a whole. All rigid is the
 /// default: the building is fixed to the ground.
 ///
@@ -57,6 +67,10 @@ pub struct Base {
     pub vertical_damping: f64,
     /// Mass of the footing, ≥ 0; moves only where the base gives way \[kg\].
     pub mass: f64,
+    /// How the rotational spring yields; its initial stiffness is `rotational_stiffness`.
+    pub rotational_hinge: Option<Hysteresis>,
+    /// How the horizontal spring yields; its initial stiffness is `horizontal_stiffness`.
+    pub horizontal_hinge: Option<Hysteresis>,
 }
 
 impl Base {

@@ -269,11 +269,24 @@ impl Skeleton {
         }
         let foot = self.add_node(x, 0.0);
         self.nodes[foot].mass = base.mass;
+        // A spring that slides stands beside the hinge, which then only carries the dashpot.
+        let horizontal = match base.horizontal_hinge {
+            Some(hysteresis) => {
+                self.springs.push(Spring {
+                    hysteresis: Some(hysteresis),
+                    proportional_damping: false,
+                    ..Spring::elastic([ground, foot], hysteresis.backbone().initial())
+                });
+                Some(0.0)
+            }
+            None => base.horizontal_stiffness,
+        };
         self.hinges.push(Hinge {
-            ends: [ground, foot],
+            // As with a column: positive stretches its right face, which turns the foot counter-clockwise.
+            ends: [foot, ground],
             rotational_stiffness: base.rotational_stiffness,
-            hysteresis: None,
-            translational_stiffness: [base.horizontal_stiffness, base.vertical_stiffness],
+            hysteresis: base.rotational_hinge,
+            translational_stiffness: [horizontal, base.vertical_stiffness],
             dashpots: [
                 base.horizontal_damping,
                 base.vertical_damping,
@@ -321,6 +334,22 @@ pub enum SpringPlace {
         /// Storey.
         storey: usize,
     },
+    /// Between a column, or a whole shear building, and the ground.
+    Base {
+        /// Column line; 1 for a shear building.
+        line: usize,
+        /// Which way it gives.
+        motion: BaseMotion,
+    },
+}
+
+/// Which way a base gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BaseMotion {
+    /// It turns.
+    Rocking,
+    /// It moves sideways.
+    Sliding,
 }
 
 impl std::fmt::Display for SpringPlace {
@@ -341,6 +370,13 @@ impl std::fmt::Display for SpringPlace {
                 write!(formatter, "beam {bay}, floor {floor}, {end}")
             }
             Self::Storey { storey } => write!(formatter, "storey {storey}"),
+            Self::Base { line, motion } => {
+                let motion = match motion {
+                    BaseMotion::Rocking => "rocking",
+                    BaseMotion::Sliding => "sliding",
+                };
+                write!(formatter, "base {line}, {motion}")
+            }
         }
     }
 }
@@ -360,6 +396,14 @@ fn idealise_frame(frame: &Frame, base: &Base, hinges: &FrameHinges) -> Idealisat
         right_face: Vec::new(),
         spring_places: Vec::new(),
     };
+    // Hinges come before springs, in the order of the skeleton.
+    let at_the_base =
+        |motion| (1..=lines.len()).map(move |line| SpringPlace::Base { line, motion });
+    if base.rotational_hinge.is_some() {
+        idealisation
+            .spring_places
+            .extend(at_the_base(BaseMotion::Rocking));
+    }
     let mut height = 0.0;
     for (storey, storey_height) in frame.storey_heights.iter().enumerate() {
         height += storey_height;
@@ -426,12 +470,18 @@ fn idealise_frame(frame: &Frame, base: &Base, hinges: &FrameHinges) -> Idealisat
         idealisation.floors.push(joints[0]);
         below = joints;
     }
+    if base.horizontal_hinge.is_some() {
+        idealisation
+            .spring_places
+            .extend(at_the_base(BaseMotion::Sliding));
+    }
     idealisation.skeleton = skeleton;
     idealisation
 }
 
 fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealisation {
     let mut skeleton = Skeleton::default();
+    let (mut floors, mut spring_places) = (Vec::new(), Vec::new());
     let mut below = skeleton.add_node(0.0, 0.0);
     skeleton.nodes[below].support = Support::Fixed;
     // Floors do not turn, so that only the horizontal spring of a base has something to do.
@@ -439,8 +489,15 @@ fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealis
         let foot = skeleton.add_node(0.0, 0.0);
         skeleton.nodes[foot].mass = base.mass;
         skeleton.nodes[foot].support = Support::Guided;
+        if base.horizontal_hinge.is_some() {
+            spring_places.push(SpringPlace::Base {
+                line: 1,
+                motion: BaseMotion::Sliding,
+            });
+        }
         skeleton.springs.push(Spring {
             dashpot: base.horizontal_damping,
+            hysteresis: base.horizontal_hinge,
             proportional_damping: false,
             ..Spring::elastic([below, foot], stiffness)
         });
@@ -448,7 +505,6 @@ fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealis
     }
     let foot = below;
     let mut height = 0.0;
-    let (mut floors, mut spring_places) = (Vec::new(), Vec::new());
     for ((mass, stiffness), storey_height) in shear
         .mass
         .iter()

@@ -336,7 +336,21 @@ fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool) -> Base {
             "rotational_stiffness",
             Dimension::RotationalStiffness,
         );
+        base.rotational_hinge = hinges::read_base(
+            reader,
+            &view,
+            ["rotational_hinge", "rotational_stiffness"],
+            base.rotational_stiffness,
+            Dimension::Moment,
+        );
     }
+    base.horizontal_hinge = hinges::read_base(
+        reader,
+        &view,
+        ["horizontal_hinge", "horizontal_stiffness"],
+        base.horizontal_stiffness,
+        Dimension::Force,
+    );
     base
 }
 

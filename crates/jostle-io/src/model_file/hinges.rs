@@ -466,6 +466,80 @@ fn spring_of(
     Hysteresis::new(rule, backbone).map_err(first)
 }
 
+/// How a spring of a base yields, the same to both sides; `keys` are those of the table and of its initial stiffness.
+pub(super) fn read_base(
+    reader: &mut Reader<'_>,
+    base: &View<'_>,
+    keys: [&'static str; 2],
+    stiffness: Option<f64>,
+    force: Dimension,
+) -> Option<Hysteresis> {
+    let field = reader.get(base, keys[0])?;
+    let sections: &'static [Section] = match force {
+        Dimension::Moment => &[Section::BaseRocking],
+        _ => &[Section::BaseSliding],
+    };
+    let view = reader.open(&field, sections)?;
+    if !base.has(keys[1]) {
+        *reader.bad(&field, "yields nowhere on a rigid base") =
+            Some(format!("add {}, or remove {}", keys[1], keys[0]));
+    }
+    let rule = read_rule(reader, &view);
+    let bilinear = rule == Some(HysteresisRule::Bilinear);
+    let elastic = rule == Some(HysteresisRule::Elastic);
+    let mut number = |key: &'static str, dimension, example: &str| {
+        let needless = elastic || (bilinear && key.contains("cracking"));
+        match reader.get(&view, key) {
+            Some(field) if bilinear && key.contains("cracking") => {
+                *reader.bad(&field, "has no place in a bilinear curve") =
+                    Some(format!("remove {key}, or set rule = \"normal\""));
+                None
+            }
+            Some(field) => reader.quantity(&field, dimension),
+            None => {
+                if !needless {
+                    reader.missing(&view, key, format!("add {key} = {example}"));
+                }
+                needless.then_some(f64::NAN)
+            }
+        }
+    };
+    let examples = match force {
+        Dimension::Moment => ["\"120 kN.m\"", "\"400 kN.m\""],
+        _ => ["\"300 kN\"", "\"900 kN\""],
+    };
+    let cracking = number("cracking", force, examples[0]);
+    let yielding = number("yield", force, examples[1]);
+    let post_cracking = number("post_cracking", Dimension::Dimensionless, "0.3");
+    let post_yield = number("post_yield", Dimension::Dimensionless, "0.02");
+    let rule = rule?;
+    let corners = match rule {
+        HysteresisRule::Elastic => Corners::bilinear(1.0, 1.0),
+        HysteresisRule::Bilinear => Corners::bilinear(yielding?, post_yield?),
+        _ => Corners {
+            cracking: cracking?,
+            yielding: yielding?,
+            post_cracking: post_cracking?,
+            post_yield: post_yield?,
+        },
+    };
+    // A stiffness that is not positive is a fault of its own.
+    let stiffness = stiffness.filter(|stiffness| *stiffness > 0.0)?;
+    let spring = Backbone::from_forces(stiffness, corners, corners)
+        .and_then(|backbone| Hysteresis::new(rule, backbone));
+    match spring {
+        Ok(spring) => Some(spring),
+        Err(faults) => {
+            let of_one_side = |fault: &SpringFault| fault.side != Some(Side::Negative);
+            for fault in faults.into_iter().filter(of_one_side) {
+                let given = key_of(fault.quantity).and_then(|key| reader.get(&view, key));
+                reader.bad(given.as_ref().unwrap_or(&field), fault.problem);
+            }
+            None
+        }
+    }
+}
+
 /// Springs of a shear building.
 pub(super) fn read_storeys(
     reader: &mut Reader<'_>,

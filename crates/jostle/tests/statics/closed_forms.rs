@@ -1,6 +1,5 @@
 //! Plastic collapse loads, springs in series and P-Delta, as textbooks have them.
 
-use jostle::Shear;
 use jostle::gravity::STANDARD_GRAVITY;
 use jostle::hysteresis::{HysteresisRule, Stage};
 use jostle::skeleton::{Hinge, Idealisation, Member, Node, Skeleton, Support};
@@ -8,6 +7,7 @@ use jostle::statics::{LoadPattern, PushDirection, PushEnd, WalkError, settle};
 use jostle::stepping::{StepMatrix, solve_once};
 use jostle::stiffness::DirectStiffness;
 use jostle::system::BuildingSystem;
+use jostle::{Base, Shear};
 
 use crate::support::{
     assembled, close, frame, hinged, plastic, pushed, shear_at, storeys, trilinear, under,
@@ -65,6 +65,27 @@ fn a_frame_sways_by_beam_hinges_on_every_floor() {
         .sum();
     let expected = ((bays + 1) as f64 * 900e3 + (2 * bays * storeys) as f64 * 100e3) / work;
     close(curve.peak().base_shear, expected, 1e-11);
+}
+
+#[test]
+fn a_portal_on_yielding_footings_collapses_by_them_and_its_beam() {
+    let mut building = hinged(frame(1, &[6.0], 4000.0), None, Some(plastic(STIFF, 120e3)));
+    building.base = Base {
+        rotational_stiffness: Some(4e8),
+        rotational_hinge: Some(plastic(4e8, 150e3)),
+        ..Base::default()
+    };
+    let curve = pushed(&assembled(&building), LoadPattern::Uniform, RIGHT, 0.05);
+    close(
+        curve.peak().base_shear,
+        (2.0 * 150e3 + 2.0 * 120e3) / 3.2,
+        1e-12,
+    );
+    // Footings that slide first: as many forces as columns, whatever stands on them.
+    building.base.horizontal_stiffness = Some(2e8);
+    building.base.horizontal_hinge = Some(plastic(2e8, 60e3));
+    let curve = pushed(&assembled(&building), LoadPattern::Uniform, RIGHT, 0.05);
+    close(curve.peak().base_shear, 2.0 * 60e3, 1e-12);
 }
 
 #[test]

@@ -31,6 +31,7 @@ fn soft_base() -> Base {
         horizontal_damping: 4e6,
         vertical_damping: 6e6,
         mass: 3e3,
+        ..Base::default()
     }
 }
 

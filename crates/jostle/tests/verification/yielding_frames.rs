@@ -5,8 +5,8 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule};
 use jostle::{
-    Building, Column, Damping, FrameHinges, Gravity, GroundMotion, Hinges, LawKind, Model, Outcome,
-    Plan, RunEnd, Solver, Structure, System, simulate,
+    Base, Building, Column, Damping, FrameHinges, Gravity, GroundMotion, Hinges, LawKind, Model,
+    Outcome, Plan, RunEnd, Solver, Structure, System, simulate,
 };
 
 use crate::support::{
@@ -86,12 +86,15 @@ fn monolith(system: &System, motion: &GroundMotion, times: &[f64]) -> (Vec<f64>,
         for dof in 0..equations.len() {
             damping[(offset + dof, offset + dof)] += equations.alpha * equations.mass[dof];
         }
-        for (matrix, damped) in [(&equations.stiffness, true), (&equations.undamped, false)] {
+        // What of every matrix stiffens, and what damps.
+        for (matrix, stiffens, damps) in [
+            (&equations.stiffness, 1.0, equations.beta),
+            (&equations.undamped, 1.0, 0.0),
+            (&equations.dashpots, 0.0, 1.0),
+        ] {
             let mut add = |row: usize, column: usize, value: f64| {
-                stiffness[(offset + row, offset + column)] += value;
-                if damped {
-                    damping[(offset + row, offset + column)] += equations.beta * value;
-                }
+                stiffness[(offset + row, offset + column)] += stiffens * value;
+                damping[(offset + row, offset + column)] += damps * value;
             };
             for column in 0..equations.len() {
                 add(column, column, matrix.diagonal[column]);
@@ -266,8 +269,11 @@ fn yielded(outcome: &Outcome, system: &System) -> usize {
 
 #[test]
 fn condensed_equals_monolithic() {
-    for (first, second) in [(0, 1), (2, 3)] {
-        let model = two_yielding_frames(first, second);
+    for model in [
+        two_yielding_frames(0, 1),
+        two_yielding_frames(2, 3),
+        on_yielding_footings(),
+    ] {
         let system = assembled(&model);
         let motion = shaking(1.6);
         let outcome = run(&system, &motion, &steps(2e-3, 2));
@@ -296,6 +302,70 @@ fn condensed_equals_monolithic() {
             outcome.energy.worst_imbalance
         );
     }
+}
+
+/// The two frames on footings that rock and slide.
+fn on_yielding_footings() -> Model {
+    let mut model = two_yielding_frames(1, 2);
+    for building in &mut model.buildings {
+        building.base = Base {
+            rotational_stiffness: Some(3e8),
+            rotational_hinge: Some(hinge(rule(2), 3e8, 1.5e5)),
+            horizontal_stiffness: Some(4e8),
+            horizontal_hinge: Some(hinge(rule(1), 4e8, 1.2e5)),
+            rotational_damping: 1e6,
+            horizontal_damping: 2e6,
+            mass: 4e3,
+            ..Base::default()
+        };
+    }
+    model
+}
+
+#[test]
+fn a_yielding_base_is_a_yielding_storey() {
+    let spring = |rule, stiffness, force| hinge(rule, stiffness, force);
+    let elastic = |stiffness| spring(HysteresisRule::Elastic, stiffness, 1e9);
+    let upper = jostle::Shear {
+        mass: vec![5e4; 3],
+        stiffness: vec![6e7; 3],
+        storey_heights: vec![3.0; 3],
+    };
+    let lower = spring(rule(1), 9e7, 1e5);
+    let damping = Damping::Rayleigh {
+        alpha: 0.2,
+        beta: 0.0,
+    };
+    let mut on_base = framed("base", frame(1, &[4.0]));
+    on_base.structure = Structure::Shear(upper.clone());
+    on_base.damping = damping.clone();
+    on_base.base = Base {
+        horizontal_stiffness: Some(9e7),
+        horizontal_hinge: Some(lower),
+        mass: 3e4,
+        ..Base::default()
+    };
+    let mut taller = on_base.clone();
+    taller.base = Base::default();
+    taller.structure = Structure::Shear(jostle::Shear {
+        mass: [&[3e4], &upper.mass[..]].concat(),
+        stiffness: [&[9e7], &upper.stiffness[..]].concat(),
+        storey_heights: vec![3.0; 4],
+    });
+    taller.hinges = Some(Hinges::Storeys(vec![
+        lower,
+        elastic(6e7),
+        elastic(6e7),
+        elastic(6e7),
+    ]));
+    let motion = shaking(4.0);
+    let [a, b] = [on_base, taller].map(|building| {
+        let system = assembled(&row(vec![building], 0.0, law(LawKind::Hertz, 1.0)));
+        run(&system, &motion, &steps(2e-3, 1))
+    });
+    assert!(a.energy.hysteretic > 1e3);
+    let apart = difference(&a.state.displacement, &b.state.displacement);
+    assert!(apart < 1e-10, "{apart:e}");
 }
 
 #[test]
