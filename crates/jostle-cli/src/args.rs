@@ -51,8 +51,15 @@ pub(crate) enum Command {
     Pushover(PushoverArgs),
     /// Write a commented starter file
     New(NewArgs),
-    /// Print the JSON Schema of model files
-    Schema,
+    /// Print the JSON Schema of model files, or a page that explains every key
+    Schema(SchemaArgs),
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct SchemaArgs {
+    /// Print the page of all keys in Markdown instead
+    #[arg(long)]
+    pub(crate) markdown: bool,
 }
 
 /// A model, and what to change of it.

@@ -38,7 +38,11 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Motion(command) => motion::run(&command),
         Command::Section(args) => section::section(&args),
         Command::New(args) => starter::new(&args),
-        Command::Schema => terminal::print(&jostle_io::model_schema()),
+        Command::Schema(args) => terminal::print(&if args.markdown {
+            jostle_io::model_reference()
+        } else {
+            jostle_io::model_schema()
+        }),
     };
     match done {
         Ok(()) => 0,

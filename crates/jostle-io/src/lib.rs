@@ -15,6 +15,7 @@ mod quantity;
 mod reader;
 mod record;
 mod record_text;
+mod reference;
 mod schema;
 mod source;
 mod tables;
@@ -43,6 +44,7 @@ pub use record::{
     read_record_and_info,
 };
 pub use record_text::{at2_text, csv_text};
+pub use reference::model_reference;
 pub use schema::model_schema;
 pub use source::Place;
 pub use tables::{

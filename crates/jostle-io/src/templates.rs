@@ -1,9 +1,18 @@
-//! Commented starter files.
+//! Commented starter files: templates, and the built-in models themselves.
+
+use crate::builtin::model_text;
 
 /// Names of the templates; the first is the default.
-pub const TEMPLATE_NAMES: [&str; 4] = ["frames", "towers", "single", "row"];
+pub const TEMPLATE_NAMES: [&str; 6] = [
+    "frames",
+    "towers",
+    "single",
+    "row",
+    "paper",
+    "paper-inelastic",
+];
 
-/// Text of a template with a title put in; `None` if there is none of that name.
+/// Text of a template with a title put in, or of a built-in model as it is; `None` if there is none of that name.
 #[must_use]
 pub fn template(name: &str, title: &str) -> Option<String> {
     let text = match name {
@@ -11,7 +20,7 @@ pub fn template(name: &str, title: &str) -> Option<String> {
         "towers" => include_str!("../data/towers.toml"),
         "single" => include_str!("../data/single.toml"),
         "row" => include_str!("../data/row.toml"),
-        _ => return None,
+        _ => return model_text(name).map(ToOwned::to_owned),
     };
     // Quotes, backslashes and control characters would end or change the TOML string.
     let title: String = title

@@ -212,7 +212,9 @@ fn six_loops_fit_and_keep_their_peaks() {
         .iter()
         .map(|building| building.hinges.ductility)
         .fold(0.0, f64::max);
-    assert_eq!(loops[0]["ductility"].as_f64(), Some(worst));
+    // serde_json reads numbers to the last digit but one.
+    let told = loops[0]["ductility"].as_f64().expect("a number");
+    assert!((told / worst - 1.0).abs() < 1e-14, "{told} and {worst}");
     let hinges = data["hinges"].as_array().unwrap();
     assert_eq!(hinges.len(), 9 * 2 + 6 * 2 + 4);
     let yielded = hinges.iter().filter(|hinge| !hinge[6].is_null()).count();

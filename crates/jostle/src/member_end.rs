@@ -1,10 +1,10 @@
 //! Rotation of a member end: what the hinge turns and what the member bends, in double curvature.
 
 use crate::hysteresis::{Hysteresis, Side};
-use crate::skeleton::{Skeleton, Support};
+use crate::skeleton::Skeleton;
 
 /// Stiffness 6 EI/L of the member behind every hinge that yields, in the order of the hinges, antisymmetric bending
-/// between its two ends, less with shear deformation; `None` at a base, and where no member is found \[N·m/rad\].
+/// between its two ends, less with shear deformation; `None` where no member is found \[N·m/rad\].
 #[must_use]
 pub(crate) fn end_stiffnesses(skeleton: &Skeleton) -> Vec<Option<f64>> {
     let mut at_node: Vec<Vec<usize>> = vec![Vec::new(); skeleton.nodes.len()];
@@ -18,10 +18,6 @@ pub(crate) fn end_stiffnesses(skeleton: &Skeleton) -> Vec<Option<f64>> {
     let yielding = skeleton.hinges.iter().filter(|h| h.hysteresis.is_some());
     yielding
         .map(|hinge| {
-            let grounded = |end: &usize| skeleton.nodes[*end].support == Support::Fixed;
-            if hinge.ends.iter().any(grounded) {
-                return None;
-            }
             // The end that is no joint has one member only; from there along its segments.
             let ends = hinge.ends.iter();
             let start = *ends.max().filter(|end| at_node[**end].len() == 1)?;

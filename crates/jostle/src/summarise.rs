@@ -7,6 +7,7 @@ use crate::hysteresis::{Side, Stage};
 use crate::member_end::{ductility, end_stiffnesses};
 use crate::model::{Gap, Model};
 use crate::motion::GroundMotion;
+use crate::skeleton::SpringPlace;
 use crate::stepping::{Outcome, Plan, RunEnd};
 use crate::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
@@ -164,7 +165,10 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
             deformation_min: memory.greatest(Side::Negative),
             ductility: Side::BOTH
                 .map(|side| {
+                    // A base has only itself, whatever member stands on it.
                     let member = behind.get(index).copied().flatten();
+                    let member =
+                        member.filter(|_| !matches!(place, Some(SpringPlace::Base { .. })));
                     ductility(rule, memory.greatest(side), side, member)
                 })
                 .into_iter()

@@ -21,7 +21,7 @@ beam = { width = 1, depth = 1 }
 stiffness_factor = { column = 1 }
 axial = { columns = "rigid" }
 shear = { columns = "flexible" }
-base = { horizontal_stiffness = "rigid" }
+base = { horizontal_stiffness = 1, horizontal_hinge = { rule = "normal" }, rotational_stiffness = 1, rotational_hinge = { rule = "normal" } }
 joint = { rotational_stiffness = 1 }
 damping = { ratio = 0.1 }
 hinges = { rule = "normal", column = { positive = {}, negative = {} } }

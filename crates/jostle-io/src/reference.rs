@@ -1,0 +1,160 @@
+//! Every key of the model file as a page of Markdown, made from the table of keys.
+
+use std::fmt::Write;
+
+use crate::keys::{KEYS, Key, Kind, Section};
+use crate::quantity::Dimension;
+
+/// Tables of the file in the order of the page, with where they stand and what they are.
+const TABLES: &[(Section, &str, &str)] = &[
+    (Section::Root, "top of the file", ""),
+    (
+        Section::Motion,
+        "`[motion]`",
+        "The ground motion: a record, or an analytic wave.",
+    ),
+    (Section::Match, "`motion.match`", ""),
+    (
+        Section::Spectrum,
+        "`motion.match.spectrum`",
+        "One of the design spectra.",
+    ),
+    (
+        Section::Building,
+        "`[[building]]`",
+        "From left to right. These keys belong to every building.",
+    ),
+    (Section::Frame, "`[[building]]` with `kind = \"frame\"`", ""),
+    (Section::Shear, "`[[building]]` with `kind = \"shear\"`", ""),
+    (
+        Section::Column,
+        "`column` of a frame",
+        "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`.",
+    ),
+    (Section::Beam, "`beam` of a frame", ""),
+    (Section::Bars, "`bars` in rows", ""),
+    (
+        Section::StiffnessFactor,
+        "`stiffness_factor` of a frame",
+        "",
+    ),
+    (Section::Axial, "`axial` of a frame", ""),
+    (Section::ShearDeformation, "`shear` of a frame", ""),
+    (Section::Joint, "`joint` of a frame", ""),
+    (Section::ShearBase, "`base`", ""),
+    (Section::FrameBase, "`base` of a frame, further keys", ""),
+    (Section::BaseRocking, "`base.rotational_hinge`", ""),
+    (Section::BaseSliding, "`base.horizontal_hinge`", ""),
+    (Section::Damping, "`damping`", ""),
+    (Section::Hinges, "`hinges` of a frame", ""),
+    (Section::Hinge, "`hinges.column`, `hinges.beam`", ""),
+    (
+        Section::HingeSide,
+        "`positive`, `negative` of a hinge",
+        "What is given here holds for that side alone.",
+    ),
+    (Section::StoreyHinges, "`hinges` of a shear building", ""),
+    (
+        Section::Gap,
+        "`[[gap]]`",
+        "One for each pair of neighbours.",
+    ),
+    (Section::Analysis, "`[analysis]`", ""),
+    (Section::Integrator, "`analysis.integrator`", ""),
+];
+
+/// The page of all keys, with a final line break.
+#[must_use]
+pub fn model_reference() -> String {
+    let mut page = String::from(
+        "# The model file\n\n\
+         Written by `jostle schema --markdown`. TOML, or the same tree as JSON. A quantity is a text with a unit or a bare \
+         number in SI; `jostle new` writes a file to start from.\n",
+    );
+    for (section, place, words) in TABLES {
+        // Writing to a string cannot fail.
+        let _ = write!(page, "\n## {place}\n\n");
+        if !words.is_empty() {
+            let _ = writeln!(page, "{words}\n");
+        }
+        page.push_str("| key | value | default | meaning |\n|---|---|---|---|\n");
+        for key in KEYS.iter().filter(|key| key.section == *section) {
+            let default = match (key.default, key.required) {
+                (Some(default), _) => default,
+                (None, true) => "**needed**",
+                (None, false) => "",
+            };
+            let _ = writeln!(
+                page,
+                "| `{}` | {} | {default} | {} |",
+                key.name,
+                value(key),
+                key.doc
+            );
+        }
+    }
+    page
+}
+
+/// What may stand behind a key, in few words.
+fn value(key: &Key) -> String {
+    let quantity = |dimension: Dimension| match dimension {
+        Dimension::Dimensionless => "number".to_owned(),
+        _ => format!("{dimension}, `\"{}\"`", dimension.example()),
+    };
+    let words = |words: &[&str]| {
+        let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+        quoted.join(" ")
+    };
+    match key.kind {
+        Kind::Text => "text".into(),
+        Kind::Component => "text or number".into(),
+        Kind::Count => "whole number".into(),
+        Kind::Flag => "`true` or `false`".into(),
+        Kind::Quantity(dimension) => quantity(dimension),
+        Kind::PerStorey(dimension) => {
+            format!("{}; or a list from the ground up", quantity(dimension))
+        }
+        Kind::Quantities(dimension) => format!("list: {}", quantity(dimension)),
+        Kind::ContactStiffness => "`\"2e9 N/m^1.5\"` or `\"500 MN/m\"`, by the law".into(),
+        Kind::CountPerSpan => "whole number, or one per span".into(),
+        Kind::Modes => "one or two mode numbers".into(),
+        Kind::Choice(choices) | Kind::Word(choices) => words(choices),
+        Kind::WordOr(word, dimension) => format!("`{word}`; {}", quantity(dimension)),
+        Kind::WordOrTable(word, _) => format!("`{word}`, or a table"),
+        Kind::ChoiceOrTable(choices, _) => format!("{}, or a table", words(choices)),
+        Kind::NumberOrTable(_) => "number, or a table".into(),
+        Kind::Table(_) => "table".into(),
+        Kind::TablePerStorey(_) => "table; or a list from the ground up".into(),
+        Kind::TextOrTable(_) => "text, or a table".into(),
+        Kind::Tables(_) => "tables".into(),
+        Kind::Neighbours => "`[\"J1\", \"J2\"]`".into(),
+        Kind::FloorPairs => "`common`; pairs `[[5, 5], [4, 4]]`; heights `[\"3 m\"]`".into(),
+        Kind::GradeOr(grades) => format!("{}; or a strength", words(grades)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_is_told_once() {
+        for key in KEYS {
+            let places = TABLES
+                .iter()
+                .filter(|(section, ..)| *section == key.section);
+            assert_eq!(places.count(), 1, "{key:?}");
+        }
+    }
+
+    #[test]
+    fn the_page_in_the_documentation_is_this_one() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/model-file.md");
+        let kept = std::fs::read_to_string(path).unwrap_or_default();
+        assert!(
+            kept == model_reference(),
+            "docs/model-file.md is out of date: cargo run -- schema --markdown > docs/model-file.md"
+        );
+    }
+}
