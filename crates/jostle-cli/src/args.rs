@@ -88,6 +88,9 @@ pub(crate) struct RunArgs {
     /// Neither a report nor the second run without contact that it compares with
     #[arg(long)]
     pub(crate) no_report: bool,
+    /// Add to the report what `jostle method` tells of these buildings
+    #[arg(long, conflicts_with = "no_report")]
+    pub(crate) method: bool,
     /// Print summary.json and nothing else
     #[arg(long)]
     pub(crate) json: bool,

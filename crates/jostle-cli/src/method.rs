@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use jostle::System;
 use jostle::method::MethodSurvey;
 use jostle_io::Overrides;
 
@@ -13,13 +14,7 @@ use crate::terminal::{self, BOLD, DIM, styled};
 
 pub(crate) fn method(args: &MethodArgs) -> Result<(), Failure> {
     let opened = open(args.model.as_deref(), &Overrides::default())?;
-    let surveys = opened
-        .system
-        .buildings
-        .iter()
-        .map(MethodSurvey::of)
-        .collect::<Result<Vec<_>, _>>();
-    let surveys = surveys.map_err(|error| Failure::Analysis(error.to_string()))?;
+    let surveys = survey(&opened.system)?;
     let mut text = String::new();
     for survey in &surveys {
         // Writing to a string cannot fail.
@@ -35,6 +30,13 @@ pub(crate) fn method(args: &MethodArgs) -> Result<(), Failure> {
         let _ = writeln!(text, "→ {}", styled(BOLD, &path.display().to_string()));
     }
     terminal::print(&text)
+}
+
+/// Surveys every building.
+pub(crate) fn survey(system: &System) -> Result<Vec<MethodSurvey>, Failure> {
+    let surveys = system.buildings.iter().map(MethodSurvey::of);
+    let surveys: Result<Vec<_>, _> = surveys.collect();
+    surveys.map_err(|error| Failure::Analysis(error.to_string()))
 }
 
 fn describe(text: &mut String, survey: &MethodSurvey) -> std::fmt::Result {
@@ -54,6 +56,7 @@ fn describe(text: &mut String, survey: &MethodSurvey) -> std::fmt::Result {
     }
     writeln!(text, "  {}", elements.join(", "))?;
     let product = match survey.product_unknowns {
+        0 if survey.yields => "knows no yielding".to_owned(),
         0 => "no transfer path through this building".to_owned(),
         unknowns => format!(
             "{} unknowns, a full matrix of {}",
@@ -79,6 +82,25 @@ fn describe(text: &mut String, survey: &MethodSurvey) -> std::fmt::Result {
         text,
         "  relative error of one step, against direct stiffness"
     )?;
+    if survey.yields {
+        writeln!(text, "      step   Riccati")?;
+        for row in &survey.accuracy {
+            writeln!(
+                text,
+                "  {:>5} ms  {:>8}",
+                row.step * 1e3,
+                error(row.riccati)
+            )?;
+        }
+        return writeln!(
+            text,
+            "  {}\n",
+            styled(
+                DIM,
+                "hinges with their initial stiffness; product and element by element know no yielding"
+            )
+        );
+    }
     writeln!(
         text,
         "      step     product  (expected)  element by element   Riccati"

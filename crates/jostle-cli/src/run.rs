@@ -14,7 +14,7 @@ use jostle_report::{Page, ReinforcedSection};
 use crate::args::RunArgs;
 use crate::failure::Failure;
 use crate::open::{Opened, open};
-use crate::{run_text, terminal};
+use crate::{method, run_text, terminal};
 
 /// Where results go when nothing else is said.
 const RESULTS: &str = "jostle-out";
@@ -79,6 +79,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         if !args.no_report {
             let without_contact = twin.as_ref().and_then(|twin| twin.history.as_ref());
             let sections = reinforced(&opened);
+            let methods = if args.method {
+                method::survey(&opened.system)?
+            } else {
+                Vec::new()
+            };
             let page = Page {
                 model,
                 motion: &motion,
@@ -87,6 +92,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
                 without_contact,
                 springs: outcome.spring_history.as_ref(),
                 sections: &sections,
+                methods: &methods,
             };
             jostle_io::write_atomically(
                 &out.join("report.html"),

@@ -129,6 +129,7 @@ impl Run {
         let summary = self.summary(without_contact);
         Ok(py.detach(|| {
             jostle_report::render(&Page {
+                methods: &[],
                 model: &self.model.input.model,
                 motion: &self.motion,
                 summary: &summary,

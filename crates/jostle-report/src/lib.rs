@@ -29,6 +29,7 @@ pub use section::render_sections;
 pub use verdict::verdict;
 
 use jostle::history::SpringHistory;
+use jostle::method::MethodSurvey;
 use jostle::summary::GapSummary;
 use jostle::{Gap, GroundMotion, History, Model, Summary};
 use jostle_section::formula::Member;
@@ -51,6 +52,8 @@ pub struct Page<'a> {
     pub springs: Option<&'a SpringHistory>,
     /// Reinforced sections that hinges come from, if the model states them.
     pub sections: &'a [ReinforcedSection<'a>],
+    /// What the method comes to on these buildings, to be shown as a section; empty to leave it out.
+    pub methods: &'a [MethodSurvey],
 }
 
 /// A reinforced section and the members of a building that have it.

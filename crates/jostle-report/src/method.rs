@@ -37,11 +37,8 @@ pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
                     }
                 }
                 main {
-                    @for survey in surveys { (building(survey)) }
-                    p class="quiet" {
-                        "Errors are the largest difference of a displacement from direct stiffness, relative to the largest displacement, for one step under uneven loads. "
-                        "Product: the total transfer equation of Zhang et al. (2019). Element by element: Riccati in flexibility form. Riccati: the form in production."
-                    }
+                    @for survey in surveys { section { h2 { (survey.name) } (building(survey)) } }
+                    (explanation(surveys))
                 }
             }
         }
@@ -49,10 +46,35 @@ pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
     page.into_string()
 }
 
+/// The same inside the report of a run; empty without surveys.
+pub(crate) fn section(surveys: &[MethodSurvey]) -> Markup {
+    html! {
+        @if !surveys.is_empty() {
+            section #method {
+                h2 { "The method on these buildings" }
+                p { "How large the equations of one step are in each form, and how many digits each form keeps as the step shrinks." }
+                @for survey in surveys {
+                    details { summary { (survey.name) } (building(survey)) }
+                }
+                (explanation(surveys))
+            }
+        }
+    }
+}
+
+fn explanation(surveys: &[MethodSurvey]) -> Markup {
+    html! {
+        p class="quiet" {
+            "Errors are the largest difference of a displacement from direct stiffness, relative to the largest displacement, for one step under uneven loads. "
+            "Product: the total transfer equation of Zhang et al. (2019). Element by element: Riccati in flexibility form. Riccati: the form in production."
+            @if surveys.iter().any(|survey| survey.yields) { " Hinges have their initial stiffness; only the form in production knows how they yield." }
+        }
+    }
+}
+
 fn building(survey: &MethodSurvey) -> Markup {
     html! {
-        section {
-            h2 { (survey.name) }
+        div {
             p { (elements(survey)) }
             div class="scroll" {
                 table {
@@ -65,7 +87,7 @@ fn building(survey: &MethodSurvey) -> Markup {
                                 td { (survey.product_unknowns.pow(2)) " entries" }
                                 td { (survey.product_unknowns.pow(2)) " and two passes through the elements" }
                             } @else {
-                                td colspan="3" { "no transfer path through this building" }
+                                td colspan="3" { @if survey.yields { "transfer matrices know no yielding" } @else { "no transfer path through this building" } }
                             }
                         }
                         tr {
@@ -86,14 +108,20 @@ fn building(survey: &MethodSurvey) -> Markup {
             figure { (plot(survey)) figcaption class="quiet" { "Relative error of one step. Above the line at 1 nothing is right." } }
             div class="scroll" {
                 table {
-                    thead { tr { th { "step" } th { "product" } th { "digits expected of it" } th { "element by element" } th { "Riccati" } } }
+                    thead { tr {
+                        th { "step" }
+                        @if !survey.yields { th { "product" } th { "digits expected of it" } th { "element by element" } }
+                        th { "Riccati" }
+                    } }
                     tbody {
                         @for row in &survey.accuracy {
                             tr {
                                 td { (step_name(row.step)) }
-                                td { (error_text(row.product)) }
-                                td { (format!("{:.0}", row.product_digits_expected.max(0.0))) }
-                                td { (error_text(row.elementwise)) }
+                                @if !survey.yields {
+                                    td { (error_text(row.product)) }
+                                    td { (format!("{:.0}", row.product_digits_expected.max(0.0))) }
+                                    td { (error_text(row.elementwise)) }
+                                }
                                 td { (error_text(row.riccati)) }
                             }
                         }
@@ -151,11 +179,14 @@ fn place(step: f64, error: f64) -> [f64; 2] {
 
 fn plot(survey: &MethodSurvey) -> Markup {
     let [left, top, width, height] = AREA;
-    let series: [(&str, &str, ErrorOf); 3] = [
+    let mut series: Vec<(&str, &str, ErrorOf)> = vec![
         ("product", "--c:var(--c1)", |row| row.product),
         ("element by element", "--c:var(--c2)", |row| row.elementwise),
         ("Riccati", "--c:var(--c0)", |row| row.riccati),
     ];
+    if survey.yields {
+        series.drain(..2);
+    }
     let path = |value: ErrorOf| {
         let points = survey
             .accuracy

@@ -4,7 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, peak_closing, verdict};
-use crate::{Page, describe, format, hinges, payload, tables};
+use crate::{Page, describe, format, hinges, method, payload, tables};
 
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
 /// The scripts, in the order of their dependence; together they are one module.
@@ -89,6 +89,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         h2 { "What was computed" }
                         (describe::model(page))
                     }
+                    (method::section(page.methods))
                     (guide(page))
                 }
                 footer {

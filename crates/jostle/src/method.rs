@@ -29,6 +29,9 @@ pub struct MethodSurvey {
     pub couplings: usize,
     /// Order of the total transfer equation; zero for a building without a transfer path.
     pub product_unknowns: usize,
+    /// Whether something may yield. The Riccati recursion then has its initial stiffness; the transfer matrices know no
+    /// yielding, so that the other two forms say nothing.
+    pub yields: bool,
     /// Accuracy of one step, by step size from long to short.
     pub accuracy: Vec<StepAccuracy>,
 }
@@ -69,6 +72,7 @@ impl MethodSurvey {
             stiffness_entries: equations.len() + equations.stiffness.values.len(),
             couplings: RiccatiSweep::of(building).couplings(),
             product_unknowns: ProductEquations::of(building).unknowns(),
+            yields: !equations.springs.is_empty(),
             accuracy: SURVEYED_STEPS
                 .iter()
                 .map(|step| accuracy(building, *step))
