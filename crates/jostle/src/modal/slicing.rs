@@ -73,18 +73,21 @@ impl Search<'_> {
         }
         // With all others held, a degree of freedom is no slower than the first mode.
         let equations = &building.equations;
+        let mut held: Vec<f64> = equations.stiffness.diagonal.clone();
+        for (held, undamped) in held.iter_mut().zip(&equations.undamped.diagonal) {
+            *held += undamped;
+        }
+        for spring in &equations.springs {
+            for dof in spring.dofs.into_iter().flatten() {
+                held[dof] += spring.hysteresis.backbone().initial();
+            }
+        }
         let slowest = self
             .mass
             .iter()
-            .zip(
-                equations
-                    .stiffness
-                    .diagonal
-                    .iter()
-                    .zip(&equations.undamped.diagonal),
-            )
+            .zip(&held)
             .filter(|(mass, _)| **mass > 0.0)
-            .map(|(mass, (stiffness, undamped))| (stiffness + undamped) / mass)
+            .map(|(mass, held)| held / mass)
             .fold(f64::INFINITY, f64::min);
         let (mut low, mut at) = ((0.0, 0), 2.0 * slowest);
         while self.found.len() < wanted && at.is_finite() {

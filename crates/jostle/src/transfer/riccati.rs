@@ -109,8 +109,9 @@ impl RiccatiSweep {
         self.compose(&matrix, &self.initial_tangents, factor);
         factor.touched.fill(true);
         let never_fails = self.eliminate(factor, |row, own, pivot| {
-            let scale = self.diagonal[row].in_step(&StepMatrix::STATIC).abs()
-                + shift.abs() * self.mass[row];
+            // Springs that yield are part of the stiffness here as well.
+            let inertia_part = shift * self.mass[row];
+            let scale = (own + inertia_part).abs() + inertia_part.abs();
             inertia.growth = (own - pivot).abs().max(inertia.growth * scale) / scale;
             // A part behind the cut resonates with its end held: any small pivot does, its sign is immaterial.
             let least = f64::EPSILON * scale;

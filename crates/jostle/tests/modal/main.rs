@@ -9,3 +9,4 @@ mod random_frames_agree_with_a_library;
 mod shapes_are_orthonormal;
 mod support;
 mod tall_frames_agree_with_a_library;
+mod yielding_springs_count_as_elastic;
