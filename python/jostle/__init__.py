@@ -11,6 +11,7 @@ right; forces of contacts are positive in compression.
 
 from ._animation import Animation
 from ._builders import Frame, Gap, Shear
+from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
 from ._errors import (
     AnalysisError,
     Fault,
@@ -21,9 +22,12 @@ from ._errors import (
     ModelWarning,
 )
 from ._jostle import __version__
+from ._matrices import Matrices
 from ._model import Model
 from ._modes import BuildingModes, modes
-from ._motion import Motion
+from ._motion import Motion, Spectrum
+from ._own_law import Experiment, experiment
+from ._pushover import CapacityCurve, pushover
 from ._result import Contact, Floor, Result
 from ._run import run
 from ._table import Table
@@ -32,7 +36,11 @@ __all__ = [
     "AnalysisError",
     "Animation",
     "BuildingModes",
+    "CapacityCurve",
+    "Collision",
     "Contact",
+    "ContactLaw",
+    "Experiment",
     "Fault",
     "Floor",
     "Frame",
@@ -40,14 +48,21 @@ __all__ = [
     "InterruptedWarning",
     "JostleError",
     "JostleWarning",
+    "Matrices",
     "Model",
     "ModelError",
     "ModelWarning",
     "Motion",
     "Result",
     "Shear",
+    "Spectrum",
     "Table",
     "__version__",
+    "collide",
+    "collide_all",
+    "contact_laws",
+    "experiment",
     "modes",
+    "pushover",
     "run",
 ]

@@ -125,8 +125,10 @@ def _building(
     )
 
 
-def history_svg(title: str, unit: str, curves: Sequence[Curve], height: int = 170) -> str:
-    """Curves over time in one frame, thinned to what can be seen."""
+def history_svg(
+    title: str, unit: str, curves: Sequence[Curve], height: int = 170, abscissa: str = " s"
+) -> str:
+    """Curves over time, or over something else, in one frame, thinned to what can be seen."""
     left, right, top, bottom, width = 64, 12, 24, 26, 760
     series = [(label, *thinned(time, values, width)) for label, time, values in curves]
     if not any(len(time) for _, time, _ in series):
@@ -151,7 +153,7 @@ def history_svg(title: str, unit: str, curves: Sequence[Curve], height: int = 17
         parts.append(_svg_text(left - 6, y + 4, f"{value:.4g}".replace("-", "−"), "end", 11, 0.75))
     for t in ticks(end):
         anchor = "end" if px(t) > width - 30 else "middle"
-        parts.append(_svg_text(px(t), height - 8, f"{t:.6g} s", anchor, 11, 0.75))
+        parts.append(_svg_text(px(t), height - 8, f"{t:.6g}{abscissa}", anchor, 11, 0.75))
     for index, (label, time, values) in enumerate(series):
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in zip(px(time), py(values)))
         parts.append(

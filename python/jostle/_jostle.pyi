@@ -9,11 +9,24 @@ import numpy.typing as npt
 from typing_extensions import CapsuleType
 
 __version__: str
-__all__ = ["Model", "Motion", "Run", "Table", "__version__", "command_line", "quantity", "run"]
+__all__ = [
+    "Model",
+    "Motion",
+    "Run",
+    "Table",
+    "__version__",
+    "collide",
+    "command_line",
+    "contact_laws",
+    "quantity",
+    "run",
+]
 
 _Row = npt.NDArray[np.float64]
 
+def collide(options: Sequence[str]) -> list[tuple[str, npt.NDArray[np.float64]]]: ...
 def command_line(arguments: Sequence[str]) -> int: ...
+def contact_laws() -> str: ...
 def quantity(text: str, kind: str) -> float: ...
 def run(
     model: Model,
@@ -72,6 +85,14 @@ class Motion:
         duration: float | None,
     ) -> Motion: ...
     def at(self, times: _Row) -> _Row: ...
+    def spectrum(
+        self,
+        periods: Sequence[float],
+        dampings: Sequence[float],
+        ductilities: Sequence[float],
+        post_yield: float,
+        between: bool,
+    ) -> str: ...
 
 @final
 class Model:
@@ -99,6 +120,11 @@ class Model:
     def motion(self) -> Motion | None: ...
     def describe(self) -> str: ...
     def modes(self, count: int) -> str: ...
+    def matrices(self, building: int) -> tuple[_Row, _Row, _Row, _Row, list[int]]: ...
+    def contacts(self) -> list[tuple[int, int, int, float]]: ...
+    def pushover(
+        self, building: str | None, pattern: str, direction: str, drift: float
+    ) -> str: ...
 
 @final
 class Run:

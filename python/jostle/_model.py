@@ -16,6 +16,7 @@ from ._tree import text_of
 from ._units import Quantity, argument, refuse
 
 if TYPE_CHECKING:
+    from ._matrices import Matrices
     from typing_extensions import Unpack
 
     import numpy as np
@@ -123,6 +124,26 @@ class Model:
         model = cls.__new__(cls)
         model._build("builtin", ("paper",))
         return model
+
+    @classmethod
+    def example(cls, name: str) -> Model:
+        """A built-in model by its name: ``"paper"``, or ``"paper-inelastic"``, whose frames crack and yield."""
+        model = cls.__new__(cls)
+        model._build("builtin", (name,))
+        return model
+
+    def matrices(self, building: str | int = 0) -> Matrices:
+        """Mass, damping and stiffness of an elastic building, as the steps use them.
+
+        Args:
+            building: name or index.
+
+        Raises:
+            ModelError: the building may yield.
+        """
+        from ._matrices import of_model
+
+        return of_model(self, building)
 
     def changed(
         self,

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import os
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from . import _jostle
@@ -15,6 +18,49 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from ._units import MotionUnits
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """Response spectra; ``d`` damping ratios, ``n`` periods, ``i`` pairs of damping and ductility.
+
+    Attributes:
+        periods: natural periods [s], shape ``(n,)``.
+        damping: fractions of critical, shape ``(d,)``.
+        displacement: relative displacement [m], shape ``(d, n)``.
+        pseudo_velocity: [m/s], shape ``(d, n)``.
+        pseudo_acceleration: [m/s²], shape ``(d, n)``.
+        total_acceleration: [m/s²], shape ``(d, n)``.
+        inelastic: one dict for each pair: ``damping``, ``ductility``, ``yield_acceleration_m_s2``, ``reduction`` and
+            ``displacement_m``.
+    """
+
+    periods: npt.NDArray[np.float64]
+    damping: npt.NDArray[np.float64]
+    displacement: npt.NDArray[np.float64]
+    pseudo_velocity: npt.NDArray[np.float64]
+    pseudo_acceleration: npt.NDArray[np.float64]
+    total_acceleration: npt.NDArray[np.float64]
+    inelastic: list[dict[str, Any]]
+
+
+def _spectrum(tree: dict[str, Any]) -> Spectrum:
+    import numpy as np
+
+    curves = tree["spectra"]
+
+    def rows(key: str) -> npt.NDArray[np.float64]:
+        return np.array([curve[key] for curve in curves], dtype=np.float64)
+
+    return Spectrum(
+        periods=np.array(tree["periods_s"], dtype=np.float64),
+        damping=rows("damping"),
+        displacement=rows("displacement_m"),
+        pseudo_velocity=rows("pseudo_velocity_m_s"),
+        pseudo_acceleration=rows("pseudo_acceleration_m_s2"),
+        total_acceleration=rows("total_acceleration_m_s2"),
+        inelastic=tree.get("inelastic", []),
+    )
 
 
 class Motion:
@@ -140,6 +186,38 @@ class Motion:
     def lasting(self, duration: Quantity) -> Motion:
         """The same motion cut, or continued by a ground at rest, so that it lasts this long."""
         return self._of(self._core.changed(duration=_positive("duration", duration)))
+
+    def spectrum(
+        self,
+        periods: npt.ArrayLike | None = None,
+        damping: float | Sequence[float] = 0.05,
+        *,
+        ductility: Sequence[float] = (),
+        post_yield: float = 0.0,
+        between: bool = True,
+    ) -> Spectrum:
+        """Response spectra, exact for an acceleration straight between the samples.
+
+        Args:
+            periods: natural periods, > 0 [s], shape ``(n,)``; 200 from 0.02 to 10 s when left out.
+            damping: fraction of critical, 0 to below 1; one or several.
+            ductility: further spectra of constant ductility, each ≥ 1.
+            post_yield: stiffness after yield over the initial one, of these.
+            between: looks for peaks between the samples too.
+
+        Raises:
+            ModelError: a number outside its range.
+        """
+        import numpy as np
+
+        if periods is None:
+            periods = np.geomspace(0.02, 10.0, 200)
+        wanted = np.ascontiguousarray(periods, dtype=np.float64).ravel()
+        dampings = [damping] if isinstance(damping, (int, float)) else list(damping)
+        text = self._core.spectrum(
+            wanted.tolist(), [float(d) for d in dampings], list(ductility), post_yield, between
+        )
+        return _spectrum(json.loads(text))
 
     @property
     def name(self) -> str:

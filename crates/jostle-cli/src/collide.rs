@@ -39,6 +39,27 @@ pub(crate) fn collide(args: &CollideArgs) -> Result<(), Failure> {
     terminal::print(&text)
 }
 
+/// Collisions for options as on the command line, each with its numbers as in the JSON.
+///
+/// # Errors
+/// The complaint, which begins with the option.
+pub fn collisions(options: &[String]) -> Result<Vec<(Value, FreeCollision)>, String> {
+    #[derive(clap::Parser)]
+    #[command(no_binary_name = true)]
+    struct Options {
+        #[command(flatten)]
+        args: CollideArgs,
+    }
+    let parsed = <Options as clap::Parser>::try_parse_from(options).map_err(|error| {
+        let text = error.render().to_string();
+        let first = text.lines().next().unwrap_or_default();
+        first.trim_start_matches("error: ").to_owned()
+    })?;
+    let collisions = compute(&parsed.args).map_err(|failure| failure.to_string())?;
+    let laws = collisions.laws.into_iter();
+    Ok(laws.map(|law| (as_json(&law), law.collision)).collect())
+}
+
 fn compute(args: &CollideArgs) -> Result<Collisions, Failure> {
     let positive = |option: &str, text: &str, dimension| {
         let value = parse_quantity(text, dimension)

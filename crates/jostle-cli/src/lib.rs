@@ -19,7 +19,10 @@ mod terminal;
 
 use args::{Args, Command};
 
+pub use collide::collisions;
 pub use modes::modes_json;
+pub use motion::spectrum_json;
+pub use pushover::pushover_json;
 pub use run_text::summary_text;
 
 /// Does what the arguments say, the first of which names the program, and returns the exit code.

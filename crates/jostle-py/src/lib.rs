@@ -2,9 +2,11 @@
 //!
 //! What Python users meet (units, keywords, drawings, tables) is written in Python, in `python/jostle`.
 
+mod collide;
 mod describe;
 mod error;
 mod histories;
+mod matrices;
 mod model;
 mod motion;
 mod quantity;
@@ -14,6 +16,8 @@ mod table;
 /// The compiled half of the package; its contents are used by `jostle` and may change at any time.
 #[pyo3::pymodule]
 mod _jostle {
+    #[pymodule_export]
+    use super::collide::{collide, contact_laws};
     #[pymodule_export]
     use super::command_line;
     #[pymodule_export]

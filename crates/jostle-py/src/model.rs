@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 
 use crate::describe::describe;
 use crate::error::{AnalysisError, argument_error, input_error};
+use crate::matrices::{Matrices, matrices};
 use crate::motion::Motion;
 
 /// A model ready to run.
@@ -155,6 +156,36 @@ impl Model {
     /// Buildings and gaps as JSON.
     fn describe(&self) -> String {
         describe(&self.input.model, &self.system).to_string()
+    }
+
+    /// Masses, stiffness, damping, driven masses and floors of a building, by its index.
+    fn matrices<'py>(&self, py: Python<'py>, building: usize) -> PyResult<Matrices<'py>> {
+        matrices(py, &self.system, building)
+    }
+
+    /// Contacts as (gap, left degree of freedom, right one, width), counted through all buildings.
+    fn contacts(&self) -> Vec<(usize, usize, usize, f64)> {
+        let contacts = self.system.contacts.iter();
+        contacts
+            .map(|contact| (contact.gap, contact.dofs[0], contact.dofs[1], contact.width))
+            .collect()
+    }
+
+    /// Capacity curves as the JSON of `jostle pushover`.
+    #[pyo3(signature = (building, pattern, direction, drift))]
+    fn pushover(
+        &self,
+        py: Python<'_>,
+        building: Option<&str>,
+        pattern: &str,
+        direction: &str,
+        drift: f64,
+    ) -> PyResult<String> {
+        let title = &self.input.model.title;
+        py.detach(|| {
+            jostle_cli::pushover_json(title, &self.system, building, pattern, direction, drift)
+        })
+        .map_err(argument_error)
     }
 
     /// Natural modes as the JSON of `jostle modes`.

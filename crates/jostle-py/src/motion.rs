@@ -110,6 +110,44 @@ impl Motion {
         Self::new(source, duration)
     }
 
+    /// Response spectra as the JSON of `jostle motion spectrum`.
+    fn spectrum(
+        &self,
+        py: Python<'_>,
+        periods: Vec<f64>,
+        dampings: Vec<f64>,
+        ductilities: Vec<f64>,
+        post_yield: f64,
+        between: bool,
+    ) -> PyResult<String> {
+        let motion = &self.motion;
+        py.detach(|| {
+            let (step, acceleration) = match &motion.wave {
+                // The samples themselves, so that the bits are those of the command line.
+                Wave::Sampled { step, acceleration } => {
+                    let scaled = acceleration.iter().map(|value| motion.scale * value);
+                    (*step, scaled.collect())
+                }
+                _ => {
+                    let step = self.drawn_step();
+                    let points = (motion.duration / step) as usize + 1;
+                    let at = |k| motion.acceleration(k as f64 * step);
+                    (step, (0..points).map(at).collect())
+                }
+            };
+            jostle_cli::spectrum_json(
+                step,
+                acceleration,
+                &periods,
+                &dampings,
+                &ductilities,
+                post_yield,
+                between,
+            )
+        })
+        .map_err(argument_error)
+    }
+
     /// The same motion with what is given changed.
     #[pyo3(signature = (pga=None, factor=None, reverse=false, duration=None))]
     fn changed(

@@ -53,8 +53,8 @@ pub(crate) fn section(surveys: &[MethodSurvey]) -> Markup {
             section #method {
                 h2 { "The method on these buildings" }
                 p { "How large the equations of one step are in each form, and how many digits each form keeps as the step shrinks." }
-                @for survey in surveys {
-                    details { summary { (survey.name) } (building(survey)) }
+                @for (index, survey) in surveys.iter().enumerate() {
+                    details open[index == 0] { summary { (survey.name) } (building(survey)) }
                 }
                 (explanation(surveys))
             }

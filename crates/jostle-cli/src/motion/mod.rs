@@ -10,6 +10,7 @@ mod spectrum;
 mod synth;
 
 pub(crate) use args::MotionCommand;
+pub use spectrum::spectrum_json;
 
 use crate::failure::Failure;
 

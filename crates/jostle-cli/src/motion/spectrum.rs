@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use jostle_io::{Dimension, write_atomically, write_columns_parquet};
 use jostle_motion::{
-    DuctilitySpectrum, Reading, ResponseSpectrum, ductility_spectrum, response_spectrum,
-    spaced_periods,
+    Accelerogram, DuctilitySpectrum, Reading, ResponseSpectrum, ductility_spectrum,
+    response_spectrum, spaced_periods,
 };
 use serde_json::{Value, json};
 
@@ -54,6 +54,38 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
     } else {
         terminal::print(&format!("{} written", written.join(" and ")))
     }
+}
+
+/// Response spectra of a motion \[m/s²\] with a step \[s\], as the JSON of the command; `between` looks for peaks
+/// between the samples as well.
+///
+/// # Errors
+/// What is wrong with the motion or the numbers.
+pub fn spectrum_json(
+    step: f64,
+    acceleration: Vec<f64>,
+    periods: &[f64],
+    dampings: &[f64],
+    ductilities: &[f64],
+    post_yield: f64,
+    between: bool,
+) -> Result<String, String> {
+    let motion = Accelerogram::new(step, acceleration).map_err(|fault| fault.to_string())?;
+    let reading = if between {
+        Reading::Between
+    } else {
+        Reading::Steps
+    };
+    let elastic = response_spectrum(&motion, periods, dampings, reading)
+        .map_err(|fault| fault.to_string())?;
+    let mut inelastic = Vec::new();
+    for &damping in dampings {
+        for &ductility in ductilities {
+            let found = ductility_spectrum(&motion, periods, ductility, damping, post_yield);
+            inelastic.push((damping, found.map_err(|fault| fault.to_string())?));
+        }
+    }
+    Ok(as_json(&elastic, &inelastic).to_string())
 }
 
 fn as_json(elastic: &ResponseSpectrum, inelastic: &[Inelastic]) -> Value {

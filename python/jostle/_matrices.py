@@ -1,0 +1,44 @@
+"""The equations of a building in full, for those who want to compute something else with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from ._model import Model
+
+
+@dataclass(frozen=True, eq=False)
+class Matrices:
+    """M ü + C u̇ + K u = −driven_mass · a_g + contact forces, for one building of ``n`` degrees of freedom.
+
+    Displacements are relative to the ground; massless degrees of freedom have zeros in ``mass``.
+
+    Attributes:
+        mass: diagonal of M [kg, kg·m²], shape ``(n,)``.
+        damping: C, shape ``(n, n)``.
+        stiffness: K, P-Delta and base springs included, shape ``(n, n)``.
+        driven_mass: what horizontal ground acceleration acts on [kg], shape ``(n,)``.
+        floors: degree of freedom of the horizontal displacement of every floor from the ground up.
+    """
+
+    mass: npt.NDArray[np.float64]
+    damping: npt.NDArray[np.float64]
+    stiffness: npt.NDArray[np.float64]
+    driven_mass: npt.NDArray[np.float64]
+    floors: list[int]
+
+
+def of_model(model: Model, building: str | int) -> Matrices:
+    names = model.buildings
+    if isinstance(building, str):
+        if building not in names:
+            raise KeyError(f"there is no building {building!r}; the model has {', '.join(names)}")
+        index = names.index(building)
+    else:
+        index = range(len(names))[building]
+    return Matrices(*model._core.matrices(index))
