@@ -14,8 +14,8 @@ try:
 except (ImportError, RuntimeError) as problem:
     sys.exit(f"OpenSeesPy cannot be loaded: {problem}\npip install openseespy; on Debian it needs libblas3 liblapack3 libgfortran5")
 
-# Members that keep their length, where no tie sees to it: EA = STIFF * 12 EI / l^2 (about a hundred times the usual).
-STIFF = 500.0
+# Members that keep their length, where no tie sees to it: EA = STIFF * 12 EI / l^2.
+STIFF = 1e4
 SETTLED = 1e-10  # displacement in the last iteration [m]
 DIRECTIONS = {1: 1, 2: 2, 6: 3}
 
@@ -71,10 +71,11 @@ def build(axial):
         ops.region(number, "-node", *range(first, last + 1), "-rayleigh", building["alpha"], 0.0, building["beta"], 0.0)
 
 
-def load_by_weight():
+def load_by_weight(axial):
     """Every building that starts under its weight gets it, and settles."""
     if not any(building["weight"] for building in BUILDINGS):
         return
+    prepare(axial)
     ops.timeSeries("Linear", 1)
     ops.pattern("Plain", 1, 1)
     for building in BUILDINGS:
@@ -126,7 +127,8 @@ def shake():
 
 
 def prepare(axial):
-    """Everything that an analysis needs apart from the algorithm and the integrator."""
+    """Everything that an analysis needs apart from the algorithm and the integrator. To be called once: a second
+    SparseSYM brings the program down."""
     if axial == "ties":
         # SparseSYM (SparseSPD) and equalDOF together give wrong answers without a word.
         ops.constraints("Transformation")
@@ -273,8 +275,8 @@ def read(folder, name):
 
 def modes(args):
     """Natural periods, longest first [s]."""
-    build(args.axial)
-    prepare(args.axial)
+    build("ties")
+    prepare("ties")
     values = ops.eigen("-genBandArpack", args.modes)
     return [2.0 * math.pi / math.sqrt(value) for value in values]
 
@@ -282,8 +284,7 @@ def modes(args):
 def analyse(args):
     duration = args.duration or DURATION
     build(args.axial)
-    prepare(args.axial)
-    load_by_weight()
+    load_by_weight(args.axial)
     prepare(args.axial)
     shake()
     with tempfile.TemporaryDirectory() as folder:

@@ -42,7 +42,8 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
     if model.analysis.integrator != jostle::Integrator::default() {
         refuse(
             "analysis.integrator".into(),
-            "cannot be exported: the script steps by average acceleration; remove it to compare".into(),
+            "cannot be exported: the script steps by average acceleration; remove it to compare"
+                .into(),
         );
     }
     for (index, building) in model.buildings.iter().enumerate() {

@@ -74,7 +74,9 @@ impl<'a> Script<'a> {
         for (index, building) in export.system.buildings.iter().enumerate() {
             script.places.push(place);
             let nodes = &building.idealisation.skeleton.nodes;
-            place += nodes.iter().fold(0.0, |widest: f64, node| widest.max(node.x));
+            place += nodes
+                .iter()
+                .fold(0.0, |widest: f64, node| widest.max(node.x));
             if let Err(problem) = script.add_building(index, building) {
                 faults.push(ModelFault {
                     path: format!("building[{index}].hinges.rule"),
@@ -112,7 +114,11 @@ impl<'a> Script<'a> {
         self.next_element - 1
     }
 
-    fn add_building(&mut self, index: usize, building: &BuildingSystem) -> Result<(), &'static str> {
+    fn add_building(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+    ) -> Result<(), &'static str> {
         let skeleton = &building.idealisation.skeleton;
         let ties = Ties::of(skeleton);
         self.add_heading(index, building);
@@ -327,8 +333,9 @@ impl<'a> Script<'a> {
                 } else {
                     &idealisation.left_face
                 };
-                let level =
-                    |node: &&usize| (idealisation.skeleton.nodes[**node].y - contact.height).abs() <= SAME_LEVEL;
+                let level = |node: &&usize| {
+                    (idealisation.skeleton.nodes[**node].y - contact.height).abs() <= SAME_LEVEL
+                };
                 nodes.iter().find(level).copied()
             };
             let path = format!("gap[{}]", contact.gap);
@@ -342,7 +349,10 @@ impl<'a> Script<'a> {
             let (material, remark) = match self.materials.contact(contact) {
                 Ok(found) => found,
                 Err(problem) => {
-                    if !faults.iter().any(|fault| fault.path == format!("{path}.law")) {
+                    if !faults
+                        .iter()
+                        .any(|fault| fault.path == format!("{path}.law"))
+                    {
                         faults.push(ModelFault {
                             path: format!("{path}.law"),
                             problem: problem.to_owned(),
@@ -382,7 +392,11 @@ impl<'a> Script<'a> {
             self.remark("The Ricker pulse is sampled every 0.1 ms, with straight lines between.");
         }
         let yields = self.export.system.buildings.iter();
-        if yields.flat_map(|building| &building.equations.springs).next().is_some() {
+        if yields
+            .flat_map(|building| &building.equations.springs)
+            .next()
+            .is_some()
+        {
             self.remark(
                 "Hinges of the rule peak-oriented are OpenSees' Hysteretic with pinching 1, 1; it does not look for \
                  corners inside a step. Those of normal and bilinear are elastic-plastic springs in parallel, exactly \
@@ -431,7 +445,11 @@ impl<'a> Script<'a> {
         }
         writeln!(out, "# ruff: noqa\n")?;
         writeln!(out, "TITLE = {}", text(&self.export.model.title))?;
-        writeln!(out, "EXPORTED_BY = \"jostle {}\"", env!("CARGO_PKG_VERSION"))?;
+        writeln!(
+            out,
+            "EXPORTED_BY = \"jostle {}\"",
+            env!("CARGO_PKG_VERSION")
+        )?;
         table(
             out,
             "BUILDINGS",
@@ -444,7 +462,12 @@ impl<'a> Script<'a> {
             "node, x [m], y [m], mass [kg], rotary inertia [kg m2]; neighbours stand face to face, the gap is left out",
             &self.nodes,
         )?;
-        table(out, "SUPPORTS", "node, and whether x, y, rotation are fixed", &self.supports)?;
+        table(
+            out,
+            "SUPPORTS",
+            "node, and whether x, y, rotation are fixed",
+            &self.supports,
+        )?;
         table(
             out,
             "HELD",
@@ -475,7 +498,11 @@ impl<'a> Script<'a> {
                     }
                 })
                 .collect();
-            writeln!(materials, "    (\"{name}\", {tag}, {}),", arguments.join(", "))?;
+            writeln!(
+                materials,
+                "    (\"{name}\", {tag}, {}),",
+                arguments.join(", ")
+            )?;
         }
         table(out, "MATERIALS", "as OpenSees wants them", &materials)?;
         table(
@@ -546,7 +573,10 @@ impl<'a> Script<'a> {
                 )?;
             }
         }
-        writeln!(out, "\n# Steps at its best, in free flight and around contact [s].")?;
+        writeln!(
+            out,
+            "\n# Steps at its best, in free flight and around contact [s]."
+        )?;
         writeln!(out, "FREE_STEP = {free:?}")?;
         writeln!(out, "PARTS_IN_CONTACT = {PARTS_IN_CONTACT}")
     }

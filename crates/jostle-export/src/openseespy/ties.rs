@@ -74,8 +74,7 @@ impl Ties {
         for class in of_component {
             let component = class[0] % COMPONENTS;
             let nodes: Vec<usize> = class.iter().map(|at| at / COMPONENTS).collect();
-            let is_support =
-                |node: &usize| is_held_by(skeleton.nodes[*node].support, component);
+            let is_support = |node: &usize| is_held_by(skeleton.nodes[*node].support, component);
             if nodes.iter().any(is_support) {
                 for node in nodes {
                     ties.constrained[node][component] = true;
@@ -117,11 +116,6 @@ impl Ties {
     pub(super) fn are_tied(&self, ends: [usize; 2], component: usize) -> bool {
         let [a, b] = ends.map(|node| self.classes[node * COMPONENTS + component]);
         a == b && ends.iter().all(|node| self.constrained[*node][component])
-    }
-
-    /// Whether the node moves together with another, or stands still, in this component.
-    pub(super) fn is_constrained(&self, node: usize, component: usize) -> bool {
-        self.constrained[node][component]
     }
 }
 
