@@ -8,11 +8,11 @@ import traceback
 from datetime import datetime, timezone
 from pathlib import Path
 
-import inelastic
 import machine
 import page
 import programs
 import reference
+import validation
 from cases import CASES
 
 HERE = Path(__file__).resolve().parent
@@ -59,14 +59,14 @@ def main():
     parser.add_argument("cases", nargs="*", help=f"of {', '.join(case.name for case in CASES)}; without: all")
     parser.add_argument("--quick", action="store_true", help="two towers and the first five seconds of the example")
     parser.add_argument("--reference", action="store_true", help="find settings and converged values again")
-    parser.add_argument("--inelastic", action="store_true", help="OpenSees' answer for the yielding frames, for the validation")
+    parser.add_argument("--validation", action="store_true", help="OpenSees' answers for the models of the validation")
     parser.add_argument("--keep-page", action="store_true", help="leave docs/performance.md alone")
     args = parser.parse_args()
     unknown = set(args.cases) - {case.name for case in CASES}
     if unknown:
         parser.error(f"there is no case {', '.join(sorted(unknown))}")
-    if args.inelastic:
-        return inelastic.main(say)
+    if args.validation:
+        return validation.main(say)
     chosen = [case for case in CASES if (not args.cases or case.name in args.cases) and (case.quick or not args.quick)]
     references = reference.load()
     if args.reference:

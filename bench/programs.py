@@ -17,8 +17,10 @@ PATIENCE = 6 * 3600.0
 
 def model_of(case):
     """The model as either program's command line wants it."""
-    path = HERE / "models" / case.model
-    return str(path) if path.exists() else case.model
+    for folder in (HERE / "models", HERE.parent / "crates/jostle-validation/data/opensees"):
+        if (folder / case.model).exists():
+            return str(folder / case.model)
+    return case.model
 
 
 def call(command):

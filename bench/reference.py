@@ -29,7 +29,7 @@ def extrapolated(coarse, fine, ratio=4.0):
 def refine(case, say):
     """Converged greatest forces and the settings for OpenSees."""
     say(f"{case.name}: jostle at tolerances 1e-5 and 1e-6")
-    own = {tolerance: programs.jostle(options_in_model(case), tolerance=tolerance, least=0.0) for tolerance in (1e-5, 1e-6)}
+    own = {tolerance: programs.jostle(case, tolerance=tolerance, least=0.0) for tolerance in (1e-5, 1e-6)}
     converged = own[1e-6]["peak_force_n"]
     reference = {
         "command": f"bench/run --reference {case.name}",
@@ -72,7 +72,3 @@ def refine(case, say):
             reference["opensees"]["settings"]["axial"] = "ties"
     return reference
 
-
-def options_in_model(case):
-    """The case itself; its options change the model when it is read."""
-    return case

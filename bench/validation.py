@@ -1,26 +1,20 @@
-"""OpenSees' answer for the yielding frames, stored as reference data of the validation."""
+"""OpenSees' answers for the models in the validation's data, stored beside them."""
 
 import json
 from pathlib import Path
 
 import programs
-from cases import CASES
+from cases import Case
 
-PATH = Path(__file__).resolve().parent.parent / "crates/jostle-validation/data/opensees/inelastic.json"
+FOLDER = Path(__file__).resolve().parent.parent / "crates/jostle-validation/data/opensees"
 # Steps in free flight; a tenth of that near contact [s].
 FREE = 5e-4
 
 
-def main(say):
-    case = next(case for case in CASES if case.name == "inelastic")
-    own = programs.jostle(case, tolerance=1e-4, least=0.0)["summary"]
-    say(f"OpenSees with steps of {1e3 * FREE:g} ms: this takes minutes")
-    run = programs.opensees(case, FREE, 10, "ties")
-    answer = run["result"]
-    for contact in answer["contacts"]:
-        contact.pop("first_impact_s", None) if not contact["impact_count"] else None
-    stored = {
-        "how": "OpenSeesPy on the script that jostle exports of inelastic.toml beside this file; made by: bench/run --inelastic",
+def stored(answer):
+    """What the validation compares."""
+    return {
+        "how": "OpenSeesPy on the script that jostle exports of the model beside this file; made by: bench/run --validation",
         "version": answer["version"],
         "free_step_s": FREE,
         "contact_step_s": FREE / 10,
@@ -28,9 +22,9 @@ def main(say):
         "buildings": answer["buildings"],
         "contacts": answer["contacts"],
     }
-    PATH.parent.mkdir(parents=True, exist_ok=True)
-    PATH.write_text(json.dumps(stored, indent=1) + "\n")
-    (PATH.parent / "inelastic.toml").write_text(Path(programs.model_of(case)).read_text())
+
+
+def compare(own, answer):
     worst = 0.0
     for ours, theirs in zip(own["buildings"], answer["buildings"]):
         for a, b in zip(ours["floors"], theirs["floors"]):
@@ -41,4 +35,15 @@ def main(say):
         if theirs["impact_count"]:
             apart = ours["peak_force_n"] / theirs["peak_force_n"] - 1.0
             print(f"floors {theirs['floors']}: {ours['peak_force_n']:.0f} N, OpenSees {theirs['peak_force_n']:.0f} N, {apart:+.2e}; impacts {ours['impact_count']}, {theirs['impact_count']}")
+
+
+def main(say):
+    for path in sorted(FOLDER.glob("*.toml")):
+        case = Case(path.stem, path.stem, path.name)
+        say(f"{path.stem}: OpenSees with steps of {1e3 * FREE:g} ms; this takes minutes")
+        answer = programs.opensees(case, FREE, 10, "ties")["result"]
+        target = path.with_suffix(".json")
+        target.with_suffix(".tmp").write_text(json.dumps(stored(answer), indent=1) + "\n")
+        target.with_suffix(".tmp").replace(target)
+        compare(programs.jostle(case, tolerance=1e-4, least=0.0)["summary"], answer)
     return 0
