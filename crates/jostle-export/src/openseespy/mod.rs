@@ -9,7 +9,7 @@ mod script;
 mod ties;
 
 use jostle::hysteresis::HysteresisRule;
-use jostle::{Hinges, ModelFault, Wave};
+use jostle::{Hinges, ModelFault};
 
 use crate::{Export, Exported};
 use script::Script;
@@ -47,30 +47,39 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
         );
     }
     for (index, building) in model.buildings.iter().enumerate() {
-        let hysteresis = match &building.hinges {
+        let of_members = match &building.hinges {
             None => None,
             Some(Hinges::Frame(hinges)) => {
                 hinges.columns.iter().chain(&hinges.beams).flatten().next()
             }
             Some(Hinges::Storeys(springs)) => springs.first(),
         };
-        let rule = hysteresis.map(jostle::hysteresis::Hysteresis::rule);
-        if let Some(rule @ (HysteresisRule::Takeda { .. } | HysteresisRule::DegradingTrilinear)) =
-            rule
-        {
-            refuse(
-                format!("building[{index}].hinges.rule"),
-                format!(
-                    "OpenSees has no rule \"{}\"; normal, bilinear and peak-oriented can be exported",
-                    rule.name()
-                ),
-            );
+        let springs = [
+            ("hinges", of_members),
+            (
+                "base.rotational_hinge",
+                building.base.rotational_hinge.as_ref(),
+            ),
+            (
+                "base.horizontal_hinge",
+                building.base.horizontal_hinge.as_ref(),
+            ),
+        ];
+        for (field, hysteresis) in springs {
+            let rule = hysteresis.map(jostle::hysteresis::Hysteresis::rule);
+            if let Some(
+                rule @ (HysteresisRule::Takeda { .. } | HysteresisRule::DegradingTrilinear),
+            ) = rule
+            {
+                refuse(
+                    format!("building[{index}].{field}.rule"),
+                    format!(
+                        "OpenSees has no rule \"{}\"; normal, bilinear and peak-oriented can be exported",
+                        rule.name()
+                    ),
+                );
+            }
         }
-    }
-    if let Wave::Ricker { .. } = export.motion.wave
-        && export.motion.duration <= 0.0
-    {
-        refuse("motion.duration".into(), "must be positive".into());
     }
     faults
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use jostle::gravity::STANDARD_GRAVITY;
+use jostle::hysteresis::Hysteresis;
 use jostle::skeleton::{Skeleton, Support};
 use jostle::system::BuildingSystem;
 use jostle::{GroundMotion, ModelFault, Wave};
@@ -77,10 +78,10 @@ impl<'a> Script<'a> {
             place += nodes
                 .iter()
                 .fold(0.0, |widest: f64, node| widest.max(node.x));
-            if let Err(problem) = script.add_building(index, building) {
+            if let Err(rule) = script.add_building(index, building) {
                 faults.push(ModelFault {
-                    path: format!("building[{index}].hinges.rule"),
-                    problem: format!("OpenSees has no rule \"{problem}\""),
+                    path: format!("building[{index}]"),
+                    problem: format!("OpenSees has no rule \"{rule}\""),
                 });
             }
         }
@@ -268,24 +269,21 @@ impl<'a> Script<'a> {
             let mut directions = Vec::new();
             for (component, stiffness) in stiffnesses(hinge).into_iter().enumerate() {
                 let direction = [1, 2, 6][component];
-                let material = match (stiffness, &hinge.hysteresis) {
-                    (Some(_), Some(hysteresis)) if component == 2 => {
-                        self.materials.yielding(hysteresis)?
-                    }
-                    (Some(stiffness), _) => {
-                        self.materials.elastic(stiffness, hinge.dashpots[component])
-                    }
-                    (None, _) => {
-                        let tag = self.element();
-                        let tied = python_bool(ties.are_tied(ends, component));
-                        let _ = writeln!(
-                            self.rigid,
-                            "    ({tag}, {first}, {last}, {direction}, {tied}),"
-                        );
-                        continue;
-                    }
+                let Some(stiffness) = stiffness else {
+                    let tag = self.element();
+                    let tied = python_bool(ties.are_tied(ends, component));
+                    let _ = writeln!(
+                        self.rigid,
+                        "    ({tag}, {first}, {last}, {direction}, {tied}),"
+                    );
+                    continue;
                 };
-                directions.push((direction, material));
+                let hysteresis = hinge.hysteresis.as_ref().filter(|_| component == 2);
+                for material in
+                    self.spring_materials(stiffness, hysteresis, hinge.dashpots[component])?
+                {
+                    directions.push((direction, material));
+                }
             }
             if !directions.is_empty() {
                 self.spring(first, last, &directions, hinge.proportional_damping);
@@ -297,16 +295,44 @@ impl<'a> Script<'a> {
     fn add_storeys(&mut self, index: usize, skeleton: &Skeleton) -> Result<(), &'static str> {
         for spring in &skeleton.springs {
             let [first, last] = spring.ends.map(|node| self.tag(index, node));
-            let material = match &spring.hysteresis {
-                Some(hysteresis) => self.materials.yielding(hysteresis)?,
-                None => self.materials.elastic(spring.stiffness, spring.dashpot),
-            };
-            self.spring(first, last, &[(1, material)], spring.proportional_damping);
+            let materials = self.spring_materials(
+                spring.stiffness,
+                spring.hysteresis.as_ref(),
+                spring.dashpot,
+            )?;
+            let directions: Vec<(usize, usize)> = materials
+                .into_iter()
+                .map(|material| (1, material))
+                .collect();
+            self.spring(first, last, &directions, spring.proportional_damping);
             if spring.softening != 0.0 {
                 self.lean(first, last, -spring.softening);
             }
         }
         Ok(())
+    }
+
+    /// What stands side by side: a spring, elastic or not, and a dashpot.
+    fn spring_materials(
+        &mut self,
+        stiffness: f64,
+        hysteresis: Option<&Hysteresis>,
+        dashpot: f64,
+    ) -> Result<Vec<usize>, &'static str> {
+        let mut materials = Vec::new();
+        match hysteresis {
+            Some(hysteresis) => {
+                materials.push(self.materials.yielding(hysteresis)?);
+                if dashpot != 0.0 {
+                    materials.push(self.materials.elastic(0.0, dashpot));
+                }
+            }
+            None if stiffness != 0.0 || dashpot != 0.0 => {
+                materials.push(self.materials.elastic(stiffness, dashpot));
+            }
+            None => {}
+        }
+        Ok(materials)
     }
 
     fn spring(&mut self, first: usize, last: usize, directions: &[(usize, usize)], damped: bool) {
