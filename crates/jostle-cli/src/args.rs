@@ -40,6 +40,8 @@ pub(crate) enum Command {
     Modes(ModesArgs),
     /// Two free masses meet under one contact law, or under all of them
     Collide(Box<CollideArgs>),
+    /// The model as a script for another program, to check one with the other
+    Export(crate::export::ExportArgs),
     /// Size and accuracy of the step equations in every form, on your own buildings
     Method(MethodArgs),
     /// Cracking and yield of reinforced-concrete sections, by formulas and fibre by fibre

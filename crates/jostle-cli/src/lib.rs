@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod collide;
+mod export;
 mod failure;
 mod method;
 mod modes;
@@ -36,6 +37,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Check(args) => check::check(&args),
         Command::Modes(args) => modes::modes(&args),
         Command::Collide(args) => collide::collide(&args),
+        Command::Export(args) => export::export(&args),
         Command::Method(args) => method::method(&args),
         Command::Pushover(args) => pushover::pushover(&args),
         Command::Motion(command) => motion::run(&command),

@@ -52,11 +52,24 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
 
     let stop = stop_on_interrupt();
     let started = Instant::now();
-    let outcome = watch(&opened, &motion, &plan, Pounding::Included, &stop);
+    // Nobody sees histories that are not written.
+    let settings = Settings {
+        record_interval: Settings::default()
+            .record_interval
+            .filter(|_| out.is_some()),
+        ..Settings::default()
+    };
+    let outcome = watch(&opened, &motion, &plan, settings, &stop);
     let wall = started.elapsed().as_secs_f64();
     let twin =
         (!args.no_report && !opened.system.contacts.is_empty() && outcome.end == RunEnd::Completed)
-            .then(|| watch(&opened, &motion, &plan, Pounding::Excluded, &stop))
+            .then(|| {
+                let settings = Settings {
+                    pounding: Pounding::Excluded,
+                    ..settings
+                };
+                watch(&opened, &motion, &plan, settings, &stop)
+            })
             .filter(|twin| twin.end == RunEnd::Completed);
 
     let model = &opened.input.model;
@@ -166,7 +179,7 @@ fn watch(
     opened: &Opened,
     motion: &GroundMotion,
     plan: &Plan,
-    pounding: Pounding,
+    settings: Settings,
     stop: &AtomicBool,
 ) -> Outcome {
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
@@ -174,7 +187,7 @@ fn watch(
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
-    bar.set_prefix(if pounding == Pounding::Included {
+    bar.set_prefix(if settings.pounding == Pounding::Included {
         "pounding       "
     } else {
         "without contact"
@@ -184,10 +197,7 @@ fn watch(
         &opened.system,
         motion,
         plan,
-        Settings {
-            pounding,
-            ..Settings::default()
-        },
+        settings,
         |Progress { time, duration }| {
             if !shown && terminal::is_watched() && started.elapsed() > PATIENCE {
                 bar.set_draw_target(ProgressDrawTarget::stderr());

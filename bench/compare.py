@@ -1,0 +1,99 @@
+"""jostle and OpenSeesPy on the same models, in turn. See bench/run."""
+
+import argparse
+import json
+import os
+import sys
+import traceback
+from datetime import datetime, timezone
+from pathlib import Path
+
+import machine
+import page
+import programs
+import reference
+import validation
+from cases import CASES
+
+HERE = Path(__file__).resolve().parent
+RESULTS = HERE / "results"
+# The step that most people take throughout [s].
+USUAL_STEP = 1e-4
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def compare(case, known):
+    """Both programs on one case: jostle, OpenSees, jostle again."""
+    rows = [programs.jostle(case, solver) for solver in programs.solvers() if case.linear or solver != "modal"]
+    settings = known.get("opensees", {}).get("settings", {"free": 2e-3, "parts": 10, "axial": "stiff"})
+    say(f"{case.name}: OpenSees with {settings}")
+    best = programs.opensees(case, **settings)
+    again = [programs.jostle(case, row["way"]) for row in rows]
+    for row, second in zip(rows, again):
+        # The machine is not ours alone: the quieter half counts.
+        row["cpu_s"], row["process_cpu_s"] = min(row["cpu_s"], second["cpu_s"]), min(row["process_cpu_s"], second["process_cpu_s"])
+        row["cpu_least_s"], row["runs"] = min(row["cpu_least_s"], second["cpu_least_s"]), row["runs"] + second["runs"]
+        row["same_bits"] = row["peak_force_n"] == second["peak_force_n"]
+    say(f"{case.name}: OpenSees with uniform steps of {1e3 * USUAL_STEP:g} ms for {case.piece:g} s")
+    usual = programs.opensees(case, axial="ties", uniform=USUAL_STEP, duration=case.piece)
+    whole = best["duration_s"] / usual["duration_s"]
+    usual |= {"cpu_s": usual["cpu_s"] * whole, "steps": round(usual["steps"] * whole), "estimated_from_s": case.piece}
+    for row in rows + [best]:
+        limit = known.get("jostle" if row["program"] == "jostle" else "opensees", {}).get("peak_force_n")
+        row["error"] = None if limit is None else abs(row["peak_force_n"] / limit - 1.0)
+        row["matched"] = None if limit is None else row["error"] <= reference.MATCHED
+    apart = abs(known["jostle"]["peak_force_n"] / known["opensees"]["peak_force_n"] - 1.0) if known else None
+    for row in rows:
+        row["ratio_best"], row["ratio_usual"] = best["cpu_s"] / row["cpu_s"], usual["cpu_s"] / row["cpu_s"]
+        row.pop("summary")
+    for row in (best, usual):
+        row.pop("result")
+    return {"case": case.name, "title": case.title, "rows": rows + [best, usual], "limits_apart": apart}
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="bench/run", description=__doc__)
+    parser.add_argument("cases", nargs="*", help=f"of {', '.join(case.name for case in CASES)}; without: all")
+    parser.add_argument("--quick", action="store_true", help="two towers and the first five seconds of the example")
+    parser.add_argument("--reference", action="store_true", help="find settings and converged values again")
+    parser.add_argument("--validation", action="store_true", help="OpenSees' answers for the models of the validation")
+    parser.add_argument("--keep-page", action="store_true", help="leave docs/performance.md alone")
+    args = parser.parse_args()
+    unknown = set(args.cases) - {case.name for case in CASES}
+    if unknown:
+        parser.error(f"there is no case {', '.join(sorted(unknown))}")
+    if args.validation:
+        return validation.main(say)
+    chosen = [case for case in CASES if (not args.cases or case.name in args.cases) and (case.quick or not args.quick)]
+    references = reference.load()
+    if args.reference:
+        for case in chosen:
+            references[case.name] = reference.refine(case, say)
+            reference.store(references)
+        return 0
+    RESULTS.mkdir(exist_ok=True)
+    failed = False
+    for case in chosen:
+        say(f"== {case.name}: {case.title}")
+        try:
+            result = compare(case, references.get(case.name, {}))
+        except Exception:  # the others are still worth having
+            say(traceback.format_exc())
+            failed = True
+            continue
+        result["machine"] = machine.describe()
+        result["at"] = datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
+        path = RESULTS / f"{case.name}.json"
+        path.with_suffix(".tmp").write_text(json.dumps(result, indent=1, ensure_ascii=False) + "\n")
+        os.replace(path.with_suffix(".tmp"), path)
+        print(page.table([result]), flush=True)
+    if not args.keep_page and not args.quick:
+        page.rewrite(RESULTS, [case.name for case in CASES])
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,49 @@
+"""OpenSees' answers for the models in the validation's data, stored beside them."""
+
+import json
+from pathlib import Path
+
+import programs
+from cases import Case
+
+FOLDER = Path(__file__).resolve().parent.parent / "crates/jostle-validation/data/opensees"
+# Steps in free flight; a tenth of that near contact [s].
+FREE = 5e-4
+
+
+def stored(answer):
+    """What the validation compares."""
+    return {
+        "how": "OpenSeesPy on the script that jostle exports of the model beside this file; made by: bench/run --validation",
+        "version": answer["version"],
+        "free_step_s": FREE,
+        "contact_step_s": FREE / 10,
+        "failed_steps": answer["work"]["failed_steps"],
+        "buildings": answer["buildings"],
+        "contacts": answer["contacts"],
+    }
+
+
+def compare(own, answer):
+    worst = 0.0
+    for ours, theirs in zip(own["buildings"], answer["buildings"]):
+        for a, b in zip(ours["floors"], theirs["floors"]):
+            worst = max(worst, *(abs(a[key] / b[key] - 1.0) for key in ("displacement_max_m", "displacement_min_m")))
+    print(f"peak displacements: at most {worst:.2e} apart")
+    contacts = [contact for gap in own["gaps"] for contact in gap["contacts"]]
+    for ours, theirs in zip(contacts, answer["contacts"]):
+        if theirs["impact_count"]:
+            apart = ours["peak_force_n"] / theirs["peak_force_n"] - 1.0
+            print(f"floors {theirs['floors']}: {ours['peak_force_n']:.0f} N, OpenSees {theirs['peak_force_n']:.0f} N, {apart:+.2e}; impacts {ours['impact_count']}, {theirs['impact_count']}")
+
+
+def main(say):
+    for path in sorted(FOLDER.glob("*.toml")):
+        case = Case(path.stem, path.stem, path.name)
+        say(f"{path.stem}: OpenSees with steps of {1e3 * FREE:g} ms; this takes minutes")
+        answer = programs.opensees(case, FREE, 10, "ties")["result"]
+        target = path.with_suffix(".json")
+        target.with_suffix(".tmp").write_text(json.dumps(stored(answer), indent=1) + "\n")
+        target.with_suffix(".tmp").replace(target)
+        compare(programs.jostle(case, tolerance=1e-4, least=0.0)["summary"], answer)
+    return 0

@@ -1,0 +1,58 @@
+//! `jostle export`: the model as a script for another program.
+
+use std::path::PathBuf;
+
+use jostle_export::{Export, openseespy};
+
+use crate::args::ModelArgs;
+use crate::failure::Failure;
+use crate::open::open;
+use crate::terminal;
+
+/// Which model, for whom.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ExportArgs {
+    #[command(flatten)]
+    model: ModelArgs,
+    /// The program it is for
+    #[arg(long, value_enum)]
+    to: Target,
+    /// File to write; without it, the script is printed
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Programs that models can be exported to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Target {
+    /// A Python script for OpenSeesPy
+    Openseespy,
+}
+
+pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
+    let opened = open(args.model.model.as_deref(), &args.model.overrides()?)?;
+    let (motion, _) = opened.plan()?;
+    let export = Export {
+        model: &opened.input.model,
+        system: &opened.system,
+        motion: &motion,
+    };
+    let exported = match args.to {
+        Target::Openseespy => openseespy::export(&export),
+    };
+    let exported = exported.map_err(|faults| opened.input.faults(faults))?;
+    for remark in &exported.remarks {
+        terminal::remark(&format!(
+            "{} {remark}",
+            terminal::styled(terminal::LOUD, "not quite the same:")
+        ));
+    }
+    match &args.output {
+        None => terminal::print(&exported.text),
+        Some(path) => {
+            jostle_io::write_atomically(path, exported.text.as_bytes())?;
+            terminal::remark(&format!("written: {}", path.display()));
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,373 @@
+# ---------------------------------------------------------------------------------------------------------------
+# From here on every exported script is the same.
+
+import argparse
+import json
+import math
+import os
+import sys
+import tempfile
+import time
+
+try:
+    import openseespy.opensees as ops
+except (ImportError, RuntimeError) as problem:
+    sys.exit(f"OpenSeesPy cannot be loaded: {problem}\npip install openseespy; on Debian it needs libblas3 liblapack3 libgfortran5")
+
+# Members that keep their length, where no tie sees to it: EA = STIFF * 12 EI / l^2.
+STIFF = 1e4
+SETTLED = 1e-10  # displacement in the last iteration [m]
+DIRECTIONS = {1: 1, 2: 2, 6: 3}
+
+
+def build(axial):
+    """The model. axial: "ties" (members keep their length exactly) or "stiff" (almost, but without constraints)."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    where = {}
+    for tag, x, y, mass, inertia in NODES:
+        where[tag] = (x, y)
+        ops.node(tag, x, y)
+        if mass or inertia:
+            ops.mass(tag, mass, mass, inertia)
+    fixed = {tag: list(held) for tag, *held in SUPPORTS}
+    if axial == "ties":
+        for tag, direction in HELD:
+            fixed.setdefault(tag, [0, 0, 0])[direction - 1] = 1
+        for kept, tied, *directions in TIES:
+            ops.equalDOF(kept, tied, *directions)
+    for tag, held in fixed.items():
+        ops.fix(tag, *held)
+    ops.geomTransf("Linear", 1)
+    stiffest = 0.0
+    for tag, first, last, ei, ea, ga in MEMBERS:
+        length = math.dist(where[first], where[last])
+        if ea is None:
+            ea = STIFF * 12.0 * ei / length**2
+        stiffest = max(stiffest, ea / length)
+        if ga is None:
+            ops.element("elasticBeamColumn", tag, first, last, ea, 1.0, ei, 1)
+        else:
+            ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, ei, ga, 1)
+    for name, tag, *arguments in MATERIALS:
+        ops.uniaxialMaterial(name, tag, *arguments)
+    for tag, first, last, springs, damped in SPRINGS:
+        directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
+        extra = ["-doRayleigh", 1] if damped else []
+        ops.element("zeroLength", tag, first, last, "-mat", *materials, "-dir", *directions, *extra)
+    if any(axial == "stiff" or not tied for *_, tied in RIGID):
+        rigid = len(MATERIALS) + 1
+        ops.uniaxialMaterial("Elastic", rigid, stiffest or 1e12)
+        for tag, first, last, direction, tied in RIGID:
+            if axial == "stiff" or not tied:
+                ops.element("zeroLength", tag, first, last, "-mat", rigid, "-dir", direction)
+    for tag, first, last, material in LEANING:
+        ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", 1)
+    for tag, left, right, material, *_ in CONTACTS:
+        ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1)
+    for number, building in enumerate(BUILDINGS, start=1):
+        first, last = building["nodes"]
+        # On the initial stiffness of everything that is not a bare spring.
+        ops.region(number, "-node", *range(first, last + 1), "-rayleigh", building["alpha"], 0.0, building["beta"], 0.0)
+
+
+def load_by_weight(axial):
+    """Every building that starts under its weight gets it, and settles."""
+    if not any(building["weight"] for building in BUILDINGS):
+        return
+    prepare(axial)
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    for building in BUILDINGS:
+        first, last = building["nodes"]
+        for tag, _, _, mass, _ in NODES:
+            if building["weight"] and first <= tag <= last and mass:
+                ops.load(tag, 0.0, -mass * GRAVITY, 0.0)
+    ops.algorithm("Newton")
+    ops.integrator("LoadControl", 0.1)
+    ops.analysis("Static")
+    if ops.analyze(10) != 0:
+        sys.exit("the building does not come to rest under its weight")
+    ops.loadConst("-time", 0.0)
+    ops.wipeAnalysis()
+
+
+def ground_values():
+    """Step and values of the ground motion, unscaled."""
+    if "RECORD" in globals():
+        return RECORD_STEP, RECORD
+    if "RICKER" in globals():
+        amplitude, period, centre = RICKER
+        wave = lambda t: (math.pi * (t - centre) / period) ** 2
+        ricker = lambda t: amplitude * (1.0 - 2.0 * wave(t)) * math.exp(-wave(t))
+    else:
+        amplitude, period = SINE
+        ricker = lambda t: amplitude * math.sin(2.0 * math.pi * t / period)
+    step = 1e-4
+    return step, [ricker(step * k) for k in range(math.ceil(DURATION / step) + 1)]
+
+
+def shake():
+    """Horizontal ground motion, and the accelerations that belong to its first value."""
+    if "SINE" in globals():
+        amplitude, period = SINE
+        ops.timeSeries("Trig", 2, 0.0, 1e9, period, "-factor", amplitude * MOTION_FACTOR)
+        start = 0.0
+    else:
+        step, values = ground_values()
+        ops.timeSeries("Path", 2, "-dt", step, "-values", *values, "-factor", MOTION_FACTOR)
+        start = values[0] * MOTION_FACTOR
+    ops.pattern("UniformExcitation", 2, 1, "-accel", 2)
+    if start:
+        resting = {tag for tag, x, *_ in SUPPORTS if x}
+        heavy = {tag for tag, _, _, mass, _ in NODES if mass}
+        heavy |= {tied for kept, tied, *directions in TIES if 1 in directions}
+        for tag in heavy - resting:
+            ops.setNodeAccel(tag, 1, -start, "-commit")
+
+
+def prepare(axial):
+    """Everything that an analysis needs apart from the algorithm and the integrator. To be called once: a second
+    SparseSYM brings the program down."""
+    if axial == "ties":
+        # SparseSYM (SparseSPD) and equalDOF together give wrong answers without a word.
+        ops.constraints("Transformation")
+        ops.numberer("RCM")
+        ops.system("ProfileSPD")
+    else:
+        ops.constraints("Plain")
+        ops.numberer("RCM")
+        ops.system("SparseSYM")
+    ops.test("NormDispIncr", SETTLED, 25, 0)
+
+
+ALGORITHMS = {
+    # One factorisation for all steps of a size; no iteration: right for linear steps, useless in contact.
+    "linear": ("Linear", False, False, True),
+    # One factorisation for all steps of a size, iterated: contact is soft beside the inertia of a short step.
+    "kept": ("ModifiedNewton", "-FactorOnce"),
+    # A factorisation a step, or an iteration.
+    "modified": ("ModifiedNewton",),
+    "newton": ("Newton",),
+}
+
+
+class Watch:
+    """Contacts: which are near, which are closed, what was counted."""
+
+    def __init__(self):
+        self.faces = [(left, right, gap) for _, left, right, _, gap, *_ in CONTACTS]
+        self.closed = [False] * len(CONTACTS)
+        self.impacts = [0] * len(CONTACTS)
+        self.first = [None] * len(CONTACTS)
+        self.deepest = [-math.inf] * len(CONTACTS)
+        self.late = 0
+
+    def closings(self):
+        disp = ops.nodeDisp
+        return [disp(left, 1) - disp(right, 1) - gap for left, right, gap in self.faces]
+
+    def is_near(self, step, closings):
+        """Whether a contact may close within a step: with its speed, a half more, and an acceleration of 6 m/s2."""
+        reserve = 3.0 * step * step
+        for (left, right, _), closing in zip(self.faces, closings):
+            if closing + reserve > 0.0:
+                return True
+            # Nothing closes faster than 10 m/s.
+            if closing + 15.0 * step + reserve > 0.0:
+                rate = ops.nodeVel(left, 1) - ops.nodeVel(right, 1)
+                if closing + 1.5 * max(rate, 0.0) * step + reserve > 0.0:
+                    return True
+        return False
+
+    def count(self, closings, free):
+        for index, closing in enumerate(closings):
+            if closing > self.deepest[index]:
+                self.deepest[index] = closing
+            if closing > 0.0 and not self.closed[index]:
+                self.impacts[index] += 1
+                self.late += free
+                if self.first[index] is None:
+                    self.first[index] = ops.getTime()
+            self.closed[index] = closing > 0.0
+
+
+class Run:
+    """Steps taken, and how."""
+
+    def __init__(self):
+        self.steps = self.short_steps = self.iterations = self.failures = 0
+        self.way = None
+
+    def use(self, algorithm):
+        # Setting it anew also makes it factorise anew, as a change of step must.
+        ops.algorithm(*ALGORITHMS[algorithm])
+        self.way = algorithm
+
+    def advance(self, step, short):
+        status = ops.analyze(1, step)
+        self.steps += 1
+        self.short_steps += short
+        self.iterations += 1 if self.way == "linear" else ops.testIter()
+        if status != 0:
+            self.failures += 1
+            return self.rescue(step)
+        return True
+
+    def rescue(self, step):
+        """A step that did not converge, in ten parts with a fresh tangent at every iteration."""
+        way = self.way
+        self.use("newton")
+        done = all(ops.analyze(1, step / 10) == 0 for _ in range(10))
+        self.use(way)
+        return done
+
+
+def march(args, duration):
+    """Runs through the motion; returns what was counted."""
+    watch, run = Watch(), Run()
+    ops.integrator("Newmark", 0.5, 0.25)
+    run.use(args.algorithm if args.uniform else args.free_algorithm)
+    ops.analysis("Transient")
+    complete = True
+    cpu, wall = time.process_time(), time.perf_counter()
+    if args.uniform:
+        for _ in range(round(duration / args.uniform)):
+            if not run.advance(args.uniform, True):
+                complete = False
+                break
+            watch.count(watch.closings(), False)
+    else:
+        free, parts = args.free, args.parts
+        short = free / parts
+        near = False
+        for _ in range(round(duration / free)):
+            closings = watch.closings()
+            now_near = watch.is_near(free, closings)
+            if now_near != near:
+                near = now_near
+                run.use(args.contact_algorithm if near else args.free_algorithm)
+            if near:
+                for _ in range(parts):
+                    complete = complete and run.advance(short, True)
+                    watch.count(watch.closings(), False)
+            else:
+                complete = run.advance(free, False)
+                watch.count(watch.closings(), True)
+            if not complete:
+                break
+    return watch, run, complete, time.process_time() - cpu, time.perf_counter() - wall
+
+
+def envelopes(folder):
+    """Greatest displacements of floors and forces of contacts, kept by OpenSees itself."""
+    floors = [tag for building in BUILDINGS for tag in building["floors"]]
+    ops.recorder("EnvelopeNode", "-file", os.path.join(folder, "floors"), "-precision", 12, "-node", *floors, "-dof", 1, "disp")
+    if CONTACTS:
+        elements = [row[0] for row in CONTACTS]
+        ops.recorder("EnvelopeElement", "-file", os.path.join(folder, "forces"), "-precision", 12, "-ele", *elements, "localForce")
+
+
+def read(folder, name):
+    with open(os.path.join(folder, name)) as file:
+        return [[float(value) for value in line.split()] for line in file]
+
+
+def modes(args):
+    """Natural periods, longest first [s]."""
+    build("ties")
+    prepare("ties")
+    values = ops.eigen("-genBandArpack", args.modes)
+    return [2.0 * math.pi / math.sqrt(value) for value in values]
+
+
+def analyse(args):
+    duration = args.duration or DURATION
+    build(args.axial)
+    load_by_weight(args.axial)
+    prepare(args.axial)
+    shake()
+    with tempfile.TemporaryDirectory() as folder:
+        envelopes(folder)
+        watch, run, complete, cpu, wall = march(args, duration)
+        equations = ops.systemSize()
+        reached = ops.getTime()
+        ops.wipe()
+        low, high, _ = read(folder, "floors")
+        forces = read(folder, "forces")[0] if CONTACTS else []
+    peaks = iter(zip(high, low))
+    buildings = []
+    for building in BUILDINGS:
+        floors = []
+        for number, (right, left) in zip(range(1, len(building["floors"]) + 1), peaks):
+            floors.append({"floor": number, "displacement_max_m": right, "displacement_min_m": left})
+        buildings.append({"name": building["name"], "floors": floors})
+    contacts = []
+    for index, (_, _, _, _, gap, number, floors, height) in enumerate(CONTACTS):
+        contacts.append({
+            "gap": number,
+            "floors": list(floors),
+            "height_m": height,
+            "closing_peak_m": watch.deepest[index] + gap,
+            "impact_count": watch.impacts[index],
+            "peak_force_n": max(0.0, -forces[index]),
+            "first_impact_s": watch.first[index],
+        })
+    firsts = [contact["first_impact_s"] for contact in contacts if contact["first_impact_s"] is not None]
+    return {
+        "title": TITLE,
+        "exported_by": EXPORTED_BY,
+        "program": "OpenSeesPy",
+        "version": ops.version(),
+        "python": sys.version.split()[0],
+        "way": {
+            "axial": args.axial,
+            "uniform_s": args.uniform,
+            "free_s": None if args.uniform else args.free,
+            "contact_s": args.uniform or args.free / args.parts,
+            "algorithms": [args.algorithm] if args.uniform else [args.free_algorithm, args.contact_algorithm],
+        },
+        "duration_s": duration,
+        "reached_s": reached,
+        "complete": complete,
+        "buildings": buildings,
+        "contacts": contacts,
+        "impact_count": sum(watch.impacts),
+        "peak_force_n": max((contact["peak_force_n"] for contact in contacts), default=0.0),
+        "first_impact_s": min(firsts, default=None),
+        "work": {
+            "equations": equations,
+            "steps": run.steps,
+            "short_steps": run.short_steps,
+            "iterations": run.iterations,
+            "failed_steps": run.failures,
+            "late_impacts": watch.late,
+            "cpu_s": cpu,
+            "wall_s": wall,
+        },
+    }
+
+
+def main():
+    yields = any(name in ("ElasticPP", "Hysteretic") for name, *_ in MATERIALS)
+    parser = argparse.ArgumentParser(description=f"{TITLE}: for OpenSeesPy, {EXPORTED_BY}. Prints JSON.")
+    parser.add_argument("--uniform", type=float, metavar="DT", help="one step size throughout [s]")
+    parser.add_argument("--free", type=float, default=FREE_STEP, metavar="DT", help="step in free flight [s] (%(default)s)")
+    parser.add_argument("--parts", type=int, default=PARTS_IN_CONTACT, help="parts of it around contact (%(default)s)")
+    parser.add_argument("--duration", type=float, help=f"how long [s] ({DURATION})")
+    parser.add_argument("--axial", choices=["ties", "stiff"], default="ties", help="members keep their length by ties (ProfileSPD), or almost by stiffness (SparseSYM) (%(default)s)")
+    parser.add_argument("--algorithm", choices=ALGORITHMS, default="newton", help="with --uniform (%(default)s)")
+    parser.add_argument("--free-algorithm", choices=ALGORITHMS, default="newton" if yields else "linear", help="in free flight (%(default)s)")
+    parser.add_argument("--contact-algorithm", choices=ALGORITHMS, default="newton" if yields else "kept", help="around contact (%(default)s)")
+    parser.add_argument("--modes", type=int, metavar="N", help="natural periods only")
+    parser.add_argument("--log", metavar="FILE", default=os.devnull, help="what OpenSees has to say")
+    args = parser.parse_args()
+    ops.logFile(args.log, "-noEcho")
+    result = {"title": TITLE, "periods_s": modes(args)} if args.modes else analyse(args)
+    json.dump(result, sys.stdout, indent=1)
+    print()
+    return 0 if result.get("complete", True) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,198 @@
+//! Hysteresis rules and contact laws as uniaxial materials of OpenSees.
+
+use jostle::contact::ForceLaw;
+use jostle::hysteresis::{Backbone, Hysteresis, HysteresisRule, Side};
+use jostle::system::Contact;
+
+/// Materials of a script, numbered from 1, equal ones listed once.
+#[derive(Default)]
+pub(super) struct Materials {
+    /// Name in OpenSees, and the arguments after the tag.
+    list: Vec<(&'static str, Vec<f64>)>,
+}
+
+/// How far the last straight line of a backbone is drawn, in yield deformations \[–\].
+const FAR: f64 = 1e4;
+/// Gap of faces that touch at rest: OpenSees wants a number below zero \[m\].
+const NO_GAP: f64 = 1e-12;
+/// A force that elastic-plastic contact never reaches \[N\].
+const NEVER: f64 = 1e30;
+
+impl Materials {
+    /// Every material: tag, name, arguments.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, &'static str, &[f64])> {
+        let numbered = self.list.iter().enumerate();
+        numbered.map(|(index, (name, arguments))| (index + 1, *name, &arguments[..]))
+    }
+
+    /// Tag of a material.
+    fn add(&mut self, name: &'static str, arguments: Vec<f64>) -> usize {
+        let known = self
+            .list
+            .iter()
+            .position(|(other, others)| *other == name && *others == arguments);
+        known.unwrap_or_else(|| {
+            self.list.push((name, arguments));
+            self.list.len() - 1
+        }) + 1
+    }
+
+    /// A spring with a dashpot beside it.
+    pub(super) fn elastic(&mut self, stiffness: f64, dashpot: f64) -> usize {
+        let mut arguments = vec![stiffness];
+        if dashpot != 0.0 {
+            arguments.push(dashpot);
+        }
+        self.add("Elastic", arguments)
+    }
+
+    /// A spring that yields.
+    ///
+    /// # Errors
+    /// The name of a rule that OpenSees does not have.
+    pub(super) fn yielding(&mut self, hysteresis: &Hysteresis) -> Result<usize, &'static str> {
+        let backbone = hysteresis.backbone();
+        match hysteresis.rule() {
+            HysteresisRule::Elastic => Ok(self.elastic(backbone.initial(), 0.0)),
+            HysteresisRule::Bilinear | HysteresisRule::Normal => Ok(self.sliders(backbone)),
+            HysteresisRule::PeakOriented => Ok(self.peak_oriented(backbone)),
+            rule => Err(rule.name()),
+        }
+    }
+
+    /// Iwan's parallel springs, which is what the rules are.
+    fn sliders(&mut self, backbone: &Backbone) -> usize {
+        let [positive, negative] = Side::BOTH.map(|side| *backbone.side(side));
+        let second = if backbone.is_bilinear() {
+            backbone.initial()
+        } else {
+            positive.post_cracking
+        };
+        let mut parts = Vec::new();
+        let corners = [
+            (
+                backbone.initial() - second,
+                positive.cracking.deformation,
+                negative.cracking.deformation,
+            ),
+            (
+                second - positive.post_yield,
+                positive.yielding.deformation,
+                negative.yielding.deformation,
+            ),
+        ];
+        for (stiffness, right, left) in corners {
+            if stiffness > 0.0 {
+                parts.push(self.add("ElasticPP", vec![stiffness, right, -left]));
+            }
+        }
+        if positive.post_yield > 0.0 {
+            parts.push(self.elastic(positive.post_yield, 0.0));
+        }
+        match parts[..] {
+            [single] => single,
+            _ => self.add("Parallel", parts.iter().map(|tag| *tag as f64).collect()),
+        }
+    }
+
+    /// `Hysteretic` with pinching 1, 1 and no damage.
+    fn peak_oriented(&mut self, backbone: &Backbone) -> usize {
+        let mut arguments = Vec::new();
+        for (side, sign) in [(Side::Positive, 1.0), (Side::Negative, -1.0)] {
+            let curve = backbone.side(side);
+            let limit = curve.yielding.deformation;
+            let corners = if curve.cracking.deformation < limit {
+                [curve.cracking.deformation, limit, FAR * limit]
+            } else {
+                [limit, 2.0 * limit, FAR * limit]
+            };
+            for deformation in corners {
+                arguments.extend([sign * curve.force_at(deformation), sign * deformation]);
+            }
+        }
+        arguments.extend([1.0, 1.0, 0.0, 0.0, 0.0]);
+        self.add("Hysteretic", arguments)
+    }
+
+    /// The law of a contact, strain being u_right − u_left, and what is different about it.
+    ///
+    /// # Errors
+    /// What to use instead of a law that OpenSees does not have.
+    pub(super) fn contact(
+        &mut self,
+        contact: &Contact,
+    ) -> Result<(usize, Option<&'static str>), &'static str> {
+        let gap = -contact.width.max(NO_GAP);
+        const IMPACT_SPEED: &str = "Hertzdamp divides by the closing rate that the first closed step ends with, not by \
+             that at the touch: its damping depends on the step and converges with it. It pulls where damping exceeds \
+             the spring; jostle cuts the force at zero. Its stated tangent has the wrong sign, which small steps forgive.";
+        Ok(match contact.law {
+            ForceLaw::Hertz { stiffness, damping } => (
+                self.add("Hertzdamp", vec![stiffness, damping, gap, 1.5]),
+                (damping > 0.0).then_some(IMPACT_SPEED),
+            ),
+            ForceLaw::DampedLinear { stiffness, damping } => (
+                self.add("Hertzdamp", vec![stiffness, damping, gap, 1.0]),
+                Some(IMPACT_SPEED),
+            ),
+            ForceLaw::Kelvin {
+                stiffness, damping, ..
+            } if damping == 0.0 => (
+                self.add("ElasticPPGap", vec![stiffness, -NEVER, gap]),
+                None,
+            ),
+            ForceLaw::Kelvin {
+                stiffness,
+                damping,
+                tension,
+            } => (
+                self.add("ViscoelasticGap", vec![stiffness, damping, gap]),
+                (!tension).then_some(
+                    "ViscoelasticGap pulls before it opens; jostle's kelvin-no-tension cuts the force at zero. Compare \
+                     with law = \"kelvin\" instead.",
+                ),
+            ),
+            ForceLaw::Jankowski { stiffness, damping } => {
+                let mass = contact.effective_mass();
+                let ratio = damping / (2.0 * (stiffness * mass).sqrt());
+                (
+                    self.add("JankowskiImpact", vec![stiffness, ratio, mass, gap, 1.5]),
+                    None,
+                )
+            }
+            ForceLaw::ApproachKelvin { stiffness, damping } => {
+                let mass = contact.effective_mass();
+                let ratio = damping / (2.0 * (stiffness * mass).sqrt());
+                (
+                    self.add("JankowskiImpact", vec![stiffness, ratio, mass, gap, 1.0]),
+                    None,
+                )
+            }
+            ForceLaw::Bilinear(law) if !law.follows_speed => (
+                self.add(
+                    "ImpactMaterial",
+                    vec![
+                        law.first_stiffness,
+                        law.second_stiffness,
+                        -law.yield_indentation,
+                        gap,
+                    ],
+                ),
+                None,
+            ),
+            ForceLaw::Bilinear(_) => {
+                return Err(
+                    "OpenSees' ImpactMaterial has the same stiffnesses at every impact; give the law a design_speed",
+                );
+            }
+            ForceLaw::Restitution { .. } => {
+                return Err(
+                    "OpenSees cannot change velocities at once; use a law with a force, such as hertz-damp",
+                );
+            }
+            ForceLaw::Rubber(_) => {
+                return Err("OpenSees has no rubber bumper; use hertz-damp or kelvin");
+            }
+        })
+    }
+}

@@ -1,0 +1,85 @@
+//! Scripts for OpenSeesPy: the same nodes, elements, ties, damping, hinges, contacts and record, and a driver that
+//! runs them in two ways.
+//!
+//! F. McKenna, M. H. Scott, G. L. Fenves (2010), J. Comput. Civ. Eng. 24, 95–107; M. Zhu, F. McKenna, M. H. Scott
+//! (2018), SoftwareX 7, 6–11. What had to be found out about the program is told in docs/export.md.
+
+mod materials;
+mod script;
+mod ties;
+
+use jostle::hysteresis::HysteresisRule;
+use jostle::{Hinges, ModelFault};
+
+use crate::{Export, Exported};
+use script::Script;
+
+/// The part of every script that is the same: it builds the model from the tables above it, and runs it.
+const DRIVER: &str = include_str!("driver.py");
+
+/// Writes the script.
+///
+/// # Errors
+/// Everything of the model that OpenSees cannot do, by field, never empty.
+pub fn export(export: &Export<'_>) -> Result<Exported, Vec<ModelFault>> {
+    let faults = refusals(export);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let script = Script::of(export)?;
+    let remarks = script.remarks().to_vec();
+    Ok(Exported {
+        text: script.text(DRIVER),
+        remarks,
+    })
+}
+
+/// Fields that can be told to be impossible from the model alone.
+fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
+    let mut faults = Vec::new();
+    let model = export.model;
+    let mut refuse = |path: String, problem: String| faults.push(ModelFault { path, problem });
+    if model.analysis.integrator != jostle::Integrator::default() {
+        refuse(
+            "analysis.integrator".into(),
+            "cannot be exported: the script steps by average acceleration; remove it to compare"
+                .into(),
+        );
+    }
+    for (index, building) in model.buildings.iter().enumerate() {
+        let of_members = match &building.hinges {
+            None => None,
+            Some(Hinges::Frame(hinges)) => {
+                hinges.columns.iter().chain(&hinges.beams).flatten().next()
+            }
+            Some(Hinges::Storeys(springs)) => springs.first(),
+        };
+        let springs = [
+            ("hinges", of_members),
+            (
+                "base.rotational_hinge",
+                building.base.rotational_hinge.as_ref(),
+            ),
+            (
+                "base.horizontal_hinge",
+                building.base.horizontal_hinge.as_ref(),
+            ),
+        ];
+        for (field, hysteresis) in springs {
+            let rule = hysteresis.map(jostle::hysteresis::Hysteresis::rule);
+            if let Some(
+                rule @ (HysteresisRule::Takeda { .. } | HysteresisRule::DegradingTrilinear),
+            ) = rule
+            {
+                refuse(
+                    format!("building[{index}].{field}.rule"),
+                    format!(
+                        "OpenSees has no rule \"{}\"; normal, bilinear and peak-oriented can be exported",
+                        rule.name()
+                    ),
+                );
+            }
+        }
+    }
+    faults
+}

@@ -1,0 +1,667 @@
+//! The tables of a script.
+
+use std::fmt::Write;
+
+use jostle::gravity::STANDARD_GRAVITY;
+use jostle::hysteresis::Hysteresis;
+use jostle::skeleton::{Skeleton, Support};
+use jostle::system::BuildingSystem;
+use jostle::{GroundMotion, ModelFault, Wave};
+
+use super::materials::Materials;
+use super::ties::{COMPONENTS, Ties, is_held_by, is_vertical, stiffnesses};
+use crate::Export;
+
+/// Free-flight step that is to be tried first \[s\]; the record may ask for a shorter one.
+const FREE_STEP: f64 = 2e-3;
+/// Parts of it while contacts are closed \[–\].
+const PARTS_IN_CONTACT: usize = 10;
+/// Heights closer than this are the same \[m\].
+const SAME_LEVEL: f64 = 1e-3;
+
+/// A script in the making: one table after the other.
+pub(super) struct Script<'a> {
+    export: &'a Export<'a>,
+    materials: Materials,
+    remarks: Vec<String>,
+    /// Distance of every building from the left end of the first, so that faces coincide \[m\].
+    places: Vec<f64>,
+    /// Numbers from which the nodes of a building count.
+    block: usize,
+    next_element: usize,
+    buildings: String,
+    nodes: String,
+    supports: String,
+    held: String,
+    ties: String,
+    members: String,
+    rigid: String,
+    springs: String,
+    leaning: String,
+    contacts: String,
+}
+
+impl<'a> Script<'a> {
+    pub(super) fn of(export: &'a Export<'a>) -> Result<Self, Vec<ModelFault>> {
+        let largest = export
+            .system
+            .buildings
+            .iter()
+            .map(|building| building.idealisation.skeleton.nodes.len());
+        let mut block = 1000;
+        while block <= largest.clone().max().unwrap_or(0) {
+            block *= 10;
+        }
+        let mut script = Self {
+            export,
+            materials: Materials::default(),
+            remarks: Vec::new(),
+            places: Vec::new(),
+            block,
+            next_element: 1,
+            buildings: String::new(),
+            nodes: String::new(),
+            supports: String::new(),
+            held: String::new(),
+            ties: String::new(),
+            members: String::new(),
+            rigid: String::new(),
+            springs: String::new(),
+            leaning: String::new(),
+            contacts: String::new(),
+        };
+        let mut faults = Vec::new();
+        let mut place = 0.0;
+        for (index, building) in export.system.buildings.iter().enumerate() {
+            script.places.push(place);
+            let nodes = &building.idealisation.skeleton.nodes;
+            place += nodes
+                .iter()
+                .fold(0.0, |widest: f64, node| widest.max(node.x));
+            if let Err(rule) = script.add_building(index, building) {
+                faults.push(ModelFault {
+                    path: format!("building[{index}]"),
+                    problem: format!("OpenSees has no rule \"{rule}\""),
+                });
+            }
+        }
+        script.add_contacts(&mut faults);
+        script.remark_on_motion();
+        if faults.is_empty() {
+            Ok(script)
+        } else {
+            Err(faults)
+        }
+    }
+
+    pub(super) fn remarks(&self) -> &[String] {
+        &self.remarks
+    }
+
+    fn remark(&mut self, text: impl Into<String>) {
+        let text = text.into();
+        if !self.remarks.contains(&text) {
+            self.remarks.push(text);
+        }
+    }
+
+    /// Tag of a node.
+    fn tag(&self, building: usize, node: usize) -> usize {
+        (building + 1) * self.block + node + 1
+    }
+
+    fn element(&mut self) -> usize {
+        self.next_element += 1;
+        self.next_element - 1
+    }
+
+    fn add_building(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+    ) -> Result<(), &'static str> {
+        let skeleton = &building.idealisation.skeleton;
+        let ties = Ties::of(skeleton);
+        self.add_heading(index, building);
+        self.add_nodes(index, building, &ties);
+        self.add_members(index, skeleton);
+        self.add_hinges(index, skeleton, &ties)?;
+        self.add_storeys(index, skeleton)
+    }
+
+    fn add_heading(&mut self, index: usize, building: &BuildingSystem) {
+        let title = format!("    # {}\n", comment(&building.name));
+        for table in [
+            &mut self.nodes,
+            &mut self.supports,
+            &mut self.held,
+            &mut self.ties,
+            &mut self.members,
+            &mut self.rigid,
+            &mut self.springs,
+            &mut self.leaning,
+        ] {
+            table.push_str(&title);
+        }
+        let floors: Vec<String> = building
+            .idealisation
+            .floors
+            .iter()
+            .map(|node| self.tag(index, *node).to_string())
+            .collect();
+        let gravity = self.export.model.buildings[index].gravity;
+        let (equations, nodes) = (
+            &building.equations,
+            building.idealisation.skeleton.nodes.len(),
+        );
+        let _ = writeln!(
+            self.buildings,
+            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}],\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": {}}},",
+            text(&building.name),
+            self.tag(index, 0),
+            self.tag(index, nodes - 1),
+            floors.join(", "),
+            equations.alpha,
+            equations.beta,
+            python_bool(gravity.preload),
+        );
+    }
+
+    fn add_nodes(&mut self, index: usize, building: &BuildingSystem, ties: &Ties) {
+        for (number, node) in building.idealisation.skeleton.nodes.iter().enumerate() {
+            let tag = self.tag(index, number);
+            // What does not move needs no mass.
+            let mass = if node.support == Support::Fixed {
+                0.0
+            } else {
+                node.mass
+            };
+            let _ = writeln!(
+                self.nodes,
+                "    ({tag}, {:?}, {:?}, {mass:?}, {:?}),",
+                rounded(node.x + self.places[index]),
+                rounded(node.y),
+                node.rotary_inertia,
+            );
+            let fixed: Vec<&str> = (0..COMPONENTS)
+                .map(|component| {
+                    if is_held_by(node.support, component) {
+                        "1"
+                    } else {
+                        "0"
+                    }
+                })
+                .collect();
+            if fixed.contains(&"1") {
+                let _ = writeln!(self.supports, "    ({tag}, {}),", fixed.join(", "));
+            }
+        }
+        for (node, component) in &ties.held {
+            let _ = writeln!(
+                self.held,
+                "    ({}, {}),",
+                self.tag(index, *node),
+                component + 1
+            );
+        }
+        for (first, other, components) in &ties.followed {
+            let components: Vec<String> = components.iter().map(|c| (c + 1).to_string()).collect();
+            let _ = writeln!(
+                self.ties,
+                "    ({}, {}, {}),",
+                self.tag(index, *first),
+                self.tag(index, *other),
+                components.join(", ")
+            );
+        }
+    }
+
+    fn add_members(&mut self, index: usize, skeleton: &Skeleton) {
+        for member in &skeleton.members {
+            let tag = self.element();
+            let [mut a, mut b] = member.ends;
+            let vertical = is_vertical(skeleton, member.ends);
+            let along = |node: usize| {
+                if vertical {
+                    skeleton.nodes[node].y
+                } else {
+                    skeleton.nodes[node].x
+                }
+            };
+            if along(a) > along(b) {
+                (a, b) = (b, a);
+            }
+            let optional = |value: Option<f64>| {
+                value.map_or_else(|| "None".to_owned(), |value| format!("{value:?}"))
+            };
+            let (first, last) = (self.tag(index, a), self.tag(index, b));
+            let _ = writeln!(
+                self.members,
+                "    ({tag}, {first}, {last}, {:?}, {}, {}),",
+                member.flexural_rigidity,
+                optional(member.axial_rigidity),
+                optional(member.shear_rigidity),
+            );
+            if member.compression != 0.0 {
+                let stiffness = -member.compression / (along(b) - along(a));
+                self.lean(first, last, stiffness);
+            }
+        }
+    }
+
+    /// A spring of negative stiffness between the horizontal displacements of two nodes.
+    fn lean(&mut self, first: usize, last: usize, stiffness: f64) {
+        let tag = self.element();
+        let material = self.materials.elastic(stiffness, 0.0);
+        let _ = writeln!(self.leaning, "    ({tag}, {first}, {last}, {material}),");
+    }
+
+    fn add_hinges(
+        &mut self,
+        index: usize,
+        skeleton: &Skeleton,
+        ties: &Ties,
+    ) -> Result<(), &'static str> {
+        for hinge in &skeleton.hinges {
+            let ends = hinge.ends;
+            // Strain is that of the second node against the first; the rotation of a hinge counts the other way.
+            let (first, last) = (self.tag(index, ends[1]), self.tag(index, ends[0]));
+            let mut directions = Vec::new();
+            for (component, stiffness) in stiffnesses(hinge).into_iter().enumerate() {
+                let direction = [1, 2, 6][component];
+                let Some(stiffness) = stiffness else {
+                    let tag = self.element();
+                    let tied = python_bool(ties.are_tied(ends, component));
+                    let _ = writeln!(
+                        self.rigid,
+                        "    ({tag}, {first}, {last}, {direction}, {tied}),"
+                    );
+                    continue;
+                };
+                let hysteresis = hinge.hysteresis.as_ref().filter(|_| component == 2);
+                for material in
+                    self.spring_materials(stiffness, hysteresis, hinge.dashpots[component])?
+                {
+                    directions.push((direction, material));
+                }
+            }
+            if !directions.is_empty() {
+                self.spring(first, last, &directions, hinge.proportional_damping);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_storeys(&mut self, index: usize, skeleton: &Skeleton) -> Result<(), &'static str> {
+        for spring in &skeleton.springs {
+            let [first, last] = spring.ends.map(|node| self.tag(index, node));
+            let materials = self.spring_materials(
+                spring.stiffness,
+                spring.hysteresis.as_ref(),
+                spring.dashpot,
+            )?;
+            let directions: Vec<(usize, usize)> = materials
+                .into_iter()
+                .map(|material| (1, material))
+                .collect();
+            self.spring(first, last, &directions, spring.proportional_damping);
+            if spring.softening != 0.0 {
+                self.lean(first, last, -spring.softening);
+            }
+        }
+        Ok(())
+    }
+
+    /// What stands side by side: a spring, elastic or not, and a dashpot.
+    fn spring_materials(
+        &mut self,
+        stiffness: f64,
+        hysteresis: Option<&Hysteresis>,
+        dashpot: f64,
+    ) -> Result<Vec<usize>, &'static str> {
+        let mut materials = Vec::new();
+        match hysteresis {
+            Some(hysteresis) => {
+                materials.push(self.materials.yielding(hysteresis)?);
+                if dashpot != 0.0 {
+                    materials.push(self.materials.elastic(0.0, dashpot));
+                }
+            }
+            None if stiffness != 0.0 || dashpot != 0.0 => {
+                materials.push(self.materials.elastic(stiffness, dashpot));
+            }
+            None => {}
+        }
+        Ok(materials)
+    }
+
+    fn spring(&mut self, first: usize, last: usize, directions: &[(usize, usize)], damped: bool) {
+        let tag = self.element();
+        let pairs: Vec<String> = directions
+            .iter()
+            .map(|(direction, material)| format!("({direction}, {material}),"))
+            .collect();
+        let _ = writeln!(
+            self.springs,
+            "    ({tag}, {first}, {last}, ({}), {}),",
+            pairs.join(" "),
+            python_bool(damped)
+        );
+    }
+
+    fn add_contacts(&mut self, faults: &mut Vec<ModelFault>) {
+        let system = self.export.system;
+        for contact in &system.contacts {
+            let face = |side: usize| {
+                let idealisation = &system.buildings[contact.buildings[side]].idealisation;
+                let nodes = if side == 0 {
+                    &idealisation.right_face
+                } else {
+                    &idealisation.left_face
+                };
+                let level = |node: &&usize| {
+                    (idealisation.skeleton.nodes[**node].y - contact.height).abs() <= SAME_LEVEL
+                };
+                nodes.iter().find(level).copied()
+            };
+            let path = format!("gap[{}]", contact.gap);
+            let (Some(left), Some(right)) = (face(0), face(1)) else {
+                faults.push(ModelFault {
+                    path: format!("{path}.floors"),
+                    problem: format!("no nodes face each other at {:.3} m", contact.height),
+                });
+                continue;
+            };
+            let (material, remark) = match self.materials.contact(contact) {
+                Ok(found) => found,
+                Err(problem) => {
+                    if !faults
+                        .iter()
+                        .any(|fault| fault.path == format!("{path}.law"))
+                    {
+                        faults.push(ModelFault {
+                            path: format!("{path}.law"),
+                            problem: problem.to_owned(),
+                        });
+                    }
+                    continue;
+                }
+            };
+            if let Some(remark) = remark {
+                self.remark(remark);
+            }
+            if contact.width == 0.0 {
+                self.remark("OpenSees wants a gap: faces that touch at rest are 1e-12 m apart.");
+            }
+            let tag = self.element();
+            let (a, b) = (
+                self.tag(contact.buildings[0], left),
+                self.tag(contact.buildings[1], right),
+            );
+            let floor = |floor: Option<usize>| {
+                floor.map_or_else(|| "None".to_owned(), |floor| floor.to_string())
+            };
+            let _ = writeln!(
+                self.contacts,
+                "    ({tag}, {a}, {b}, {material}, {:?}, {}, ({}, {}), {:?}),",
+                contact.width,
+                contact.gap,
+                floor(contact.floors[0]),
+                floor(contact.floors[1]),
+                rounded(contact.height),
+            );
+        }
+    }
+
+    fn remark_on_motion(&mut self) {
+        if matches!(self.export.motion.wave, Wave::Ricker { .. }) {
+            self.remark("The Ricker pulse is sampled every 0.1 ms, with straight lines between.");
+        }
+        let yields = self.export.system.buildings.iter();
+        if yields
+            .flat_map(|building| &building.equations.springs)
+            .next()
+            .is_some()
+        {
+            self.remark(
+                "Hinges of the rule peak-oriented are OpenSees' Hysteretic with pinching 1, 1; it does not look for \
+                 corners inside a step. Those of normal and bilinear are elastic-plastic springs in parallel, exactly \
+                 jostle's. Stiffness-proportional damping acts on neither.",
+            );
+        }
+    }
+
+    pub(super) fn text(&self, driver: &str) -> String {
+        let mut text = String::new();
+        let _ = self.write(&mut text, driver);
+        text
+    }
+
+    fn write(&self, out: &mut String, driver: &str) -> std::fmt::Result {
+        let title = comment(&self.export.model.title);
+        writeln!(out, "#!/usr/bin/env python3")?;
+        writeln!(out, "# {title}")?;
+        writeln!(
+            out,
+            "#\n# The same model for OpenSeesPy, written by jostle {}; SI units, relative to the ground.\n#",
+            env!("CARGO_PKG_VERSION")
+        )?;
+        writeln!(
+            out,
+            "#   python FILE                     at its best: long linear steps in free flight, short ones near contact"
+        )?;
+        writeln!(
+            out,
+            "#   python FILE --uniform 1e-4      the usual way: one step size throughout"
+        )?;
+        writeln!(
+            out,
+            "#   python FILE --modes 5           natural periods, to compare with jostle modes"
+        )?;
+        writeln!(out, "#   python FILE --help\n#")?;
+        if !self.remarks.is_empty() {
+            writeln!(out, "# What is not quite the same:")?;
+            for remark in &self.remarks {
+                for (index, line) in wrapped(remark, 110).iter().enumerate() {
+                    let bullet = if index == 0 { "-" } else { " " };
+                    writeln!(out, "# {bullet} {line}")?;
+                }
+            }
+            writeln!(out, "#")?;
+        }
+        writeln!(out, "# ruff: noqa\n")?;
+        writeln!(out, "TITLE = {}", text(&self.export.model.title))?;
+        writeln!(
+            out,
+            "EXPORTED_BY = \"jostle {}\"",
+            env!("CARGO_PKG_VERSION")
+        )?;
+        table(
+            out,
+            "BUILDINGS",
+            "from left to right; first and last node; Rayleigh damping alpha [1/s], beta [s]; whether it starts under its weight",
+            &self.buildings,
+        )?;
+        table(
+            out,
+            "NODES",
+            "node, x [m], y [m], mass [kg], rotary inertia [kg m2]; neighbours stand face to face, the gap is left out",
+            &self.nodes,
+        )?;
+        table(
+            out,
+            "SUPPORTS",
+            "node, and whether x, y, rotation are fixed",
+            &self.supports,
+        )?;
+        table(
+            out,
+            "HELD",
+            "node, direction: stands still because members keep their length",
+            &self.held,
+        )?;
+        table(
+            out,
+            "TIES",
+            "node, node that moves with it, directions: members that keep their length, hinges that only turn",
+            &self.ties,
+        )?;
+        table(
+            out,
+            "MEMBERS",
+            "element, first node, last node, EI [N m2], EA [N], G As [N]; None is rigid",
+            &self.members,
+        )?;
+        let mut materials = String::new();
+        for (tag, name, arguments) in self.materials.iter() {
+            let arguments: Vec<String> = arguments
+                .iter()
+                .map(|value| {
+                    if name == "Parallel" {
+                        format!("{value:.0}")
+                    } else {
+                        format!("{value:?}")
+                    }
+                })
+                .collect();
+            writeln!(
+                materials,
+                "    (\"{name}\", {tag}, {}),",
+                arguments.join(", ")
+            )?;
+        }
+        table(out, "MATERIALS", "as OpenSees wants them", &materials)?;
+        table(
+            out,
+            "SPRINGS",
+            "element, first node, last node, (direction, material), whether Rayleigh damping acts",
+            &self.springs,
+        )?;
+        table(
+            out,
+            "RIGID",
+            "element, first node, last node, direction that does not give way, whether ties see to it",
+            &self.rigid,
+        )?;
+        table(
+            out,
+            "LEANING",
+            "element, first node, last node, material: P-Delta as springs of stiffness -P/h",
+            &self.leaning,
+        )?;
+        table(
+            out,
+            "CONTACTS",
+            "element, left node, right node, material, gap [m], number of the gap, floors, height [m]",
+            &self.contacts,
+        )?;
+        self.write_motion(out)?;
+        writeln!(out, "\n{}", driver.trim_end())
+    }
+
+    fn write_motion(&self, out: &mut String) -> std::fmt::Result {
+        let GroundMotion {
+            name,
+            scale,
+            duration,
+            wave,
+        } = self.export.motion;
+        writeln!(out, "GRAVITY = {STANDARD_GRAVITY:?}  # m/s2")?;
+        writeln!(out, "\n# Ground motion: {}", comment(name))?;
+        writeln!(out, "DURATION = {duration:?}  # s")?;
+        writeln!(
+            out,
+            "MOTION_FACTOR = {scale:?}  # on the values, sign included"
+        )?;
+        let mut free = FREE_STEP;
+        match wave {
+            Wave::Sampled { step, acceleration } => {
+                free = step / (step / FREE_STEP - 1e-9).ceil().max(1.0);
+                writeln!(out, "RECORD_STEP = {step:?}  # s")?;
+                writeln!(out, "RECORD = [  # m/s2")?;
+                for row in acceleration.chunks(8) {
+                    let values: Vec<String> = row.iter().map(|a| format!("{a:?}")).collect();
+                    writeln!(out, "    {},", values.join(", "))?;
+                }
+                writeln!(out, "]")?;
+            }
+            Wave::Sine { amplitude, period } => {
+                writeln!(out, "SINE = ({amplitude:?}, {period:?})  # m/s2, s")?;
+            }
+            Wave::Ricker {
+                amplitude,
+                period,
+                centre,
+            } => {
+                writeln!(
+                    out,
+                    "RICKER = ({amplitude:?}, {period:?}, {centre:?})  # m/s2, s, s"
+                )?;
+            }
+        }
+        writeln!(
+            out,
+            "\n# Steps at its best, in free flight and around contact [s]."
+        )?;
+        writeln!(out, "FREE_STEP = {free:?}")?;
+        writeln!(out, "PARTS_IN_CONTACT = {PARTS_IN_CONTACT}")
+    }
+}
+
+/// A list of rows, said to be empty where it has none.
+fn table(out: &mut String, name: &str, about: &str, rows: &str) -> std::fmt::Result {
+    writeln!(out, "\n# {about}")?;
+    if rows.lines().all(|row| row.trim_start().starts_with('#')) {
+        writeln!(out, "{name} = []")
+    } else {
+        writeln!(out, "{name} = [\n{rows}]")
+    }
+}
+
+/// Coordinates without the rounding of sums.
+fn rounded(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9
+}
+
+/// A Python text.
+fn text(value: &str) -> String {
+    let mut out = String::from("\"");
+    for character in value.chars() {
+        match character {
+            '"' | '\\' => out.extend(['\\', character]),
+            other if other.is_control() => out.push(' '),
+            other => out.push(other),
+        }
+    }
+    out.push('"');
+    out
+}
+
+/// A text on one line.
+fn comment(value: &str) -> String {
+    value
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
+}
+
+fn python_bool(value: bool) -> &'static str {
+    if value { "True" } else { "False" }
+}
+
+/// Lines of at most so many characters.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.len() - 1;
+        if !lines[last].is_empty() && lines[last].len() + word.len() >= width {
+            lines.push(word.to_owned());
+        } else {
+            if !lines[last].is_empty() {
+                lines[last].push(' ');
+            }
+            lines[last].push_str(word);
+        }
+    }
+    lines
+}

@@ -1,0 +1,154 @@
+//! Which displacements are one and the same, and how OpenSees can be told so.
+//!
+//! OpenSees' transformation handler takes one constraint for a node, and none for the node that others follow: it
+//! obeys the first and forgets the rest. So horizontal ties come first, and whatever would need a second constraint is
+//! left to very stiff elements.
+
+use std::collections::BTreeMap;
+
+use jostle::skeleton::{Skeleton, Support};
+
+/// Horizontal, vertical, rotation.
+pub(super) const COMPONENTS: usize = 3;
+const VERTICAL: usize = 1;
+
+/// How every displacement of one building is held.
+pub(super) struct Ties {
+    /// (node, component) that stand still although their node is free: members that keep their length hold them.
+    pub(super) held: Vec<(usize, usize)>,
+    /// Node that is followed, node that follows, components.
+    pub(super) followed: Vec<(usize, usize, Vec<usize>)>,
+    /// By (node, component): whether a constraint says what it does.
+    constrained: Vec<[bool; COMPONENTS]>,
+    classes: Vec<usize>,
+}
+
+/// Whether the supports hold a component.
+pub(super) fn is_held_by(support: Support, component: usize) -> bool {
+    match support {
+        Support::Free => false,
+        Support::Fixed => true,
+        Support::Guided => component != 0,
+    }
+}
+
+impl Ties {
+    pub(super) fn of(skeleton: &Skeleton) -> Self {
+        let mut union = Union::new(skeleton.nodes.len() * COMPONENTS);
+        let place = |node: usize, component: usize| node * COMPONENTS + component;
+        for member in &skeleton.members {
+            if member.axial_rigidity.is_none() {
+                let [a, b] = member.ends;
+                let along = usize::from(is_vertical(skeleton, member.ends));
+                union.join(place(a, along), place(b, along));
+            }
+        }
+        for hinge in &skeleton.hinges {
+            let [a, b] = hinge.ends;
+            for (component, stiffness) in stiffnesses(hinge).into_iter().enumerate() {
+                if stiffness.is_none() {
+                    union.join(place(a, component), place(b, component));
+                }
+            }
+        }
+        let classes: Vec<usize> = (0..skeleton.nodes.len() * COMPONENTS)
+            .map(|at| union.root(at))
+            .collect();
+        let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (at, class) in classes.iter().enumerate() {
+            members.entry(*class).or_default().push(at);
+        }
+        let mut ties = Self {
+            held: Vec::new(),
+            followed: Vec::new(),
+            constrained: vec![[false; COMPONENTS]; skeleton.nodes.len()],
+            classes,
+        };
+        let (mut leader, mut is_leader) = (
+            vec![None; skeleton.nodes.len()],
+            vec![false; skeleton.nodes.len()],
+        );
+        // Horizontal ties first: they make the floors.
+        let mut of_component: Vec<&Vec<usize>> = members.values().collect();
+        of_component.sort_by_key(|class| (class[0] % COMPONENTS == VERTICAL, class[0]));
+        for class in of_component {
+            let component = class[0] % COMPONENTS;
+            let nodes: Vec<usize> = class.iter().map(|at| at / COMPONENTS).collect();
+            let is_support = |node: &usize| is_held_by(skeleton.nodes[*node].support, component);
+            if nodes.iter().any(is_support) {
+                for node in nodes {
+                    ties.constrained[node][component] = true;
+                    if !is_support(&node) {
+                        ties.held.push((node, component));
+                    }
+                }
+                continue;
+            }
+            let [first, others @ ..] = &nodes[..] else {
+                continue;
+            };
+            let possible = leader[*first].is_none()
+                && others.iter().all(|node| {
+                    !is_leader[*node] && leader[*node].is_none_or(|known| known == *first)
+                });
+            if others.is_empty() || !possible {
+                continue;
+            }
+            is_leader[*first] = true;
+            ties.constrained[*first][component] = true;
+            for node in others {
+                leader[*node] = Some(*first);
+                ties.constrained[*node][component] = true;
+                let known = ties
+                    .followed
+                    .iter_mut()
+                    .find(|(a, b, _)| (a, b) == (first, node));
+                match known {
+                    Some((_, _, components)) => components.push(component),
+                    None => ties.followed.push((*first, *node, vec![component])),
+                }
+            }
+        }
+        ties
+    }
+
+    /// Whether two displacements are the same because a constraint or a support says so.
+    pub(super) fn are_tied(&self, ends: [usize; 2], component: usize) -> bool {
+        let [a, b] = ends.map(|node| self.classes[node * COMPONENTS + component]);
+        a == b && ends.iter().all(|node| self.constrained[*node][component])
+    }
+}
+
+/// Whether both ends lie on one vertical.
+pub(super) fn is_vertical(skeleton: &Skeleton, ends: [usize; 2]) -> bool {
+    let [a, b] = ends.map(|end| skeleton.nodes[end]);
+    (b.y - a.y).abs() > (b.x - a.x).abs()
+}
+
+/// Stiffness of a hinge in x, y, θ; `None` is rigid.
+pub(super) fn stiffnesses(hinge: &jostle::skeleton::Hinge) -> [Option<f64>; COMPONENTS] {
+    let [horizontal, vertical] = hinge.translational_stiffness;
+    [horizontal, vertical, hinge.rotational_stiffness]
+}
+
+/// Sets that grow together.
+struct Union(Vec<usize>);
+
+impl Union {
+    fn new(len: usize) -> Self {
+        Self((0..len).collect())
+    }
+
+    fn root(&self, mut at: usize) -> usize {
+        while self.0[at] != at {
+            at = self.0[at];
+        }
+        at
+    }
+
+    /// The lower index stands for both.
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b)] = a.min(b);
+    }
+}

@@ -1,0 +1,235 @@
+//! Scripts for OpenSeesPy, read back as tables. That OpenSees gives the same answers is shown in docs/validation.md.
+
+use jostle::System;
+use jostle_export::{Export, Exported, openseespy};
+use jostle_io::{Format, Input, builtin_model, read_model_text};
+
+fn export(input: &Input) -> Result<Exported, Vec<jostle::ModelFault>> {
+    let system = System::assemble(&input.model).expect("a sound model");
+    let motion = input.ground_motion().expect("a motion");
+    openseespy::export(&Export {
+        model: &input.model,
+        system: &system,
+        motion: &motion,
+    })
+}
+
+fn model(text: &str) -> Input {
+    read_model_text("test", text, Format::Toml, "".as_ref()).expect("a sound model")
+}
+
+/// Rows of a table, cut at commas.
+fn table<'a>(text: &'a str, name: &str) -> Vec<Vec<&'a str>> {
+    let start = text
+        .find(&format!("\n{name} = ["))
+        .expect("the table is there");
+    text[start + 1..]
+        .lines()
+        .skip(1)
+        .take_while(|line| line.starts_with("    "))
+        .filter(|line| !line.trim_start().starts_with('#'))
+        .map(|line| {
+            let row = line.trim().trim_start_matches('(').trim_end_matches("),");
+            row.split(", ").collect()
+        })
+        .collect()
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().expect("a number")
+}
+
+/// Displacements that the supports, the held ones and the ties leave.
+fn equations(text: &str) -> usize {
+    let nodes = table(text, "NODES").len();
+    let fixed: usize = table(text, "SUPPORTS")
+        .iter()
+        .map(|row| row[1..].iter().filter(|held| **held == "1").count())
+        .sum();
+    let tied: usize = table(text, "TIES").iter().map(|row| row.len() - 2).sum();
+    3 * nodes - fixed - table(text, "HELD").len() - tied
+}
+
+#[test]
+fn ties_leave_as_many_displacements_as_the_transfer_path() {
+    let input = builtin_model("paper").expect("built in");
+    let exported = export(&input).expect("it can be exported");
+    let system = System::assemble(&input.model).expect("sound");
+    assert_eq!(equations(&exported.text), system.len());
+    // Mass of both frames, as the validation knows it, less what rests on the ground.
+    let mass: f64 = table(&exported.text, "NODES")
+        .iter()
+        .map(|row| number(row[3]))
+        .sum();
+    let own: f64 = system
+        .buildings
+        .iter()
+        .map(|building| building.equations.total_mass())
+        .sum();
+    assert!((mass / own - 1.0).abs() < 1e-12, "{mass} against {own}");
+}
+
+#[test]
+fn no_node_follows_two_nodes_and_none_that_is_followed_follows() {
+    let models = [
+        builtin_model("paper").expect("built in"),
+        model(SPRUNG),
+        model(&YIELDING.replace("RULE", "normal")),
+    ];
+    for input in models {
+        let text = export(&input).expect("it can be exported").text;
+        let ties = table(&text, "TIES");
+        let followers: Vec<&str> = ties.iter().map(|row| row[1]).collect();
+        for (index, row) in ties.iter().enumerate() {
+            assert!(
+                !followers.contains(&row[0]),
+                "{row:?} is followed and follows"
+            );
+            assert!(
+                !followers[..index].contains(&row[1]),
+                "{row:?} follows twice"
+            );
+        }
+    }
+}
+
+/// Columns that keep their length on springs that give way: vertical ties cannot stand beside those of the floors.
+const SPRUNG: &str = r#"
+title = "sprung"
+motion = { kind = "sine", amplitude = 1.0, period = 0.5, duration = 2.0 }
+[[building]]
+name = "frame"
+kind = "frame"
+storeys = 2
+storey_height = 3.0
+spans = [4.0]
+column = { width = 0.4, depth = 0.4 }
+beam = { width = 0.3, depth = 0.5 }
+elastic_modulus = 3e10
+beam_mass = 3000
+base = { vertical_stiffness = 5e8, rotational_stiffness = 1e8 }
+"#;
+
+#[test]
+fn what_ties_cannot_hold_is_left_to_stiffness() {
+    let text = export(&model(SPRUNG)).expect("it can be exported").text;
+    let system = System::assemble(&model(SPRUNG).model).expect("sound");
+    // Horizontal ties only: the rest of the difference are the vertical displacements of both column lines.
+    let vertical = table(&text, "TIES")
+        .iter()
+        .filter(|row| row[2..].contains(&"2"))
+        .count();
+    assert_eq!(vertical, 0, "{:?}", table(&text, "TIES"));
+    assert!(equations(&text) > system.len());
+}
+
+const YIELDING: &str = r#"
+title = "yielding"
+motion = { record = "el-centro-1940-ns" }
+[[building]]
+name = "frame"
+kind = "frame"
+storeys = 1
+storey_height = 3.0
+spans = [4.0]
+column = { width = 0.4, depth = 0.4 }
+beam = { width = 0.3, depth = 0.5 }
+elastic_modulus = 3e10
+beam_mass = 30000
+column_segments = 1
+beam_segments = 1
+hinges = { rule = "RULE", initial = 100, column = { cracking = 60e3, yield = 150e3, post_cracking = 0.3, post_yield = 0.02 } }
+"#;
+
+#[test]
+fn springs_in_parallel_add_up_to_the_backbone() {
+    let input = model(&YIELDING.replace("RULE", "normal"));
+    let text = export(&input).expect("it can be exported").text;
+    let system = System::assemble(&input.model).expect("sound");
+    let spring = &system.buildings[0].equations.springs[0];
+    let materials = table(&text, "MATERIALS");
+    let parallel = materials
+        .iter()
+        .find(|row| row[0] == "\"Parallel\"")
+        .expect("springs in parallel");
+    let far = spring.hysteresis.backbone();
+    for share in [0.5, 1.0, 1.7, 3.0] {
+        let deformation = share
+            * far
+                .side(jostle::hysteresis::Side::Positive)
+                .yielding
+                .deformation;
+        let force: f64 = parallel[2..]
+            .iter()
+            .map(|tag| {
+                let row = materials
+                    .iter()
+                    .find(|row| row[1] == *tag)
+                    .expect("its parts are listed");
+                let stretch = match row[0] {
+                    "\"ElasticPP\"" => deformation.min(number(row[3])),
+                    _ => deformation,
+                };
+                number(row[2]) * stretch
+            })
+            .sum();
+        let expected = far.force_at(deformation);
+        assert!(
+            (force / expected - 1.0).abs() < 1e-12,
+            "{force} against {expected} at {share} of yield"
+        );
+    }
+}
+
+#[test]
+fn what_opensees_does_not_have_is_refused_by_field() {
+    let path_of = |input: &Input| {
+        let faults = export(input).expect_err("it cannot be exported");
+        faults[0].path.clone()
+    };
+    assert_eq!(
+        path_of(&model(&YIELDING.replace("RULE", "takeda"))),
+        "building[0].hinges.rule"
+    );
+    let mut input = builtin_model("paper").expect("built in");
+    input.model.gaps[0].law.kind = jostle::LawKind::Restitution;
+    assert_eq!(path_of(&input), "gap[0].law");
+    let mut input = builtin_model("paper").expect("built in");
+    input.model.analysis.integrator = jostle::Integrator::hht(0.1);
+    assert_eq!(path_of(&input), "analysis.integrator");
+}
+
+#[test]
+fn the_damping_of_hertzdamp_is_that_of_the_law() {
+    let input = builtin_model("paper").expect("built in");
+    let text = export(&input).expect("it can be exported").text;
+    let materials = table(&text, "MATERIALS");
+    let contact = &table(&text, "CONTACTS")[0];
+    let law = materials
+        .iter()
+        .find(|row| row[1] == contact[3])
+        .expect("its material");
+    // F = k δ^1.5 (1 + ¾(1 − e²) δ̇/v₀), e = 0.65, 100 mm.
+    assert_eq!(law[0], "\"Hertzdamp\"");
+    let numbers: Vec<f64> = law[2..].iter().map(|value| number(value)).collect();
+    let expected = [2e9, 0.75 * (1.0 - 0.65 * 0.65), -0.1, 1.5];
+    for (got, expected) in numbers.iter().zip(expected) {
+        assert!((got - expected).abs() <= 1e-12 * expected.abs(), "{law:?}");
+    }
+}
+
+#[test]
+fn names_cannot_break_the_script() {
+    let mut input = model(SPRUNG);
+    input.model.title = "a \"quoted\\ title\nimport os".to_owned();
+    input.model.buildings[0].name = "x\"\ny".to_owned();
+    let text = export(&input).expect("it can be exported").text;
+    assert!(
+        text.contains(r#"TITLE = "a \"quoted\\ title import os""#),
+        "{}",
+        &text[..400]
+    );
+    let imports = text.lines().filter(|line| *line == "import os");
+    assert_eq!(imports.count(), 1, "the driver's own");
+    assert!(text.contains(r#""name": "x\" y""#));
+}
