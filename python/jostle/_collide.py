@@ -217,7 +217,8 @@ def _of_own(law: ContactLaw, masses: list[float], speed: float) -> Collision:
     mass = masses[0] * masses[1] / (masses[0] + masses[1])
 
     def force(indentation: float, rate: float) -> float:
-        value = float(law.force(indentation, rate, speed))
+        # A step that overshoots the end of the contact is cut back later.
+        value = float(law.force(max(indentation, 0.0), rate, speed))
         if not np.isfinite(value):
             raise AnalysisError(
                 f"{law.name}: the force is {value} at an indentation of {indentation} m and a rate of {rate} m/s"

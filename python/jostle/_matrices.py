@@ -41,4 +41,5 @@ def of_model(model: Model, building: str | int) -> Matrices:
         index = names.index(building)
     else:
         index = range(len(names))[building]
-    return Matrices(*model._core.matrices(index))
+    mass, stiffness, damping, driven, floors = model._core.matrices(index)
+    return Matrices(mass, damping, stiffness, driven, floors)

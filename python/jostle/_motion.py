@@ -194,7 +194,7 @@ class Motion:
         *,
         ductility: Sequence[float] = (),
         post_yield: float = 0.0,
-        between: bool = True,
+        between: bool = False,
     ) -> Spectrum:
         """Response spectra, exact for an acceleration straight between the samples.
 
@@ -203,7 +203,7 @@ class Motion:
             damping: fraction of critical, 0 to below 1; one or several.
             ductility: further spectra of constant ductility, each ≥ 1.
             post_yield: stiffness after yield over the initial one, of these.
-            between: looks for peaks between the samples too.
+            between: looks for peaks between the samples too; without it, as is usual, at the samples alone.
 
         Raises:
             ModelError: a number outside its range.

@@ -136,8 +136,10 @@ impl Materials {
                 Some(IMPACT_SPEED),
             ),
             ForceLaw::Kelvin {
-                stiffness, damping, ..
-            } if damping == 0.0 => (
+                stiffness,
+                damping: 0.0,
+                ..
+            } => (
                 self.add("ElasticPPGap", vec![stiffness, -NEVER, gap]),
                 None,
             ),
