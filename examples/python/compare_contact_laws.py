@@ -4,11 +4,13 @@ Two floors of 40 t and 60 t meet at 0.4 m/s; every law is asked to rebound with 
 """
 
 # %%
+from typing import Any
+
 import matplotlib.pyplot as plt
 
 import jostle
 
-floors = {"m1": "40 t", "m2": "60 t", "speed": "0.4 m/s"}
+floors: dict[str, Any] = {"m1": "40 t", "m2": "60 t", "speed": "0.4 m/s"}
 
 # %% The published laws, calibrated.
 met = jostle.collide_all(**floors, stiffness="2e9 N/m^1.5", restitution=0.65, restitution_is="realised")

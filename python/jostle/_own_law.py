@@ -89,7 +89,7 @@ def experiment(model: Model, law: ContactLaw, *, step: Quantity = 1e-4) -> Exper
         pushes[left, c], pushes[right, c] = -1.0, 1.0
     answers = compliance @ pushes
     steps = int(round(motion.duration / h))
-    time = h * np.arange(steps + 1)
+    time = h * np.arange(steps + 1, dtype=np.float64)
     ground = motion.at(time)
     u, v, a = np.zeros(n), np.zeros(n), np.zeros(n)
     moving = mass > 0.0
@@ -143,7 +143,7 @@ def _forces(
             elif speeds[c] == 0.0:
                 speeds[c] = max(rate_before[c] if before[c] <= 0.0 else rate[c], 1e-9)
         wanted, slope = np.zeros_like(found), np.zeros_like(found)
-        for c in np.flatnonzero(indentation > 0.0):
+        for c in map(int, np.flatnonzero(indentation > 0.0)):
             d, r, s = float(indentation[c]), float(rate[c]), float(speeds[c])
             wanted[c] = law.force(d, r, s)
             tiny = 1e-6 * max(d, 1e-9)

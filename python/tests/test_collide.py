@@ -55,7 +55,7 @@ def test_a_law_of_ones_own_is_the_built_in_one() -> None:
     zeta = 0.75 * (1 - e * e)
 
     def hertz_damp(indentation: float, rate: float, impact_speed: float) -> float:
-        return k * indentation**1.5 * (1 + zeta * rate / impact_speed)
+        return float(k * indentation**1.5 * (1 + zeta * rate / impact_speed))
 
     own = jostle.collide(jostle.ContactLaw(hertz_damp, "own"), **GIVEN)
     ours = jostle.collide("hertz-damp", **GIVEN, restitution=e)
