@@ -87,19 +87,19 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             .collect();
         let heights: Vec<String> = contacts
             .iter()
-            .map(|contact| format!("{:.2}", contact.height))
+            .map(|contact| height(contact.height, contact.faces.floors(), &gap.between))
             .collect();
-        let names =
-            [gap.left, gap.left + 1].map(|building| system.buildings[building].name.as_str());
-        writeln!(
-            text,
-            "{}",
-            styled(BOLD, &format!("{} ↔ {}", names[0], names[1]))
-        )?;
+        let [left, right] = names(system, gap.between);
+        writeln!(text, "{}", styled(BOLD, &format!("{left} ↔ {right}")))?;
+        let widths: Vec<String> = contacts.iter().map(|contact| mm(contact.width)).collect();
         writeln!(
             text,
             "  gap {} mm, {} at {} m",
-            mm(gap.width),
+            if gap.widths.len() > 1 {
+                widths.join(", ")
+            } else {
+                mm(gap.width())
+            },
             counted(contacts.len(), "contact"),
             heights.join(", ")
         )?;
@@ -116,16 +116,61 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             gap.law.free_restitution()
         )?;
         if let Some(contact) = contacts.last() {
+            let [left, right] = contact.faces.masses().map(|mass| {
+                if mass.is_finite() {
+                    format!("{:.1} t", mass * 1e-3)
+                } else {
+                    "a rigid wall".to_owned()
+                }
+            });
             writeln!(
                 text,
-                "  colliding masses at the top {:.1} t and {:.1} t; an elastic impact at 0.5 m/s lasts {:.1} ms\n",
-                contact.masses[0] * 1e-3,
-                contact.masses[1] * 1e-3,
+                "  colliding masses at the top {left} and {right}; an elastic impact at 0.5 m/s lasts {:.1} ms\n",
                 contact.law.elastic_duration(contact.effective_mass(), 0.5) * 1e3
             )?;
         }
     }
+    for (index, link) in model.links.iter().enumerate() {
+        let own = system.links.iter().filter(|element| element.link == index);
+        let heights: Vec<String> = own
+            .map(|element| height(element.height, element.faces.floors(), &link.between))
+            .collect();
+        let [left, right] = names(system, link.between);
+        writeln!(text, "{}", styled(BOLD, &format!("{left} — {right}")))?;
+        writeln!(
+            text,
+            "  {} at {} m, each with {}\n",
+            counted(heights.len(), "link"),
+            heights.join(", "),
+            [(link.stiffness, "N/m"), (link.damping, "N.s/m")]
+                .iter()
+                .filter(|(value, _)| *value > 0.0)
+                .map(|(value, unit)| format!("{value:.3e} {unit}"))
+                .collect::<Vec<_>>()
+                .join(" and ")
+        )?;
+    }
     Ok(())
+}
+
+/// Names of both sides.
+fn names(system: &System, between: [Option<usize>; 2]) -> [&str; 2] {
+    between.map(|side| match side {
+        Some(building) => system.buildings[building].name.as_str(),
+        None => "wall",
+    })
+}
+
+/// The height of a point, and which side is hit between its floors.
+fn height(height: f64, floors: [Option<usize>; 2], between: &[Option<usize>; 2]) -> String {
+    let [left, right] = [0, 1].map(|side| between[side].is_some() && floors[side].is_none());
+    let column = match [left, right] {
+        [false, false] => "",
+        [true, false] => " (left column)",
+        [false, true] => " (right column)",
+        [true, true] => " (columns)",
+    };
+    format!("{height:.2}{column}")
 }
 
 fn describe_building(text: &mut String, building: &BuildingSystem, kind: &str) -> std::fmt::Result {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use jostle::separation::gb50011_frame_joint;
-use jostle::summary::{BuildingSummary, ContactSummary, GapSummary, Summary};
+use jostle::summary::{BuildingSummary, ContactSummary, GapSummary, LinkSummary, Summary};
 
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::terminal::{BOLD, DIM, LOUD, styled};
@@ -49,6 +49,9 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     write_hinges(text, &summary.buildings)?;
     for gap in &summary.gaps {
         write_gap(text, gap, summary)?;
+    }
+    for link in &summary.links {
+        write_link(text, link)?;
     }
     for warning in &summary.warnings {
         writeln!(text, "{} {warning}", styled(LOUD, "warning:"))?;
@@ -152,15 +155,7 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
             kn(gap.peak_force_n)
         ),
         None => {
-            let closest = gap
-                .contacts
-                .iter()
-                .map(|contact| contact.closing_peak_m)
-                .fold(0.0, f64::max);
-            format!(
-                "no contact; they come within {} mm",
-                mm(gap.width_m - closest)
-            )
+            format!("no contact; they come within {} mm", mm(gap.clearance_m))
         }
     };
     writeln!(
@@ -220,6 +215,19 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
         )?;
     }
     write_code_joint(text, gap, summary)
+}
+
+fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
+    let [left, right] = &link.between;
+    let stroke = link.floors.iter().map(|floor| floor.peak_stroke_m);
+    writeln!(
+        text,
+        "\n{left} — {right}, {}: {}, stroke {} mm, {:.1} kJ dissipated",
+        counted(link.floors.len(), "link"),
+        styled(BOLD, &format!("peak {} kN", kn(link.peak_force_n))),
+        mm(stroke.fold(0.0, f64::max)),
+        link.dissipated_j * 1e-3
+    )
 }
 
 /// The joint that a code asks for, beside the answer.

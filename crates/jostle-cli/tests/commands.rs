@@ -390,3 +390,84 @@ fn pushover_says_what_is_wrong() {
     assert_eq!(json["curves"][0]["hinges"], 0);
     assert!(!folder.path().join("jostle-out").exists());
 }
+
+const WALLED: &str = r#"
+title = "Between walls"
+[motion]
+kind = "sine"
+amplitude = "3 m/s2"
+period = "0.6 s"
+duration = "4 s"
+[[building]]
+name = "A"
+kind = "shear"
+mass = ["90 t", "90 t"]
+stiffness = "60 MN/m"
+storey_height = "3 m"
+[[building]]
+name = "B"
+kind = "shear"
+mass = ["90 t", "90 t", "90 t"]
+stiffness = "90 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["A", "B"]
+width = ["20 mm", "10 mm"]
+[[gap]]
+between = ["wall", "A"]
+width = "15 mm"
+floors = [["wall", 2]]
+[[link]]
+between = ["A", "B"]
+floors = [[2, 2]]
+damping = "600 kN.s/m"
+stiffness = "2 MN/m"
+"#;
+
+#[test]
+fn walls_widths_and_links_are_described_and_computed() {
+    let folder = folder();
+    std::fs::write(folder.path().join("m.toml"), WALLED).expect("written");
+    let text = printed(&jostle(folder.path(), &["check", "m.toml"]));
+    for part in [
+        "A ↔ B",
+        "gap 20.0, 10.0 mm, 2 contacts at 3.00, 6.00 m",
+        "wall ↔ A",
+        "gap 15.0 mm, 1 contact at 6.00 m",
+        "colliding masses at the top a rigid wall and 90.0 t",
+        "A — B",
+        "1 link at 6.00 m, each with 2.000e6 N/m and 6.000e5 N.s/m",
+    ] {
+        assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");
+    }
+    let output = jostle(folder.path(), &["run", "m.toml", "--out", "out"]);
+    assert!(output.status.success(), "{}", complained(&output));
+    let text = printed(&output);
+    for part in [
+        "wall ↔ A, 15.0 mm apart",
+        "A — B, 1 link: peak ",
+        "kJ dissipated",
+    ] {
+        assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");
+    }
+    let summary = summary_of(&folder.path().join("out"));
+    assert_eq!(
+        summary["gaps"][1]["between"],
+        serde_json::json!(["wall", "A"])
+    );
+    assert_eq!(summary["gaps"][0]["contacts"][1]["width_m"], 0.01);
+    let (link, energy) = (&summary["links"][0], &summary["energy"]);
+    let number = |value: &Value| value.as_f64().expect("a number");
+    assert!(number(&link["peak_force_n"]) > 0.0);
+    assert!((number(&link["dissipated_j"]) / number(&energy["links_j"]) - 1.0).abs() < 1e-9);
+    // The contract: what was put in is the sum of the five.
+    let names = [
+        "kinetic_j",
+        "strain_j",
+        "damped_j",
+        "hysteretic_j",
+        "contact_j",
+    ];
+    let sum: f64 = names.iter().map(|name| number(&energy[*name])).sum();
+    assert!((sum / number(&energy["input_j"]) - 1.0).abs() < 1e-9);
+}

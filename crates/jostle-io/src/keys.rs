@@ -44,6 +44,7 @@ pub(crate) enum Section {
     /// Reinforcement in rows.
     Bars,
     Gap,
+    Link,
     Analysis,
 }
 
@@ -86,8 +87,10 @@ pub(crate) enum Kind {
     Tables(&'static [Section]),
     /// Names of the two neighbours of a gap.
     Neighbours,
-    /// `"common"`, pairs of floors, or heights.
+    /// `"common"`, `"all"`, pairs of points, or heights.
     FloorPairs,
+    /// One value, or one per contact.
+    PerContact(Dimension),
     /// A grade, or a strength.
     GradeOr(&'static [&'static str]),
 }
@@ -196,8 +199,8 @@ const fn default(
 use Dimension as D;
 use Kind::{
     Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FloorPairs,
-    GradeOr, Modes, Neighbours, NumberOrTable, PerStorey, Quantities, Quantity, TablePerStorey,
-    Tables, Text, TextOrTable, WordOr, WordOrTable,
+    GradeOr, Modes, Neighbours, NumberOrTable, PerContact, PerStorey, Quantities, Quantity,
+    TablePerStorey, Tables, Text, TextOrTable, WordOr, WordOrTable,
 };
 use Section as S;
 
@@ -207,7 +210,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Root, "title", Text, "\"Untitled\"", "Printed on summaries and reports."),
     optional(S::Root, "motion", Kind::Table(S::Motion), "The ground motion."),
     required(S::Root, "building", Tables(&[S::Building, S::Frame, S::Shear]), "The buildings, from left to right."),
-    optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps, one for each pair of neighbours."),
+    optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps between neighbours, and between the ends of the row and walls there."),
+    optional(S::Root, "link", Tables(&[S::Link]), "Springs and dampers that join neighbours."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
 
     optional(S::Motion, "record", Text, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC."),
@@ -376,9 +380,10 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::StoreyHinges, "post_cracking", PerStorey(D::Dimensionless), "Stiffness after cracking over the initial one."),
     optional(S::StoreyHinges, "post_yield", PerStorey(D::Dimensionless), "Stiffness after yield over the initial one."),
 
-    required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour."),
-    required(S::Gap, "width", Quantity(D::Length), "Width at rest."),
-    default(S::Gap, "floors", FloorPairs, "\"common\"", "Where the neighbours can touch: every pair of floors at equal height, listed pairs, or heights."),
+    required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),
+    required(S::Gap, "width", PerContact(D::Length), "Width at rest: one, or a list for the contacts in the order of floors, from the lowest up where these are not listed."),
+    default(S::Gap, "floors", FloorPairs, "\"common\"", "Where the neighbours can touch: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights."),
+    default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors no further apart in height than this meet each other."),
     default(S::Gap, "law", Choice(LAWS), "\"hertz-damp\"", "Contact law."),
     default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski and bilinear, N/m for the others; of rubber the secant stiffness at 0.8 of the thickness; of restitution that of lasting contact."),
     default(S::Gap, "restitution", Quantity(D::Dimensionless), "0.65", "Coefficient of restitution."),
@@ -390,6 +395,12 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Gap, "thickness", Quantity(D::Length), "Of the law rubber: thickness of the bumper."),
     default(S::Gap, "exponent", Quantity(D::Dimensionless), "2.65", "Of the law rubber: exponent of the compression."),
     default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact that follow each other sooner count as one."),
+
+    required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),
+    default(S::Link, "floors", FloorPairs, "\"common\"", "Which points are joined, as for gaps."),
+    default(S::Link, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors no further apart in height than this can be joined."),
+    default(S::Link, "stiffness", Quantity(D::Stiffness), "0", "Force per change of length, of each link."),
+    default(S::Link, "damping", Quantity(D::Damping), "0", "Force per rate of change of length, of each link."),
 
     default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step in free flight."),
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),

@@ -4,10 +4,12 @@
 //! so that the rest is still read and checked; the result is thrown away if anything was noted.
 
 mod analysis;
+mod between;
 mod building;
 mod frame;
 mod gap;
 mod hinges;
+mod link;
 mod matching;
 mod motion;
 mod reinforced;
@@ -57,7 +59,8 @@ struct Origin {
 pub struct Overrides {
     /// Scale the motion to this peak, > 0 \[m/s²\].
     pub pga: Option<f64>,
-    /// Width of every gap, ≥ 0 \[m\].
+    /// Width of every gap, ≥ 0; where contacts have widths of their own, the least of them, and the others stay as much
+    /// wider \[m\].
     pub gap: Option<f64>,
     /// Another record: a built-in name, or a path from the current folder.
     pub record: Option<String>,
@@ -151,7 +154,9 @@ impl Input {
             return Err(OverrideError::NoMotion);
         }
         for gap in &mut self.model.gaps {
-            gap.width = overrides.gap.unwrap_or(gap.width);
+            if let Some(width) = overrides.gap {
+                gap.set_width(width);
+            }
         }
         if let Some(record) = &overrides.record {
             self.motion = Some(with_record(self.motion.as_ref(), record));
@@ -278,6 +283,13 @@ fn read_root(
         }
         None => Vec::new(),
     };
+    let links = match reader.get(&view, "link") {
+        Some(field) => {
+            let buildings = buildings.as_ref().map(|(buildings, _)| &buildings[..]);
+            link::read_all(reader, &field, buildings)
+        }
+        None => Vec::new(),
+    };
     let analysis = reader.get(&view, "analysis");
     let analysis = analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
     let (buildings, reinforced) = buildings?;
@@ -285,6 +297,7 @@ fn read_root(
         title: title.unwrap_or_default(),
         buildings,
         gaps,
+        links,
         analysis,
     };
     Some((model, motion, reinforced))
@@ -358,7 +371,7 @@ fn warnings(model: &Model, root: &Node) -> Vec<String> {
     let mut warnings = Vec::new();
     for (left, pair) in model.buildings.windows(2).enumerate() {
         if let [a, b] = pair
-            && !model.gaps.iter().any(|gap| gap.left == left)
+            && !model.gaps.iter().any(|gap| gap.between[0] == Some(left))
         {
             warnings.push(format!(
                 "there is no gap between \"{}\" and \"{}\": they pass through each other; add a [[gap]]",

@@ -57,7 +57,12 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Gap,
         "`[[gap]]`",
-        "One for each pair of neighbours.",
+        "One or more for each pair of neighbours, and for walls; see [contacts-and-links.md](contacts-and-links.md).",
+    ),
+    (
+        Section::Link,
+        "`[[link]]`",
+        "Springs and dampers between neighbours, acting both ways at all times.",
     ),
     (Section::Analysis, "`[analysis]`", ""),
     (Section::Integrator, "`analysis.integrator`", ""),
@@ -128,8 +133,13 @@ fn value(key: &Key) -> String {
         Kind::TablePerStorey(_) => "table; or a list from the ground up".into(),
         Kind::TextOrTable(_) => "text, or a table".into(),
         Kind::Tables(_) => "tables".into(),
-        Kind::Neighbours => "`[\"J1\", \"J2\"]`".into(),
-        Kind::FloorPairs => "`common`; pairs `[[5, 5], [4, 4]]`; heights `[\"3 m\"]`".into(),
+        Kind::Neighbours => "`[\"J1\", \"J2\"]`; `\"wall\"` for a wall".into(),
+        Kind::FloorPairs => {
+            "`common` `all`; pairs `[[5, 5], [4, \"12.8 m\"]]`; heights `[\"3 m\"]`".into()
+        }
+        Kind::PerContact(dimension) => {
+            format!("{}; or a list, one per contact", quantity(dimension))
+        }
         Kind::GradeOr(grades) => format!("{}; or a strength", words(grades)),
     }
 }

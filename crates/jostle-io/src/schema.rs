@@ -75,7 +75,9 @@ fn kind(kind: Kind) -> Value {
         Kind::Count => count,
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Quantity(dimension) => quantity(dimension),
-        Kind::PerStorey(dimension) => one_or_list(quantity(dimension)),
+        Kind::PerStorey(dimension) | Kind::PerContact(dimension) => {
+            one_or_list(quantity(dimension))
+        }
         Kind::Quantities(dimension) => json!({ "type": "array", "items": quantity(dimension) }),
         Kind::ContactStiffness => {
             let mut schema = quantity(Dimension::HertzStiffness);
@@ -110,8 +112,9 @@ fn kind(kind: Kind) -> Value {
             "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2,
         }),
         Kind::FloorPairs => json!({ "anyOf": [
-            { "const": "common" },
-            { "type": "array", "items": { "type": "array", "items": count, "minItems": 2, "maxItems": 2 } },
+            { "enum": ["common", "all"] },
+            { "type": "array", "items": { "type": "array", "minItems": 2, "maxItems": 2, "items":
+                { "anyOf": [count, quantity(Dimension::Length), { "const": "wall" }] } } },
             { "type": "array", "items": quantity(Dimension::Length) },
         ] }),
         Kind::GradeOr(grades) => {

@@ -33,7 +33,8 @@ pub enum Values {
 ///
 /// Columns are `time_s`, `ground_acceleration_m_s2`, then for every floor such as `J1.floor5`
 /// `….displacement_m`, `….velocity_m_s`, `….total_acceleration_m_s2`, for every contact
-/// `J1-J2.floor5-5.force_n` (or `J1-J2.at8000mm.force_n` between floors), and `energy_input_j` and its kin.
+/// `J1-J2.floor5-5.force_n` (or `J1-J2.at8000mm.force_n` between floors), for every link
+/// `J1-J2.link5-5.force_n`, and `energy_input_j` and its kin.
 ///
 /// # Errors
 /// [`OutputError`] with path and reason.
@@ -59,10 +60,10 @@ pub fn write_history_parquet(
 /// Names of recorded quantities in tables, as [`write_history_parquet`] says; no two are equal.
 #[must_use]
 pub fn history_names(model: &Model, summary: &Summary, columns: &[Column]) -> Vec<String> {
-    let contacts = contact_names(summary);
+    let (contacts, links) = (contact_names(summary), link_names(summary));
     let mut names: Vec<String> = columns
         .iter()
-        .map(|column| column_name(model, &contacts, *column))
+        .map(|column| column_name(model, &contacts, &links, *column))
         .collect();
     number_equal(&mut names);
     names
@@ -242,16 +243,35 @@ fn contact_names(summary: &Summary) -> Vec<String> {
     for gap in &summary.gaps {
         let pair = gap.between.each_ref().map(|name| plain(name)).join("-");
         for contact in &gap.contacts {
-            names.push(match contact.floors {
-                [Some(left), Some(right)] => format!("{pair}.floor{left}-{right}"),
-                _ => format!("{pair}.at{:.0}mm", 1e3 * contact.height_m),
-            });
+            let place = joint_place("floor", contact.floors, contact.height_m);
+            names.push(format!("{pair}.{place}"));
         }
     }
     names
 }
 
-fn column_name(model: &Model, contacts: &[String], column: Column) -> String {
+/// Names of the links in the order of the history's link indices.
+fn link_names(summary: &Summary) -> Vec<String> {
+    let mut names = Vec::new();
+    for link in &summary.links {
+        let pair = link.between.each_ref().map(|name| plain(name)).join("-");
+        for floor in &link.floors {
+            let place = joint_place("link", floor.floors, floor.height_m);
+            names.push(format!("{pair}.{place}"));
+        }
+    }
+    names
+}
+
+fn joint_place(what: &str, floors: [Option<usize>; 2], height: f64) -> String {
+    match floors {
+        [Some(left), Some(right)] => format!("{what}{left}-{right}"),
+        _ if what == "floor" => format!("at{:.0}mm", 1e3 * height),
+        _ => format!("{what}_at{:.0}mm", 1e3 * height),
+    }
+}
+
+fn column_name(model: &Model, contacts: &[String], links: &[String], column: Column) -> String {
     let floor = |building: usize, floor: usize| {
         let name = model.buildings.get(building).map(|b| plain(&b.name));
         format!(
@@ -272,6 +292,10 @@ fn column_name(model: &Model, contacts: &[String], column: Column) -> String {
         Column::ContactForce { contact } => match contacts.get(contact) {
             Some(name) => format!("{name}.force_n"),
             None => format!("contact{}.force_n", contact + 1),
+        },
+        Column::LinkForce { link } => match links.get(link) {
+            Some(name) => format!("{name}.force_n"),
+            None => format!("link{}.force_n", link + 1),
         },
         Column::Energy(term) => {
             let name = match term {

@@ -256,6 +256,118 @@ fn neighbours_must_exist_and_touch() {
 }
 
 #[test]
+fn walls_stand_at_the_ends_of_the_row() {
+    let gap = |names: &str| format!("{SHEAR}{FRAME}[[gap]]\nbetween = {names}\nwidth = 0\n");
+    for good in ["[\"wall\", \"A\"]", "[\"B\", \"wall\"]"] {
+        read(&gap(good), Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+    }
+    for (names, problem) in [
+        (
+            "[\"wall\", \"B\"]",
+            "puts a wall left of a building that is not the first",
+        ),
+        (
+            "[\"A\", \"wall\"]",
+            "puts a wall right of a building that is not the last",
+        ),
+        ("[\"wall\", \"wall\"]", "names no building"),
+    ] {
+        assert_single(
+            &gap(names),
+            &format!("model.toml:19:11: gap[0].between: {problem}"),
+        );
+    }
+    assert_single(
+        &gap("[\"wal\", \"A\"]"),
+        "model.toml:19:12: gap[0].between[0]: there is no building \"wal\"",
+    );
+    assert!(message(&gap("[\"wal\", \"A\"]")).contains("did you mean \"wall\"?"));
+}
+
+#[test]
+fn points_and_widths_of_a_gap_are_checked_one_by_one() {
+    let gap = |rest: &str| format!("{SHEAR}{FRAME}[[gap]]\nbetween = [\"A\", \"B\"]\n{rest}\n");
+    for good in [
+        "width = \"1 cm\"\nfloors = \"all\"\nlevel_tolerance = \"20 cm\"",
+        "width = [\"1 cm\", \"2 m\"]",
+        "width = [0.01, 0.02]\nfloors = [[2, \"6 m\"], [1, 1]]",
+    ] {
+        read(&gap(good), Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+    }
+    for (bad, shown) in [
+        (
+            "width = [0.01, 0.02, 0.03]",
+            "20:9: gap[0].width: has 3 entries for 2 contacts",
+        ),
+        (
+            "width = [0.01, \"3 kg\"]",
+            "20:16: gap[0].width[1]: expected a length",
+        ),
+        (
+            "width = 0\nfloors = [[1, \"4 m\"]]",
+            "21:11: gap[0].floors[0]: floor 1 of \"A\" is at 3.000 m and the point of \"B\" is at 4.000 m",
+        ),
+        (
+            "width = 0\nfloors = [[\"4 m\", \"4 m\"]]",
+            "21:11: gap[0].floors[0]: \"A\" has no floor at 4.000 m (nearest: 3.000 m), and a shear building cannot be hit between floors",
+        ),
+        (
+            "width = 0\nfloors = [[\"wall\", 1]]",
+            "21:11: gap[0].floors[0]: names the wall where \"A\" stands",
+        ),
+        (
+            "width = 0\nfloors = \"none\"",
+            "21:10: gap[0].floors: expected \"common\", \"all\"",
+        ),
+        (
+            "width = 0\nlevel_tolerance = 0",
+            "21:19: gap[0].level_tolerance: must be greater than zero",
+        ),
+    ] {
+        let shown = format!("model.toml:{shown}");
+        let text = message(&gap(bad));
+        assert!(text.contains(&shown), "{bad}: {text}");
+    }
+}
+
+#[test]
+fn links_are_checked_as_gaps_are() {
+    let link = |rest: &str| format!("{SHEAR}{FRAME}[[link]]\nbetween = [\"A\", \"B\"]\n{rest}\n");
+    let good = read(
+        &link("damping = \"500 kN.s/m\"\nfloors = [[2, 2]]"),
+        Format::Toml,
+    )
+    .unwrap_or_else(|error| panic!("{error}"));
+    let [found] = &good.model.links[..] else {
+        panic!("one link")
+    };
+    assert_eq!((found.stiffness, found.damping), (0.0, 5e5));
+    for (bad, shown) in [
+        ("", "18:1: link[0].damping: is missing"),
+        (
+            "stiffness = \"1 kN\"",
+            "20:13: link[0].stiffness: expected a stiffness",
+        ),
+        (
+            "damping = -1",
+            "20:11: link[0].damping: must not be negative, found -1 N.s/m",
+        ),
+        (
+            "damping = 1\nfloors = [[3, 3]]",
+            "21:11: link[0].floors[0]: floor 3 does not exist",
+        ),
+        (
+            "damping = 1\nwidth = 0",
+            "21:1: link[0].width: unknown key \"width\"",
+        ),
+    ] {
+        let shown = format!("model.toml:{shown}");
+        let text = message(&link(bad));
+        assert!(text.contains(&shown), "{bad}: {text}");
+    }
+}
+
+#[test]
 fn contact_stiffness_must_suit_the_law() {
     let gap = |rest: &str| format!("{SHEAR}{FRAME}{GAP}{rest}\n");
     assert_single(

@@ -82,10 +82,14 @@ fn assert_finite(input: &Input) {
         }
     }
     for gap in &input.model.gaps {
-        numbers.extend([gap.width, gap.law.stiffness, gap.law.restitution]);
+        numbers.extend(&gap.widths);
+        numbers.extend([gap.level_tolerance, gap.law.stiffness, gap.law.restitution]);
         if let FloorPairs::Heights(heights) = &gap.floors {
             numbers.extend(heights);
         }
+    }
+    for link in &input.model.links {
+        numbers.extend([link.level_tolerance, link.stiffness, link.damping]);
     }
     numbers.extend(input.model.analysis.step);
     numbers.extend(input.model.analysis.contact_step);

@@ -100,8 +100,11 @@ fn paper_example_is_as_documented() {
         }
     );
     let gap = &input.model.gaps[0];
-    assert_eq!((gap.left, &gap.floors), (0, &FloorPairs::Common));
-    assert!((gap.width - 0.1).abs() < 1e-15, "100 mm");
+    assert_eq!(
+        (gap.between, &gap.floors),
+        ([Some(0), Some(1)], &FloorPairs::Common)
+    );
+    assert!((gap.width() - 0.1).abs() < 1e-15, "100 mm");
     assert_eq!((gap.law.kind, gap.law.stiffness), (LawKind::HertzDamp, 2e9));
 }
 
@@ -192,7 +195,7 @@ fn overrides_change_what_they_name() {
         record: Some("el-centro".into()),
     };
     input.apply(&overrides).expect("all three can be changed");
-    assert_eq!(input.model.gaps[0].width, 0.01);
+    assert_eq!(input.model.gaps[0].widths, [0.01]);
     let motion: GroundMotion = input
         .ground_motion()
         .unwrap_or_else(|error| panic!("{error}"));

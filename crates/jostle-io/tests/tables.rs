@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use jostle::summary::{
-    ContactSummary, EnergySummary, GapSummary, ImpactSummary, MotionSummary, WorkSummary,
+    ContactSummary, EnergySummary, GapSummary, ImpactSummary, LinkFloorSummary, LinkSummary,
+    MotionSummary, WorkSummary,
 };
 use jostle::{Column, EnergyTerm, History, Model, Summary};
 use jostle_io::{
@@ -64,6 +65,7 @@ fn contact(
     ContactSummary {
         floors,
         height_m,
+        width_m: 0.01,
         closing_peak_m: 0.011,
         closing_peak_at_s: 1.0,
         impact_count: impacts.len(),
@@ -90,6 +92,7 @@ fn summary() -> Summary {
         gaps: vec![GapSummary {
             between: ["A, west".into(), "B".into()],
             width_m: 0.01,
+            clearance_m: -1e-3,
             law: "hertz".into(),
             free_restitution: 1.0,
             contacts: vec![
@@ -104,6 +107,21 @@ fn summary() -> Summary {
             multiple_pounding_count: 0,
             most_at_once: 1,
             closing_without_contact_m: None,
+        }],
+        links: vec![LinkSummary {
+            between: ["A, west".into(), "B".into()],
+            stiffness_n_m: 1e6,
+            damping_n_s_m: 1e5,
+            peak_force_n: 2e5,
+            dissipated_j: 1e3,
+            floors: vec![LinkFloorSummary {
+                floors: [Some(2), Some(2)],
+                height_m: 6.0,
+                peak_force_n: -2e5,
+                peak_force_at_s: 1.2,
+                peak_stroke_m: 0.02,
+                dissipated_j: 1e3,
+            }],
         }],
         energy: EnergySummary::default(),
         work: WorkSummary::default(),
@@ -147,9 +165,10 @@ fn histories_have_named_columns() {
         },
         Column::ContactForce { contact: 0 },
         Column::ContactForce { contact: 1 },
+        Column::LinkForce { link: 0 },
         Column::Energy(EnergyTerm::Input),
     ];
-    let values: Vec<f64> = (0..16).map(f64::from).collect();
+    let values: Vec<f64> = (0..18).map(f64::from).collect();
     let history = History::from_rows(columns, values);
     let folder = folder("history");
     let path = folder.join("history.parquet");
@@ -166,11 +185,12 @@ fn histories_have_named_columns() {
             "B.floor2.total_acceleration_m_s2",
             "A__west-B.floor1-1.force_n",
             "A__west-B.at4500mm.force_n",
+            "A__west-B.link2-2.force_n",
             "energy_input_j",
         ]
     );
     let second: Vec<Field> = rows[1].iter().map(|(_, value)| value.clone()).collect();
-    let wanted: Vec<Field> = (8..16)
+    let wanted: Vec<Field> = (9..18)
         .map(|value| Field::Double(f64::from(value)))
         .collect();
     assert_eq!(second, wanted);

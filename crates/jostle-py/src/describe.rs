@@ -4,7 +4,7 @@ use jostle::model::Structure;
 use jostle::{Model, System};
 use serde_json::{Value, json};
 
-/// Buildings and gaps with geometry, masses, periods and contacts; names carry units as in `summary.json`.
+/// Buildings, gaps and links with geometry, masses, periods and contacts; names carry units as in `summary.json`.
 pub(crate) fn describe(model: &Model, system: &System) -> Value {
     let buildings = model.buildings.iter().zip(&system.buildings);
     let buildings = buildings.map(|(building, assembled)| {
@@ -33,12 +33,16 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             .contacts
             .iter()
             .filter(|contact| contact.gap == index);
-        let contacts =
-            contacts.map(|contact| json!({ "floors": contact.floors, "height_m": contact.height }));
-        let names = [gap.left, gap.left + 1].map(|side| &model.buildings[side].name);
+        let contacts = contacts.map(|contact| {
+            json!({
+                "floors": contact.faces.floors(),
+                "height_m": contact.height,
+                "width_m": contact.width,
+            })
+        });
         json!({
-            "between": names,
-            "width_m": gap.width,
+            "between": names(model, gap.between),
+            "width_m": gap.width(),
             "law": gap.law.kind.name(),
             "stiffness": gap.law.stiffness,
             "restitution": gap.law.restitution,
@@ -46,9 +50,29 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             "contacts": contacts.collect::<Vec<_>>(),
         })
     });
+    let links = model.links.iter().enumerate().map(|(index, link)| {
+        let own = system.links.iter().filter(|element| element.link == index);
+        let own = own
+            .map(|element| json!({ "floors": element.faces.floors(), "height_m": element.height }));
+        json!({
+            "between": names(model, link.between),
+            "stiffness_n_m": link.stiffness,
+            "damping_n_s_m": link.damping,
+            "floors": own.collect::<Vec<_>>(),
+        })
+    });
     json!({
         "title": model.title,
         "buildings": buildings.collect::<Vec<_>>(),
         "gaps": gaps.collect::<Vec<_>>(),
+        "links": links.collect::<Vec<_>>(),
+    })
+}
+
+/// Names of both sides.
+fn names(model: &Model, between: [Option<usize>; 2]) -> [&str; 2] {
+    between.map(|side| match side {
+        Some(building) => model.buildings[building].name.as_str(),
+        None => "wall",
     })
 }

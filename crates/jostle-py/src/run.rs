@@ -193,6 +193,7 @@ impl Run {
                 ("total_acceleration", building, floor)
             }
             Column::ContactForce { contact } => ("force", contact, 0),
+            Column::LinkForce { link } => ("link", link, 0),
             Column::Energy(term) => (energy_name(term), 0, 0),
         };
         self.histories.columns.iter().map(row).collect()

@@ -25,9 +25,14 @@ const seek = (t) => player.seek(t);
 /** The contacts with an impact, hardest first, at most as many as there are colours. */
 const struck = contacts.filter((c) => c.impacts > 0).sort((a, b) => b.peak - a.peak);
 
+/** Name of a side of a gap; null is a wall. */
+function sideName(building) {
+  return building === null ? "wall" : page.buildings[building].name;
+}
+
 function contactName(contact) {
-  const [left, right] = [page.buildings[contact.gap.left], page.buildings[contact.gap.left + 1]];
-  return page.gaps.length > 1 ? `${left.name}–${right.name}, ${contact.label}` : contact.label;
+  const [left, right] = contact.gap.between.map(sideName);
+  return page.gaps.length > 1 ? `${left}–${right}, ${contact.label}` : contact.label;
 }
 
 function groundChart(host) {
@@ -71,16 +76,21 @@ function energyChart(host) {
 /** Both sides of a contact with and without pounding, and the closing between them. */
 function contactCharts(host, contact) {
   const sides = [0, 1].map((side) => {
-    const building = contact.gap.left + side;
+    const building = contact.gap.between[side];
+    const name = sideName(building);
+    // A wall moves with the ground.
+    const still = (table) => table && new Float64Array(table.time.length);
+    if (building === null) return { building, name, run: still(run), without: still(without) };
     const of = (table) => table && displacementColumn(table, building, contact.floors[side], contact.height);
-    return { building, name: page.buildings[building].name, run: of(run), without: of(without) };
+    return { building, name, run: of(run), without: of(without) };
   });
   if (sides.some((side) => !side.run)) return [];
   const series = [];
-  for (const side of sides) {
+  const moving = sides.filter((side) => side.building !== null);
+  for (const side of moving) {
     series.push({ label: side.name, colour: colours(side.building), time: run.time, values: scaled(side.run, 1e3) });
   }
-  for (const side of sides.filter((s) => s.without)) {
+  for (const side of moving.filter((s) => s.without)) {
     const values = scaled(side.without, 1e3);
     series.push({ label: `${side.name} without`, colour: colours(side.building), time: without.time, values, dashed: true });
   }
@@ -92,8 +102,8 @@ function contactCharts(host, contact) {
     const values = closing(sides.map((s) => s.without));
     closings.push({ label: "without", colour: "var(--ink-2)", time: without.time, values, dashed: true });
   }
-  const width = contact.gap.width * 1e3;
-  const levels = [{ value: width, label: `gap ${readableLength(contact.gap.width)}` }];
+  const width = contact.width * 1e3;
+  const levels = [{ value: width, label: `gap ${readableLength(contact.width)}` }];
   const name = contactName(contact);
   return [
     new TimeChart(host, view, { title: `Displacement, ${name}`, unit: "mm", series, seek }),
@@ -291,8 +301,8 @@ for (const button of document.querySelectorAll("button.unfold")) {
 // The first picture: the hardest impact, or the nearest the buildings come.
 function tellingInstant() {
   if (groups.length) return groups.reduce((best, group) => (group.peak > best.peak ? group : best)).at;
-  const [left, right] = contacts.length ? [contacts[0].gap.left, contacts[0].gap.left + 1] : [0, 0];
-  const contact = [...contacts].sort((a, b) => b.height - a.height)[0];
+  const contact = contacts.filter((c) => !c.gap.between.includes(null)).sort((a, b) => b.height - a.height)[0];
+  const [left, right] = contact ? contact.gap.between : [0, 0];
   const of = (building, side) => displacementColumn(run, building, contact?.floors[side] ?? page.buildings[building].heights.length, contact?.height);
   const [u, v] = [of(left, 0), contact ? of(right, 1) : undefined];
   const measure = (i) => (v ? u[i] - v[i] : Math.abs(u[i]));

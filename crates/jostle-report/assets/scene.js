@@ -45,6 +45,7 @@ class Scene {
         sway: svg("text", { class: "sway", "text-anchor": "middle" }, group),
       };
     });
+    this.links = page.links.map((link) => ({ link, path: svg("path", { class: "link" }, this.svg) }));
     this.flashes = contacts.map(() => svg("circle", { class: "flash" }, this.svg));
     this.instant = svg("text", { class: "instant", x: 12, y: 24 }, this.svg);
     this.arrow = svg("path", { class: "ground-arrow" }, this.svg);
@@ -54,17 +55,28 @@ class Scene {
   layout() {
     this.width = TimeChart.paperWidth ?? Math.max(this.host.clientWidth, 240);
     const f = this.exaggeration;
-    const room = f * this.peak + 0.02 * this.top + 0.5;
+    const free = f * this.peak + 0.02 * this.top + 0.5;
+    // Beside a wall: the gap before it, and its thickness.
+    const wall = (side) => {
+      const at = (part) => part.between[side] === null;
+      if (![...page.gaps, ...page.links].some(at)) return null;
+      const widths = page.gaps.filter(at).map((gap) => gap.width);
+      return widths.length ? f * Math.min(...widths) : free;
+    };
+    this.thickness = 0.05 * this.top;
+    this.walls = [wall(0), wall(1)];
+    const [room, roomRight] = this.walls.map((away) => (away === null ? free : away + this.thickness));
     const widths = page.buildings.map((b) => b.spans.reduce((sum, span) => sum + span, 0));
     let x = room;
     this.left = widths.map((width, i) => {
       const start = x;
-      const gap = page.gaps.find((g) => g.left === i);
-      x += width + (gap ? f * gap.width : 2 * f * this.peak + 2);
+      const gaps = page.gaps.filter((g) => g.between[0] === i && g.between[1] !== null);
+      const narrowest = Math.min(...gaps.map((g) => g.width));
+      x += width + (gaps.length ? f * narrowest : 2 * f * this.peak + 2);
       return start;
     });
     const last = widths.length - 1;
-    const total = this.left[last] + widths[last] + room;
+    const total = this.left[last] + widths[last] + roomRight;
     const tallest = this.width < 600 ? 340 : 560;
     this.scale = Math.min(this.width / total, (tallest - 100) / this.top);
     this.base = this.top * this.scale + 34;
@@ -98,9 +110,21 @@ class Scene {
         label.textContent = `${building.name.slice(0, kept)}…`;
       }
     });
+    this.walls.forEach((away, side) => {
+      if (away === null) return;
+      const face = this.wallFace(side);
+      const x = this.px(side === 0 ? face - this.thickness : face);
+      const height = page.buildings[side === 0 ? 0 : page.buildings.length - 1].heights.at(-1) * this.scale;
+      svg("rect", { class: "wall", x, y: this.base - height, width: this.thickness * this.scale, height }, back);
+    });
+    const named = new Set();
     for (const gap of page.gaps) {
-      const x = this.px(this.left[gap.left] + this.widths[gap.left] + (this.exaggeration * gap.width) / 2);
-      const near = Math.min(this.widths[gap.left], this.widths[gap.left + 1]) * this.scale;
+      const pair = gap.between.join();
+      if (named.has(pair)) continue;
+      named.add(pair);
+      const [left, right] = [0, 1].map((side) => this.faceAtRest(gap, side));
+      const x = this.px((left + right) / 2);
+      const near = Math.min(...gap.between.filter((b) => b !== null).map((b) => this.widths[b])) * this.scale;
       const label = near > 70 ? `gap ${readableLength(gap.width)}` : readableLength(gap.width);
       svg("text", { class: "gap-name", x, y: row + 17, "text-anchor": "middle" }, back).textContent = label;
     }
@@ -110,6 +134,28 @@ class Scene {
     const [x, y] = [8, this.base - 12];
     svg("path", { class: "ruler", d: `M${x},${y - bar * this.scale}V${y}m-3,0h6m-6,${-bar * this.scale}h6` }, back);
     svg("text", { class: "ruler-name", x: x + 7, y: y - (bar * this.scale) / 2 + 4 }, back).textContent = `${bar} m`;
+  }
+
+  /** Where the face of the wall is on the left (0) or on the right (1) of the row [m]. */
+  wallFace(side) {
+    const last = this.widths.length - 1;
+    return side === 0 ? this.left[0] - this.walls[0] : this.left[last] + this.widths[last] + this.walls[1];
+  }
+
+  /** Where the left (0) or the right (1) side of a gap or a link is at rest [m]. */
+  faceAtRest(part, side) {
+    const building = part.between[side];
+    if (building === null) return this.wallFace(side);
+    return this.left[building] + (side === 0 ? this.widths[building] : 0);
+  }
+
+  /** The same now, at a height. */
+  face(part, side, height, sways) {
+    const building = part.between[side];
+    const rest = this.faceAtRest(part, side);
+    if (building === null) return rest;
+    const heights = [0, ...page.buildings[building].heights];
+    return rest + this.exaggeration * interpolate(heights, sways[building], height);
   }
 
   /** How far the arrow of the ground acceleration reaches at its peak [px]. */
@@ -131,6 +177,7 @@ class Scene {
     this.instant.textContent = `t = ${fixed(t, 3)} s`;
     const sways = page.buildings.map((_, i) => this.places(this.run[i], run, t));
     page.buildings.forEach((building, i) => this.drawBuilding(building, i, sways[i], t));
+    this.drawLinks(sways);
     this.drawFlashes(sways, t);
     const a = interpolate(ground.time, ground.values, t) / this.groundPeak;
     const middle = this.width / 2;
@@ -210,17 +257,43 @@ class Scene {
     outlines.forEach((outline, stage) => part.hinges[stage].setAttribute("d", outline));
   }
 
+  /** Dampers as a pot with its rod, springs as a zigzag. */
+  drawLinks(sways) {
+    for (const { link, path } of this.links) {
+      const [x0, x1] = [0, 1].map((side) => this.px(this.face(link, side, link.height, sways)));
+      const y = this.py(link.height);
+      const [middle, size] = [(x0 + x1) / 2, 4];
+      const line = (dy) => `M${x0.toFixed(2)},${(y + dy).toFixed(2)}`;
+      let outline = "";
+      if (link.dashpot) {
+        const dy = link.spring ? -size : 0;
+        const reach = Math.min(size, Math.abs(x1 - x0) / 3);
+        outline += `${line(dy)}H${(middle - reach).toFixed(2)}m0,${-size}v${2 * size}`;
+        outline += `M${(middle + reach).toFixed(2)},${(y + dy - size).toFixed(2)}h${-2 * reach}m0,${2 * size}h${2 * reach}`;
+        outline += `M${middle.toFixed(2)},${(y + dy).toFixed(2)}H${x1.toFixed(2)}`;
+      }
+      if (link.spring) {
+        const dy = link.dashpot ? size : 0;
+        const step = (x1 - x0) / 6;
+        outline += line(dy);
+        [1, 2, 3, 4, 5].forEach((k) => {
+          outline += `L${(x0 + k * step).toFixed(2)},${(y + dy + (k % 2 ? -size : size) * (k === 5 ? 0 : 1)).toFixed(2)}`;
+        });
+        outline += `L${x1.toFixed(2)},${(y + dy).toFixed(2)}`;
+      }
+      path.setAttribute("d", outline);
+    }
+  }
+
   drawFlashes(sways, t) {
     contacts.forEach((contact, i) => {
       const { impact, strength } = this.glow(i, t);
       const circle = this.flashes[i];
       circle.style.display = impact ? "" : "none";
       if (!impact) return;
-      const left = contact.gap.left;
       const height = contact.height;
-      const heights = [0, ...page.buildings[left].heights];
-      const sway = interpolate(heights, sways[left], height);
-      circle.setAttribute("cx", this.px(this.left[left] + this.widths[left] + this.exaggeration * sway));
+      const side = contact.gap.between[0] === null ? 1 : 0;
+      circle.setAttribute("cx", this.px(this.face(contact.gap, side, height, sways)));
       circle.setAttribute("cy", this.py(height));
       circle.setAttribute("r", (5 + 17 * Math.sqrt(impact.peak / this.hardest)) * (0.5 + 0.5 * strength));
       circle.style.opacity = (0.9 * strength).toFixed(2);

@@ -1,9 +1,9 @@
 //! The model, the analysis and the balance of the run in words and small tables.
 
 use jostle::contact::RestitutionIs;
-use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Shear, Solver, Structure};
+use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Link, Shear, Solver, Structure};
 use jostle::motion::Wave;
-use jostle::summary::BuildingSummary;
+use jostle::summary::{BuildingSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
 
 use crate::{Page, backbones, format, special};
@@ -28,7 +28,13 @@ pub(crate) fn model(page: &Page) -> Markup {
             @for (summary, gap) in page.gaps() {
                 div.card {
                     h3 { "Gap " (summary.between[0]) "–" (summary.between[1]) }
-                    (list(&contact(gap, summary.free_restitution)))
+                    (list(&contact(gap, summary)))
+                }
+            }
+            @for (summary, described) in page.links() {
+                div.card {
+                    h3 { "Links " (summary.between[0]) "–" (summary.between[1]) }
+                    (list(&link(described, summary)))
                 }
             }
             div.card { h3 { "Ground motion" } (list(&motion(page))) }
@@ -215,7 +221,44 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
     }
 }
 
-fn contact(gap: &Gap, free_restitution: f64) -> Facts {
+/// Where neighbours can touch or are joined.
+fn places(floors: &FloorPairs) -> String {
+    match floors {
+        FloorPairs::Common => "floors of equal height".into(),
+        FloorPairs::All => "all floors, against floors or columns".into(),
+        FloorPairs::Listed(pairs) => format!("{} listed pairs of points", pairs.len()),
+        FloorPairs::Heights(heights) => format!("{} listed heights", heights.len()),
+    }
+}
+
+fn link(link: &Link, summary: &LinkSummary) -> Facts {
+    let stroke = summary.floors.iter().map(|floor| floor.peak_stroke_m);
+    let mut facts: Facts = vec![("joins", places(&link.floors))];
+    if link.stiffness > 0.0 {
+        facts.push((
+            "stiffness of each",
+            format!("{} N/m", format::plain(link.stiffness, 3)),
+        ));
+    }
+    if link.damping > 0.0 {
+        facts.push((
+            "damping of each",
+            format!("{} N·s/m", format::plain(link.damping, 3)),
+        ));
+    }
+    facts.push(("peak force", format::force(summary.peak_force_n)));
+    facts.push(("stroke", format::millimetres(stroke.fold(0.0, f64::max))));
+    facts.push((
+        "dissipated",
+        format!(
+            "{}\u{a0}kJ",
+            format::significant(summary.dissipated_j / 1e3, 3)
+        ),
+    ));
+    facts
+}
+
+fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
     let law = &gap.law;
     let unit = if law.kind.is_hertzian() {
         "N/m^1.5"
@@ -223,15 +266,14 @@ fn contact(gap: &Gap, free_restitution: f64) -> Facts {
         "N/m"
     };
     let mut facts: Facts = vec![
-        ("width", format::millimetres(gap.width)),
         (
-            "can touch at",
-            match &gap.floors {
-                FloorPairs::Common => "floors of equal height".into(),
-                FloorPairs::Listed(pairs) => format!("{} listed pairs of floors", pairs.len()),
-                FloorPairs::Heights(heights) => format!("{} listed heights", heights.len()),
+            "width",
+            match gap.widths.len() {
+                0 | 1 => format::millimetres(gap.width()),
+                n => format!("{} and more, {n} widths", format::millimetres(gap.width())),
             },
         ),
+        ("can touch at", places(&gap.floors)),
         ("contact law", law.kind.name().into()),
         (
             "stiffness",
@@ -250,7 +292,7 @@ fn contact(gap: &Gap, free_restitution: f64) -> Facts {
     }
     facts.push((
         "free masses rebound with",
-        format::fixed(free_restitution, 3),
+        format::fixed(summary.free_restitution, 3),
     ));
     facts
 }
@@ -375,6 +417,9 @@ fn energy(page: &Page) -> Facts {
         ("strain", format::energy(energy.strain_j)),
         ("damped", format::energy(energy.damped_j)),
     ];
+    if energy.links_j != 0.0 {
+        facts.push(("of that by links", format::energy(energy.links_j)));
+    }
     if energy.hysteretic_j != 0.0 {
         facts.push(("hysteretic", format::energy(energy.hysteretic_j)));
     }

@@ -30,8 +30,8 @@ pub use verdict::verdict;
 
 use jostle::history::SpringHistory;
 use jostle::method::MethodSurvey;
-use jostle::summary::GapSummary;
-use jostle::{Gap, GroundMotion, History, Model, Summary};
+use jostle::summary::{GapSummary, LinkSummary};
+use jostle::{Gap, GroundMotion, History, Link, Model, Summary};
 use jostle_section::formula::Member;
 
 /// Everything a report shows.
@@ -81,16 +81,14 @@ impl ReinforcedSection<'_> {
 }
 
 impl<'a> Page<'a> {
-    /// Every gap of the summary with its description in the model.
+    /// Every gap of the summary with its description in the model, in the same order.
     fn gaps(&self) -> impl Iterator<Item = (&'a GapSummary, &'a Gap)> {
-        let (model, summary) = (self.model, self.summary);
-        summary.gaps.iter().filter_map(move |gap| {
-            let left_name = |candidate: &&Gap| {
-                let left = model.buildings.get(candidate.left);
-                left.is_some_and(|building| building.name == gap.between[0])
-            };
-            Some((gap, model.gaps.iter().find(left_name)?))
-        })
+        self.summary.gaps.iter().zip(&self.model.gaps)
+    }
+
+    /// Every link of the summary with its description in the model, in the same order.
+    fn links(&self) -> impl Iterator<Item = (&'a LinkSummary, &'a Link)> {
+        self.summary.links.iter().zip(&self.model.links)
     }
 }
 

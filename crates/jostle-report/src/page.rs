@@ -3,7 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::envelope::{self, envelopes};
-use crate::verdict::{closest_approach, peak_closing, verdict};
+use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{Page, describe, format, hinges, method, payload, tables};
 
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
@@ -159,6 +159,7 @@ fn tiles(page: &Page) -> Markup {
         } else {
             String::new()
         };
+        let width = nearest(gap).map_or(gap.width_m, |contact| contact.width_m);
         let left =
             closest_approach(gap).filter(|distance| *distance > 0.0 && gap.impact_count == 0);
         tile(
@@ -167,10 +168,10 @@ fn tiles(page: &Page) -> Markup {
             match left {
                 Some(left) => format!(
                     "gap {}, {} left",
-                    format::millimetres(gap.width_m),
+                    format::millimetres(width),
                     format::millimetres(left)
                 ),
-                None => format!("gap {}", format::millimetres(gap.width_m)),
+                None => format!("gap {}", format::millimetres(width)),
             },
         );
         if let Some(closing) = gap.closing_without_contact_m {

@@ -30,6 +30,7 @@ struct Payload<'a> {
     duration: f64,
     buildings: Vec<Outline<'a>>,
     gaps: Vec<GapData>,
+    links: Vec<LinkData>,
     ground: Series,
     run: Table,
     without: Option<Table>,
@@ -70,7 +71,8 @@ struct Outline<'a> {
 
 #[derive(Serialize)]
 struct GapData {
-    left: usize,
+    /// Left and right building; `null` is a wall.
+    between: [Option<usize>; 2],
     width: f64,
     contacts: Vec<ContactData>,
 }
@@ -82,8 +84,18 @@ struct ContactData {
     label: String,
     floors: [Option<usize>; 2],
     height: f64,
+    width: f64,
     peak: f64,
     impacts: usize,
+}
+
+/// A spring or damper between two points.
+#[derive(Serialize)]
+struct LinkData {
+    between: [Option<usize>; 2],
+    height: f64,
+    spring: bool,
+    dashpot: bool,
 }
 
 #[derive(Serialize)]
@@ -118,6 +130,7 @@ pub(crate) fn payload(page: &Page) -> String {
         duration: duration(page, &time),
         buildings: page.model.buildings.iter().map(outline).collect(),
         gaps: gaps(page),
+        links: links(page),
         ground: ground(page.motion),
         run: table(page, page.history, &force, RUN_BYTES, true),
         without: page
@@ -223,8 +236,8 @@ fn gaps(page: &Page) -> Vec<GapData> {
     let mut index = 0;
     page.gaps()
         .map(|(summary, gap)| GapData {
-            left: gap.left,
-            width: gap.width,
+            between: gap.between,
+            width: gap.width(),
             contacts: summary
                 .contacts
                 .iter()
@@ -235,6 +248,7 @@ fn gaps(page: &Page) -> Vec<GapData> {
                         label: place(contact),
                         floors: contact.floors,
                         height: contact.height_m,
+                        width: contact.width_m,
                         peak: contact.peak_force_n,
                         impacts: contact.impact_count,
                     }
@@ -242,6 +256,18 @@ fn gaps(page: &Page) -> Vec<GapData> {
                 .collect(),
         })
         .collect()
+}
+
+fn links(page: &Page) -> Vec<LinkData> {
+    let all = page.links().flat_map(|(summary, link)| {
+        summary.floors.iter().map(|floor| LinkData {
+            between: link.between,
+            height: floor.height_m,
+            spring: link.stiffness > 0.0,
+            dashpot: link.damping > 0.0,
+        })
+    });
+    all.collect()
 }
 
 fn ground(motion: &GroundMotion) -> Series {

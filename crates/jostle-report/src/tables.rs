@@ -135,12 +135,12 @@ struct Width {
 pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
     html! {
         @for (summary, gap) in page.gaps() {
-            @let widths = widths(page, summary, gap.left, without.unwrap_or(run), without.is_some());
+            @let widths = widths(page, summary, gap.between, without.unwrap_or(run), without.is_some());
             @let longest = widths.iter().map(|w| w.metres).fold(1e-9, f64::max);
             div.joint {
                 h3 {
                     (summary.between[0]) " and " (summary.between[1])
-                    @if let Some(height) = lower_height(page, gap.left) {
+                    @if let Some(height) = lower_height(page, gap.between) {
                         span.quiet { " · lower building " (format::plain(height, 4)) " m high" }
                     }
                 }
@@ -166,18 +166,20 @@ pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>
     }
 }
 
-fn lower_height(page: &Page, left: usize) -> Option<f64> {
-    let buildings = page.model.buildings.get(left..left + 2)?;
+/// Height of the lower of two neighbours; `None` before a wall, for which the codes say nothing.
+fn lower_height(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
+    let [left, right] = between;
+    let buildings = [left?, right?].map(|building| page.model.buildings.get(building));
     buildings
-        .iter()
-        .filter_map(|building| building.floor_heights().last().copied())
+        .into_iter()
+        .filter_map(|building| building?.floor_heights().last().copied())
         .min_by(f64::total_cmp)
 }
 
 fn widths(
     page: &Page,
     summary: &GapSummary,
-    left: usize,
+    between: [Option<usize>; 2],
     envelopes: &[Envelope],
     without: bool,
 ) -> Vec<Width> {
@@ -216,14 +218,17 @@ fn widths(
             let least = envelope.least.get(floor.wrapping_sub(1))?;
             Some(greatest.max(-least))
         };
-        let pair = peak(left, l).zip(peak(left + 1, r));
+        let [left, right] = between;
+        let pair = left
+            .and_then(|left| peak(left, l))
+            .zip(right.and_then(|right| peak(right, r)));
         let run = if without { "" } else { " (with impacts)" };
         let (square, sum) = (format!("SRSS{run}"), format!("ABS{run}"));
         add(&square, pair.map(|(l, r)| srss(l, r)), "of-rule");
         add(&sum, pair.map(|(l, r)| absolute_sum(l, r)), "of-rule");
     }
     for intensity in 6..=9 {
-        let width = lower_height(page, left).and_then(|h| gb50011_frame_joint(h, intensity));
+        let width = lower_height(page, between).and_then(|h| gb50011_frame_joint(h, intensity));
         add(&format!("code, intensity {intensity}"), width, "of-code");
     }
     widths

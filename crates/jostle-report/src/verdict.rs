@@ -129,16 +129,21 @@ fn approach(gap: &GapSummary, head: &str) -> String {
 
 /// Least distance left between the faces of a gap \[m\].
 pub(crate) fn closest_approach(gap: &GapSummary) -> Option<f64> {
-    peak_closing(gap).map(|closing| gap.width_m - closing)
+    nearest(gap).map(|contact| contact.width_m - contact.closing_peak_m)
 }
 
-/// Greatest closing of any contact of a gap \[m\].
+/// The contact of a gap that comes nearest to touching, or is pressed most.
+pub(crate) fn nearest(gap: &GapSummary) -> Option<&ContactSummary> {
+    let known = gap.contacts.iter().filter(|c| c.closing_peak_m.is_finite());
+    known.max_by(|a, b| {
+        let depth = |c: &ContactSummary| c.closing_peak_m - c.width_m;
+        depth(a).total_cmp(&depth(b))
+    })
+}
+
+/// Greatest closing there \[m\].
 pub(crate) fn peak_closing(gap: &GapSummary) -> Option<f64> {
-    gap.contacts
-        .iter()
-        .map(|contact| contact.closing_peak_m)
-        .filter(|closing| closing.is_finite())
-        .max_by(f64::total_cmp)
+    nearest(gap).map(|contact| contact.closing_peak_m)
 }
 
 /// Where a contact is: "floor 5", "floors 5 and 4", "height 4.80 m".

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use fixture::{Run, alone, row_of_three, two_frames, yielding};
+use fixture::{Run, alone, row_of_three, two_frames, walled, yielding};
 use headless_chrome::protocol::cdp::types::Event;
 use headless_chrome::protocol::cdp::{Emulation, Input, Log, Page, Runtime};
 use headless_chrome::{Browser, LaunchOptions, Tab};
@@ -384,4 +384,41 @@ fn nothing_overflows_a_phone() {
         page.picture(&format!("phone-{name}"));
         page.assert_content();
     }
+}
+
+#[test]
+fn walls_and_links_are_drawn_where_they_are() {
+    let Some(page) = open(&walled(), 1280, 900) else {
+        return;
+    };
+    assert_eq!(
+        page.number("document.querySelectorAll('.wall').length"),
+        2.0
+    );
+    assert_eq!(
+        page.number("document.querySelectorAll('path.link').length"),
+        4.0
+    );
+    let right = |what: &str| {
+        page.number(&format!(
+            "Math.max(...[...document.querySelectorAll('{what}')].map((e) => e.getBoundingClientRect().right))"
+        ))
+    };
+    // At rest the last link ends at the face of the wall on the right.
+    page.value("player.seek(0)");
+    let face =
+        page.number("[...document.querySelectorAll('.wall')].at(-1).getBoundingClientRect().left");
+    assert!((right("path.link") - face).abs() < 2.0);
+    let shapes =
+        "[...document.querySelectorAll('path.link')].map((p) => p.getAttribute('d')).join(' ')";
+    let before = page.text(shapes);
+    assert!(
+        !before.contains("NaN") && before.matches('M').count() > 8,
+        "{before}"
+    );
+    page.value("player.seek(5.0)");
+    assert_ne!(page.text(shapes), before, "links move with their floors");
+    page.picture("walled");
+    page.assert_fits(1280.0);
+    page.assert_content();
 }

@@ -9,7 +9,7 @@ mod fixture;
 
 use std::time::Instant;
 
-use fixture::{Run, alone, row_of_three, two_frames, yielding};
+use fixture::{Run, alone, row_of_three, two_frames, walled, yielding};
 use jostle_report::render;
 
 fn pages() -> Vec<(&'static str, Run)> {
@@ -19,6 +19,7 @@ fn pages() -> Vec<(&'static str, Run)> {
         ("alone", alone()),
         ("row-of-three", row_of_three()),
         ("yielding", yielding()),
+        ("walled", walled()),
     ]
 }
 

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 use jostle::{
-    Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, LawKind, Model,
-    Outcome, Plan, Pounding, RestitutionIs, RunEnd, Settings, Shear, Structure, System, simulate,
+    Analysis, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome, Plan,
+    Pounding, RestitutionIs, RunEnd, Settings, Shear, Structure, System, simulate,
 };
 
 use crate::Extent;
@@ -109,13 +109,8 @@ pub(crate) fn pair(seed: u64, tolerance: f64) -> (Model, GroundMotion) {
     let model = Model {
         title: format!("pair {seed}"),
         buildings,
-        gaps: vec![Gap {
-            left: 0,
-            width: random.between(0.002, 0.04),
-            floors: FloorPairs::Common,
-            law,
-            minimum_separation: 0.0,
-        }],
+        gaps: vec![Gap::after(0, random.between(0.002, 0.04), law)],
+        links: Vec::new(),
         analysis: Analysis {
             tolerance,
             ..Analysis::default()

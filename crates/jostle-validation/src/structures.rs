@@ -128,7 +128,7 @@ pub(crate) fn pair(
         .expect("both have mass");
     system.contacts.push(Contact {
         width: gap,
-        law: law(contact.masses[0], contact.masses[1]),
+        law: law(contact.faces.masses()[0], contact.faces.masses()[1]),
         ..contact
     });
     system

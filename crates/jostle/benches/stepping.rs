@@ -10,8 +10,8 @@ use divan::counter::ItemsCount;
 use jostle::stepping::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{
-    Analysis, Axial, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, GroundMotion, Joint,
-    LawKind, Model, Plan, Pounding, RestitutionIs, RiccatiFactor, RiccatiSweep, Section, Settings,
+    Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind,
+    Model, Plan, Pounding, RestitutionIs, RiccatiFactor, RiccatiSweep, Section, Settings,
     Structure, System, simulate,
 };
 
@@ -72,14 +72,9 @@ fn row(buildings: usize, storeys: usize) -> Model {
         title: "row".into(),
         buildings: (0..buildings).map(building).collect(),
         gaps: (1..buildings)
-            .map(|left| Gap {
-                left: left - 1,
-                width: 0.02,
-                floors: FloorPairs::Common,
-                law,
-                minimum_separation: 0.0,
-            })
+            .map(|right| Gap::after(right - 1, 0.02, law))
             .collect(),
+        links: Vec::new(),
         analysis: Analysis {
             step: Some(2e-3),
             ..Analysis::default()

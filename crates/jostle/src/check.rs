@@ -1,37 +1,37 @@
 //! Every fault of a model, in one go.
 
-use crate::contact::{ContactLaw, LawKind};
-use crate::model::{
-    Base, Building, Damping, FloorPairs, Frame, Gap, Hinges, Model, ModelFault, Shear, Structure,
-};
-
-/// Floors closer in height than this can touch \[m\].
-pub(crate) const LEVEL_TOLERANCE: f64 = 1e-3;
+use crate::check_row::{WALL, check_row};
+use crate::model::{Base, Building, Damping, Frame, Hinges, Model, ModelFault, Shear, Structure};
 
 /// Collects faults under the path of the part being checked.
-struct Faults(Vec<ModelFault>);
+pub(crate) struct Faults(Vec<ModelFault>);
 
 impl Faults {
-    fn add(&mut self, path: impl Into<String>, problem: impl Into<String>) {
+    pub(crate) fn add(&mut self, path: impl Into<String>, problem: impl Into<String>) {
         self.0.push(ModelFault {
             path: path.into(),
             problem: problem.into(),
         });
     }
 
-    fn require(&mut self, good: bool, path: impl Into<String>, problem: impl FnOnce() -> String) {
+    pub(crate) fn require(
+        &mut self,
+        good: bool,
+        path: impl Into<String>,
+        problem: impl FnOnce() -> String,
+    ) {
         if !good {
             self.add(path, problem());
         }
     }
 
-    fn positive(&mut self, value: f64, path: impl Into<String>, unit: &str) {
+    pub(crate) fn positive(&mut self, value: f64, path: impl Into<String>, unit: &str) {
         self.require(value.is_finite() && value > 0.0, path, || {
             format!("must be greater than zero, found {value} {unit}")
         });
     }
 
-    fn not_negative(&mut self, value: f64, path: impl Into<String>, unit: &str) {
+    pub(crate) fn not_negative(&mut self, value: f64, path: impl Into<String>, unit: &str) {
         self.require(value.is_finite() && value >= 0.0, path, || {
             format!("must not be negative, found {value} {unit}")
         });
@@ -39,7 +39,10 @@ impl Faults {
 }
 
 /// The entries of a list with their paths, `path[0]`, `path[1]`, ….
-fn each<'a, T>(list: &'a [T], path: &'a str) -> impl Iterator<Item = (String, &'a T)> + 'a {
+pub(crate) fn each<'a, T>(
+    list: &'a [T],
+    path: &'a str,
+) -> impl Iterator<Item = (String, &'a T)> + 'a {
     list.iter()
         .enumerate()
         .map(move |(i, value)| (format!("{path}[{i}]"), value))
@@ -65,19 +68,7 @@ pub(crate) fn check(model: &Model) -> Result<(), Vec<ModelFault>> {
             )
         });
     }
-    for (path, gap) in each(&model.gaps, "gap") {
-        check_gap(&mut faults, &path, gap, model);
-        faults.require(
-            model
-                .gaps
-                .iter()
-                .filter(|other| other.left == gap.left)
-                .count()
-                == 1,
-            format!("{path}.between"),
-            || "these two neighbours have more than one gap; keep one".into(),
-        );
-    }
+    check_row(&mut faults, model);
     check_analysis(&mut faults, model);
     if faults.0.is_empty() {
         Ok(())
@@ -92,6 +83,11 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
         format!("{path}.name"),
         || "must not be empty".into(),
     );
+    faults.require(building.name != WALL, format!("{path}.name"), || {
+        format!(
+            "\"{WALL}\" stands for a rigid wall in gaps and links; give the building another name"
+        )
+    });
     for (field, height) in each(building.storey_heights(), &format!("{path}.storey_height")) {
         faults.positive(*height, field, "m");
     }
@@ -345,157 +341,6 @@ fn check_shear(faults: &mut Faults, path: &str, shear: &Shear) {
     }
 }
 
-fn check_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
-    faults.require(
-        gap.width.is_finite() && gap.width >= 0.0,
-        format!("{path}.width"),
-        || {
-            format!(
-                "must not be negative, found {} m; touching buildings have a gap of zero",
-                gap.width
-            )
-        },
-    );
-    let separation = gap.minimum_separation;
-    faults.require(
-        separation.is_finite() && separation >= 0.0,
-        format!("{path}.minimum_separation"),
-        || format!("must not be negative, found {separation} s"),
-    );
-    let (Some(left), Some(right)) = (
-        model.buildings.get(gap.left),
-        model.buildings.get(gap.left + 1),
-    ) else {
-        faults.add(
-            format!("{path}.between"),
-            "must name two neighbouring buildings",
-        );
-        return;
-    };
-    faults.positive(
-        gap.law.stiffness,
-        format!("{path}.stiffness"),
-        if gap.law.kind.is_hertzian() {
-            "N/m^1.5"
-        } else {
-            "N/m"
-        },
-    );
-    let e = gap.law.restitution;
-    if gap.law.kind.is_dissipative() {
-        faults.require(e > 0.0 && e <= 1.0, format!("{path}.restitution"), || {
-            format!("must be greater than 0 and at most 1, found {e}")
-        });
-        let least = gap.law.least_restitution();
-        faults.require(e > least, format!("{path}.restitution"), || {
-            format!(
-                "cannot be realised by {} below {least:.4}; use hertz-damp, or a larger value",
-                gap.law.kind.name()
-            )
-        });
-    }
-    check_shape(faults, path, &gap.law);
-    check_floors(faults, &format!("{path}.floors"), gap, left, right);
-}
-
-/// What only some laws have.
-fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
-    match law.kind {
-        LawKind::Bilinear(shape) => {
-            let a = shape.yield_share;
-            faults.require(a > 0.0 && a < 0.5, format!("{path}.yield_share"), || {
-                format!("must lie between 0 and 0.5, found {a}")
-            });
-            if let Some(speed) = shape.design_speed {
-                faults.positive(speed, format!("{path}.design_speed"), "m/s");
-            }
-        }
-        LawKind::Rubber(bumper) => {
-            faults.positive(bumper.thickness, format!("{path}.thickness"), "m");
-            let n = bumper.exponent;
-            faults.require((1.0..=6.0).contains(&n), format!("{path}.exponent"), || {
-                format!("must lie between 1 and 6, found {n}")
-            });
-        }
-        _ => {}
-    }
-}
-
-fn check_floors(faults: &mut Faults, path: &str, gap: &Gap, left: &Building, right: &Building) {
-    let (left_heights, right_heights) = (left.floor_heights(), right.floor_heights());
-    let level = |height: f64, heights: &[f64]| {
-        heights
-            .iter()
-            .any(|h| (h - height).abs() <= LEVEL_TOLERANCE)
-    };
-    match &gap.floors {
-        FloorPairs::Common => {
-            let any = left_heights
-                .iter()
-                .any(|height| level(*height, &right_heights));
-            faults.require(any, path, || {
-                format!(
-                    "no floors of \"{}\" and \"{}\" lie at equal height; list the pairs that can touch, as floors = [[1, 1]], or the heights",
-                    left.name, right.name
-                )
-            });
-        }
-        FloorPairs::Listed(pairs) => {
-            faults.require(!pairs.is_empty(), path, || {
-                "is empty; list the pairs that can touch, as [[5, 5], [4, 4]]".into()
-            });
-            for (i, (l, r)) in pairs.iter().enumerate() {
-                for (building, heights, floor) in
-                    [(left, &left_heights, *l), (right, &right_heights, *r)]
-                {
-                    faults.require(
-                        (1..=heights.len()).contains(&floor),
-                        format!("{path}[{i}]"),
-                        || {
-                            format!(
-                                "floor {floor} does not exist: \"{}\" has floors 1 to {}",
-                                building.name,
-                                heights.len()
-                            )
-                        },
-                    );
-                }
-                if let (Some(a), Some(b)) = (
-                    left_heights.get(l.wrapping_sub(1)),
-                    right_heights.get(r.wrapping_sub(1)),
-                ) {
-                    faults.require((a - b).abs() <= LEVEL_TOLERANCE, format!("{path}[{i}]"), || {
-                        format!("floor {l} of \"{}\" is at {a:.3} m and floor {r} of \"{}\" at {b:.3} m; only floors at equal height can touch", left.name, right.name)
-                    });
-                }
-                faults.require(
-                    !pairs[..i].contains(&(*l, *r)),
-                    format!("{path}[{i}]"),
-                    || format!("the pair [{l}, {r}] is listed twice"),
-                );
-            }
-        }
-        FloorPairs::Heights(heights) => {
-            faults.require(!heights.is_empty(), path, || {
-                "is empty; list the heights where the buildings can touch".into()
-            });
-            for (i, height) in heights.iter().enumerate() {
-                for building in [left, right] {
-                    let points = building.contact_heights();
-                    faults.require(level(*height, &points), format!("{path}[{i}]"), || {
-                        let nearest = points.iter().copied().min_by(|a, b| (a - height).abs().total_cmp(&(b - height).abs()));
-                        format!(
-                            "\"{}\" has no floor or lumped mass at {height:.3} m (nearest: {:.3} m); move the contact, or change column_segments",
-                            building.name,
-                            nearest.unwrap_or(0.0)
-                        )
-                    });
-                }
-            }
-        }
-    }
-}
-
 fn check_analysis(faults: &mut Faults, model: &Model) {
     let analysis = &model.analysis;
     for (name, step) in [
@@ -532,23 +377,5 @@ fn check_analysis(faults: &mut Faults, model: &Model) {
                 range.end()
             )
         });
-    }
-}
-
-impl Building {
-    /// Heights of the points of a face that can touch a neighbour: floors, and lumped masses of columns \[m\].
-    #[must_use]
-    pub fn contact_heights(&self) -> Vec<f64> {
-        let segments = match &self.structure {
-            Structure::Frame(frame) => frame.column_segments.max(1),
-            Structure::Shear(_) => 1,
-        };
-        let mut base = 0.0;
-        let mut heights = Vec::new();
-        for storey in self.storey_heights() {
-            heights.extend((1..=segments).map(|k| base + storey * k as f64 / segments as f64));
-            base += storey;
-        }
-        heights
     }
 }

@@ -42,6 +42,11 @@ pub enum Column {
         /// Contact index.
         contact: usize,
     },
+    /// Compression of a link (index into the links of the system), negative where it pulls \[N\].
+    LinkForce {
+        /// Link index.
+        link: usize,
+    },
     /// A term of the energy balance \[J\].
     Energy(EnergyTerm),
 }
@@ -216,8 +221,10 @@ pub struct Energy {
     pub kinetic: f64,
     /// Strain energy of members.
     pub strain: f64,
-    /// Dissipated by viscous damping.
+    /// Dissipated by viscous damping, that of links included.
     pub damped: f64,
+    /// The share of links in that.
+    pub links: f64,
     /// Taken by hinges.
     pub hysteretic: f64,
     /// Taken by contacts.
@@ -263,6 +270,19 @@ pub struct Work {
     pub outer_iterations: u64,
     /// Steps halved because those did not converge.
     pub halved_steps: u64,
+    /// Multiply-adds spent on the forces of contacts and links.
+    pub coupling_operations: u64,
+}
+
+/// What a link has borne.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinkTotals {
+    /// Force of greatest size, positive in compression, and its instant \[N\].
+    pub peak_force: Extreme,
+    /// Greatest change of length, either sign \[m\].
+    pub peak_shortening: f64,
+    /// Work done on it, what its spring would give back included \[J\].
+    pub work: f64,
 }
 
 /// What a spring that yields has borne.

@@ -3,6 +3,7 @@
 pub mod contact;
 pub mod counting;
 pub mod equations;
+pub mod faces;
 pub mod gravity;
 pub mod history;
 pub mod hysteresis;
@@ -21,15 +22,18 @@ pub mod system;
 pub mod transfer;
 
 mod check;
+mod check_row;
+mod contact_points;
 mod element;
 mod member_end;
+mod row;
 mod summarise;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Gravity, Hinges,
-    Joint, Model, ModelFault, Section, Shear, Solver, Structure,
+    Joint, Level, Link, Model, ModelFault, Section, Shear, Solver, Structure,
 };
 pub use motion::{GroundMotion, Wave};
 pub use state::State;

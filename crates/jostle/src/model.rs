@@ -1,4 +1,4 @@
-//! What the user describes: buildings from left to right, the gaps between them, and how to compute.
+//! What the user describes: buildings from left to right, the gaps and links between them, and how to compute.
 //!
 //! Everything here is plain data in SI units. [`Model::check`] reports every fault at once, each with the
 //! path of the field it concerns, so that a reader can point at the line of the file.
@@ -7,15 +7,17 @@ use crate::contact::ContactLaw;
 use crate::hysteresis::Hysteresis;
 use crate::stepping::Integrator;
 
-/// Buildings in a row, the gaps between neighbours, and the settings of the analysis.
+/// Buildings in a row, what stands between neighbours, and the settings of the analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Title printed on summaries and reports.
     pub title: String,
     /// Buildings from left to right; at least one.
     pub buildings: Vec<Building>,
-    /// Gaps between neighbouring buildings; at most one per neighbouring pair.
+    /// Gaps between neighbours, and between the ends of the row and walls there.
     pub gaps: Vec<Gap>,
+    /// Springs and dashpots that join them.
+    pub links: Vec<Link>,
     /// Step sizes, tolerance and solver.
     pub analysis: Analysis,
 }
@@ -212,30 +214,123 @@ pub enum Damping {
     },
 }
 
-/// The space between two neighbouring buildings.
+/// The space between two neighbours, or between the building at an end of the row and a rigid wall there. A pair may
+/// have several gaps, such as bumpers at some floors and bare concrete at others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
-    /// Index of the left building; the right one is the next.
-    pub left: usize,
-    /// Width at rest, ≥ 0 \[m\].
-    pub width: f64,
+    /// Indices of the left and of the right building, the one after it; `None` is a rigid wall that moves with the
+    /// ground, left of the first or right of the last building.
+    pub between: [Option<usize>; 2],
+    /// Widths at rest, ≥ 0: one for all contacts, or one each in the order of `floors`, from the lowest up where
+    /// those are not listed \[m\].
+    pub widths: Vec<f64>,
     /// Where the buildings can touch.
     pub floors: FloorPairs,
+    /// Floors no further apart in height than this meet each other, > 0 \[m\].
+    pub level_tolerance: f64,
     /// Contact law of every contact of this gap.
     pub law: ContactLaw,
     /// Impacts of one contact that follow each other sooner count as one, ≥ 0 \[s\].
     pub minimum_separation: f64,
 }
 
-/// Which points of two neighbours can touch.
+impl Gap {
+    /// A gap of one width \[m\] between building `left` and the next, wherever floors are at equal height.
+    #[must_use]
+    pub fn after(left: usize, width: f64, law: ContactLaw) -> Self {
+        Self::between([Some(left), Some(left + 1)], width, law)
+    }
+
+    /// A gap of one width \[m\] between two neighbours, or a building and a wall, wherever floors meet.
+    #[must_use]
+    pub fn between(between: [Option<usize>; 2], width: f64, law: ContactLaw) -> Self {
+        Self {
+            between,
+            widths: vec![width],
+            floors: FloorPairs::Common,
+            level_tolerance: LEVEL_TOLERANCE,
+            law,
+            minimum_separation: 0.0,
+        }
+    }
+
+    /// The least width \[m\].
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        self.widths.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Width of the contact at this place of the list \[m\].
+    #[must_use]
+    pub fn width_of(&self, contact: usize) -> f64 {
+        let only = self.widths.first().copied().unwrap_or(0.0);
+        self.widths.get(contact).copied().unwrap_or(only)
+    }
+
+    /// Changes the least width \[m\]; wider contacts, such as those of a set-back, stay as much wider.
+    pub fn set_width(&mut self, width: f64) {
+        let least = self.width();
+        for own in &mut self.widths {
+            *own = width + (*own - least);
+        }
+    }
+}
+
+/// Linear springs and dashpots that join floors of two neighbours, or of a building and a rigid wall, and act in both
+/// directions. They are free of force while the buildings are at rest. Rayleigh damping of the buildings does not act
+/// on them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Left and right building, or a wall, as in [`Gap::between`].
+    pub between: [Option<usize>; 2],
+    /// Which points are joined.
+    pub floors: FloorPairs,
+    /// Floors no further apart in height than this can be joined, > 0 \[m\].
+    pub level_tolerance: f64,
+    /// Force per relative displacement of every link, ≥ 0 \[N/m\].
+    pub stiffness: f64,
+    /// Force per relative velocity of every link, ≥ 0 \[N·s/m\].
+    pub damping: f64,
+}
+
+/// Floors closer in height than this meet, unless a gap or a link says otherwise \[m\].
+pub const LEVEL_TOLERANCE: f64 = 1e-3;
+
+/// Which points of two neighbours can touch, or are joined.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FloorPairs {
-    /// Every pair of floors at equal height (within 1 mm).
+    /// Every pair of floors at equal height; all floors before a wall.
     Common,
-    /// Pairs (left floor, right floor), floors counted from 1.
-    Listed(Vec<(usize, usize)>),
-    /// Heights above the base where both faces have a floor or a lumped mass \[m\].
+    /// Every floor of either building: against the floor of the other at that height, or against its column.
+    All,
+    /// Pairs of points, left and right.
+    Listed(Vec<[Level; 2]>),
+    /// Heights above the base, at floors or between them \[m\].
     Heights(Vec<f64>),
+}
+
+/// A point of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Level {
+    /// A floor, counted from 1.
+    Floor(usize),
+    /// A height above the base, at a floor or at a column between floors \[m\].
+    Height(f64),
+    /// The wall, opposite the other point of the pair.
+    Wall,
+}
+
+impl FloorPairs {
+    /// Pairs (left floor, right floor), floors counted from 1.
+    #[must_use]
+    pub fn listed(pairs: &[(usize, usize)]) -> Self {
+        let levels = pairs.iter();
+        Self::Listed(
+            levels
+                .map(|&(left, right)| [Level::Floor(left), Level::Floor(right)])
+                .collect(),
+        )
+    }
 }
 
 /// How to compute.
@@ -328,5 +423,28 @@ impl Building {
                 Some(*height)
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{LawKind, RestitutionIs};
+
+    #[test]
+    fn a_narrower_gap_keeps_its_set_back() {
+        let law = ContactLaw {
+            kind: LawKind::Hertz,
+            stiffness: 2e9,
+            restitution: 1.0,
+            restitution_is: RestitutionIs::Input,
+        };
+        let mut gap = Gap::after(0, 0.1, law);
+        gap.set_width(0.04);
+        assert_eq!(gap.widths, [0.04]);
+        gap.widths = vec![0.25, 0.5, 2.0];
+        gap.set_width(0.125);
+        assert_eq!(gap.widths, [0.125, 0.375, 1.875]);
+        assert_eq!((gap.width(), gap.width_of(2)), (0.125, 1.875));
     }
 }

@@ -155,13 +155,21 @@ impl Idealisation {
     /// Lumped masses, massless members and hinges of a building.
     #[must_use]
     pub fn of(building: &Building) -> Self {
+        Self::with_points(building, [&[], &[]])
+    }
+
+    /// The same with lumped masses at further heights of the left and the right face, so that the columns of a frame
+    /// can be hit there \[m\]: the nearest lumped mass between the floors moves there if it is no further than a
+    /// quarter of a segment away, otherwise another one is put in.
+    #[must_use]
+    pub fn with_points(building: &Building, points: [&[f64]; 2]) -> Self {
         match &building.structure {
             Structure::Frame(frame) => {
                 let hinges = match &building.hinges {
                     Some(Hinges::Frame(hinges)) => hinges,
                     _ => &FrameHinges::default(),
                 };
-                idealise_frame(frame, &building.base, hinges)
+                idealise_frame(frame, &building.base, hinges, points)
             }
             Structure::Shear(shear) => {
                 let springs: &[Hysteresis] = match &building.hinges {
@@ -187,31 +195,38 @@ impl Skeleton {
         self.nodes.len() - 1
     }
 
-    /// Joins two nodes by a beam of `segments` equal members; half of each segment's mass goes to either end.
+    /// Joins two nodes by a beam cut at these shares of its length; half of each segment's mass goes to either end.
     /// Returns the new nodes in between.
     fn add_line(
         &mut self,
         from: usize,
         to: usize,
-        segments: usize,
+        cuts: &[f64],
         line_mass: f64,
         section: &Section,
         flexible: bool,
     ) -> Vec<usize> {
         let (a, b) = (self.nodes[from], self.nodes[to]);
-        let at = |k: usize| {
-            let share = k as f64 / segments as f64;
-            (a.x + share * (b.x - a.x), a.y + share * (b.y - a.y))
-        };
-        let interior: Vec<usize> = (1..segments)
-            .map(|k| self.add_node(at(k).0, at(k).1))
+        let interior: Vec<usize> = cuts
+            .iter()
+            .map(|share| self.add_node(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)))
             .collect();
-        let half_mass = 0.5 * line_mass * (b.x - a.x).hypot(b.y - a.y) / segments as f64;
+        let half_mass = 0.5 * line_mass * (b.x - a.x).hypot(b.y - a.y);
+        let segments = cuts.len() + 1;
+        let starts = std::iter::once(0.0).chain(cuts.iter().copied());
+        let half_masses: Vec<f64> = if *cuts == equal_cuts(segments) {
+            // All the same, to the last bit.
+            vec![half_mass / segments as f64; segments]
+        } else {
+            let ends = cuts.iter().copied().chain([1.0]);
+            let lengths = starts.zip(ends);
+            lengths.map(|(a, b)| half_mass * (b - a)).collect()
+        };
         let line: Vec<usize> = std::iter::once(from)
             .chain(interior.iter().copied())
             .chain([to])
             .collect();
-        for ends in line.windows(2) {
+        for (ends, half_mass) in line.windows(2).zip(half_masses) {
             for &end in ends {
                 self.nodes[end].mass += half_mass;
             }
@@ -381,7 +396,12 @@ impl std::fmt::Display for SpringPlace {
     }
 }
 
-fn idealise_frame(frame: &Frame, base: &Base, hinges: &FrameHinges) -> Idealisation {
+fn idealise_frame(
+    frame: &Frame,
+    base: &Base,
+    hinges: &FrameHinges,
+    points: [&[f64]; 2],
+) -> Idealisation {
     let mut skeleton = Skeleton::default();
     let mut lines: Vec<f64> = vec![0.0];
     for span in &frame.spans {
@@ -424,10 +444,19 @@ fn idealise_frame(frame: &Frame, base: &Base, hinges: &FrameHinges) -> Idealisat
                     });
                 }
             }
+            let mut cuts = equal_cuts(frame.column_segments);
+            let faces = [line == 0, line + 1 == lines.len()].into_iter().zip(points);
+            for point in faces.filter(|(is_face, _)| *is_face).flat_map(|(_, p)| p) {
+                cut_at(
+                    &mut cuts,
+                    (point - height + storey_height) / storey_height,
+                    0.25 / frame.column_segments as f64,
+                );
+            }
             let interior = skeleton.add_line(
                 ends[0],
                 ends[1],
-                frame.column_segments,
+                &cuts,
                 column.line_mass,
                 column,
                 frame.axial.columns_flexible,
@@ -458,7 +487,7 @@ fn idealise_frame(frame: &Frame, base: &Base, hinges: &FrameHinges) -> Idealisat
             skeleton.add_line(
                 ends[0],
                 ends[1],
-                frame.beam_segments[bay],
+                &equal_cuts(frame.beam_segments[bay]),
                 frame.beam_mass[storey],
                 &frame.beams[storey],
                 frame.axial.beams_flexible,
@@ -477,6 +506,31 @@ fn idealise_frame(frame: &Frame, base: &Base, hinges: &FrameHinges) -> Idealisat
     }
     idealisation.skeleton = skeleton;
     idealisation
+}
+
+/// Where a line is cut into equal segments, in shares of its length.
+fn equal_cuts(segments: usize) -> Vec<f64> {
+    (1..segments).map(|k| k as f64 / segments as f64).collect()
+}
+
+/// Cuts a line at a share of its length too, by moving an equal cut that is near enough, unless the place is not inside
+/// the line.
+fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
+    /// Shares closer than this are one.
+    const SAME: f64 = 1e-6;
+    if !(share > SAME && share < 1.0 - SAME) || cuts.iter().any(|c| (c - share).abs() <= SAME) {
+        return;
+    }
+    let segments = (0.25 / reach).round();
+    let is_equal = |cut: f64| (cut * segments - (cut * segments).round()).abs() < SAME;
+    match cuts
+        .iter_mut()
+        .find(|cut| is_equal(**cut) && (**cut - share).abs() <= reach)
+    {
+        Some(near) => *near = share,
+        None => cuts.push(share),
+    }
+    cuts.sort_by(f64::total_cmp);
 }
 
 fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealisation {

@@ -1,5 +1,6 @@
 //! From the outcome of a run to the numbers of `summary.json`.
 
+use crate::check_row::WALL;
 use crate::contact::{LawKind, RestitutionIs};
 use crate::counting::{CountedImpact, counted, find_simultaneous};
 use crate::history::Impact;
@@ -11,7 +12,8 @@ use crate::skeleton::SpringPlace;
 use crate::stepping::{Outcome, Plan, RunEnd};
 use crate::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
-    ImpactSummary, MotionSummary, SpringSummary, Summary, WorkSummary,
+    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, SpringSummary, Summary,
+    WorkSummary,
 };
 use crate::system::{BuildingSystem, System};
 
@@ -67,6 +69,9 @@ impl Summary {
             },
             buildings,
             gaps,
+            links: (0..model.links.len())
+                .map(|index| link_summary(index, run))
+                .collect(),
             energy: energy_summary(outcome),
             work: work_summary(run),
             ended_early: match &outcome.end {
@@ -218,8 +223,12 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
         .collect();
     let impacts = contacts.iter().flat_map(|contact| &contact.impacts);
     GapSummary {
-        between: [gap.left, gap.left + 1].map(|building| system.buildings[building].name.clone()),
-        width_m: gap.width,
+        between: names(gap.between, system),
+        width_m: gap.width(),
+        clearance_m: contacts
+            .iter()
+            .map(|contact| contact.width_m - contact.closing_peak_m)
+            .fold(f64::INFINITY, f64::min),
         law: gap.law.kind.full_name(),
         free_restitution: gap.law.free_restitution(),
         impact_count: contacts.iter().map(|contact| contact.impact_count).sum(),
@@ -233,11 +242,53 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
             .fold(0.0, f64::max),
         first_impact_s: impacts.map(|impact| impact.start_s).min_by(f64::total_cmp),
         closing_without_contact_m: run.without_contact.map(|outcome| {
-            own.iter()
-                .map(|&contact| outcome.closing[contact].value)
-                .fold(0.0, f64::max)
+            let needed = |&contact: &usize| {
+                let wider = system.contacts[contact].width - gap.width();
+                outcome.closing[contact].value - wider
+            };
+            own.iter().map(needed).fold(0.0, f64::max)
         }),
         contacts,
+    }
+}
+
+/// Names of both sides.
+fn names(between: [Option<usize>; 2], system: &System) -> [String; 2] {
+    between.map(|side| match side {
+        Some(building) => system.buildings[building].name.clone(),
+        None => WALL.to_owned(),
+    })
+}
+
+fn link_summary(index: usize, run: &Run) -> LinkSummary {
+    let (system, outcome, link) = (run.system, run.outcome, &run.model.links[index]);
+    let own = system.links.iter().zip(&outcome.links);
+    let floors: Vec<LinkFloorSummary> = own
+        .filter(|(element, _)| element.link == index)
+        .map(|(element, totals)| {
+            let shortening = element.shortening(&outcome.state.displacement);
+            LinkFloorSummary {
+                floors: element.faces.floors(),
+                height_m: element.height,
+                peak_force_n: totals.peak_force.value,
+                peak_force_at_s: totals.peak_force.at,
+                peak_stroke_m: totals.peak_shortening,
+                dissipated_j: totals.work - element.strain(shortening),
+            }
+        })
+        .collect();
+    LinkSummary {
+        between: names(link.between, system),
+        stiffness_n_m: link.stiffness,
+        damping_n_s_m: link.damping,
+        peak_force_n: floors
+            .iter()
+            .map(|floor| floor.peak_force_n.abs())
+            .fold(0.0, f64::max),
+        dissipated_j: floors
+            .iter()
+            .fold(0.0, |sum, floor| sum + floor.dissipated_j),
+        floors,
     }
 }
 
@@ -263,8 +314,9 @@ fn contact_summary(
         .max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
     let contact = &system.contacts[index];
     ContactSummary {
-        floors: contact.floors,
+        floors: contact.faces.floors(),
         height_m: contact.height,
+        width_m: contact.width,
         closing_peak_m: outcome.closing[index].value,
         closing_peak_at_s: outcome.closing[index].at,
         impact_count: impacts.len(),
@@ -304,6 +356,7 @@ fn energy_summary(outcome: &Outcome) -> EnergySummary {
         kinetic_j: energy.kinetic,
         strain_j: energy.strain,
         damped_j: energy.damped,
+        links_j: energy.links,
         hysteretic_j: energy.hysteretic,
         contact_j: energy.contact,
         imbalance: energy.imbalance(),
@@ -322,6 +375,7 @@ fn work_summary(run: &Run) -> WorkSummary {
         iterations: work.iterations,
         outer_iterations: work.outer_iterations,
         halved_steps: work.halved_steps,
+        coupling_operations: work.coupling_operations,
         step_s: run.plan.step,
         contact_step_s: run.outcome.contact_step,
         wall_s: run.wall,

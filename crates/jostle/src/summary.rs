@@ -13,8 +13,10 @@ pub struct Summary {
     pub motion: MotionSummary,
     /// Buildings from left to right.
     pub buildings: Vec<BuildingSummary>,
-    /// Gaps from left to right.
+    /// Gaps, in the order of the model.
     pub gaps: Vec<GapSummary>,
+    /// Links, in the order of the model.
+    pub links: Vec<LinkSummary>,
     /// Energies at the end.
     pub energy: EnergySummary,
     /// Work done.
@@ -137,10 +139,12 @@ pub struct FloorSummary {
 /// One gap and its contacts.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct GapSummary {
-    /// Names of the left and the right building.
+    /// Names of the left and the right building; `wall` is a rigid wall.
     pub between: [String; 2],
-    /// Width at rest \[m\].
+    /// Width at rest, the least of its contacts \[m\].
     pub width_m: f64,
+    /// Least distance that remained, negative where faces were indented \[m\].
+    pub clearance_m: f64,
     /// Contact law.
     pub law: String,
     /// Restitution of free masses under this law \[–\].
@@ -161,8 +165,8 @@ pub struct GapSummary {
     pub peak_force_n: f64,
     /// Instant of the first impact \[s\].
     pub first_impact_s: Option<f64>,
-    /// Greatest closing of any contact when the buildings pass through each other: the smallest gap
-    /// without pounding; `null` when that run was not made \[m\].
+    /// Greatest closing of any contact when the buildings pass through each other, less what it is wider than the
+    /// others: the smallest gap without pounding; `null` when that run was not made \[m\].
     pub closing_without_contact_m: Option<f64>,
 }
 
@@ -173,6 +177,8 @@ pub struct ContactSummary {
     pub floors: [Option<usize>; 2],
     /// Height above the base \[m\].
     pub height_m: f64,
+    /// Width at rest \[m\].
+    pub width_m: f64,
     /// Greatest closing u_left − u_right \[m\].
     pub closing_peak_m: f64,
     /// Its instant \[s\].
@@ -187,6 +193,40 @@ pub struct ContactSummary {
     pub impulse_n_s: f64,
     /// Impacts in order of time.
     pub impacts: Vec<ImpactSummary>,
+}
+
+/// Springs and dashpots between two neighbours.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct LinkSummary {
+    /// Names of the left and the right building; `wall` is a rigid wall.
+    pub between: [String; 2],
+    /// Stiffness of each \[N/m\].
+    pub stiffness_n_m: f64,
+    /// Damping of each \[N·s/m\].
+    pub damping_n_s_m: f64,
+    /// Greatest force of any of them, either sign \[N\].
+    pub peak_force_n: f64,
+    /// Energy that their dashpots took \[J\].
+    pub dissipated_j: f64,
+    /// One by one, from the lowest up.
+    pub floors: Vec<LinkFloorSummary>,
+}
+
+/// One spring and dashpot between two points.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct LinkFloorSummary {
+    /// Left and right floor, from 1; `null` for a point between floors, and for a wall.
+    pub floors: [Option<usize>; 2],
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Force of greatest size, positive in compression \[N\].
+    pub peak_force_n: f64,
+    /// Its instant \[s\].
+    pub peak_force_at_s: f64,
+    /// Greatest change of length, either sign \[m\].
+    pub peak_stroke_m: f64,
+    /// Energy that its dashpot took \[J\].
+    pub dissipated_j: f64,
 }
 
 /// One impact.
@@ -229,8 +269,10 @@ pub struct EnergySummary {
     pub kinetic_j: f64,
     /// Strain energy.
     pub strain_j: f64,
-    /// Dissipated by viscous damping.
+    /// Dissipated by viscous damping, that of links included.
     pub damped_j: f64,
+    /// The share of links in that.
+    pub links_j: f64,
     /// Taken by hinges.
     pub hysteretic_j: f64,
     /// Taken by contacts.
@@ -260,6 +302,8 @@ pub struct WorkSummary {
     pub outer_iterations: u64,
     /// Steps halved because those did not converge.
     pub halved_steps: u64,
+    /// Multiply-adds spent on the forces of contacts and links.
+    pub coupling_operations: u64,
     /// Step in free flight \[s\].
     pub step_s: f64,
     /// Smallest regular step in contact; `null` when nothing touched \[s\].

@@ -1,21 +1,24 @@
 //! The assembled buildings and contacts: immutable, shared by every run of the same model.
 
-use crate::check::LEVEL_TOLERANCE;
-use crate::contact::{ForceLaw, effective_mass};
+use crate::contact::ForceLaw;
 use crate::equations::Equations;
+use crate::faces::{Face, Faces};
 use crate::hysteresis::HysteresisMemory;
 use crate::modal::{self, Mode};
-use crate::model::{Building, Damping, FloorPairs, Gap, Model, ModelFault};
+use crate::model::{Damping, LEVEL_TOLERANCE, Model, ModelFault};
+use crate::row::Row;
 use crate::skeleton::Idealisation;
 use crate::state::State;
 
-/// Buildings in a row and the contacts between them, ready to be stepped.
+/// Buildings in a row and what stands between them, ready to be stepped.
 #[derive(Clone, Debug)]
 pub struct System {
     /// Buildings from left to right.
     pub buildings: Vec<BuildingSystem>,
     /// Contacts, gap by gap, from the lowest up.
     pub contacts: Vec<Contact>,
+    /// Springs and dashpots between buildings, link by link, from the lowest up.
+    pub links: Vec<LinkElement>,
 }
 
 /// One assembled building.
@@ -56,23 +59,17 @@ pub struct Floor {
     pub storey_height: f64,
 }
 
-/// A place where two neighbouring buildings can touch.
+/// A place where two neighbouring buildings, or a building and a wall, can touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// Index of the gap in the model.
     pub gap: usize,
-    /// Left and right building.
-    pub buildings: [usize; 2],
-    /// Degrees of freedom of the left and the right face in the vectors of a [`crate::State`].
-    pub dofs: [usize; 2],
-    /// Left and right floor, from 1; `None` for a lumped mass between floors.
-    pub floors: [Option<usize>; 2],
+    /// The two faces.
+    pub faces: Faces,
     /// Height above the base \[m\].
     pub height: f64,
     /// Gap at rest \[m\].
     pub width: f64,
-    /// Masses that the contact moves on the left and on the right \[kg\].
-    pub masses: [f64; 2],
     /// Force law.
     pub law: ForceLaw,
 }
@@ -81,7 +78,47 @@ impl Contact {
     /// m₁m₂/(m₁ + m₂) of the two faces \[kg\].
     #[must_use]
     pub fn effective_mass(&self) -> f64 {
-        effective_mass(self.masses[0], self.masses[1])
+        self.faces.effective_mass()
+    }
+}
+
+/// A linear spring and dashpot between two points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkElement {
+    /// Index of the link in the model.
+    pub link: usize,
+    /// Its two ends.
+    pub faces: Faces,
+    /// Height above the base \[m\].
+    pub height: f64,
+    /// Force per shortening, ≥ 0 \[N/m\].
+    pub stiffness: f64,
+    /// Force per rate of shortening, ≥ 0 \[N·s/m\].
+    pub damping: f64,
+    /// Closing of its ends when it is free of force \[m\].
+    pub closing_at_rest: f64,
+}
+
+impl LinkElement {
+    /// How much shorter it is than at rest \[m\].
+    #[must_use]
+    #[inline]
+    pub fn shortening(&self, displacement: &[f64]) -> f64 {
+        self.faces.closing(displacement) - self.closing_at_rest
+    }
+
+    /// Compression \[N\].
+    #[must_use]
+    #[inline]
+    pub fn force(&self, shortening: f64, rate: f64) -> f64 {
+        self.stiffness * shortening + self.damping * rate
+    }
+
+    /// Energy of the spring \[J\].
+    #[must_use]
+    #[inline]
+    pub fn strain(&self, shortening: f64) -> f64 {
+        0.5 * self.stiffness * shortening * shortening
     }
 }
 
@@ -93,10 +130,14 @@ impl System {
     /// that do not exist, contacts at points without mass.
     pub fn assemble(model: &Model) -> Result<Self, Vec<ModelFault>> {
         model.check()?;
+        let row = Row::of(model);
         let mut buildings = Vec::new();
         let mut faults = Vec::new();
         for (index, building) in model.buildings.iter().enumerate() {
-            let mut assembled = BuildingSystem::new(&building.name, Idealisation::of(building));
+            let points = row.points_between_floors(index);
+            let idealisation =
+                Idealisation::with_points(building, points.each_ref().map(|points| &points[..]));
+            let mut assembled = BuildingSystem::new(&building.name, idealisation);
             if let Err(problem) = assembled.put_under_gravity(building.gravity) {
                 faults.push(ModelFault {
                     path: format!("building[{index}].{}", problem.field()),
@@ -116,14 +157,7 @@ impl System {
             return Err(faults);
         }
         let mut system = Self::of_buildings(buildings);
-        for (index, gap) in model.gaps.iter().enumerate() {
-            system.add_contacts(index, gap, &model.buildings, &mut faults);
-        }
-        if faults.is_empty() {
-            Ok(system)
-        } else {
-            Err(faults)
-        }
+        row.put_into(&mut system, model).map(|()| system)
     }
 
     /// A row of assembled buildings that do not touch; contacts may be added to the list.
@@ -143,6 +177,7 @@ impl System {
         Self {
             buildings,
             contacts: Vec::new(),
+            links: Vec::new(),
         }
     }
 
@@ -160,7 +195,8 @@ impl System {
         self.len() == 0
     }
 
-    /// A contact between nodes of two buildings, `left` and `right` being (building, node).
+    /// A contact without width between nodes of two buildings, `left` and `right` being (building, node). Its law is
+    /// to be given.
     ///
     /// # Errors
     /// A message when a node cannot be pushed or carries no mass.
@@ -169,98 +205,58 @@ impl System {
         left: (usize, usize),
         right: (usize, usize),
     ) -> Result<Contact, String> {
-        let face = |(building, node): (usize, usize)| {
-            let equations = &self.buildings[building].equations;
-            let dof = equations
-                .horizontal(node)
-                .ok_or_else(|| "a contact cannot push the ground".to_owned())?;
-            let mass = equations.mass[dof];
-            if mass > 0.0 {
-                Ok((self.buildings[building].offset + dof, mass))
-            } else {
-                Err(format!(
-                    "\"{}\" has no mass where it would be hit",
-                    self.buildings[building].name
-                ))
-            }
-        };
-        let ((left_dof, left_mass), (right_dof, right_mass)) = (face(left)?, face(right)?);
-        let floor = |(building, node): (usize, usize)| {
-            let height = self.buildings[building].idealisation.skeleton.nodes[node].y;
-            let floors = &self.buildings[building].floors;
-            floors
-                .iter()
-                .position(|floor| (floor.height - height).abs() <= LEVEL_TOLERANCE)
-                .map(|index| index + 1)
-        };
-        Ok(Contact {
+        let faces = Faces([
+            Some(self.face(left.0, left.1)?),
+            Some(self.face(right.0, right.1)?),
+        ]);
+        Ok(Contact::without_law(faces))
+    }
+
+    /// The point of a building at a node.
+    ///
+    /// # Errors
+    /// A message when the node cannot be pushed or carries no mass.
+    pub fn face(&self, building: usize, node: usize) -> Result<Face, String> {
+        let own = &self.buildings[building];
+        let dof = own
+            .equations
+            .horizontal(node)
+            .ok_or_else(|| "a contact cannot push the ground".to_owned())?;
+        let mass = own.equations.mass[dof];
+        if mass <= 0.0 {
+            return Err(format!(
+                "\"{}\" has no mass where it would be hit",
+                own.name
+            ));
+        }
+        let height = own.idealisation.skeleton.nodes[node].y;
+        let floor = own
+            .floors
+            .iter()
+            .position(|floor| (floor.height - height).abs() <= LEVEL_TOLERANCE);
+        Ok(Face {
+            building,
+            dof: own.offset + dof,
+            mass,
+            floor: floor.map(|index| index + 1),
+            height,
+        })
+    }
+}
+
+impl Contact {
+    /// A contact without width whose law is still to be given.
+    #[must_use]
+    pub fn without_law(faces: Faces) -> Self {
+        Self {
             gap: 0,
-            buildings: [left.0, right.0],
-            dofs: [left_dof, right_dof],
-            floors: [floor(left), floor(right)],
-            height: self.buildings[left.0].idealisation.skeleton.nodes[left.1].y,
+            faces,
+            height: faces.height(),
             width: 0.0,
-            masses: [left_mass, right_mass],
             law: ForceLaw::Hertz {
                 stiffness: 0.0,
                 damping: 0.0,
             },
-        })
-    }
-
-    fn add_contacts(
-        &mut self,
-        index: usize,
-        gap: &Gap,
-        buildings: &[Building],
-        faults: &mut Vec<ModelFault>,
-    ) {
-        let (left, right) = (gap.left, gap.left + 1);
-        let (left_heights, right_heights) = (
-            buildings[left].floor_heights(),
-            buildings[right].floor_heights(),
-        );
-        let level = |a: f64, b: f64| (a - b).abs() <= LEVEL_TOLERANCE;
-        let mut heights: Vec<f64> = match &gap.floors {
-            FloorPairs::Common => left_heights
-                .iter()
-                .copied()
-                .filter(|a| right_heights.iter().any(|b| level(*a, *b)))
-                .collect(),
-            FloorPairs::Listed(pairs) => pairs
-                .iter()
-                .map(|(floor, _)| left_heights[floor - 1])
-                .collect(),
-            FloorPairs::Heights(heights) => heights.clone(),
-        };
-        heights.sort_by(f64::total_cmp);
-        for height in heights {
-            let node = |building: usize, face: fn(&Idealisation) -> &Vec<usize>| {
-                let idealisation = &self.buildings[building].idealisation;
-                face(idealisation)
-                    .iter()
-                    .copied()
-                    .find(|&node| level(idealisation.skeleton.nodes[node].y, height))
-            };
-            let contact = match (node(left, |i| &i.right_face), node(right, |i| &i.left_face)) {
-                (Some(a), Some(b)) => self.contact_between((left, a), (right, b)),
-                _ => Err(format!("no point to hit at {height:.3} m")),
-            };
-            match contact {
-                Ok(contact) => {
-                    let law = gap.law.between(contact.masses[0], contact.masses[1]);
-                    self.contacts.push(Contact {
-                        gap: index,
-                        width: gap.width,
-                        law,
-                        ..contact
-                    });
-                }
-                Err(problem) => faults.push(ModelFault {
-                    path: format!("gap[{index}].floors"),
-                    problem,
-                }),
-            }
         }
     }
 }

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use jostle::{
-    Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, LawKind, Model, Plan,
-    Pounding, RestitutionIs, Settings, Shear, Structure, System, simulate,
+    Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, LawKind, Link, Model,
+    Plan, Pounding, RestitutionIs, Settings, Shear, Structure, System, simulate,
 };
 
 fn towers() -> Model {
@@ -32,13 +32,8 @@ fn towers() -> Model {
     Model {
         title: "towers".into(),
         buildings: vec![tower("soft", 4e4, 2e7), tower("stiff", 6e4, 9e7)],
-        gaps: vec![Gap {
-            left: 0,
-            width: 0.03,
-            floors: FloorPairs::Common,
-            law,
-            minimum_separation: 0.0,
-        }],
+        gaps: vec![Gap::after(0, 0.03, law)],
+        links: Vec::new(),
         analysis: Analysis::default(),
     }
 }
@@ -52,7 +47,30 @@ fn shaking(duration: f64) -> GroundMotion {
 #[test]
 fn a_longer_run_allocates_no_more_often() {
     let model = towers();
-    let system = System::assemble(&model).expect("a valid model");
+    never_more_often(&model);
+}
+
+/// The momentum law changes velocities at once; links act in every step; a wall stands on the left.
+#[test]
+fn blows_and_links_allocate_nothing_either() {
+    let mut model = towers();
+    model.gaps[0].law.kind = LawKind::Restitution;
+    model.gaps[0].law.stiffness = 1e9;
+    model
+        .gaps
+        .push(Gap::between([None, Some(0)], 0.04, model.gaps[0].law));
+    model.links = vec![Link {
+        between: [Some(0), Some(1)],
+        floors: FloorPairs::listed(&[(2, 2)]),
+        level_tolerance: 1e-3,
+        stiffness: 1e6,
+        damping: 5e4,
+    }];
+    never_more_often(&model);
+}
+
+fn never_more_often(model: &Model) {
+    let system = System::assemble(model).expect("a valid model");
     let count = |duration: f64, pounding: Pounding| {
         let motion = shaking(duration);
         let plan = Plan::choose(&system, &motion, &model.analysis).expect("sensible steps");

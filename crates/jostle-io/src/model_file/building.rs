@@ -135,6 +135,7 @@ fn is_sound(building: &Building) -> bool {
         title: String::new(),
         buildings: vec![building.clone()],
         gaps: Vec::new(),
+        links: Vec::new(),
         analysis: Analysis::default(),
     };
     alone.check().is_ok()

@@ -1,10 +1,11 @@
-//! `[[gap]]`: the space between two neighbours and the law of their contact.
+//! `[[gap]]`: the space between two neighbours, or before a wall, and the law of the contact there.
 
 use jostle::contact::{BilinearShape, ModifiedKelvin, RubberBumper};
 use jostle::{Building, ContactLaw, FloorPairs, Gap, LawKind, RestitutionIs};
 
-use crate::keys::{LAW_VARIANTS, LAWS, RESTITUTION_IS, Section, nearest};
-use crate::quantity::{Dimension, shorten};
+use super::between::{MOST_CONTACTS, floors, neighbours, tolerance};
+use crate::keys::{LAW_VARIANTS, LAWS, RESTITUTION_IS, Section};
+use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
 /// Contact stiffness of the Hertz laws for colliding concrete floors \[N/m^1.5\].
@@ -16,11 +17,8 @@ const LASTING_STIFFNESS: f64 = 1e9;
 /// Restitution of colliding concrete \[–\].
 const CONCRETE_RESTITUTION: f64 = 0.65;
 
-/// Most gaps: one less than buildings.
-const MOST_GAPS: usize = 999;
-
-/// Most contacts of a gap.
-const MOST_CONTACTS: usize = 10_000;
+/// Most gaps.
+const MOST_GAPS: usize = 10_000;
 
 /// Reads all gaps. Without buildings, names cannot be told, and only the rest is checked.
 pub(super) fn read_all(
@@ -50,153 +48,47 @@ pub(super) fn read_all(
 
 fn read(reader: &mut Reader<'_>, field: &Field<'_>, buildings: Option<&[Building]>) -> Option<Gap> {
     let view = reader.open(field, &[Section::Gap])?;
-    let left = match reader.get(&view, "between") {
-        Some(field) => neighbours(reader, &field, buildings),
-        None => {
-            reader.missing(
-                &view,
-                "between",
-                "name the left and the right neighbour: between = [\"A\", \"B\"]",
-            );
-            None
-        }
-    };
-    let width = match reader.get(&view, "width") {
-        Some(field) => reader.quantity(&field, Dimension::Length),
+    let between = neighbours(reader, &view, buildings);
+    let widths = match reader.get(&view, "width") {
+        Some(field) => widths(reader, &field),
         None => {
             reader.missing(&view, "width", "add width = \"100 mm\"");
             None
         }
     };
-    let floors = match reader.get(&view, "floors") {
-        Some(field) => floor_pairs(reader, &field),
-        None => Some(FloorPairs::Common),
-    };
+    let floors = floors(reader, &view);
+    let level_tolerance = tolerance(reader, &view);
     let law = law(reader, &view);
     let minimum_separation = optional(reader, &view, "minimum_separation", Dimension::Time);
     Some(Gap {
-        left: left?,
-        width: width.unwrap_or(0.0),
+        between: between?,
+        widths: widths.unwrap_or_else(|| vec![0.0]),
         floors: floors.unwrap_or(FloorPairs::Common),
+        level_tolerance,
         law,
         minimum_separation: minimum_separation.unwrap_or(0.0),
     })
 }
 
-/// Index of the left one of two neighbours.
-fn neighbours(
-    reader: &mut Reader<'_>,
-    field: &Field<'_>,
-    buildings: Option<&[Building]>,
-) -> Option<usize> {
-    let entries = field.entries().unwrap_or_default();
-    let [left, right] = &entries[..] else {
-        reader.bad(
-            field,
-            "expected the names of two neighbours, such as [\"A\", \"B\"]",
-        );
-        return None;
-    };
-    let (left_name, right_name) = (reader.text(left), reader.text(right));
-    let buildings = buildings?;
-    let mut index = |field: &Field<'_>, name: &str| {
-        let found = buildings.iter().position(|building| building.name == name);
-        if found.is_none() {
-            let names = || buildings.iter().map(|building| building.name.as_str());
-            let remedy = match nearest(name, names()) {
-                Some(name) => format!("did you mean \"{name}\"?"),
-                None => format!("the buildings are {}", listed(names())),
-            };
-            *reader.bad(field, format!("there is no building \"{}\"", shorten(name))) =
-                Some(remedy);
-        }
-        found
-    };
-    let left_index = left_name.and_then(|name| index(left, &name));
-    let right_index = right_name.and_then(|name| index(right, &name));
-    let (left_index, right_index) = (left_index?, right_index?);
-    if right_index == left_index + 1 {
-        return Some(left_index);
-    }
-    let order = listed(buildings.iter().map(|building| building.name.as_str()));
-    let problem = if right_index + 1 == left_index {
-        "names the right neighbour first"
-    } else {
-        "names two buildings that are not neighbours"
-    };
-    *reader.bad(field, problem) = Some(format!("the buildings stand, from left to right: {order}"));
-    None
-}
-
-/// Quoted names, the first twenty of them.
-fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let mut quoted: Vec<String> = names
-        .take(21)
-        .map(|name| format!("\"{}\"", shorten(name)))
-        .collect();
-    if quoted.len() == 21 {
-        quoted[20] = "…".into();
-    }
-    quoted.join(", ")
-}
-
-/// `"common"`, pairs of floors, or heights.
-fn floor_pairs(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<FloorPairs> {
-    if field.as_text() == Some("common") {
-        return Some(FloorPairs::Common);
-    }
+/// One width, or one per contact.
+fn widths(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<f64>> {
     let Some(entries) = field.entries() else {
-        let found = field.node.describe();
-        reader.bad(
-            field,
-            format!("expected \"common\", pairs such as [[5, 5], [4, 4]], or heights such as [\"3.2 m\"]; found {found}"),
-        );
-        return None;
+        let width = reader.quantity(field, Dimension::Length)?;
+        return Some(vec![width]);
     };
     if entries.len() > MOST_CONTACTS {
         let count = entries.len();
         reader.bad(
             field,
-            format!("at most {MOST_CONTACTS} contacts are possible, found {count}"),
+            format!("at most {MOST_CONTACTS} widths are possible, found {count}"),
         );
         return None;
     }
-    let pairs = entries
+    let widths: Vec<_> = entries
         .iter()
-        .filter(|entry| entry.entries().is_some())
-        .count();
-    if pairs == 0 {
-        let heights: Vec<_> = entries
-            .iter()
-            .map(|entry| reader.quantity(entry, Dimension::Length))
-            .collect();
-        let heights: Option<Vec<_>> = heights.into_iter().collect();
-        return heights.map(|heights| match heights.is_empty() {
-            true => FloorPairs::Listed(Vec::new()),
-            false => FloorPairs::Heights(heights),
-        });
-    }
-    let pairs: Vec<_> = entries
-        .iter()
-        .map(|entry| floor_pair(reader, entry))
+        .map(|entry| reader.quantity(entry, Dimension::Length))
         .collect();
-    pairs
-        .into_iter()
-        .collect::<Option<_>>()
-        .map(FloorPairs::Listed)
-}
-
-fn floor_pair(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<(usize, usize)> {
-    let entries = field.entries().unwrap_or_default();
-    let [left, right] = &entries[..] else {
-        reader.bad(
-            field,
-            "expected a pair of floors, left and right, such as [5, 5]",
-        );
-        return None;
-    };
-    let (left, right) = (reader.count(left), reader.count(right));
-    Some((left?, right?))
+    widths.into_iter().collect()
 }
 
 fn law(reader: &mut Reader<'_>, view: &View<'_>) -> ContactLaw {

@@ -30,6 +30,8 @@ kind = "shear"
 base = { mass = 1 }
 hinges = { rule = "normal" }
 [[gap]]
+[[link]]
+stiffness = 1
 [analysis]
 integrator = { method = "hht" }
 "#,

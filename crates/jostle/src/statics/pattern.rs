@@ -1,7 +1,7 @@
 //! How a horizontal load is spread over the height.
 
-use crate::check::LEVEL_TOLERANCE;
 use crate::element::X;
+use crate::model::LEVEL_TOLERANCE;
 use crate::system::BuildingSystem;
 
 /// Shape of the horizontal load of a pushover.

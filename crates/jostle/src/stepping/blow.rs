@@ -3,8 +3,9 @@
 use super::simulation::Simulation;
 use super::{StepEquations, StepMatrix};
 use crate::contact::momentum;
+use crate::faces::Face;
 use crate::history::Impact;
-use crate::system::BuildingSystem;
+use crate::system::{BuildingSystem, System};
 
 /// K + G M with G so large that massive degrees of freedom do not give way: what massless ones do when those move.
 pub(super) struct BlowFactor<E: StepEquations> {
@@ -40,17 +41,42 @@ impl<E: StepEquations> BlowFactor<E> {
     }
 
     /// Lets massless degrees of freedom follow a change of the massive ones.
-    fn follow(&self, equations: &E, mass: &[f64], change: &mut [f64]) {
-        let mut load: Vec<f64> = mass
-            .iter()
-            .zip(change.iter())
-            .map(|(mass, change)| self.mass_factor * mass * change)
-            .collect();
-        equations.solve(&self.factor, &mut load);
-        for ((change, followed), mass) in change.iter_mut().zip(&load).zip(mass) {
+    fn follow(&self, equations: &E, mass: &[f64], change: &mut [f64], load: &mut [f64]) {
+        for ((load, mass), change) in load.iter_mut().zip(mass).zip(change.iter()) {
+            *load = self.mass_factor * mass * change;
+        }
+        equations.solve(&self.factor, load);
+        for ((change, followed), mass) in change.iter_mut().zip(&*load).zip(mass) {
             if *mass == 0.0 {
                 *change = *followed;
             }
+        }
+    }
+}
+
+/// Room for the changes of one building.
+#[derive(Clone, Debug, Default)]
+pub(super) struct BlowScratch {
+    velocity: Vec<f64>,
+    acceleration: Vec<f64>,
+    load: Vec<f64>,
+}
+
+impl BlowScratch {
+    pub(super) fn for_buildings(system: &System) -> Self {
+        let sizes = system.buildings.iter().map(|b| b.equations.len());
+        let room = || Vec::with_capacity(sizes.clone().max().unwrap_or(0));
+        Self {
+            velocity: room(),
+            acceleration: room(),
+            load: room(),
+        }
+    }
+
+    fn clear(&mut self, size: usize) {
+        for part in [&mut self.velocity, &mut self.acceleration, &mut self.load] {
+            part.clear();
+            part.resize(size, 0.0);
         }
     }
 }
@@ -61,12 +87,8 @@ impl<E: StepEquations> Simulation<'_, E> {
         let contact = &self.system.contacts[index];
         let mass = contact.effective_mass();
         let impulse = momentum::impulse(restitution, mass, rate);
-        for (side, push) in [(0, -impulse), (1, impulse)] {
-            self.push_at_once(
-                contact.buildings[side],
-                contact.dofs[side],
-                push / contact.masses[side],
-            );
+        for (face, sign) in contact.faces.sides() {
+            self.push_at_once(face, sign * impulse / face.mass);
         }
         let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);
         self.audit.contact += dissipated;
@@ -88,44 +110,50 @@ impl<E: StepEquations> Simulation<'_, E> {
 
     /// Changes the velocity of one degree of freedom, of the massless ones that hang on it, and the accelerations by
     /// what the dampers then say: M Δa = −(α M + β K + C′) Δv.
-    fn push_at_once(&mut self, building: usize, dof: usize, change: f64) {
+    fn push_at_once(&mut self, face: Face, change: f64) {
+        let building = face.building;
         let system = &self.system.buildings[building];
         let (range, own) = (system.range(), &system.equations);
-        let mut velocity = vec![0.0; own.len()];
-        velocity[dof - system.offset] = change;
         let massless = own.mass.contains(&0.0);
         if massless && self.blows[building].is_none() {
             self.blows[building] = BlowFactor::of(system, &self.equations[building]);
             self.work.factorizations += 1;
         }
-        let follow = |motion: &mut [f64]| {
+        self.blow.clear(own.len());
+        let BlowScratch {
+            velocity,
+            acceleration,
+            load,
+        } = &mut self.blow;
+        velocity[face.dof - system.offset] = change;
+        let mut follow = |motion: &mut [f64]| {
             if let Some(blow) = self.blows[building].as_ref().filter(|_| massless) {
-                blow.follow(&self.equations[building], &own.mass, motion);
+                blow.follow(&self.equations[building], &own.mass, motion, load);
             }
         };
-        follow(&mut velocity);
-        let mut acceleration = vec![0.0; own.len()];
+        follow(velocity);
         if own.beta > 0.0 {
-            own.stiffness.multiply_add(&velocity, &mut acceleration);
+            own.stiffness.multiply_add(velocity, acceleration);
             acceleration.iter_mut().for_each(|force| *force *= own.beta);
         }
-        own.dashpots.multiply_add(&velocity, &mut acceleration);
-        for ((a, v), mass) in acceleration.iter_mut().zip(&velocity).zip(&own.mass) {
+        own.dashpots.multiply_add(velocity, acceleration);
+        for ((a, v), mass) in acceleration.iter_mut().zip(&*velocity).zip(&own.mass) {
             *a = if *mass > 0.0 {
                 -own.alpha * v - *a / mass
             } else {
                 0.0
             };
         }
-        follow(&mut acceleration);
+        follow(acceleration);
         self.work.solves += if massless { 2 } else { 0 };
         let velocities = self.state.velocity[range.clone()].iter_mut();
         velocities
-            .zip(&velocity)
+            .zip(&*velocity)
             .for_each(|(v, change)| *v += change);
         let accelerations = self.state.acceleration[range].iter_mut();
         accelerations
-            .zip(&acceleration)
+            .zip(&*acceleration)
             .for_each(|(a, change)| *a += change);
+        self.jerk_links(face.dof, change);
     }
 }

@@ -15,8 +15,8 @@ const SLACK: f64 = 6.0;
 impl<E: StepEquations> Simulation<'_, E> {
     /// Rate of change of the closing rate of a contact \[m/s²\].
     pub(super) fn relative_acceleration(&self, index: usize) -> f64 {
-        let [i, j] = self.system.contacts[index].dofs;
-        self.state.acceleration[i] - self.state.acceleration[j]
+        let faces = &self.system.contacts[index].faces;
+        faces.closing(&self.state.acceleration)
     }
 
     /// At a touch: the division that the impact expected of this closing rate needs, in view of the strongest impact of

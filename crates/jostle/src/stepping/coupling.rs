@@ -1,16 +1,17 @@
-//! Closed contacts: the few forces that join the buildings in a step (theory, Eqs. P1–P3).
+//! Closed contacts, and links beside them: the few forces that join the buildings in a step (theory, Eqs. P1–P5, L2).
 
+use super::band::Band;
 use crate::contact::{ContactResponse, ForceLaw, Memory};
 use crate::history::Extreme;
 
-/// One closed contact in the step to be solved.
+/// One closed contact, or one link, in the step to be solved.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closed {
-    /// Index in the system.
+    /// Index in the system; links count on where contacts end.
     pub(crate) contact: usize,
     pub(crate) law: ForceLaw,
     pub(crate) memory: Memory,
-    /// Indentation and rate at the end of the step if no closed contact pushed.
+    /// Indentation and rate at the end of the step if nothing here pushed.
     pub(crate) free: f64,
     pub(crate) free_rate: f64,
     /// The rate is `free_rate` + `rate_gain`·(indentation − free).
@@ -26,18 +27,24 @@ pub(crate) struct Closed {
     pub(crate) start_acceleration: f64,
 }
 
-/// Newton's method on the indentations of the closed contacts: δ + W f(δ, δ̇) = δ_free.
+/// Newton's method on the indentations: δ + W f(δ, δ̇) = δ_free.
 ///
 /// The left side rises monotonically in δ for every law, so that the solution is unique; steps that do not
-/// reduce the residual are halved.
+/// reduce the residual are halved. From left to right W is a band: only forces on one and the same building meet.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactEquations {
+    /// From left to right.
     pub(crate) closed: Vec<Closed>,
-    /// W by rows.
-    pub(crate) compliance: Vec<f64>,
+    /// Places of these in the order of all contacts and links.
+    pub(super) places: Vec<usize>,
+    /// W.
+    pub(super) compliance: Band,
+    /// Multiply-adds spent so far.
+    pub(crate) operations: u64,
     responses: Vec<ContactResponse>,
     residual: Vec<f64>,
-    jacobian: Vec<f64>,
+    jacobian: Band,
+    roots: Vec<f64>,
     update: Vec<f64>,
     start: Vec<f64>,
 }
@@ -45,6 +52,12 @@ pub(crate) struct ContactEquations {
 const ITERATIONS: usize = 60;
 
 impl ContactEquations {
+    /// Forgets all closed contacts.
+    pub(super) fn clear(&mut self) {
+        self.closed.clear();
+        self.places.clear();
+    }
+
     /// Finds indentations and forces; returns the iterations, or `None` when they do not converge.
     pub(crate) fn solve(&mut self) -> Option<u64> {
         self.newton().or_else(|| self.settle())
@@ -105,61 +118,60 @@ impl ContactEquations {
             closed.force = response.force;
             self.responses.push(response);
         }
-        let n = self.closed.len();
         self.residual.clear();
         for (i, closed) in self.closed.iter().enumerate() {
-            let opened: f64 = (0..n)
-                .map(|j| self.compliance[i * n + j] * self.responses[j].force)
-                .sum();
+            let opened = self.compliance.times(i, |j| self.responses[j].force);
             self.residual
                 .push(closed.indentation + opened - closed.free);
         }
+        self.operations += (self.closed.len() * (2 * self.compliance.reach() + 1)) as u64;
         self.residual
             .iter()
             .fold(0.0, |largest, residual| largest.max(residual.abs()))
     }
 
-    /// Solves (I + W ∂f/∂δ) update = −residual by elimination with row exchange.
+    /// Solves (I + W S) update = −residual, S being the slopes of the forces, none of which is negative. With
+    /// y = S^½ update the matrix I + S^½ W S^½ is symmetric and positive definite.
     fn newton_update(&mut self) {
         let n = self.closed.len();
-        self.jacobian.clear();
-        for i in 0..n {
-            for j in 0..n {
-                let slope = self.responses[j].by_indentation
-                    + self.closed[j].rate_gain * self.responses[j].by_rate;
-                let unit = if i == j { 1.0 } else { 0.0 };
-                self.jacobian
-                    .push(unit + self.compliance[i * n + j] * slope);
-            }
-        }
+        self.roots.clear();
+        let slopes = self.closed.iter().zip(&self.responses);
+        self.roots.extend(slopes.map(|(closed, response)| {
+            let slope = response.by_indentation + closed.rate_gain * response.by_rate;
+            slope.max(0.0).sqrt()
+        }));
+        scaled_band(&self.compliance, &self.roots, &mut self.jacobian);
+        self.operations += self.jacobian.factorize();
         self.update.clear();
+        let scaled = self.residual.iter().zip(&self.roots);
         self.update
-            .extend(self.residual.iter().map(|residual| -residual));
-        let (jacobian, update) = (&mut self.jacobian, &mut self.update);
-        for column in 0..n {
-            let best = (column..n).max_by(|&a, &b| {
-                jacobian[a * n + column]
-                    .abs()
-                    .total_cmp(&jacobian[b * n + column].abs())
+            .extend(scaled.map(|(residual, root)| -root * residual));
+        self.jacobian.solve(&mut self.update);
+        self.operations += (2 * n * (self.compliance.reach() + 1)) as u64;
+        // Back from y: by division where the force is stiff, otherwise by −residual − W S^½ y.
+        self.start.clear();
+        for i in 0..n {
+            let root = self.roots[i];
+            let stiff = root * root * self.compliance.get(i, i) > 1.0;
+            self.start.push(if stiff {
+                self.update[i] / root
+            } else {
+                -self.residual[i] - self.compliance.times(i, |j| self.roots[j] * self.update[j])
             });
-            let best = best.unwrap_or(column);
-            if best != column {
-                (0..n).for_each(|k| jacobian.swap(best * n + k, column * n + k));
-                update.swap(best, column);
-            }
-            for row in column + 1..n {
-                let factor = jacobian[row * n + column] / jacobian[column * n + column];
-                for k in column..n {
-                    jacobian[row * n + k] -= factor * jacobian[column * n + k];
-                }
-                update[row] -= factor * update[column];
-            }
         }
-        for row in (0..n).rev() {
-            let known: f64 = (row + 1..n)
-                .map(|k| jacobian[row * n + k] * update[k])
-                .sum();
-            update[row] = (update[row] - known) / jacobian[row * n + row];
+        std::mem::swap(&mut self.start, &mut self.update);
+    }
+}
+
+/// I + S^½ W S^½ for the roots of the slopes S.
+pub(super) fn scaled_band(compliance: &Band, roots: &[f64], scaled: &mut Band) {
+    scaled.reset(compliance.size(), compliance.reach());
+    for i in 0..compliance.size() {
+        for j in compliance.columns(i).start..=i {
+            // Rounding of the columns of W may differ in the mirror.
+            let both = 0.5 * (compliance.get(i, j) + compliance.get(j, i));
+            let unit = if i == j { 1.0 } else { 0.0 };
+            scaled.set(i, j, unit + roots[i] * both * roots[j]);
         }
     }
 }

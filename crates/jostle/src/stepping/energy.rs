@@ -12,13 +12,23 @@ pub(crate) struct EnergyAudit {
     pub(crate) contact: f64,
     /// Work done on springs that yield, what they would give back included.
     pub(crate) springs: f64,
+    /// Work done on links, what their springs would give back included.
+    pub(crate) links: f64,
     initial: f64,
     largest: f64,
     worst: f64,
 }
 
-/// Kinetic and strain energy of all buildings, and what springs that yield would give back \[J\].
-fn stored(system: &System, state: &State) -> (f64, f64, f64) {
+/// Energy that would be given back \[J\].
+struct Stored {
+    kinetic: f64,
+    strain: f64,
+    /// Of springs that yield.
+    springs: f64,
+    links: f64,
+}
+
+fn stored(system: &System, state: &State) -> Stored {
     let (displacement, velocity) = (&state.displacement, &state.velocity);
     let (mut kinetic, mut strain) = (0.0, 0.0);
     for building in &system.buildings {
@@ -37,30 +47,42 @@ fn stored(system: &System, state: &State) -> (f64, f64, f64) {
     let recoverable = springs
         .zip(&state.springs)
         .map(|(spring, memory)| spring.hysteresis.recoverable_energy(memory));
-    (kinetic, strain, recoverable.sum())
+    let links = system.links.iter();
+    Stored {
+        kinetic,
+        strain,
+        springs: recoverable.sum(),
+        links: links
+            .map(|link| link.strain(link.shortening(displacement)))
+            .sum(),
+    }
 }
 
 impl EnergyAudit {
     /// Starts from a state that may already hold energy.
     pub(crate) fn starting_from(system: &System, state: &State) -> Self {
-        let (kinetic, strain, recoverable) = stored(system, state);
+        let stored = stored(system, state);
         Self {
-            initial: kinetic + strain + recoverable,
-            springs: recoverable,
+            initial: stored.kinetic + stored.strain + stored.springs + stored.links,
+            springs: stored.springs,
+            links: stored.links,
             ..Self::default()
         }
     }
 
     /// The balance now. Energy present at the start counts as input.
     pub(crate) fn balance(&mut self, system: &System, state: &State) -> Energy {
-        let (kinetic, strain, recoverable) = stored(system, state);
-        let strain = strain + recoverable;
+        let stored = stored(system, state);
+        let kinetic = stored.kinetic;
+        let strain = stored.strain + stored.springs + stored.links;
+        let links = self.links - stored.links;
         let mut energy = Energy {
             input: self.input + self.initial,
             kinetic,
             strain,
-            damped: self.damped,
-            hysteretic: self.springs - recoverable,
+            damped: self.damped + links,
+            links,
+            hysteretic: self.springs - stored.springs,
             contact: self.contact,
             worst_imbalance: 0.0,
         };

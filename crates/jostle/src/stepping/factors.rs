@@ -1,9 +1,11 @@
 //! Factorised step equations of all buildings for one step size, and what they say about contacts.
 
 use super::integrator::{BuildingCoefficients, Coefficients, Integrator};
+use super::joints::Joints;
+use super::links::LinkFactor;
 use super::{NotPositive, StepEquations};
 use crate::history::Work;
-use crate::system::{Contact, System};
+use crate::system::System;
 
 /// Everything that depends on the step size but not on the state.
 pub(crate) struct StepFactors<E: StepEquations> {
@@ -14,27 +16,24 @@ pub(crate) struct StepFactors<E: StepEquations> {
     tangents: Vec<f64>,
     /// Springs of one building whose stiffness has changed.
     changed: Vec<usize>,
-    /// K̂⁻¹ g of every contact, where already asked for.
-    columns: Vec<Option<Columns>>,
-    ready: Vec<[bool; 2]>,
-}
-
-/// Displacements of the left and the right building under a unit push to the right.
-struct Columns {
-    left: Vec<f64>,
-    right: Vec<f64>,
+    /// Displacements of its building under a unit push to the right on every point, where already asked for.
+    columns: Vec<Vec<f64>>,
+    ready: Vec<bool>,
+    /// For links while no contact is closed.
+    pub(super) links: LinkFactor,
 }
 
 impl<E: StepEquations> StepFactors<E> {
-    pub(crate) fn blank(system: &System) -> Self {
+    pub(super) fn blank(system: &System, joints: &Joints) -> Self {
         Self {
             coefficients: Coefficients::default(),
             buildings: vec![BuildingCoefficients::default(); system.buildings.len()],
             factors: vec![E::Factor::default(); system.buildings.len()],
-            columns: system.contacts.iter().map(|_| None).collect(),
+            columns: vec![Vec::new(); joints.points.len()],
             tangents: Vec::new(),
             changed: Vec::new(),
-            ready: vec![[false; 2]; system.contacts.len()],
+            ready: vec![false; joints.points.len()],
+            links: LinkFactor::default(),
         }
     }
 
@@ -64,14 +63,16 @@ impl<E: StepEquations> StepFactors<E> {
             work.factorizations += 1;
         }
         self.tangents.extend_from_slice(tangents);
-        self.ready.fill([false; 2]);
+        self.ready.fill(false);
+        self.links.forget();
         Ok(())
     }
 
     /// Takes over other tangents; only what they change is factorised anew. `Err` names the building.
-    pub(crate) fn retune(
+    pub(super) fn retune(
         &mut self,
         system: &System,
+        joints: &Joints,
         equations: &[E],
         tangents: &[f64],
         work: &mut Work,
@@ -105,11 +106,10 @@ impl<E: StepEquations> StepFactors<E> {
                 return Err((index, failure));
             }
             work.factorizations += 1;
-            for (ready, contact) in self.ready.iter_mut().zip(&system.contacts) {
-                for side in 0..2 {
-                    ready[side] &= contact.buildings[side] != index;
-                }
+            for (ready, point) in self.ready.iter_mut().zip(&joints.points) {
+                *ready &= point.0 != index;
             }
+            self.links.forget();
         }
         if !known {
             self.tangents.clear();
@@ -132,77 +132,61 @@ impl<E: StepEquations> StepFactors<E> {
         work.solves += system.buildings.len() as u64;
     }
 
-    /// Makes sure that the displacements under a unit force of a contact are known.
-    pub(crate) fn prepare_contact(
+    /// Makes sure that the displacements under a unit force of a contact or a link are known.
+    pub(super) fn prepare(
         &mut self,
         index: usize,
         system: &System,
+        joints: &Joints,
         equations: &[E],
         work: &mut Work,
     ) {
-        if self.ready[index] == [true; 2] {
-            return;
-        }
-        let contact = &system.contacts[index];
-        let columns = self.columns[index].get_or_insert_with(|| {
-            let size = |side: usize| system.buildings[contact.buildings[side]].equations.len();
-            Columns {
-                left: vec![0.0; size(0)],
-                right: vec![0.0; size(1)],
-            }
-        });
-        for (side, column) in [&mut columns.left, &mut columns.right]
-            .into_iter()
-            .enumerate()
-        {
-            if self.ready[index][side] {
+        for point in joints.sides[index].into_iter().flatten() {
+            if self.ready[point] {
                 continue;
             }
-            let building = contact.buildings[side];
-            column.fill(0.0);
-            column[contact.dofs[side] - system.buildings[building].offset] = 1.0;
+            let (building, dof) = joints.points[point];
+            let column = &mut self.columns[point];
+            column.clear();
+            column.resize(system.buildings[building].equations.len(), 0.0);
+            column[dof - system.buildings[building].offset] = 1.0;
             equations[building].solve(&self.factors[building], column);
             work.solves += 1;
+            self.ready[point] = true;
         }
-        self.ready[index] = [true; 2];
     }
 
-    /// g_cᵀ K̂⁻¹ g_d: how far a unit force of contact d opens contact c (theory, Eq. P1) \[m/N\].
-    pub(crate) fn compliance(&self, c: &Contact, d: usize, system: &System) -> f64 {
-        let Some(columns) = &self.columns[d] else {
-            return 0.0;
-        };
-        let of_d = [(&columns.left, 1.0), (&columns.right, -1.0)];
+    /// g_cᵀ K̂⁻¹ g_d: how far a unit force of contact or link d opens c, both prepared (theory, Eq. P1) \[m/N\].
+    pub(super) fn compliance(&self, c: usize, d: usize, system: &System, joints: &Joints) -> f64 {
         let mut sum = 0.0;
-        for (own_side, own_sign) in [(0, 1.0), (1, -1.0)] {
-            for (side, (column, sign)) in of_d.iter().enumerate() {
-                let building = system.contacts[d].buildings[side];
-                if building == c.buildings[own_side] {
-                    sum += own_sign
-                        * sign
-                        * column[c.dofs[own_side] - system.buildings[building].offset];
+        for (own, own_sign) in joints.sides[c].into_iter().zip([1.0, -1.0]) {
+            for (other, sign) in joints.sides[d].into_iter().zip([1.0, -1.0]) {
+                let (Some(own), Some(other)) = (own, other) else {
+                    continue;
+                };
+                let ((building, dof), (pushed, _)) = (joints.points[own], joints.points[other]);
+                if building == pushed {
+                    let offset = system.buildings[building].offset;
+                    sum += own_sign * sign * self.columns[other][dof - offset];
                 }
             }
         }
         sum
     }
 
-    /// Adds the displacements under the force of a contact.
-    pub(crate) fn push_apart(
+    /// Adds the displacements under the force of a contact or a link that is prepared.
+    pub(super) fn push_apart(
         &self,
         index: usize,
         force: f64,
         system: &System,
+        joints: &Joints,
         displacement: &mut [f64],
     ) {
-        let Some(columns) = &self.columns[index] else {
-            return;
-        };
-        for (side, (column, force)) in [(&columns.left, -force), (&columns.right, force)]
-            .into_iter()
-            .enumerate()
-        {
-            let range = system.buildings[system.contacts[index].buildings[side]].range();
+        for (point, force) in joints.sides[index].into_iter().zip([-force, force]) {
+            let Some(point) = point else { continue };
+            let range = system.buildings[joints.points[point].0].range();
+            let column = &self.columns[point];
             for (value, unit) in displacement[range].iter_mut().zip(column) {
                 *value += force * unit;
             }

@@ -148,16 +148,15 @@ impl<E: StepEquations> Simulation<'_, E> {
 
     /// Rate of closing of a contact at the present instant \[m/s\].
     fn closing_rate(&self, index: usize) -> f64 {
-        let [i, j] = self.system.contacts[index].dofs;
-        self.state.velocity[i] - self.state.velocity[j]
+        let faces = &self.system.contacts[index].faces;
+        faces.closing(&self.state.velocity)
     }
 
     /// Sets `trials` to the present.
     pub(super) fn read_contacts(&mut self) {
         for (index, contact) in self.system.contacts.iter().enumerate() {
-            let [i, j] = contact.dofs;
             self.trials[index].indentation =
-                self.state.displacement[i] - self.state.displacement[j] - contact.width;
+                contact.faces.closing(&self.state.displacement) - contact.width;
             self.trials[index].rate = self.closing_rate(index);
         }
     }
@@ -234,16 +233,16 @@ impl<E: StepEquations> Simulation<'_, E> {
 
     /// A sudden change of a contact force changes the accelerations of the two faces (theory, Eq. H2).
     fn jump(&mut self, index: usize, change: f64) {
-        let contact = &self.system.contacts[index];
-        self.state.acceleration[contact.dofs[0]] -= change / contact.masses[0];
-        self.state.acceleration[contact.dofs[1]] += change / contact.masses[1];
+        for (face, sign) in self.system.contacts[index].faces.sides() {
+            self.state.acceleration[face.dof] += sign * change / face.mass;
+        }
     }
 
     /// Before the state moves on: what every closed contact does over the step.
     pub(super) fn gather_episodes(&mut self, step: f64) {
         for closed in 0..self.coupling.closed.len() {
             let index = self.coupling.closed[closed].contact;
-            let ContactPhase::Closed(mut episode) = self.state.contacts[index] else {
+            let Some(&ContactPhase::Closed(mut episode)) = self.state.contacts.get(index) else {
                 continue;
             };
             let (law, start) = (self.system.contacts[index].law, self.state.time);
@@ -287,7 +286,7 @@ impl<E: StepEquations> Simulation<'_, E> {
     pub(super) fn finish_episodes(&mut self, step: f64, start: f64) {
         for closed in 0..self.coupling.closed.len() {
             let index = self.coupling.closed[closed].contact;
-            let ContactPhase::Closed(mut episode) = self.state.contacts[index] else {
+            let Some(&ContactPhase::Closed(mut episode)) = self.state.contacts.get(index) else {
                 continue;
             };
             let trial = self.trials[index];

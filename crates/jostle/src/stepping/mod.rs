@@ -3,6 +3,7 @@
 //! [`simulate`] walks a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved alone;
 //! they meet only in `coupling`. A step in which a contact closes is repeated so that it ends on the touch.
 
+mod band;
 mod blow;
 mod clock;
 mod control;
@@ -12,7 +13,9 @@ mod events;
 mod factors;
 mod impacts;
 mod integrator;
+mod joints;
 mod lanes;
+mod links;
 mod outcome;
 mod plan;
 mod recorder;

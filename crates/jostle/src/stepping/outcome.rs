@@ -2,7 +2,8 @@
 
 use super::NotPositive;
 use crate::history::{
-    Energy, Extreme, FloorPeaks, History, Impact, SpringEvent, SpringHistory, SpringTotals, Work,
+    Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, SpringEvent, SpringHistory,
+    SpringTotals, Work,
 };
 use crate::state::State;
 
@@ -60,7 +61,9 @@ pub struct Outcome {
     pub spring_events: Vec<SpringEvent>,
     /// Every spring that yields, from the left building to the right.
     pub springs: Vec<SpringTotals>,
-    /// Their loops, if histories were asked for.
+    /// Links, in the order of the system.
+    pub links: Vec<LinkTotals>,
+    /// Loops of springs that yield, if histories were asked for.
     pub spring_history: Option<SpringHistory>,
     /// Energies at the end.
     pub energy: Energy,

@@ -33,6 +33,7 @@ fn columns(system: &System) -> Vec<Column> {
         }
     }
     columns.extend((0..system.contacts.len()).map(|contact| Column::ContactForce { contact }));
+    columns.extend((0..system.links.len()).map(|link| Column::LinkForce { link }));
     columns.extend(EnergyTerm::ALL.map(Column::Energy));
     columns
 }
@@ -94,8 +95,8 @@ impl Recorder {
             self.before.push((u[floor.dof], v[floor.dof]));
         }
         for contact in &system.contacts {
-            let [left, right] = contact.dofs;
-            self.before.push((u[left] - u[right], v[left] - v[right]));
+            let faces = &contact.faces;
+            self.before.push((faces.closing(u), faces.closing(v)));
         }
     }
 
@@ -132,10 +133,9 @@ impl Recorder {
             self.base_shear[index] = self.base_shear[index].max(shear.abs());
         }
         for (contact, closing) in system.contacts.iter().zip(&mut self.closing) {
-            let [left, right] = contact.dofs;
             if let Some(&then) = before.next() {
-                let greatest =
-                    greatest_in_step(then, (u[left] - u[right], v[left] - v[right]), start, step);
+                let now = (contact.faces.closing(u), contact.faces.closing(v));
+                let greatest = greatest_in_step(then, now, start, step);
                 if greatest.value > closing.value {
                     *closing = greatest;
                 }
@@ -148,6 +148,7 @@ impl Recorder {
         &mut self,
         system: &System,
         state: &State,
+        links: &[f64],
         ground: f64,
         wanted: bool,
         audit: &mut EnergyAudit,
@@ -181,6 +182,7 @@ impl Recorder {
             put(state.acceleration[floor.dof] + ground);
         }
         state.contacts.iter().for_each(|phase| put(phase.force()));
+        links.iter().for_each(|force| put(*force));
         let Energy {
             input,
             kinetic,

@@ -20,11 +20,10 @@ impl ContactEquations {
         for round in 1..=ROUNDS {
             let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
             for i in 0..n {
-                let others: f64 = (0..n)
-                    .filter(|j| *j != i)
-                    .map(|j| self.compliance[i * n + j] * self.closed[j].force)
-                    .sum();
-                let own = self.compliance[i * n + i];
+                let own = self.compliance.get(i, i);
+                let others = self
+                    .compliance
+                    .times(i, |j| if j == i { 0.0 } else { self.closed[j].force });
                 let before = self.closed[i].force;
                 settle_one(&mut self.closed[i], own, others);
                 let force = self.closed[i].force;
@@ -100,7 +99,10 @@ mod tests {
         };
         let mut equations = ContactEquations::default();
         equations.closed = vec![closed(law, 0, 4e-3, 0.3), closed(law, 1, 6e-3, -0.1)];
-        equations.compliance = vec![2e-9, -8e-10, -8e-10, 3e-9];
+        equations.compliance.reset(2, 1);
+        for (i, j, value) in [(0, 0, 2e-9), (0, 1, -8e-10), (1, 0, -8e-10), (1, 1, 3e-9)] {
+            equations.compliance.set(i, j, value);
+        }
         equations.solve().expect("Newton converges");
         let newton: Vec<f64> = equations.closed.iter().map(|c| c.force).collect();
         equations.settle().expect("it settles");
@@ -124,7 +126,8 @@ mod tests {
         // Without force it would be 1 µm in and still closing; the full dashpot would throw it out.
         let mut equations = ContactEquations::default();
         equations.closed = vec![closed(law, 0, 1e-6, 0.4)];
-        equations.compliance = vec![1e-11];
+        equations.compliance.reset(1, 0);
+        equations.compliance.set(0, 0, 1e-11);
         equations.closed[0].rate_gain = 100.0;
         equations.solve().expect("the forces are found");
         let found = equations.closed[0];

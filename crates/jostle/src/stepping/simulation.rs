@@ -3,14 +3,16 @@
 use std::ops::ControlFlow;
 
 use super::StepEquations;
-use super::blow::BlowFactor;
+use super::blow::{BlowFactor, BlowScratch};
 use super::clock::{Clock, Stride};
 use super::coupling::ContactEquations;
 use super::energy::EnergyAudit;
 use super::factors::StepFactors;
 use super::impacts::Landing;
 use super::integrator::Integrator;
+use super::joints::Joints;
 use super::lanes;
+use super::links::Links;
 use super::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 use super::plan::Plan;
 use super::recorder::Recorder;
@@ -89,6 +91,9 @@ pub(super) struct Simulation<'a, E: StepEquations> {
     /// D′ of one building, for what K′ and C′ make of it.
     pub(super) drift: Vec<f64>,
     pub(super) yielding: YieldingSprings,
+    pub(super) joints: Joints,
+    pub(super) links: Links,
+    /// Of contacts, then of links.
     pub(super) trials: Vec<ContactTrial>,
     pub(super) contact_division: Vec<u32>,
     /// Greatest force of every gap so far, measured or expected of an impact under way \[N\].
@@ -96,6 +101,7 @@ pub(super) struct Simulation<'a, E: StepEquations> {
     pub(super) coupling: ContactEquations,
     /// For sudden changes of velocity, factorised when first needed.
     pub(super) blows: Vec<Option<BlowFactor<E>>>,
+    pub(super) blow: BlowScratch,
     pub(super) finest_in_contact: u32,
     pub(super) impacts: Vec<Impact>,
     pub(super) audit: EnergyAudit,
@@ -121,6 +127,8 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         state: State,
     ) -> Self {
         let ground = motion.acceleration(0.0);
+        let joints = Joints::of(system);
+        let links = Links::starting_from(system, &state);
         let steps = motion.duration / plan.step;
         let mut recorder = Recorder::new(system, settings.record_interval);
         let rows = settings
@@ -133,18 +141,21 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             plan,
             pounding: settings.pounding == Pounding::Included,
             equations: system.buildings.iter().map(E::of).collect(),
-            factors: vec![StepFactors::blank(system)],
+            factors: vec![StepFactors::blank(system, &joints)],
             divisions: vec![0],
             clock: Clock::new(plan.step),
             ground: [ground, ground],
-            unbalanced: unbalanced_load(system, &state, ground, plan.integrator),
+            unbalanced: unbalanced_load(system, &state, &links, ground, plan.integrator),
             rise: vec![0.0; system.len()],
             drift: vec![0.0; system.len()],
-            trials: vec![ContactTrial::default(); system.contacts.len()],
+            trials: vec![ContactTrial::default(); system.contacts.len() + system.links.len()],
+            joints,
+            links,
             contact_division: vec![1; system.contacts.len()],
             strongest: vec![0.0; system.contacts.iter().map(|c| c.gap + 1).max().unwrap_or(0)],
             coupling: ContactEquations::default(),
             blows: system.buildings.iter().map(|_| None).collect(),
+            blow: BlowScratch::for_buildings(system),
             finest_in_contact: 0,
             impacts: Vec::new(),
             audit: EnergyAudit::starting_from(system, &state),
@@ -160,6 +171,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         self.recorder.record(
             self.system,
             &self.state,
+            &self.links.forces,
             self.ground[0],
             true,
             &mut self.audit,
@@ -203,8 +215,12 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             history: self.recorder.into_history(),
             spring_events: self.yielding.events,
             springs: self.yielding.totals,
+            links: self.links.totals,
             energy,
-            work: self.work,
+            work: Work {
+                coupling_operations: self.coupling.operations,
+                ..self.work
+            },
             contact_step,
             state: self.state,
             end,
@@ -293,7 +309,8 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         if let Some(slot) = self.divisions.iter().position(|d| *d == division) {
             return Ok(slot);
         }
-        self.factors.push(StepFactors::blank(self.system));
+        self.factors
+            .push(StepFactors::blank(self.system, &self.joints));
         self.divisions.push(division);
         let slot = self.factors.len() - 1;
         let factorized = self.factorize(slot, stride.length);
@@ -325,9 +342,10 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
     pub(super) fn accept(&mut self, slot: usize, end: Clock) -> Result<(), StepError> {
         self.recorder.before_step(self.system, &self.state);
         let step = self.factors[slot].coefficients.step;
-        let was_closed = !self.coupling.closed.is_empty();
+        let was_closed = self.in_contact();
         let curves_start = self.state.time;
         self.gather_episodes(step);
+        self.gather_links(step);
         self.carry_unbalanced(slot);
         self.advance(slot)?;
         self.clock = end;
@@ -342,6 +360,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         self.recorder.record(
             self.system,
             &self.state,
+            &self.links.forces,
             self.ground[0],
             was_closed,
             &mut self.audit,
@@ -435,10 +454,11 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
     }
 }
 
-/// p − M a − C v − K u; empty when the state is in equilibrium to rounding and will stay so at the ends of steps.
+/// p − M a − C v − K u less the forces of links; empty when the state is in equilibrium to rounding and will stay so at the ends of steps.
 fn unbalanced_load(
     system: &System,
     state: &State,
+    links: &Links,
     ground: f64,
     integrator: Integrator,
 ) -> Vec<f64> {
@@ -477,6 +497,10 @@ fn unbalanced_load(
                 .max(inertia.abs())
                 .max(resisted[k].abs());
         }
+    }
+    for (link, force) in system.links.iter().zip(&links.forces) {
+        link.faces.push_apart(*force, &mut load);
+        largest = largest.max(force.abs());
     }
     // Statics leave rounding behind.
     let rounding = if system

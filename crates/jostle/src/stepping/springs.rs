@@ -153,6 +153,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         self.factors[slot]
             .retune(
                 self.system,
+                &self.joints,
                 &self.equations,
                 &self.yielding.wanted,
                 &mut self.work,
@@ -259,7 +260,7 @@ impl<E: StepEquations> Simulation<'_, E> {
                 .sum()
         };
         // Contact forces do not lie on one line over the way: then simply half of it, and back from there.
-        let contacts = !self.coupling.closed.is_empty();
+        let contacts = self.in_contact();
         if !contacts && slope(1.0, self) <= 0.0 {
             return;
         }

@@ -29,9 +29,9 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Lets the closed contacts push on the solution without them that stands in `rise`.
+    /// Lets the closed contacts and the links push on the solution without them that stands in `rise`.
     pub(super) fn solve_contacts(&mut self, slot: usize) -> Result<(), StepError> {
-        self.follow_contacts(slot);
+        self.follow_joints(slot);
         if self
             .trials
             .iter()
@@ -41,12 +41,18 @@ impl<E: StepEquations> Simulation<'_, E> {
                 time: self.state.time,
             });
         }
-        self.list_closed_contacts(slot);
+        self.list_closed(slot);
         if self.coupling.closed.is_empty() {
             Ok(())
         } else {
-            self.find_contact_forces(slot)
+            self.find_forces(slot)
         }
+    }
+
+    /// Whether the tried step has a closed contact.
+    pub(super) fn in_contact(&self) -> bool {
+        let mut closed = self.coupling.closed.iter();
+        closed.any(|closed| !self.joints.is_link(closed.contact))
     }
 
     /// Loads of the incremental step, contacts of its end not yet pushing (theory, Eq. N3).
@@ -77,10 +83,10 @@ impl<E: StepEquations> Simulation<'_, E> {
         for (contact, phase) in self.system.contacts.iter().zip(&self.state.contacts) {
             let force = phase.force();
             if force != 0.0 {
-                self.rise[contact.dofs[0]] += force;
-                self.rise[contact.dofs[1]] -= force;
+                contact.faces.push_apart(-force, &mut self.rise);
             }
         }
+        self.add_link_loads();
     }
 
     /// s K′ D′ − (1 − s c) C′ D′ of the buildings that have such parts (theory, Eq. N3).
@@ -110,8 +116,8 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Indentations and rates at the end of the tried step.
-    fn follow_contacts(&mut self, slot: usize) {
+    /// Indentations and rates of contacts and links at the end of the tried step.
+    fn follow_joints(&mut self, slot: usize) {
         let factors = &self.factors[slot];
         let k = &factors.coefficients;
         let (u, v, a) = (
@@ -119,88 +125,120 @@ impl<E: StepEquations> Simulation<'_, E> {
             &self.state.velocity,
             &self.state.acceleration,
         );
-        for (contact, trial) in self.system.contacts.iter().zip(&mut self.trials) {
-            let [i, j] = contact.dofs;
-            let rise = |side: usize| {
-                let dof = contact.dofs[side];
-                self.rise[dof]
-                    - factors.buildings[contact.buildings[side]].shift
-                        * (k.d_v * v[dof] + k.d_a * a[dof])
-            };
-            let closed_by = rise(0) - rise(1);
-            trial.indentation = u[i] - u[j] - contact.width + closed_by;
-            trial.rate = k.c * closed_by + (1.0 + k.d_v) * (v[i] - v[j]) + k.d_a * (a[i] - a[j]);
+        let contacts = self.system.contacts.iter();
+        let contacts = contacts.map(|contact| (&contact.faces, contact.width));
+        let links = self.system.links.iter();
+        let links = links.map(|link| (&link.faces, link.closing_at_rest));
+        for ((faces, at_rest), trial) in contacts.chain(links).zip(&mut self.trials) {
+            let mut closed_by = 0.0;
+            for (face, sign) in faces.sides() {
+                let dof = face.dof;
+                let drift = k.d_v * v[dof] + k.d_a * a[dof];
+                let rise = self.rise[dof] - factors.buildings[face.building].shift * drift;
+                closed_by -= sign * rise;
+            }
+            trial.indentation = faces.closing(u) - at_rest + closed_by;
+            trial.rate =
+                k.c * closed_by + (1.0 + k.d_v) * faces.closing(v) + k.d_a * faces.closing(a);
             trial.force = 0.0;
         }
     }
 
-    /// Lists the closed contacts, with the indentations they would have if they did not push.
-    fn list_closed_contacts(&mut self, slot: usize) {
-        self.coupling.closed.clear();
-        for (index, phase) in self.state.contacts.iter().enumerate() {
-            if let ContactPhase::Closed(episode) = phase {
+    /// Lists the closed contacts and the links from left to right, with the indentations they would have if none
+    /// pushed.
+    fn list_closed(&mut self, slot: usize) {
+        self.coupling.clear();
+        let rate_gain = self.factors[slot].coefficients.c;
+        for (place, &index) in self.joints.order.iter().enumerate() {
+            let closed = if self.joints.is_link(index) {
+                self.link_in_step(index, rate_gain)
+            } else if let ContactPhase::Closed(episode) = &self.state.contacts[index] {
                 let trial = &self.trials[index];
-                self.coupling.closed.push(Closed {
+                Closed {
                     contact: index,
                     law: self.system.contacts[index].law,
                     memory: episode.memory,
                     free: trial.indentation,
                     free_rate: trial.rate,
-                    rate_gain: self.factors[slot].coefficients.c,
+                    rate_gain,
                     indentation: trial.indentation,
                     force: 0.0,
                     start_slope: 0.0,
                     turn: None,
                     start_acceleration: 0.0,
-                });
-            }
+                }
+            } else {
+                continue;
+            };
+            self.coupling.closed.push(closed);
+            self.coupling.places.push(place);
         }
     }
 
-    /// Solves for the forces of the closed contacts and lets them push (theory, Eqs. P1–P3).
-    fn find_contact_forces(&mut self, slot: usize) -> Result<(), StepError> {
-        let factors = &mut self.factors[slot];
-        for closed in &self.coupling.closed {
-            factors.prepare_contact(closed.contact, self.system, &self.equations, &mut self.work);
-        }
-        self.coupling.compliance.clear();
-        for row in &self.coupling.closed {
-            for column in &self.coupling.closed {
-                let compliance = factors.compliance(
-                    &self.system.contacts[row.contact],
-                    column.contact,
-                    self.system,
-                );
-                self.coupling.compliance.push(compliance);
+    /// Solves for the forces of closed contacts and links and lets them push (theory, Eqs. P1–P5, L2).
+    fn find_forces(&mut self, slot: usize) -> Result<(), StepError> {
+        if self.in_contact() {
+            self.fill_compliance(slot);
+            let time = self.state.time;
+            let closed = self.coupling.closed.len();
+            self.work.iterations += self
+                .coupling
+                .solve()
+                .ok_or(StepError::ContactDiverged { time, closed })?;
+        } else {
+            if !self.factors[slot].links.is_known() {
+                self.fill_compliance(slot);
             }
+            self.find_link_forces(slot);
         }
-        let time = self.state.time;
-        let closed = self.coupling.closed.len();
-        self.work.iterations += self
-            .coupling
-            .solve()
-            .ok_or(StepError::ContactDiverged { time, closed })?;
         for closed in &self.coupling.closed {
             if closed.force != 0.0 {
-                factors.push_apart(closed.contact, closed.force, self.system, &mut self.rise);
+                self.factors[slot].push_apart(
+                    closed.contact,
+                    closed.force,
+                    self.system,
+                    &self.joints,
+                    &mut self.rise,
+                );
             }
         }
-        self.follow_contacts(slot);
+        self.follow_joints(slot);
         for closed in &self.coupling.closed {
             self.trials[closed.contact].force = closed.force;
         }
         Ok(())
     }
 
+    /// W of the closed contacts and the links (theory, Eq. P1).
+    fn fill_compliance(&mut self, slot: usize) {
+        let (factors, coupling) = (&mut self.factors[slot], &mut self.coupling);
+        for closed in &coupling.closed {
+            factors.prepare(
+                closed.contact,
+                self.system,
+                &self.joints,
+                &self.equations,
+                &mut self.work,
+            );
+        }
+        let reach = self.joints.reach(&coupling.places);
+        coupling.compliance.reset(coupling.closed.len(), reach);
+        for row in 0..coupling.closed.len() {
+            for column in coupling.compliance.columns(row) {
+                let [own, other] = [row, column].map(|i| coupling.closed[i].contact);
+                let value = factors.compliance(own, other, self.system, &self.joints);
+                coupling.compliance.set(row, column, value);
+            }
+        }
+    }
+
     /// Motion of contact `index` over the tried step.
     pub(super) fn indentation_curve(&self, index: usize, step: f64) -> Cubic {
         let contact = &self.system.contacts[index];
-        let [i, j] = contact.dofs;
-        let (u, v) = (&self.state.displacement, &self.state.velocity);
         let trial = &self.trials[index];
         Cubic::new(
-            u[i] - u[j] - contact.width,
-            v[i] - v[j],
+            contact.faces.closing(&self.state.displacement) - contact.width,
+            contact.faces.closing(&self.state.velocity),
             trial.indentation,
             trial.rate,
             step,

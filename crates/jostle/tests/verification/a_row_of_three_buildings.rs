@@ -60,7 +60,8 @@ fn monolith(model: &Model) -> Monolith {
     }
     for contact in &system.contacts {
         let dof = |side: usize| {
-            starts[contact.buildings[side]] + contact.floors[side].expect("floors meet") - 1
+            let face = contact.faces.0[side].expect("no wall");
+            starts[face.building] + face.floor.expect("floors meet") - 1
         };
         monolith
             .contacts
@@ -192,7 +193,7 @@ fn model() -> Model {
         0.002,
         law(LawKind::HertzDamp, 0.65),
     );
-    model.gaps[1].width = 0.001;
+    model.gaps[1].set_width(0.001);
     model
 }
 

@@ -1,5 +1,6 @@
 use jostle::{
-    Axial, Damping, FloorPairs, Frame, LawKind, Model, RestitutionIs, Shear, Structure, System,
+    Axial, Damping, FloorPairs, Frame, LawKind, Level, Link, Model, RestitutionIs, Shear,
+    Structure, System,
 };
 
 use crate::support::{frame, framed, law, row, tower};
@@ -27,6 +28,16 @@ fn shear_of(model: &mut Model) -> &mut Shear {
     match &mut model.buildings[1].structure {
         Structure::Shear(shear) => shear,
         Structure::Frame(_) => panic!("the second building is a tower"),
+    }
+}
+
+fn link(stiffness: f64, damping: f64) -> Link {
+    Link {
+        between: [Some(0), Some(1)],
+        floors: FloorPairs::Common,
+        level_tolerance: 1e-3,
+        stiffness,
+        damping,
     }
 }
 
@@ -314,17 +325,17 @@ const CASES: &[Case] = &[
         "found -1 N/m",
     ),
     (
-        |m| m.gaps[0].width = -1e-3,
+        |m| m.gaps[0].set_width(-1e-3),
         "gap[0].width",
         "found -0.001 m; touching buildings have a gap of zero",
     ),
     (
-        |m| m.gaps[0].width = f64::NAN,
+        |m| m.gaps[0].set_width(f64::NAN),
         "gap[0].width",
         "must not be negative",
     ),
     (
-        |m| m.gaps[0].left = 1,
+        |m| m.gaps[0].between = [Some(1), Some(2)],
         "gap[0].between",
         "two neighbouring buildings",
     ),
@@ -334,7 +345,112 @@ const CASES: &[Case] = &[
             m.gaps.push(twin);
         },
         "gap[1].between",
-        "more than one gap",
+        "repeats gap[0] in every respect; keep one",
+    ),
+    (
+        |m| m.gaps[0].between = [None, Some(1)],
+        "gap[0].between",
+        "a wall on the left stands before the first building",
+    ),
+    (
+        |m| m.gaps[0].between = [Some(0), None],
+        "gap[0].between",
+        "a wall on the right stands behind the last building",
+    ),
+    (
+        |m| m.gaps[0].between = [None, None],
+        "gap[0].between",
+        "must name a building on at least one side",
+    ),
+    (
+        |m| m.gaps[0].widths = vec![0.1, 0.2],
+        "gap[0].width",
+        "has 2 entries for 3 contacts; give one width, or one per contact",
+    ),
+    (
+        |m| m.gaps[0].widths = vec![0.1, -0.2, 0.1],
+        "gap[0].width[1]",
+        "found -0.2 m",
+    ),
+    (
+        |m| m.gaps[0].level_tolerance = 0.0,
+        "gap[0].level_tolerance",
+        "must be greater than zero, found 0 m",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Listed(vec![[Level::Wall, Level::Floor(1)]]),
+        "gap[0].floors[0]",
+        "names the wall where \"frame\" stands",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Listed(vec![[Level::Height(3.21), Level::Floor(1)]]),
+        "gap[0].floors[0]",
+        "a column cannot be hit nearer than 20 mm to its ends",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Listed(vec![[Level::Height(99.0), Level::Floor(1)]]),
+        "gap[0].floors[0]",
+        "that is above its roof",
+    ),
+    (
+        |m| m.gaps[0].floors = FloorPairs::Heights(vec![f64::NAN]),
+        "gap[0].floors[0]",
+        "\"frame\" has no floor at NaN m",
+    ),
+    (
+        |m| {
+            m.links.push(Link {
+                between: [None, Some(0)],
+                floors: FloorPairs::Heights(vec![1.1]),
+                ..link(1e6, 0.0)
+            });
+            m.gaps.push(jostle::Gap {
+                floors: FloorPairs::Heights(vec![1.11]),
+                ..jostle::Gap::between([None, Some(0)], 0.1, m.gaps[0].law)
+            });
+        },
+        "link[0].floors",
+        "is only 10.0 mm from another point of the same face",
+    ),
+    (
+        |m| m.links.push(link(-1.0, 0.0)),
+        "link[0].stiffness",
+        "must not be negative, found -1 N/m",
+    ),
+    (
+        |m| m.links.push(link(0.0, f64::INFINITY)),
+        "link[0].damping",
+        "found inf N.s/m",
+    ),
+    (
+        |m| m.links.push(link(0.0, 0.0)),
+        "link[0].stiffness",
+        "and damping are both zero",
+    ),
+    (
+        |m| {
+            m.links.push(Link {
+                between: [Some(1), Some(0)],
+                ..link(1e6, 0.0)
+            });
+        },
+        "link[0].between",
+        "must name two neighbouring buildings",
+    ),
+    (
+        |m| {
+            m.links.push(Link {
+                floors: FloorPairs::listed(&[(9, 9)]),
+                ..link(1e6, 0.0)
+            });
+        },
+        "link[0].floors[0]",
+        "floor 9 does not exist",
+    ),
+    (
+        |m| m.buildings[0].name = "wall".into(),
+        "building[0].name",
+        "stands for a rigid wall",
     ),
     (
         |m| m.gaps[0].law.stiffness = 0.0,
@@ -380,27 +496,27 @@ const CASES: &[Case] = &[
         "no floors of \"frame\" and \"tower\" lie at equal height",
     ),
     (
-        |m| m.gaps[0].floors = FloorPairs::Listed(vec![]),
+        |m| m.gaps[0].floors = FloorPairs::listed(&[]),
         "gap[0].floors",
         "is empty; list the pairs",
     ),
     (
-        |m| m.gaps[0].floors = FloorPairs::Listed(vec![(1, 1), (4, 4)]),
+        |m| m.gaps[0].floors = FloorPairs::listed(&[(1, 1), (4, 4)]),
         "gap[0].floors[1]",
         "floor 4 does not exist: \"frame\" has floors 1 to 3",
     ),
     (
-        |m| m.gaps[0].floors = FloorPairs::Listed(vec![(0, 1)]),
+        |m| m.gaps[0].floors = FloorPairs::listed(&[(0, 1)]),
         "gap[0].floors[0]",
         "floor 0 does not exist",
     ),
     (
-        |m| m.gaps[0].floors = FloorPairs::Listed(vec![(1, 2)]),
+        |m| m.gaps[0].floors = FloorPairs::listed(&[(1, 2)]),
         "gap[0].floors[0]",
-        "floor 1 of \"frame\" is at 3.200 m and floor 2 of \"tower\" at 6.400 m",
+        "floor 1 of \"frame\" is at 3.200 m and floor 2 of \"tower\" is at 6.400 m; only floors at equal height can touch",
     ),
     (
-        |m| m.gaps[0].floors = FloorPairs::Listed(vec![(1, 1), (1, 1)]),
+        |m| m.gaps[0].floors = FloorPairs::listed(&[(1, 1), (1, 1)]),
         "gap[0].floors[1]",
         "the pair [1, 1] is listed twice",
     ),
@@ -412,12 +528,12 @@ const CASES: &[Case] = &[
     (
         |m| m.gaps[0].floors = FloorPairs::Heights(vec![3.2, 4.0]),
         "gap[0].floors[1]",
-        "\"frame\" has no floor or lumped mass at 4.000 m (nearest: 3.200 m)",
+        "\"tower\" has no floor at 4.000 m (nearest: 3.200 m), and a shear building cannot be hit between floors",
     ),
     (
         |m| m.gaps[0].floors = FloorPairs::Heights(vec![1.6]),
         "gap[0].floors[0]",
-        "\"tower\" has no floor or lumped mass at 1.600 m",
+        "\"tower\" has no floor at 1.600 m (nearest: 3.200 m)",
     ),
     (
         |m| m.analysis.step = Some(0.0),
@@ -488,7 +604,7 @@ fn all_faults_are_reported_at_once() {
     let mut model = sound();
     frame_of(&mut model).spans[0] = 0.0;
     shear_of(&mut model).mass[3] = -1.0;
-    model.gaps[0].width = -1.0;
+    model.gaps[0].set_width(-1.0);
     model.analysis.tolerance = 1.0;
     let faults = model.check().expect_err("four faults");
     let paths: Vec<&str> = faults.iter().map(|fault| fault.path.as_str()).collect();

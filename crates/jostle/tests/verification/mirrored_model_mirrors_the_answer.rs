@@ -15,12 +15,20 @@ fn mirrored(model: &Model) -> Model {
         }
     }
     mirrored.gaps.reverse();
-    let last = model.buildings.len() - 2;
-    for gap in &mut mirrored.gaps {
-        gap.left = last - gap.left;
-        if let FloorPairs::Listed(pairs) = &mut gap.floors {
-            pairs.iter_mut().for_each(|pair| *pair = (pair.1, pair.0));
+    mirrored.links.reverse();
+    let last = model.buildings.len() - 1;
+    let exchange = |between: &mut [Option<usize>; 2], floors: &mut FloorPairs| {
+        *between = between.map(|side| side.map(|building| last - building));
+        between.reverse();
+        if let FloorPairs::Listed(pairs) = floors {
+            pairs.iter_mut().for_each(|pair| pair.reverse());
         }
+    };
+    for gap in &mut mirrored.gaps {
+        exchange(&mut gap.between, &mut gap.floors);
+    }
+    for link in &mut mirrored.links {
+        exchange(&mut link.between, &mut link.floors);
     }
     mirrored
 }
@@ -123,7 +131,7 @@ fn a_mirrored_row_mirrors_the_answer() {
         tower("right", 3, 4e4, 0.7),
     ];
     let mut model = row(buildings, 0.006, law(LawKind::HertzDamp, 0.65));
-    model.gaps[1].width = 0.004;
-    model.gaps[0].floors = FloorPairs::Listed(vec![(3, 3), (2, 2)]);
+    model.gaps[1].set_width(0.004);
+    model.gaps[0].floors = FloorPairs::listed(&[(3, 3), (2, 2)]);
     compare(&model, 1.6);
 }

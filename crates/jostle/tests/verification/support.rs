@@ -7,9 +7,9 @@ use jostle::skeleton::{Idealisation, Node, Skeleton, Spring, Support};
 use jostle::stepping::{ContactSteps, simulate_from};
 use jostle::system::{BuildingSystem, Contact};
 use jostle::{
-    Analysis, Axial, Building, Column, ContactLaw, Damping, FloorPairs, Frame, Gap, GroundMotion,
-    Joint, LawKind, Model, Outcome, Plan, Pounding, RestitutionIs, RunEnd, Section, Settings,
-    Shear, Solver, State, Structure, System, simulate,
+    Analysis, Axial, Building, Column, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint,
+    LawKind, Model, Outcome, Plan, Pounding, RestitutionIs, RunEnd, Section, Settings, Shear,
+    Solver, State, Structure, System, simulate,
 };
 
 /// All contact laws.
@@ -157,16 +157,12 @@ pub(crate) fn law(kind: LawKind, restitution: f64) -> ContactLaw {
 
 /// Buildings in a row with equal gaps \[m\].
 pub(crate) fn row(buildings: Vec<Building>, width: f64, law: ContactLaw) -> Model {
-    let gap = |left| Gap {
-        left,
-        width,
-        floors: FloorPairs::Common,
-        law,
-        minimum_separation: 0.0,
-    };
     Model {
         title: "row".to_owned(),
-        gaps: (0..buildings.len() - 1).map(gap).collect(),
+        gaps: (0..buildings.len() - 1)
+            .map(|left| Gap::after(left, width, law))
+            .collect(),
+        links: Vec::new(),
         buildings,
         analysis: Analysis::default(),
     }
@@ -313,7 +309,7 @@ pub(crate) fn sliders(buildings: Vec<BuildingSystem>, width: f64, law: &ContactL
         system.contacts.push(Contact {
             gap: left,
             width,
-            law: law.between(contact.masses[0], contact.masses[1]),
+            law: law.between(contact.faces.masses()[0], contact.faces.masses()[1]),
             ..contact
         });
     }

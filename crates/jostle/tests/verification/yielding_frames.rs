@@ -1,14 +1,13 @@
 //! Frames and storeys that yield: one Newton iteration on everything at once, with full matrices and over the same
 //! instants, must find what the condensed scheme finds; no run may fail; energy must balance.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
-use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule};
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::{
-    Base, Building, Column, Damping, FrameHinges, Gravity, GroundMotion, Hinges, LawKind, Model,
-    Outcome, Plan, RunEnd, Solver, Structure, System, simulate,
+    Base, Building, Column, Damping, FrameHinges, Gravity, Hinges, LawKind, Model, Outcome, Plan,
+    RunEnd, Solver, Structure, System, simulate,
 };
 
+use crate::monolith::monolith;
 use crate::support::{
     EVERYTHING, Random, assembled, column, difference, frame, framed, largest, law, random_frame,
     row, run, shaking, steps, tower,
@@ -63,182 +62,6 @@ fn yielding(mut building: Building, rule: HysteresisRule, strength: f64) -> Buil
         ),
     });
     building
-}
-
-/// Deformation of a spring, from the committed one itself, so that standing still is exactly that.
-fn reached(dofs: [Option<usize>; 2], memory: &HysteresisMemory, next: &[f64], now: &[f64]) -> f64 {
-    let change = |dof: Option<usize>| dof.map_or(0.0, |dof| next[dof] - now[dof]);
-    memory.deformation() + (change(dofs[0]) - change(dofs[1]))
-}
-
-/// Peak force of every contact and displacements at the end, by Newton's method on all displacements of all
-/// buildings, over given instants.
-fn monolith(system: &System, motion: &GroundMotion, times: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let n = system.len();
-    let (mut mass, mut driven) = (vec![0.0; n], vec![0.0; n]);
-    let (mut stiffness, mut damping) = (Mat::<f64>::zeros(n, n), Mat::<f64>::zeros(n, n));
-    let mut springs = Vec::new();
-    for building in &system.buildings {
-        let (equations, offset) = (&building.equations, building.offset);
-        let own = offset..offset + equations.len();
-        mass[own.clone()].copy_from_slice(&equations.mass);
-        driven[own].copy_from_slice(&equations.driven_mass);
-        for dof in 0..equations.len() {
-            damping[(offset + dof, offset + dof)] += equations.alpha * equations.mass[dof];
-        }
-        // What of every matrix stiffens, and what damps.
-        for (matrix, stiffens, damps) in [
-            (&equations.stiffness, 1.0, equations.beta),
-            (&equations.undamped, 1.0, 0.0),
-            (&equations.dashpots, 0.0, 1.0),
-        ] {
-            let mut add = |row: usize, column: usize, value: f64| {
-                stiffness[(offset + row, offset + column)] += stiffens * value;
-                damping[(offset + row, offset + column)] += damps * value;
-            };
-            for column in 0..equations.len() {
-                add(column, column, matrix.diagonal[column]);
-                for entry in matrix.starts[column]..matrix.starts[column + 1] {
-                    let row = matrix.rows[entry] as usize;
-                    add(row, column, matrix.values[entry]);
-                    add(column, row, matrix.values[entry]);
-                }
-            }
-        }
-        springs.extend(equations.springs.iter().map(|spring| {
-            (
-                spring.dofs.map(|dof| dof.map(|dof| dof + offset)),
-                spring.hysteresis,
-            )
-        }));
-    }
-    let state = jostle::State::at_rest(system, motion.acceleration(0.0));
-    let (mut u, mut v, mut a) = (state.displacement, state.velocity, state.acceleration);
-    let mut memories = vec![HysteresisMemory::default(); springs.len()];
-    let mut speeds: Vec<Option<f64>> = vec![None; system.contacts.len()];
-    let mut peaks = vec![0.0_f64; system.contacts.len()];
-    for pair in times.windows(2) {
-        let h = pair[1] - pair[0];
-        for (contact, speed) in system.contacts.iter().zip(&mut speeds) {
-            let [left, right] = contact.dofs;
-            let (indentation, rate) = (u[left] - u[right] - contact.width, v[left] - v[right]);
-            if speed.is_none() && indentation >= -1e-11 && rate > 0.0 {
-                *speed = Some(rate);
-            } else if speed.is_some() && indentation <= 0.0 && rate <= 0.0 {
-                *speed = None;
-            }
-        }
-        let ground = motion.acceleration(pair[1]);
-        let mut next = u.clone();
-        let mut forces = vec![0.0; system.contacts.len()];
-        // What is left over at trial displacements, with its tangent where wanted.
-        let left_over = |next: &[f64], tangent: &mut Option<Mat<f64>>, forces: &mut [f64]| {
-            let velocity: Vec<f64> = (0..n).map(|i| 2.0 / h * (next[i] - u[i]) - v[i]).collect();
-            let acceleration: Vec<f64> = (0..n)
-                .map(|i| 4.0 / (h * h) * (next[i] - u[i]) - 4.0 / h * v[i] - a[i])
-                .collect();
-            let column = |values: &[f64]| Mat::from_fn(n, 1, |i, _| values[i]);
-            let resisted = &stiffness * column(next) + &damping * column(&velocity);
-            let mut residual: Vec<f64> = (0..n)
-                .map(|i| -driven[i] * ground - mass[i] * acceleration[i] - resisted[(i, 0)])
-                .collect();
-            if let Some(tangent) = tangent {
-                *tangent = Mat::from_fn(n, n, |i, j| {
-                    let inertia = if i == j { 4.0 / (h * h) * mass[i] } else { 0.0 };
-                    stiffness[(i, j)] + 2.0 / h * damping[(i, j)] + inertia
-                });
-            }
-            for ((dofs, hysteresis), memory) in springs.iter().zip(&memories) {
-                let response = hysteresis.respond(memory, reached(*dofs, memory, next, &u));
-                for (i, sign) in dofs.iter().zip([1.0, -1.0]) {
-                    let Some(i) = *i else { continue };
-                    residual[i] -= sign * response.force;
-                    for (j, other) in dofs.iter().zip([1.0, -1.0]) {
-                        if let (Some(j), Some(tangent)) = (*j, tangent.as_mut()) {
-                            tangent[(i, j)] += sign * other * response.tangent;
-                        }
-                    }
-                }
-            }
-            for (k, contact) in system.contacts.iter().enumerate() {
-                let Some(speed) = speeds[k] else { continue };
-                let [left, right] = contact.dofs;
-                let rate = velocity[left] - velocity[right];
-                let indentation = next[left] - next[right] - contact.width;
-                let response = contact.law.respond(indentation, rate, speed);
-                forces[k] = response.force;
-                residual[left] -= response.force;
-                residual[right] += response.force;
-                let slope = response.by_indentation + 2.0 / h * response.by_rate;
-                if let Some(tangent) = tangent {
-                    for (i, j, sign) in [
-                        (left, left, 1.0),
-                        (right, right, 1.0),
-                        (left, right, -1.0),
-                        (right, left, -1.0),
-                    ] {
-                        tangent[(i, j)] += sign * slope;
-                    }
-                }
-            }
-            residual
-        };
-        let mut previous = f64::INFINITY;
-        for round in 0..200 {
-            let mut tangent = Some(Mat::zeros(0, 0));
-            let residual = left_over(&next, &mut tangent, &mut forces);
-            let right = Mat::from_fn(n, 1, |i, _| residual[i]);
-            let update = tangent.expect("wanted").partial_piv_lu().solve(&right);
-            let moved = |share: f64| -> Vec<f64> {
-                (0..n).map(|i| next[i] + share * update[(i, 0)]).collect()
-            };
-            let size = (0..n).fold(0.0_f64, |most, i| most.max(update[(i, 0)].abs()));
-            let small = size <= 1e-14 * largest(&next)
-                || (size <= 1e-11 * largest(&next) && size >= previous);
-            previous = size;
-            // Where the way overshoots, back to where the forces along it vanish.
-            let along = |share: f64| -> f64 {
-                let mut unused = forces.clone();
-                let residual = left_over(&moved(share), &mut None, &mut unused);
-                (0..n).map(|i| update[(i, 0)] * residual[i]).sum()
-            };
-            let (mut low, mut high) = (0.0, 1.0);
-            if !small && round > 4 && along(1.0) < 0.0 {
-                for _ in 0..20 {
-                    let middle = 0.5 * (low + high);
-                    if along(middle) < 0.0 {
-                        high = middle;
-                    } else {
-                        low = middle;
-                    }
-                }
-            }
-            next = moved(high);
-            if small {
-                break;
-            }
-            assert!(
-                round < 199,
-                "the monolith does not converge at {} s: {size:e}",
-                pair[0]
-            );
-        }
-        for i in 0..n {
-            let (v0, a0) = (v[i], a[i]);
-            v[i] = 2.0 / h * (next[i] - u[i]) - v0;
-            a[i] = 4.0 / (h * h) * (next[i] - u[i]) - 4.0 / h * v0 - a0;
-        }
-        for ((dofs, hysteresis), memory) in springs.iter().zip(&mut memories) {
-            *memory = hysteresis
-                .respond(memory, reached(*dofs, memory, &next, &u))
-                .memory;
-        }
-        u = next;
-        for (peak, force) in peaks.iter_mut().zip(&forces) {
-            *peak = peak.max(*force);
-        }
-    }
-    (peaks, u)
 }
 
 fn two_yielding_frames(first: usize, second: usize) -> Model {

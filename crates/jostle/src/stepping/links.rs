@@ -1,0 +1,174 @@
+//! Links: springs and dashpots between buildings, in every step (theory, Eqs. L1 to L3).
+
+use super::StepEquations;
+use super::band::Band;
+use super::coupling::{Closed, scaled_band};
+use super::simulation::Simulation;
+use crate::contact::ForceLaw;
+use crate::history::{Extreme, LinkTotals};
+use crate::state::State;
+use crate::system::{LinkElement, System};
+
+/// The factorised equations of all links at one step size, while no contact is closed.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LinkFactor {
+    known: bool,
+    /// I + S^½ W S^½ of the links from left to right, factorised.
+    scaled: Band,
+    /// S^½.
+    roots: Vec<f64>,
+}
+
+impl LinkFactor {
+    pub(super) fn is_known(&self) -> bool {
+        self.known
+    }
+
+    /// The step equations have changed.
+    pub(super) fn forget(&mut self) {
+        self.known = false;
+    }
+}
+
+/// Force and totals of every link.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Links {
+    /// Force now \[N\].
+    pub(super) forces: Vec<f64>,
+    pub(super) totals: Vec<LinkTotals>,
+    /// z of S^½ z = F.
+    unknowns: Vec<f64>,
+}
+
+impl Links {
+    pub(super) fn starting_from(system: &System, state: &State) -> Self {
+        let start = |link: &LinkElement| {
+            let shortening = link.shortening(&state.displacement);
+            let force = link.force(shortening, link.faces.closing(&state.velocity));
+            let totals = LinkTotals {
+                peak_force: Extreme {
+                    value: force,
+                    at: state.time,
+                },
+                peak_shortening: shortening.abs(),
+                work: link.strain(shortening),
+            };
+            (force, totals)
+        };
+        let (forces, totals) = system.links.iter().map(start).unzip();
+        Self {
+            forces,
+            totals,
+            unknowns: Vec::with_capacity(system.links.len()),
+        }
+    }
+}
+
+/// The link as a contact that is always closed and may pull.
+pub(super) fn law_of(link: &LinkElement) -> ForceLaw {
+    ForceLaw::Kelvin {
+        stiffness: link.stiffness,
+        damping: link.damping,
+        tension: true,
+    }
+}
+
+impl<E: StepEquations> Simulation<'_, E> {
+    /// Adds the forces of the links at the start of the step to its loads, as those of closed contacts.
+    pub(super) fn add_link_loads(&mut self) {
+        for (link, force) in self.system.links.iter().zip(&self.links.forces) {
+            link.faces.push_apart(-force, &mut self.rise);
+        }
+    }
+
+    /// A link at the end of the tried step, as if nothing pushed.
+    pub(super) fn link_in_step(&self, index: usize, rate_gain: f64) -> Closed {
+        let link = &self.system.links[index - self.joints.contacts];
+        let trial = &self.trials[index];
+        let law = law_of(link);
+        Closed {
+            contact: index,
+            memory: law.touch(0.0),
+            law,
+            free: trial.indentation,
+            free_rate: trial.rate,
+            rate_gain,
+            indentation: trial.indentation,
+            force: 0.0,
+            start_slope: 0.0,
+            turn: None,
+            start_acceleration: 0.0,
+        }
+    }
+
+    /// Forces of the links where no contact is closed: one linear system, factorised once per step size
+    /// (theory, Eq. L2).
+    pub(super) fn find_link_forces(&mut self, slot: usize) {
+        let factors = &mut self.factors[slot];
+        let closed = &mut self.coupling.closed;
+        let slope = |closed: &Closed| {
+            let response = closed.law.follow(0.0, 0.0, &closed.memory);
+            response.by_indentation + closed.rate_gain * response.by_rate
+        };
+        if !factors.links.known {
+            let links = &mut factors.links;
+            links.roots.clear();
+            links
+                .roots
+                .extend(closed.iter().map(|link| slope(link).sqrt()));
+            scaled_band(&self.coupling.compliance, &links.roots, &mut links.scaled);
+            self.coupling.operations += links.scaled.factorize();
+            links.known = true;
+        }
+        let links = &factors.links;
+        let unknowns = &mut self.links.unknowns;
+        unknowns.clear();
+        for (link, root) in closed.iter().zip(&links.roots) {
+            let free = link.law.follow(link.free, link.free_rate, &link.memory);
+            unknowns.push(free.force / root);
+        }
+        links.scaled.solve(unknowns);
+        self.coupling.operations += (2 * unknowns.len() * (links.scaled.reach() + 1)) as u64;
+        for ((link, root), unknown) in closed.iter_mut().zip(&links.roots).zip(unknowns) {
+            link.force = root * *unknown;
+        }
+    }
+
+    /// Before the state moves on: work of the links over the step.
+    pub(super) fn gather_links(&mut self, step: f64) {
+        for index in 0..self.system.links.len() {
+            let link = &self.system.links[index];
+            let trial = self.trials[self.joints.contacts + index];
+            let start = link.shortening(&self.state.displacement);
+            let before = self.links.forces[index];
+            let work = 0.5 * (before + trial.force) * (trial.indentation - start);
+            self.audit.links += work;
+            let totals = &mut self.links.totals[index];
+            totals.work += work;
+            totals.peak_shortening = totals.peak_shortening.max(trial.indentation.abs());
+            if trial.force.abs() > totals.peak_force.value.abs() {
+                totals.peak_force = Extreme {
+                    value: trial.force,
+                    at: self.state.time + step,
+                };
+            }
+            self.links.forces[index] = trial.force;
+        }
+    }
+
+    /// A sudden change of velocity of one degree of freedom changes the forces of the dashpots there, and these the
+    /// accelerations of both ends.
+    pub(super) fn jerk_links(&mut self, dof: usize, change: f64) {
+        for (link, force) in self.system.links.iter().zip(&mut self.links.forces) {
+            for (face, sign) in link.faces.sides() {
+                if face.dof == dof {
+                    let jump = -sign * link.damping * change;
+                    *force += jump;
+                    for (end, sign) in link.faces.sides() {
+                        self.state.acceleration[end.dof] += sign * jump / end.mass;
+                    }
+                }
+            }
+        }
+    }
+}
