@@ -10,7 +10,7 @@ right; forces of contacts are positive in compression.
 """
 
 from ._animation import Animation
-from ._builders import Frame, Gap, Shear
+from ._builders import Frame, Gap, Link, Shear
 from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
 from ._errors import (
     AnalysisError,
@@ -28,7 +28,7 @@ from ._modes import BuildingModes, modes
 from ._motion import Motion, Spectrum
 from ._own_law import Experiment, experiment
 from ._pushover import CapacityCurve, pushover
-from ._result import Contact, Floor, Result
+from ._result import Contact, Floor, LinkedFloors, Result
 from ._run import run
 from ._table import Table
 
@@ -48,6 +48,8 @@ __all__ = [
     "InterruptedWarning",
     "JostleError",
     "JostleWarning",
+    "Link",
+    "LinkedFloors",
     "Matrices",
     "Model",
     "ModelError",

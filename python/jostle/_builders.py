@@ -1,4 +1,4 @@
-"""Buildings and gaps, to be put together to a model."""
+"""Buildings, gaps and links, to be put together to a model."""
 
 from __future__ import annotations
 
@@ -10,10 +10,13 @@ from ._units import Quantities, Quantity, merge, split, with_unit
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._units import FrameUnits, GapUnits, ShearUnits
+    from ._units import FrameUnits, GapUnits, LinkUnits, ShearUnits
 
 #: A section, a damping, … as the table of the model file.
 Table = Mapping[str, object]
+
+#: Where neighbours touch or are joined: a word, pairs of floors or heights, or heights.
+Floors = Union[str, Sequence[Sequence[Quantity]], Sequence[Quantity]]
 
 
 class Part:
@@ -147,30 +150,39 @@ class Shear(Part):
 
 
 class Gap(Part):
-    """The gap between two neighbours and the law of their contact.
+    """The gap between two neighbours, or before a rigid wall, and the law of the contact there.
 
     Args:
-        width: width at rest, a length ≥ 0.
-        between: names of the left and the right neighbour; in order by default.
-        floors: ``"common"`` (default), pairs of floors ``[[5, 5], [4, 4]]``, or heights.
+        width: width at rest, a length ≥ 0, or a list for the contacts in the order of ``floors``, from the lowest up
+            where these are not listed.
+        between: names of the left and the right neighbour, ``"wall"`` for a rigid wall at an end of the row; in order
+            by default.
+        floors: ``"common"`` (default), ``"all"`` for floors against floors or columns, pairs of floors or heights
+            ``[[5, 5], [4, "12.8 m"]]``, or heights.
+        level_tolerance: floors no further apart in height than this meet each other, 1 mm by default.
         law: contact law, ``"hertz-damp"`` by default.
         stiffness: contact stiffness: N/m^1.5 for Hertz laws, N/m for linear ones.
         restitution: coefficient of restitution, 0.65 by default.
         restitution_is: ``"input"`` (default) puts it into the published formula; with ``"realised"`` free masses
             really rebound with it.
+        thickness: of the law ``"rubber"``: thickness of the bumper.
+        minimum_separation: impacts of one contact that follow each other sooner count as one, 0 s by default.
         **units: the same with units in names, as in ``width_mm=20``.
     """
 
     def __init__(
         self,
-        width: Quantity | None = None,
+        width: Quantities | None = None,
         *,
         between: Sequence[str] | None = None,
-        floors: str | Sequence[Sequence[int]] | Sequence[Quantity] | None = None,
+        floors: Floors | None = None,
+        level_tolerance: Quantity | None = None,
         law: str | None = None,
         stiffness: Quantity | None = None,
         restitution: float | None = None,
         restitution_is: str | None = None,
+        thickness: Quantity | None = None,
+        minimum_separation: Quantity | None = None,
         **units: Unpack[GapUnits],
     ) -> None:
         super().__init__(
@@ -178,10 +190,47 @@ class Gap(Part):
                 "between": between,
                 "width": width,
                 "floors": floors,
+                "level_tolerance": level_tolerance,
                 "law": law,
                 "stiffness": stiffness,
                 "restitution": restitution,
                 "restitution_is": restitution_is,
+                "thickness": thickness,
+                "minimum_separation": minimum_separation,
+            },
+            units,
+        )
+
+
+class Link(Part):
+    """Springs and dampers that join floors of two neighbours, or of a building and a rigid wall, and act both ways.
+
+    Args:
+        between: names of the left and the right neighbour, ``"wall"`` for a rigid wall at an end of the row.
+        floors: which points are joined, as for a gap; every pair of floors at equal height by default.
+        level_tolerance: floors no further apart in height than this can be joined, 1 mm by default.
+        stiffness: force per change of length, of each link, ≥ 0; 0 by default.
+        damping: force per rate of change of length, of each link, ≥ 0; 0 by default.
+        **units: the same with units in names, as in ``damping_kn_s_m=500``.
+    """
+
+    def __init__(
+        self,
+        between: Sequence[str],
+        *,
+        floors: Floors | None = None,
+        level_tolerance: Quantity | None = None,
+        stiffness: Quantity | None = None,
+        damping: Quantity | None = None,
+        **units: Unpack[LinkUnits],
+    ) -> None:
+        super().__init__(
+            {
+                "between": between,
+                "floors": floors,
+                "level_tolerance": level_tolerance,
+                "stiffness": stiffness,
+                "damping": damping,
             },
             units,
         )

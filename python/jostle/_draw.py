@@ -76,7 +76,7 @@ def model_svg(tree: dict[str, Any]) -> str:
     tallest = max(b["floor_heights_m"][-1] for b in buildings)
     between = 54.0
     scale = min(300 / tallest, max(120.0, 720 - between * len(buildings)) / sum(widths))
-    base, x = tallest * scale + 26, 34.0
+    base, x = tallest * scale + 26, 44.0
     parts: list[str] = []
     edges = []
     for index, building in enumerate(buildings):
@@ -87,18 +87,47 @@ def model_svg(tree: dict[str, Any]) -> str:
         edges.append((lines[0], lines[-1]))
         x = lines[-1] + between
     names = [building["name"] for building in buildings]
+    walls = (edges[0][0] - 0.5 * between, edges[-1][1] + 0.5 * between)
+    drawn: set[int] = set()
+
+    def sides(pair: Sequence[str]) -> tuple[float, float]:
+        """Where the left and the right side of a gap or a link are."""
+        places = []
+        for side, name in enumerate(pair):
+            if name == "wall":
+                places.append(walls[side])
+                drawn.add(side)
+            else:
+                places.append(edges[names.index(name)][1 - side])
+        return places[0], places[1]
+
     for gap in gaps:
-        left = names.index(gap["between"][0])
-        middle = (edges[left][1] + edges[left + 1][0]) / 2
+        left, right = sides(gap["between"])
         for contact in gap["contacts"]:
             y = base - contact["height_m"] * scale
             parts.append(
-                f'<path d="M{edges[left][1] + 3:.1f},{y:.1f}H{edges[left + 1][0] - 3:.1f}" '
+                f'<path d="M{left + 3:.1f},{y:.1f}H{right - 3:.1f}" '
                 'stroke="currentColor" stroke-dasharray="2 3" opacity=".6"/>'
             )
         label = f"gap {1e3 * gap['width_m']:.4g} mm"
-        parts.append(_svg_text(middle, base + 34, label, "middle", 12))
-    width = x - between + 34
+        parts.append(_svg_text((left + right) / 2, base + 34, label, "middle", 12))
+    for link in tree["links"]:
+        left, right = sides(link["between"])
+        for floor in link["floors"]:
+            y = base - floor["height_m"] * scale
+            middle = (left + right) / 2
+            parts.append(
+                f'<path d="M{left:.1f},{y:.1f}H{middle - 4:.1f}m0,-5v10M{middle + 4:.1f},{y - 6:.1f}h-8m0,12h8'
+                f'M{middle:.1f},{y:.1f}H{right:.1f}" stroke="currentColor" stroke-width="1.5" fill="none"/>'
+            )
+    for side in sorted(drawn):
+        roof = base - buildings[-side]["floor_heights_m"][-1] * scale
+        start = walls[side] - (8 if side == 0 else 0)
+        parts.append(
+            f'<rect x="{start:.1f}" y="{roof:.1f}" width="8" height="{base - roof:.1f}" '
+            'fill="currentColor" opacity=".5"/>'
+        )
+    width = x - between + 44
     return (
         f'<svg viewBox="0 0 {width:.0f} {base + 44:.0f}" width="{width:.0f}" role="img" '
         f'style="max-width:100%;display:block;{_FONT}"><title>{_text(tree["title"])}</title>'

@@ -1,4 +1,4 @@
-"""Models: buildings in a row, the gaps between them, and the ground motion."""
+"""Models: buildings in a row, the gaps and links between them, and the ground motion."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from . import _jostle
-from ._builders import Building, Gap, Part, Table
+from ._builders import Building, Gap, Link, Part, Table
 from ._errors import ModelWarning
 from ._motion import Motion
 from ._tree import text_of
@@ -32,7 +32,9 @@ class Model:
 
     Args:
         buildings: from left to right; tables of the model file are accepted as well.
-        gaps: one for each pair of neighbours, or one for all of them. ``between`` may be left out of all.
+        gaps: one for each pair of neighbours, or one for all of them. ``between`` may be left out of all. Walls need
+            it, and so do several gaps of one pair.
+        links: springs and dampers that join neighbours.
         motion: a :class:`Motion`, the name or path of a record, or ``[motion]`` of the model file.
         title: printed on summaries and reports.
         analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
@@ -49,6 +51,7 @@ class Model:
         buildings: Building | Sequence[Building],
         gaps: Gap | Table | Sequence[Gap | Table] = (),
         *,
+        links: Link | Table | Sequence[Link | Table] = (),
         motion: Motion | str | os.PathLike[str] | Table | None = None,
         title: str | None = None,
         analysis: Table | None = None,
@@ -56,6 +59,8 @@ class Model:
         row = [buildings] if isinstance(buildings, (Part, Mapping)) else buildings
         tree: dict[str, Any] = {"building": [_table(building) for building in row]}
         tree["gap"] = _gaps(gaps, tree["building"])
+        joined = [links] if isinstance(links, (Part, Mapping)) else links
+        tree["link"] = [_table(link) for link in joined]
         if title is not None:
             tree["title"] = title
         if analysis is not None:
@@ -199,7 +204,7 @@ class Model:
 
     @property
     def description(self) -> dict[str, Any]:
-        """Buildings and gaps in numbers: geometry, masses, periods, contacts; names carry units."""
+        """Buildings, gaps and links in numbers: geometry, masses, periods, contacts; names carry units."""
         return cast("dict[str, Any]", json.loads(self._core.describe()))
 
     @property

@@ -49,8 +49,8 @@ class Contact:
     """One place where two neighbours can touch.
 
     Attributes:
-        between: names of the left and the right building.
-        floors: floors on the left and on the right, from 1; ``None`` for a point between floors.
+        between: names of the left and the right building, or ``"wall"``.
+        floors: floors on the left and on the right, from 1; ``None`` for a point between floors, and for a wall.
         height: height above the base [m].
         force: contact force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
         peak_force: greatest force [N].
@@ -63,6 +63,29 @@ class Contact:
     force: npt.NDArray[np.float64]
     peak_force: float
     impact_count: int
+
+
+@dataclass(frozen=True, eq=False)
+class LinkedFloors:
+    """One spring or damper between two neighbours.
+
+    Attributes:
+        between: names of the left and the right building, or ``"wall"``.
+        floors: floors on the left and on the right, from 1; ``None`` for a point between floors, and for a wall.
+        height: height above the base [m].
+        force: force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
+        peak_force: force of greatest size, with its sign [N].
+        peak_stroke: greatest change of length, either sign [m].
+        dissipated: energy that the damper took [J].
+    """
+
+    between: tuple[str, str]
+    floors: tuple[int | None, int | None]
+    height: float
+    force: npt.NDArray[np.float64]
+    peak_force: float
+    peak_stroke: float
+    dissipated: float
 
 
 class Result:
@@ -153,7 +176,7 @@ class Result:
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
-        """All contacts, gap by gap from the left, each from the lowest up, with their force histories."""
+        """All contacts, gap by gap in the order of the model, each from the lowest up, with their force histories."""
         found: list[Contact] = []
         for gap in self.summary["gaps"]:
             for contact in gap["contacts"]:
@@ -165,6 +188,25 @@ class Result:
                         force=self._history("force", len(found)),
                         peak_force=contact["peak_force_n"],
                         impact_count=contact["impact_count"],
+                    )
+                )
+        return tuple(found)
+
+    @property
+    def links(self) -> tuple[LinkedFloors, ...]:
+        """All springs and dampers between buildings, link by link, each from the lowest up, with their forces."""
+        found: list[LinkedFloors] = []
+        for link in self.summary["links"]:
+            for floor in link["floors"]:
+                found.append(
+                    LinkedFloors(
+                        between=tuple(link["between"]),
+                        floors=tuple(floor["floors"]),
+                        height=floor["height_m"],
+                        force=self._history("link", len(found)),
+                        peak_force=floor["peak_force_n"],
+                        peak_stroke=floor["peak_stroke_m"],
+                        dissipated=floor["dissipated_j"],
                     )
                 )
         return tuple(found)

@@ -28,6 +28,7 @@ UNITS: dict[str, str] = {
     "m_s2": "m/s2", "cm_s2": "cm/s2", "g": "g", "gal": "gal",
     "kg": "kg", "t": "t", "kn": "kN", "mn": "MN", "n": "N",
     "n_m": "N/m", "kn_m": "kN/m", "mn_m": "MN/m", "n_m1_5": "N/m^1.5",
+    "n_s_m": "N.s/m", "kn_s_m": "kN.s/m", "mn_s_m": "MN.s/m",
     "pa": "Pa", "mpa": "MPa", "gpa": "GPa",
     "kg_m": "kg/m", "t_m": "t/m", "kg_m3": "kg/m3", "kn_m3": "kN/m3",
 }  # fmt: skip
@@ -90,13 +91,35 @@ class ShearUnits(HeightUnits, total=False):
     stiffness_mn_m: Numbers
 
 
+class LinkUnits(TypedDict, total=False):
+    """Keywords with units in their names."""
+
+    level_tolerance_m: float
+    level_tolerance_cm: float
+    level_tolerance_mm: float
+    stiffness_n_m: float
+    stiffness_kn_m: float
+    stiffness_mn_m: float
+    damping_n_s_m: float
+    damping_kn_s_m: float
+    damping_mn_s_m: float
+
+
 class GapUnits(TypedDict, total=False):
     """Keywords with units in their names."""
 
-    width_m: float
-    width_cm: float
-    width_mm: float
-    width_in: float
+    width_m: Numbers
+    width_cm: Numbers
+    width_mm: Numbers
+    width_in: Numbers
+    level_tolerance_m: float
+    level_tolerance_cm: float
+    level_tolerance_mm: float
+    thickness_m: float
+    thickness_cm: float
+    thickness_mm: float
+    minimum_separation_s: float
+    minimum_separation_ms: float
     stiffness_n_m: float
     stiffness_kn_m: float
     stiffness_mn_m: float

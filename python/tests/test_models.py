@@ -12,7 +12,7 @@ import pytest
 from conftest import TOWERS, Program, build_towers
 
 import jostle
-from jostle import Frame, Gap, Model, ModelError, Shear
+from jostle import Frame, Gap, Link, Model, ModelError, Shear
 
 TREE: dict[str, Any] = {
     "building": [{"kind": "shear", "storeys": 2, "mass": "40 t", "stiffness": "60 MN/m", "storey_height": 3}]
@@ -73,6 +73,30 @@ def test_gaps_find_their_neighbours() -> None:
     assert [gap["width_m"] for gap in same.description["gaps"]] == [0.01, 0.01]
     nameless = [Shear(storeys=2, mass="40 t", stiffness="60 MN/m", storey_height=3)] * 2
     assert Model(nameless, Gap("5 mm")).description["gaps"][0]["between"] == ["B1", "B2"]
+
+
+def test_walls_links_and_widths_of_their_own() -> None:
+    row = [Shear(n, storeys=2, mass="40 t", stiffness="60 MN/m", storey_height=3) for n in "ab"]
+    gaps = [
+        Gap(width_mm=[10, 20], between=["a", "b"], level_tolerance="5 mm"),
+        Gap("30 mm", between=["wall", "a"], floors=[["wall", 2]]),
+        Gap("40 mm", between=["b", "wall"]),
+        Gap("5 mm", between=["a", "b"], floors=[[2, 2]], law="rubber", stiffness_mn_m=20, thickness_mm=4),
+    ]
+    link = Link(["a", "b"], damping_kn_s_m=500, stiffness="1 MN/m", floors=[[2, 2]])
+    description = Model(row, gaps, links=link).description
+    assert [gap["between"] for gap in description["gaps"]][1:3] == [["wall", "a"], ["b", "wall"]]
+    assert [contact["width_m"] for contact in description["gaps"][0]["contacts"]] == [0.01, 0.02]
+    assert [contact["floors"] for contact in description["gaps"][1]["contacts"]] == [[None, 2]]
+    [joined] = description["links"]
+    assert joined["damping_n_s_m"] == 5e5 and joined["stiffness_n_m"] == 1e6
+    assert joined["floors"] == [{"floors": [2, 2], "height_m": 6.0}]
+    assert link == Link(["a", "b"], damping="500 kN.s/m", stiffness="1 MN/m", floors=[[2, 2]])
+    assert "<rect" in Model(row, gaps, links=[link])._repr_html_()
+    with pytest.raises(ModelError, match="two buildings that are not neighbours|no building"):
+        Model(row, [], links=Link(["wall", "wall"], damping=1e5))
+    with pytest.raises(ModelError, match="neither|damping"):
+        Model(row, [], links=Link(["a", "b"]))
 
 
 def test_a_gap_between_strangers_is_refused() -> None:

@@ -124,6 +124,25 @@ def test_contacts_between_floors_have_no_floor(towers: jostle.Model) -> None:
     assert result.contacts[0].floors == (None, 1)
 
 
+def test_links_have_forces_and_take_energy() -> None:
+    row = [jostle.Shear(n, storeys=2, mass="90 t", stiffness=k, storey_height=3) for n, k in [("a", "40 MN/m"), ("b", "90 MN/m")]]
+    gap = jostle.Gap("10 mm", between=["b", "wall"])
+    link = jostle.Link(["a", "b"], damping="1 MN.s/m", floors=[[2, 2]])
+    model = jostle.Model(row, gap, links=link)
+    result = jostle.run(model, motion=jostle.Motion.el_centro().scaled(pga="0.4 g").lasting("6 s"))
+    [damper] = result.links
+    assert damper.between == ("a", "b") and damper.floors == (2, 2) and damper.height == 6
+    assert abs(abs(damper.peak_force) - abs(damper.force).max()) < 1e-3 * abs(damper.peak_force)
+    # A dashpot alone: force over damping is the closing rate.
+    rate = result.floor("a", 2).velocity - result.floor("b", 2).velocity
+    assert abs(damper.force - 1e6 * rate).max() < 1e-6 * abs(damper.force).max()
+    energy = result.summary["energy"]
+    assert 0 < damper.dissipated == pytest.approx(energy["links_j"], rel=1e-9)
+    assert energy["links_j"] < energy["damped_j"] and energy["worst_imbalance"] < 1e-9
+    assert result.contacts[0].between == ("b", "wall") and result.contacts[0].floors == (1, None)
+    assert "a-b.link2-2.force_n" in result.history.columns
+
+
 def test_floors_are_found(result: jostle.Result) -> None:
     assert result.floor("stiff", 2).building == result.floor(1, 2).building == "stiff"
     assert result.floor(-1, -1).floor == 3
