@@ -81,12 +81,25 @@ def experiment(model: Model, law: ContactLaw, *, step: Quantity = 1e-4) -> Exper
         damping[own, own], stiffness[own, own] = part.damping, part.stiffness
         effective = part.stiffness + 2.0 / h * part.damping + np.diag(4.0 / h**2 * part.mass)
         compliance[own, own] = np.linalg.inv(effective)
+    links = model._core.links()
+    for one, other, spring, dashpot in links:
+        apart = np.zeros(n)
+        for dof, sign in ((one, -1.0), (other, 1.0)):
+            if dof is not None:
+                apart[dof] = sign
+        stiffness += spring * np.outer(apart, apart)
+        damping += dashpot * np.outer(apart, apart)
+    if links:
+        compliance = np.linalg.inv(stiffness + 2.0 / h * damping + np.diag(4.0 / h**2 * mass))
     contacts = model._core.contacts()
     widths = np.array([width for *_, width in contacts])
     # Column c: where a unit force of contact c pushes.
     pushes = np.zeros((n, len(contacts)))
     for c, (_, left, right, _) in enumerate(contacts):
-        pushes[left, c], pushes[right, c] = -1.0, 1.0
+        # A wall stands still relative to the ground.
+        for dof, sign in ((left, -1.0), (right, 1.0)):
+            if dof is not None:
+                pushes[dof, c] = sign
     answers = compliance @ pushes
     steps = int(round(motion.duration / h))
     time = h * np.arange(steps + 1, dtype=np.float64)

@@ -93,6 +93,28 @@ def test_an_experiment_finds_what_a_run_finds() -> None:
     assert np.abs(tried.displacement["soft"][:, 0] - ours).max() < 2e-4
 
 
+def test_an_experiment_knows_walls_and_links() -> None:
+    row = [
+        jostle.Shear("a", mass=["40 t", "40 t"], stiffness="30 MN/m", storey_height=3),
+        jostle.Shear("b", mass=["50 t", "50 t"], stiffness="90 MN/m", storey_height=3),
+    ]
+    law: dict[str, Any] = {"law": "hertz", "stiffness": "5e8 N/m^1.5"}
+    gaps = [
+        jostle.Gap("10 mm", between=["a", "b"], **law),
+        jostle.Gap("12 mm", between=["b", "wall"], **law),
+    ]
+    link = jostle.Link(["a", "b"], floors=[[1, 1]], damping="200 kN.s/m", stiffness="2 MN/m")
+    motion = jostle.Motion.el_centro().scaled(pga="0.4 g").lasting("4 s")
+    model = jostle.Model(row, gaps, links=link, motion=motion)
+    tried = jostle.experiment(model, jostle.ContactLaw(lambda d, r, s: 5e8 * d**1.5), step=1e-4)
+    run = jostle.run(model)
+    assert all(gap["impact_count"] > 0 for gap in run.summary["gaps"])
+    assert tried.peak_force == pytest.approx(max(c.peak_force for c in run.contacts), rel=3e-3)
+    for name in ("a", "b"):
+        ours = np.interp(tried.time, run.time, run.floor(name, 2).displacement)
+        assert np.abs(tried.displacement[name][:, 1] - ours).max() < 2e-4
+
+
 def test_an_experiment_refuses_what_it_cannot() -> None:
     with pytest.raises(jostle.ModelError, match="may yield"):
         jostle.experiment(jostle.Model.example("paper-inelastic"), jostle.ContactLaw(lambda d, r, s: d))

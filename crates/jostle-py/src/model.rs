@@ -163,11 +163,25 @@ impl Model {
         matrices(py, &self.system, building)
     }
 
-    /// Contacts as (gap, left degree of freedom, right one, width), counted through all buildings.
-    fn contacts(&self) -> Vec<(usize, usize, usize, f64)> {
+    /// Contacts as (gap, left degree of freedom, right one, width), counted through all buildings; none is a wall.
+    fn contacts(&self) -> Vec<(usize, Option<usize>, Option<usize>, f64)> {
         let contacts = self.system.contacts.iter();
         contacts
-            .map(|contact| (contact.gap, contact.dofs[0], contact.dofs[1], contact.width))
+            .map(|contact| {
+                let [left, right] = contact.faces.0.map(|face| face.map(|f| f.dof));
+                (contact.gap, left, right, contact.width)
+            })
+            .collect()
+    }
+
+    /// Springs and dampers between buildings as (left degree of freedom, right one, stiffness, damping).
+    fn links(&self) -> Vec<(Option<usize>, Option<usize>, f64, f64)> {
+        let links = self.system.links.iter();
+        links
+            .map(|link| {
+                let [left, right] = link.faces.0.map(|face| face.map(|f| f.dof));
+                (left, right, link.stiffness, link.damping)
+            })
             .collect()
     }
 

@@ -86,6 +86,7 @@ impl<'a> Script<'a> {
             }
         }
         script.add_contacts(&mut faults);
+        script.refuse_links(&mut faults);
         script.remark_on_motion();
         if faults.is_empty() {
             Ok(script)
@@ -352,20 +353,34 @@ impl<'a> Script<'a> {
     fn add_contacts(&mut self, faults: &mut Vec<ModelFault>) {
         let system = self.export.system;
         for contact in &system.contacts {
+            let path = format!("gap[{}]", contact.gap);
+            if contact.faces.0.contains(&None) {
+                let told = faults
+                    .iter()
+                    .any(|fault| fault.path == format!("{path}.between"));
+                if !told {
+                    faults.push(ModelFault {
+                        path: format!("{path}.between"),
+                        problem: "rigid walls are not exported; leave the gap out".to_owned(),
+                    });
+                }
+                continue;
+            }
             let face = |side: usize| {
-                let idealisation = &system.buildings[contact.buildings[side]].idealisation;
+                let face = contact.faces.0[side]?;
+                let idealisation = &system.buildings[face.building].idealisation;
                 let nodes = if side == 0 {
                     &idealisation.right_face
                 } else {
                     &idealisation.left_face
                 };
                 let level = |node: &&usize| {
-                    (idealisation.skeleton.nodes[**node].y - contact.height).abs() <= SAME_LEVEL
+                    (idealisation.skeleton.nodes[**node].y - face.height).abs() <= SAME_LEVEL
                 };
-                nodes.iter().find(level).copied()
+                let node = nodes.iter().find(level).copied()?;
+                Some(self.tag(face.building, node))
             };
-            let path = format!("gap[{}]", contact.gap);
-            let (Some(left), Some(right)) = (face(0), face(1)) else {
+            let (Some(a), Some(b)) = (face(0), face(1)) else {
                 faults.push(ModelFault {
                     path: format!("{path}.floors"),
                     problem: format!("no nodes face each other at {:.3} m", contact.height),
@@ -394,10 +409,7 @@ impl<'a> Script<'a> {
                 self.remark("OpenSees wants a gap: faces that touch at rest are 1e-12 m apart.");
             }
             let tag = self.element();
-            let (a, b) = (
-                self.tag(contact.buildings[0], left),
-                self.tag(contact.buildings[1], right),
-            );
+            let floors = contact.faces.floors();
             let floor = |floor: Option<usize>| {
                 floor.map_or_else(|| "None".to_owned(), |floor| floor.to_string())
             };
@@ -406,11 +418,21 @@ impl<'a> Script<'a> {
                 "    ({tag}, {a}, {b}, {material}, {:?}, {}, ({}, {}), {:?}),",
                 contact.width,
                 contact.gap,
-                floor(contact.floors[0]),
-                floor(contact.floors[1]),
+                floor(floors[0]),
+                floor(floors[1]),
                 rounded(contact.height),
             );
         }
+    }
+
+    /// Links have no counterpart here yet.
+    fn refuse_links(&self, faults: &mut Vec<ModelFault>) {
+        let mut links: Vec<usize> = self.export.system.links.iter().map(|l| l.link).collect();
+        links.dedup();
+        faults.extend(links.into_iter().map(|link| ModelFault {
+            path: format!("link[{link}]"),
+            problem: "links are not exported; leave them out".to_owned(),
+        }));
     }
 
     fn remark_on_motion(&mut self) {
