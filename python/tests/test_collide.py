@@ -101,7 +101,7 @@ def test_an_experiment_knows_walls_and_links() -> None:
     law: dict[str, Any] = {"law": "hertz", "stiffness": "5e8 N/m^1.5"}
     gaps = [
         jostle.Gap("10 mm", between=["a", "b"], **law),
-        jostle.Gap("12 mm", between=["b", "wall"], **law),
+        jostle.Gap("4 mm", between=["b", "wall"], **law),
     ]
     link = jostle.Link(["a", "b"], floors=[[1, 1]], damping="200 kN.s/m", stiffness="2 MN/m")
     motion = jostle.Motion.el_centro().scaled(pga="0.4 g").lasting("4 s")

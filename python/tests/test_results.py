@@ -124,6 +124,7 @@ def test_contacts_between_floors_have_no_floor(towers: jostle.Model) -> None:
     assert result.contacts[0].floors == (None, 1)
 
 
+@pytest.mark.filterwarnings("ignore::jostle.ModelWarning")
 def test_links_have_forces_and_take_energy() -> None:
     row = [jostle.Shear(n, storeys=2, mass="90 t", stiffness=k, storey_height=3) for n, k in [("a", "40 MN/m"), ("b", "90 MN/m")]]
     gap = jostle.Gap("10 mm", between=["b", "wall"])
