@@ -52,7 +52,7 @@ impl Cubic {
     }
 
     /// Shares of the step, in order, where the slope vanishes strictly inside it.
-    fn turning_points(&self) -> impl Iterator<Item = f64> {
+    pub(crate) fn turning_points(&self) -> impl Iterator<Item = f64> {
         let [_, c1, c2, c3] = self.powers();
         let discriminant = c2 * c2 - 3.0 * c1 * c3;
         let mut points = [f64::NAN; 2];

@@ -1,0 +1,300 @@
+//! All buildings in modal coordinates, one after the other.
+
+use std::ops::Range;
+
+use super::basis::{Basis, Demand};
+use super::response::{Response, damped};
+use crate::history::Work;
+use crate::stepping::{NotPositive, lanes};
+use crate::system::{Contact, System};
+
+/// A row of buildings as oscillators, and how they show at floors and contacts.
+pub(super) struct Reduced {
+    /// d = 2ζω of every mode \[1/s\].
+    pub(super) damping: Vec<f64>,
+    /// k = ω² \[1/s²\].
+    pub(super) stiffness: Vec<f64>,
+    /// Γ = φᵀM r \[kg^½\].
+    pub(super) participation: Vec<f64>,
+    pub(super) buildings: Vec<ReducedBuilding>,
+    /// Where the two faces of every contact show among the watched displacements.
+    pub(super) faces: Vec<[usize; 2]>,
+}
+
+/// Modes and watched displacements of one building.
+pub(super) struct ReducedBuilding {
+    /// Its modes among all.
+    pub(super) modes: Range<usize>,
+    /// Its watched displacements among all: floors from the ground up, then other faces of contacts.
+    pub(super) watched: Range<usize>,
+    /// Number of floors.
+    pub(super) floors: usize,
+    /// Shapes at the watched displacements, row by row \[kg^−½\].
+    rows: Vec<f64>,
+    /// Base shear of every mode \[N/(m·kg^½)\].
+    pub(super) shear: Vec<f64>,
+    shapes: Vec<Vec<f64>>,
+}
+
+impl Reduced {
+    /// `closeness`: how well flexibilities must be met at the rate s of every building \[1/s\].
+    pub(super) fn of(
+        system: &System,
+        rates: &[[f64; 2]],
+        closeness: f64,
+        work: &mut Work,
+    ) -> Result<Self, (usize, NotPositive)> {
+        let mut reduced = Self {
+            damping: Vec::new(),
+            stiffness: Vec::new(),
+            participation: Vec::new(),
+            buildings: Vec::new(),
+            faces: vec![[0; 2]; system.contacts.len()],
+        };
+        let mut watching = 0;
+        for (index, building) in system.buildings.iter().enumerate() {
+            let mut watched: Vec<usize> = building
+                .floors
+                .iter()
+                .map(|floor| floor.dof - building.offset)
+                .collect();
+            let floors = watched.len();
+            let mut faces = Vec::new();
+            for (number, contact) in system.contacts.iter().enumerate() {
+                for side in 0..2 {
+                    if contact.buildings[side] != index {
+                        continue;
+                    }
+                    let dof = contact.dofs[side] - building.offset;
+                    let known = watched.iter().position(|other| *other == dof);
+                    let place = known.unwrap_or_else(|| {
+                        watched.push(dof);
+                        watched.len() - 1
+                    });
+                    reduced.faces[number][side] = watching + place;
+                    if !faces.contains(&dof) {
+                        faces.push(dof);
+                    }
+                }
+            }
+            let demand = Demand {
+                faces: &faces,
+                rates: &rates[index],
+                tolerance: closeness,
+            };
+            let basis = Basis::of(building, &demand).map_err(|failure| (index, failure))?;
+            work.factorizations += basis.factorizations;
+            work.solves += basis.solves;
+            let start = reduced.stiffness.len();
+            let equations = &building.equations;
+            for stiffness in &basis.stiffness {
+                reduced.damping.push(match building.modal_damping {
+                    Some(ratio) => 2.0 * ratio * stiffness.sqrt(),
+                    None => equations.alpha + equations.beta * stiffness,
+                });
+            }
+            reduced.stiffness.extend(&basis.stiffness);
+            reduced.participation.extend(&basis.participation);
+            let mut rows = Vec::with_capacity(watched.len() * basis.shapes.len());
+            for dof in &watched {
+                rows.extend(basis.shapes.iter().map(|shape| shape[*dof]));
+            }
+            reduced.buildings.push(ReducedBuilding {
+                modes: start..reduced.stiffness.len(),
+                watched: watching..watching + watched.len(),
+                floors,
+                rows,
+                shear: basis
+                    .shapes
+                    .iter()
+                    .map(|shape| equations.base_shear(shape))
+                    .collect(),
+                shapes: basis.shapes,
+            });
+            watching += watched.len();
+        }
+        Ok(reduced)
+    }
+
+    /// Number of modes of all buildings.
+    pub(super) fn modes(&self) -> usize {
+        self.stiffness.len()
+    }
+
+    /// Number of watched displacements.
+    pub(super) fn watched(&self) -> usize {
+        self.buildings.last().map_or(0, |building| building.watched.end)
+    }
+
+    /// What modal coordinates show at every watched displacement.
+    pub(super) fn show(&self, modal: &[f64], watched: &mut [f64]) {
+        for building in &self.buildings {
+            let coordinates = &modal[building.modes.clone()];
+            let rows = building.rows.chunks_exact(coordinates.len().max(1));
+            for (value, row) in watched[building.watched.clone()].iter_mut().zip(rows) {
+                *value = lanes::dot(row, coordinates);
+            }
+        }
+    }
+
+    /// The same for one watched displacement of a building.
+    pub(super) fn row(&self, building: usize, watched: usize) -> &[f64] {
+        let own = &self.buildings[building];
+        let (at, n) = (watched - own.watched.start, own.modes.len());
+        &own.rows[at * n..(at + 1) * n]
+    }
+
+    /// Adds what a force on the faces of a contact, pushing them apart, makes of modal loads.
+    pub(super) fn push_apart(&self, contact: &Contact, index: usize, force: f64, loads: &mut [f64]) {
+        for (side, force) in [(0, -force), (1, force)] {
+            let building = contact.buildings[side];
+            let row = self.row(building, self.faces[index][side]);
+            let loads = &mut loads[self.buildings[building].modes.clone()];
+            for (load, shape) in loads.iter_mut().zip(row) {
+                *load += force * shape;
+            }
+        }
+    }
+
+    /// Full displacements of all buildings.
+    pub(super) fn expand(&self, modal: &[f64], full: &mut [f64]) {
+        full.fill(0.0);
+        let mut offset = 0;
+        for building in &self.buildings {
+            for (shape, coordinate) in building.shapes.iter().zip(&modal[building.modes.clone()]) {
+                for (value, shape) in full[offset..].iter_mut().zip(shape) {
+                    *value += shape * coordinate;
+                }
+            }
+            offset += building.shapes.first().map_or(0, Vec::len);
+        }
+    }
+}
+
+/// Exact factors of all modes for one step size, quantity by quantity.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Table {
+    pub(super) step: f64,
+    /// Of (q₀, q̇₀, p₀, p₁) in q₁, q̇₁ and ∫q.
+    pub(super) displacement: [Vec<f64>; 4],
+    pub(super) velocity: [Vec<f64>; 4],
+    area: [Vec<f64>; 4],
+    /// Of the products of these in the energy lost by damping.
+    damped: [Vec<f64>; 10],
+    /// Σ φ b₁₂ φ and Σ φ b₂₂ φ between all pairs of contacts, where already asked for.
+    pub(super) compliance: Vec<Option<[f64; 2]>>,
+}
+
+/// What a step did to the energies of all modes \[J\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StepEnergy {
+    pub(super) damped: f64,
+    /// ∫ Σ Γ q̇ a_g dt, negative.
+    pub(super) input: f64,
+}
+
+impl Table {
+    pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rule: &[(f64, f64)]) {
+        self.step = step;
+        self.compliance.clear();
+        let contacts = reduced.faces.len();
+        self.compliance.resize(contacts * contacts, None);
+        let lists = self.displacement.iter_mut().chain(&mut self.velocity);
+        lists.chain(&mut self.area).for_each(Vec::clear);
+        self.damped.iter_mut().for_each(Vec::clear);
+        for (damping, stiffness) in reduced.damping.iter().zip(&reduced.stiffness) {
+            let Response {
+                displacement,
+                velocity,
+                area,
+            } = Response::over(*damping, *stiffness, step);
+            for (list, value) in self.displacement.iter_mut().zip(displacement) {
+                list.push(value);
+            }
+            for (list, value) in self.velocity.iter_mut().zip(velocity) {
+                list.push(value);
+            }
+            for (list, value) in self.area.iter_mut().zip(area) {
+                list.push(value);
+            }
+            let form = damped(*damping, *stiffness, step, rule);
+            for (list, value) in self.damped.iter_mut().zip(form) {
+                list.push(value);
+            }
+        }
+    }
+
+    /// q₁ and q̇₁ of all modes.
+    pub(super) fn advance(&self, start: [&[f64]; 2], loads: [&[f64]; 2], end: [&mut [f64]; 2]) {
+        let [q1, v1] = end;
+        combine(&self.displacement, start, loads, q1);
+        combine(&self.velocity, start, loads, v1);
+    }
+
+    /// ∫q dt of all modes.
+    pub(super) fn area(&self, start: [&[f64]; 2], loads: [&[f64]; 2], area: &mut [f64]) {
+        combine(&self.area, start, loads, area);
+    }
+
+    /// Energy that damping takes over the step \[J\].
+    pub(super) fn damped(&self, start: [&[f64]; 2], loads: [&[f64]; 2]) -> f64 {
+        let [a, b, c, d] = [start[0], start[1], loads[0], loads[1]];
+        let n = a.len();
+        let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = std::array::from_fn(|i| &self.damped[i][..n]);
+        let (b, c, d) = (&b[..n], &c[..n], &d[..n]);
+        let mut sums = [0.0; LANES];
+        for start in (0..n).step_by(LANES) {
+            for (lane, sum) in sums.iter_mut().enumerate().take(n - start) {
+                let i = start + lane;
+                *sum += a[i] * (aa[i] * a[i] + ab[i] * b[i] + ac[i] * c[i] + ad[i] * d[i])
+                    + b[i] * (bb[i] * b[i] + bc[i] * c[i] + bd[i] * d[i])
+                    + c[i] * (cc[i] * c[i] + cd[i] * d[i])
+                    + dd[i] * d[i] * d[i];
+            }
+        }
+        sums.iter().sum()
+    }
+
+    /// Displacement and velocity of contact c at the end of the step under a unit end force of contact d, both
+    /// counted as opening \[m/N, m/(N s)\].
+    pub(super) fn opening(&mut self, c: usize, d: usize, system: &System, reduced: &Reduced) -> [f64; 2] {
+        let contacts = reduced.faces.len();
+        if let Some(known) = self.compliance[c * contacts + d] {
+            return known;
+        }
+        let mut sums = [0.0; 2];
+        for (own, own_sign) in [(0, -1.0), (1, 1.0)] {
+            for (other, other_sign) in [(0, -1.0), (1, 1.0)] {
+                let building = system.contacts[c].buildings[own];
+                if building != system.contacts[d].buildings[other] {
+                    continue;
+                }
+                let range = reduced.buildings[building].modes.clone();
+                let (a, b) = (
+                    reduced.row(building, reduced.faces[c][own]),
+                    reduced.row(building, reduced.faces[d][other]),
+                );
+                let factors = [&self.displacement[3][range.clone()], &self.velocity[3][range]];
+                for (sum, factors) in sums.iter_mut().zip(factors) {
+                    let pairs = a.iter().zip(b).zip(factors);
+                    *sum += own_sign * other_sign * pairs.map(|((a, b), f)| a * b * f).sum::<f64>();
+                }
+            }
+        }
+        self.compliance[c * contacts + d] = Some(sums);
+        sums
+    }
+}
+
+/// Modes taken at once.
+const LANES: usize = 8;
+
+#[inline]
+fn combine(factors: &[Vec<f64>; 4], start: [&[f64]; 2], loads: [&[f64]; 2], out: &mut [f64]) {
+    let n = out.len();
+    let [a, b, c, d] = std::array::from_fn(|i| &factors[i][..n]);
+    let (q, v, p0, p1) = (&start[0][..n], &start[1][..n], &loads[0][..n], &loads[1][..n]);
+    for i in 0..n {
+        out[i] = a[i] * q[i] + b[i] * v[i] + c[i] * p0[i] + d[i] * p1[i];
+    }
+}
