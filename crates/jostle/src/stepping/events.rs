@@ -60,7 +60,9 @@ impl Cubic {
             // The stable pair of roots of c1 + 2 c2 t + 3 c3 t².
             let q = -(c2 + c2.signum() * discriminant.sqrt());
             points = [q / (3.0 * c3), c1 / q];
-            points.sort_by(f64::total_cmp);
+            if points[0] > points[1] {
+                points.swap(0, 1);
+            }
         }
         points
             .into_iter()

@@ -59,7 +59,7 @@ const TYPICAL_SPEED: f64 = 0.5;
 /// Free-flight steps of modal stepping, at a tolerance of 1e-3: per first and third lateral period, and per period of
 /// an analytic motion.
 const MODAL_STEPS_PER_FIRST: f64 = 20.0;
-const MODAL_STEPS_PER_THIRD: f64 = 12.0;
+const MODAL_STEPS_PER_THIRD: f64 = 7.5;
 const MODAL_STEPS_PER_MOTION_PERIOD: f64 = 150.0;
 /// And where nothing else limits it \[s\].
 const LONGEST_MODAL_STEP: f64 = 0.05;

@@ -179,7 +179,8 @@ impl Walk<'_> {
         self.reduced.push_apart(contact, index, impulse, &mut self.v[0]);
         let dissipated = before - self.v[0].iter().map(|v| 0.5 * v * v).sum::<f64>();
         self.energy.contact += dissipated;
-        self.reduced.show(&self.v[0], &mut self.rate[0]);
+        let watched = [&mut self.u[0][..], &mut self.rate[0][..]];
+        self.reduced.show([&self.q[0], &self.v[0]], watched);
         self.read_contacts();
         let time = self.time;
         self.impacts.push(Impact {

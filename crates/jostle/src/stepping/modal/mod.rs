@@ -49,8 +49,6 @@ pub fn refusals(building: &BuildingSystem, integrator: Integrator) -> Vec<String
 
 /// Impact speed at which a contact is judged \[m/s\].
 const TYPICAL_SPEED: f64 = 0.5;
-/// Rates at which flexibilities are compared, in units of π over the duration of an impact \[–\].
-const RATES: [f64; 2] = [1.0, 4.0];
 /// Share of the tolerance that flexibilities may be off.
 const FLEXIBILITY_SHARE: f64 = 0.1;
 /// Tolerance that fixed steps stand for \[–\].
@@ -65,12 +63,13 @@ pub(super) fn simulate(
     observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
     let mut work = Work::default();
+    // Half of what a run may be off is for contacts.
     let tolerance = match plan.contact_steps {
-        // A run uses half of its tolerance for contacts.
         ContactSteps::PerImpact { tolerance, .. } => 2.0 * tolerance,
         ContactSteps::Fixed(_) => USUAL_TOLERANCE,
     };
-    let rates: Vec<[f64; 2]> = (0..system.buildings.len()).map(|index| rates(system, index)).collect();
+    let buildings = 0..system.buildings.len();
+    let rates: Vec<f64> = buildings.map(|index| quickest(system, index)).collect();
     match Reduced::of(system, &rates, FLEXIBILITY_SHARE * tolerance, &mut work) {
         Ok(reduced) => Walk::new(system, motion, plan, settings, reduced, work).run(observer),
         Err((building, source)) => not_begun(system, StepError::NotPositive {
@@ -81,8 +80,8 @@ pub(super) fn simulate(
     }
 }
 
-/// Rates s that matter to a building: those of its quickest contact, or else of its third lateral mode.
-fn rates(system: &System, building: usize) -> [f64; 2] {
+/// Rate of what happens to a building: π over its shortest impact, or the frequency of its third lateral mode \[1/s\].
+fn quickest(system: &System, building: usize) -> f64 {
     let contacts = system.contacts.iter().filter(|contact| contact.buildings.contains(&building));
     let durations = contacts
         .filter(|contact| contact.law.stiffness() > 0.0)
@@ -90,8 +89,7 @@ fn rates(system: &System, building: usize) -> [f64; 2] {
     let shortest = durations.fold(f64::INFINITY, f64::min);
     let modes = system.buildings[building].lateral_modes().take(3);
     let own = modes.map(|mode| mode.circular_frequency).fold(0.0, f64::max);
-    let rate = (PI / shortest).max(own);
-    RATES.map(|times| times * rate)
+    (PI / shortest).max(own)
 }
 
 /// What is left behind by a run that could not begin.

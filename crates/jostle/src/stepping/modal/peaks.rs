@@ -43,8 +43,9 @@ pub(super) struct Moment<'a> {
 impl Peaks {
     pub(super) fn new(system: &System, reduced: &Reduced, interval: Option<f64>) -> Self {
         let watched = reduced.watched();
-        let mut driven = vec![0.0; watched];
-        reduced.show(&reduced.participation, &mut driven);
+        let (mut driven, mut spare) = (vec![0.0; watched], vec![0.0; watched]);
+        let participation = &reduced.participation[..];
+        reduced.show([participation, participation], [&mut driven, &mut spare]);
         Self {
             history: interval.map(|_| History::new(columns(system))),
             interval: interval.unwrap_or(0.0),
@@ -84,12 +85,14 @@ impl Peaks {
         } = moment;
         self.acceleration.swap(0, 1);
         self.loose.swap(0, 1);
-        reduced.show(a, &mut self.acceleration[0]);
         let modes = a.iter().zip(v).zip(&reduced.damping).zip(&reduced.stiffness);
         for (jerk, (((a, v), d), k)) in self.jerk.iter_mut().zip(modes) {
             *jerk = -d * a - k * v;
         }
-        reduced.show(&self.jerk, &mut self.loose[0]);
+        reduced.show(
+            [a, &self.jerk],
+            [&mut self.acceleration[0], &mut self.loose[0]],
+        );
         let ground_rate = (ground[1] - ground[0]) / step;
         for (index, building) in system.buildings.iter().enumerate() {
             let own = &reduced.buildings[index];
@@ -103,20 +106,21 @@ impl Peaks {
                 take(&mut peaks.displacement_min, -1.0, then, now, start, step);
                 let drift = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
                 let drifts = (drift(then, below[1]), drift(now, below[0]));
-                peaks.storey_drift = peaks.storey_drift.max(largest(drifts.0, drifts.1, step) / floor.storey_height);
+                let known = peaks.storey_drift * floor.storey_height;
+                peaks.storey_drift = largest(drifts.0, drifts.1, step, known) / floor.storey_height;
                 below = [now, then];
                 let total = |time: usize| {
                     let slope = self.loose[time][at] + ground_rate * (1.0 - self.driven[at]);
                     [self.acceleration[time][at] + ground[1 - time], slope]
                 };
-                peaks.total_acceleration = peaks.total_acceleration.max(largest(total(1), total(0), step));
+                peaks.total_acceleration = largest(total(1), total(0), step, peaks.total_acceleration);
             }
             let sum = |modal: &[f64]| -> f64 {
                 let own_modes = &modal[own.modes.clone()];
                 own.shear.iter().zip(own_modes).map(|(s, q)| s * q).sum()
             };
             let now = [sum(q), sum(v)];
-            self.base_shear[index] = self.base_shear[index].max(largest(self.shear[index], now, step));
+            self.base_shear[index] = largest(self.shear[index], now, step, self.base_shear[index]);
             self.shear[index] = now;
         }
         for (closing, [left, right]) in self.closing.iter_mut().zip(&reduced.faces) {
@@ -176,6 +180,9 @@ impl Peaks {
 
 /// Keeps the greatest value, or with a sign of −1 the least one, of a step between (value, slope) at its ends.
 fn take(extreme: &mut Extreme, sign: f64, then: [f64; 2], now: [f64; 2], start: f64, step: f64) {
+    if !may_exceed([sign * then[0], then[1]], [sign * now[0], now[1]], step, sign * extreme.value) {
+        return;
+    }
     let greatest = greatest_in_step(
         (sign * then[0], sign * then[1]),
         (sign * now[0], sign * now[1]),
@@ -190,9 +197,19 @@ fn take(extreme: &mut Extreme, sign: f64, then: [f64; 2], now: [f64; 2], start: 
     }
 }
 
-/// Greatest magnitude in a step between (value, slope) at its ends.
-fn largest(then: [f64; 2], now: [f64; 2], step: f64) -> f64 {
+/// Greatest magnitude in a step between (value, slope) at its ends, or that known so far.
+fn largest(then: [f64; 2], now: [f64; 2], step: f64, known: f64) -> f64 {
+    if !may_exceed([then[0].abs(), then[1]], [now[0].abs(), now[1]], step, known) {
+        return known;
+    }
     let curve = Cubic::new(then[0], then[1], now[0], now[1], step);
     let inside = curve.turning_points().map(|at| curve.value(at).abs());
-    inside.fold(then[0].abs().max(now[0].abs()), f64::max)
+    inside.fold(known.max(then[0].abs()).max(now[0].abs()), f64::max)
+}
+
+/// Whether a cubic may rise above a limit: it lies above its ends by no more than 4/27 of the step times the sum of its
+/// end slopes.
+#[inline]
+fn may_exceed(then: [f64; 2], now: [f64; 2], step: f64, limit: f64) -> bool {
+    then[0].max(now[0]) + 0.15 * step * (then[1].abs() + now[1].abs()) > limit
 }

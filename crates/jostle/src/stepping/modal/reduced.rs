@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::basis::{Basis, Demand};
 use super::response::{Response, damped};
 use crate::history::Work;
-use crate::stepping::{NotPositive, lanes};
+use crate::stepping::NotPositive;
 use crate::system::{Contact, System};
 
 /// A row of buildings as oscillators, and how they show at floors and contacts.
@@ -31,16 +31,18 @@ pub(super) struct ReducedBuilding {
     pub(super) floors: usize,
     /// Shapes at the watched displacements, row by row \[kg^−½\].
     rows: Vec<f64>,
+    /// The same for so many rows at once, mode by mode; rows that fill up the last block are zero.
+    blocks: Vec<[f64; ROWS]>,
     /// Base shear of every mode \[N/(m·kg^½)\].
     pub(super) shear: Vec<f64>,
     shapes: Vec<Vec<f64>>,
 }
 
 impl Reduced {
-    /// `closeness`: how well flexibilities must be met at the rate s of every building \[1/s\].
+    /// `rate`: how quick the pushes on every building are \[1/s\]; `closeness`: how well its answers to them must be met.
     pub(super) fn of(
         system: &System,
-        rates: &[[f64; 2]],
+        rates: &[f64],
         closeness: f64,
         work: &mut Work,
     ) -> Result<Self, (usize, NotPositive)> {
@@ -77,9 +79,13 @@ impl Reduced {
                     }
                 }
             }
+            let times = |factors: [f64; 2]| factors.map(|factor| factor * rates[index]);
+            let [slow, quick] = times(MET);
             let demand = Demand {
                 faces: &faces,
-                rates: &rates[index],
+                floors: &watched[..floors],
+                met: &[0.0, quick, slow],
+                compared: &times(COMPARED),
                 tolerance: closeness,
             };
             let basis = Basis::of(building, &demand).map_err(|failure| (index, failure))?;
@@ -99,11 +105,20 @@ impl Reduced {
             for dof in &watched {
                 rows.extend(basis.shapes.iter().map(|shape| shape[*dof]));
             }
+            let modes = basis.shapes.len();
+            let mut blocks = Vec::new();
+            for block in watched.chunks(ROWS) {
+                blocks.extend(basis.shapes.iter().map(|shape| {
+                    std::array::from_fn(|row| block.get(row).map_or(0.0, |dof| shape[*dof]))
+                }));
+            }
+            debug_assert_eq!(blocks.len(), modes * watched.len().div_ceil(ROWS));
             reduced.buildings.push(ReducedBuilding {
                 modes: start..reduced.stiffness.len(),
                 watched: watching..watching + watched.len(),
                 floors,
                 rows,
+                blocks,
                 shear: basis
                     .shapes
                     .iter()
@@ -126,18 +141,30 @@ impl Reduced {
         self.buildings.last().map_or(0, |building| building.watched.end)
     }
 
-    /// What modal coordinates show at every watched displacement.
-    pub(super) fn show(&self, modal: &[f64], watched: &mut [f64]) {
+    /// What two lists of modal coordinates show at every watched displacement.
+    pub(super) fn show(&self, modal: [&[f64]; 2], watched: [&mut [f64]; 2]) {
+        let [first, second] = watched;
         for building in &self.buildings {
-            let coordinates = &modal[building.modes.clone()];
-            let rows = building.rows.chunks_exact(coordinates.len().max(1));
-            for (value, row) in watched[building.watched.clone()].iter_mut().zip(rows) {
-                *value = lanes::dot(row, coordinates);
+            let range = building.modes.clone();
+            let (a, b) = (&modal[0][range.clone()], &modal[1][range]);
+            let blocks = building.blocks.chunks_exact(a.len().max(1));
+            let own = building.watched.clone();
+            let places = first[own.clone()].chunks_mut(ROWS).zip(second[own].chunks_mut(ROWS));
+            for (block, (first, second)) in blocks.zip(places) {
+                let mut sums = [[0.0; ROWS]; 2];
+                for (shape, (a, b)) in block.iter().zip(a.iter().zip(b)) {
+                    for row in 0..ROWS {
+                        sums[0][row] += shape[row] * a;
+                        sums[1][row] += shape[row] * b;
+                    }
+                }
+                first.copy_from_slice(&sums[0][..first.len()]);
+                second.copy_from_slice(&sums[1][..second.len()]);
             }
         }
     }
 
-    /// The same for one watched displacement of a building.
+    /// Shapes at one watched displacement of a building.
     pub(super) fn row(&self, building: usize, watched: usize) -> &[f64] {
         let own = &self.buildings[building];
         let (at, n) = (watched - own.watched.start, own.modes.len());
@@ -242,17 +269,21 @@ impl Table {
         let n = a.len();
         let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = std::array::from_fn(|i| &self.damped[i][..n]);
         let (b, c, d) = (&b[..n], &c[..n], &d[..n]);
+        let term = |i: usize| {
+            a[i] * (aa[i] * a[i] + ab[i] * b[i] + ac[i] * c[i] + ad[i] * d[i])
+                + b[i] * (bb[i] * b[i] + bc[i] * c[i] + bd[i] * d[i])
+                + c[i] * (cc[i] * c[i] + cd[i] * d[i])
+                + dd[i] * d[i] * d[i]
+        };
         let mut sums = [0.0; LANES];
-        for start in (0..n).step_by(LANES) {
-            for (lane, sum) in sums.iter_mut().enumerate().take(n - start) {
-                let i = start + lane;
-                *sum += a[i] * (aa[i] * a[i] + ab[i] * b[i] + ac[i] * c[i] + ad[i] * d[i])
-                    + b[i] * (bb[i] * b[i] + bc[i] * c[i] + bd[i] * d[i])
-                    + c[i] * (cc[i] * c[i] + cd[i] * d[i])
-                    + dd[i] * d[i] * d[i];
+        let whole = n - n % LANES;
+        for start in (0..whole).step_by(LANES) {
+            for (lane, sum) in sums.iter_mut().enumerate() {
+                *sum += term(start + lane);
             }
         }
-        sums.iter().sum()
+        let rest: f64 = (whole..n).map(term).sum();
+        sums.iter().sum::<f64>() + rest
     }
 
     /// Displacement and velocity of contact c at the end of the step under a unit end force of contact d, both
@@ -286,8 +317,13 @@ impl Table {
     }
 }
 
-/// Modes taken at once.
+/// Rates at which answers are met, besides the slowest, and at which they are compared, in units of that of the quickest
+/// push \[–\].
+const MET: [f64; 2] = [1.0, 4.0];
+const COMPARED: [f64; 2] = [0.5, 2.0];
+/// Modes taken at once, and watched displacements.
 const LANES: usize = 8;
+const ROWS: usize = 4;
 
 #[inline]
 fn combine(factors: &[Vec<f64>; 4], start: [&[f64]; 2], loads: [&[f64]; 2], out: &mut [f64]) {

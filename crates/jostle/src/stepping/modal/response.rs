@@ -16,10 +16,68 @@ pub(super) struct Response {
 
 /// Below this many radians over a step a power series keeps all digits; the closed forms lose them as (ωh)³.
 const SERIES: f64 = 1.0;
-/// Terms of the series; the last one is below 10⁻¹⁸.
+/// Most terms of the series; the last one is below 10⁻¹⁸.
 const TERMS: usize = 20;
 
+/// Terms that matter at so many radians.
+fn terms(radians: f64) -> usize {
+    match radians {
+        r if r < 0.02 => 9,
+        r if r < 0.1 => 12,
+        r if r < 0.4 => 16,
+        _ => TERMS,
+    }
+}
+
+/// (q₀, q̇₀) and the load as first + second·τ, for a unit of each of (q₀, q̇₀, p₀, p₁).
+const STARTS: [([f64; 2], [f64; 2]); 4] = [
+    ([1.0, 0.0], [0.0, 0.0]),
+    ([0.0, 1.0], [0.0, 0.0]),
+    ([0.0, 0.0], [1.0, -1.0]),
+    ([0.0, 0.0], [0.0, 1.0]),
+];
+
+/// q(τ) = Σ cₙ τⁿ with τ = t/h.
+fn powers(damping: f64, stiffness: f64, step: f64, count: usize, column: usize) -> [f64; TERMS] {
+    let ([q, v], load) = STARTS[column];
+    let (d, k) = (damping * step, stiffness * step * step);
+    let mut terms = [0.0; TERMS];
+    (terms[0], terms[1]) = (q, v * step);
+    for n in 0..count - 2 {
+        let next = (n + 1) as f64;
+        let pushed = if n < 2 { load[n] * step * step } else { 0.0 };
+        terms[n + 2] = (pushed - d * next * terms[n + 1] - k * terms[n]) / (next * (next + 1.0));
+    }
+    terms
+}
+
 impl Response {
+    /// The row of q̇₁ alone.
+    fn velocity_over(damping: f64, stiffness: f64, step: f64) -> [f64; 4] {
+        let radians = stiffness.sqrt().max(damping) * step;
+        if radians >= SERIES {
+            let [[_, _], [x21, x22]] = Self::free(damping, stiffness, step);
+            return Self::closed_velocity(damping, stiffness, step, [x21, x22]);
+        }
+        let count = terms(radians);
+        std::array::from_fn(|column| {
+            let terms = powers(damping, stiffness, step, count, column);
+            let slopes = terms[..count].iter().enumerate().rev();
+            slopes.map(|(n, term)| n as f64 * term).sum::<f64>() / step
+        })
+    }
+
+    fn closed_velocity(damping: f64, stiffness: f64, step: f64, [x21, x22]: [f64; 2]) -> [f64; 4] {
+        let rise = 1.0 / stiffness;
+        let (e1, e2) = (rise / step, damping / (stiffness * stiffness * step));
+        [
+            x21,
+            x22,
+            -x21 * (rise + e2) + x22 * e1 - e1,
+            x21 * e2 - x22 * e1 + e1,
+        ]
+    }
+
     /// `damping` d ≥ 0 \[1/s\], `stiffness` k > 0 \[1/s²\], `step` h > 0 \[s\].
     pub(super) fn over(damping: f64, stiffness: f64, step: f64) -> Self {
         if stiffness.sqrt().max(damping) * step < SERIES {
@@ -78,12 +136,7 @@ impl Response {
             -x11 * (static_rise + e2) + x12 * e1 + e2,
             x11 * e2 - x12 * e1 + static_rise - e2,
         ];
-        let velocity = [
-            x21,
-            x22,
-            -x21 * (static_rise + e2) + x22 * e1 - e1,
-            x21 * e2 - x22 * e1 + e1,
-        ];
+        let velocity = Self::closed_velocity(damping, stiffness, step, [x21, x22]);
         // k ∫q = ∫p − Δq̇ − d Δq.
         let starts = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 0.5), (0.0, 0.0, 0.5)];
         let mut area = [0.0; 4];
@@ -99,27 +152,12 @@ impl Response {
     }
 
     fn series(damping: f64, stiffness: f64, step: f64) -> Self {
-        // q(τ) = Σ cₙ τⁿ with τ = t/h; the load is first + second·τ.
-        let starts = [
-            ([1.0, 0.0], [0.0, 0.0]),
-            ([0.0, step], [0.0, 0.0]),
-            ([0.0, 0.0], [1.0, -1.0]),
-            ([0.0, 0.0], [0.0, 1.0]),
-        ];
+        let count = terms(stiffness.sqrt().max(damping) * step);
         let mut response = Self::default();
-        for (column, (start, load)) in starts.into_iter().enumerate() {
-            let mut terms = [0.0; TERMS];
-            terms[..2].copy_from_slice(&start);
-            for n in 0..TERMS - 2 {
-                let next = (n + 1) as f64;
-                let pushed = load.get(n).copied().unwrap_or(0.0) * step * step;
-                terms[n + 2] = (pushed
-                    - damping * step * next * terms[n + 1]
-                    - stiffness * step * step * terms[n])
-                    / (next * (next + 1.0));
-            }
+        for column in 0..4 {
+            let terms = powers(damping, stiffness, step, count, column);
             // From the smallest term up.
-            for (n, term) in terms.iter().enumerate().rev() {
+            for (n, term) in terms[..count].iter().enumerate().rev() {
                 response.displacement[column] += term;
                 response.velocity[column] += n as f64 * term / step;
                 response.area[column] += term * step / (n + 1) as f64;
@@ -134,7 +172,7 @@ impl Response {
 pub(super) fn damped(damping: f64, stiffness: f64, step: f64, rule: &[(f64, f64)]) -> [f64; 10] {
     let mut form = [0.0; 10];
     for (at, weight) in rule {
-        let [q, v, first, second] = Response::over(damping, stiffness, at * step).velocity;
+        let [q, v, first, second] = Response::velocity_over(damping, stiffness, at * step);
         // The load at that instant lies on the line from p₀ to p₁.
         let row = [q, v, first + second * (1.0 - at), second * at];
         let scale = damping * weight * step;

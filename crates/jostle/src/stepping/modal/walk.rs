@@ -291,8 +291,8 @@ impl<'a> Walk<'a> {
 
     /// Watched displacements, indentations and rates at the end of the tried step.
     pub(super) fn follow(&mut self) {
-        self.reduced.show(&self.q[1], &mut self.u[1]);
-        self.reduced.show(&self.v[1], &mut self.rate[1]);
+        let watched = [&mut self.u[1][..], &mut self.rate[1][..]];
+        self.reduced.show([&self.q[1], &self.v[1]], watched);
         self.read_trials(1);
     }
 
@@ -446,8 +446,9 @@ impl<'a> Walk<'a> {
         }
         self.accelerations();
         let energy = self.balance();
-        let mut a = std::mem::take(&mut self.u[1]);
-        self.reduced.show(&self.scratch, &mut a);
+        // The places of the last step are free.
+        let (mut a, mut spare) = (std::mem::take(&mut self.u[1]), std::mem::take(&mut self.rate[1]));
+        self.reduced.show([&self.scratch, &self.scratch], [&mut a, &mut spare]);
         self.peaks.record(
             self.system,
             &self.reduced,
@@ -456,7 +457,7 @@ impl<'a> Walk<'a> {
             &self.phases,
             &energy,
         );
-        self.u[1] = a;
+        (self.u[1], self.rate[1]) = (a, spare);
     }
 
     /// Whether steps may end on contacts of this kind of crossing.
