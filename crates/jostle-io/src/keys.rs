@@ -335,7 +335,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Joint, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational stiffness of the hinge between beam end and column."),
 
     default(S::Damping, "ratio", Quantity(D::Dimensionless), "0.05", "Fraction of critical damping in the modes below."),
-    default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] or [1] with fewer floors", "Lateral modes that have this ratio."),
+    default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] or [1] with fewer floors", "Lateral modes that have this ratio; \"all\" modes with solver = \"modal\" only."),
     optional(S::Damping, "alpha", Quantity(D::Frequency), "Rayleigh coefficient on the masses, instead of ratio."),
     optional(S::Damping, "beta", Quantity(D::Time), "Rayleigh coefficient on the stiffness, instead of ratio."),
 

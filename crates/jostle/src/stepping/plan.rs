@@ -195,6 +195,12 @@ impl Plan {
 /// What the solver cannot do.
 fn check_solver(system: &System, analysis: &Analysis, faults: &mut Vec<ModelFault>) {
     let modal = analysis.solver == Solver::Modal;
+    if modal && !system.links.is_empty() {
+        faults.push(ModelFault {
+            path: "analysis.solver".into(),
+            problem: "modal cannot be used: links join the buildings, so that none has modes of its own; take solver = \"riccati\"".into(),
+        });
+    }
     for (index, building) in system.buildings.iter().enumerate() {
         if modal {
             for reason in modal::refusals(building, analysis.integrator) {

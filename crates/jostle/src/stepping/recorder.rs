@@ -199,7 +199,12 @@ impl Recorder {
 }
 
 /// Greatest value in a step between (value, slope) at its ends.
-pub(crate) fn greatest_in_step(then: (f64, f64), now: (f64, f64), start: f64, step: f64) -> Extreme {
+pub(crate) fn greatest_in_step(
+    then: (f64, f64),
+    now: (f64, f64),
+    start: f64,
+    step: f64,
+) -> Extreme {
     let end = Extreme {
         value: now.0,
         at: start + step,

@@ -8,7 +8,9 @@ use crate::stepping::clock::Stride;
 use crate::stepping::control;
 use crate::stepping::coupling::Closed;
 use crate::stepping::events::{Crossing, Cubic, bisect};
-use crate::stepping::impacts::{AT_ONCE, Event, MOST_BLOWS, SLOWEST_IMPACT, TOGETHER, TOUCH, impact_of};
+use crate::stepping::impacts::{
+    AT_ONCE, Event, MOST_BLOWS, SLOWEST_IMPACT, TOGETHER, TOUCH, impact_of,
+};
 use crate::stepping::outcome::StepError;
 
 /// Rounds in which rates and forces of several contacts settle on each other.
@@ -19,12 +21,10 @@ const SETTLED: f64 = 1e-13;
 impl Walk<'_> {
     /// Motion of contact `index` over the tried step.
     fn indentation_curve(&self, index: usize, step: f64) -> Cubic {
-        let [left, right] = self.reduced.faces[index];
-        let (u, rate) = (&self.u[0], &self.rate[0]);
         let trial = &self.trials[index];
         Cubic::new(
-            u[left] - u[right] - self.system.contacts[index].width,
-            rate[left] - rate[right],
+            self.reduced.closing(index, &self.u[0]) - self.system.contacts[index].width,
+            self.reduced.closing(index, &self.rate[0]),
             trial.indentation,
             trial.rate,
             step,
@@ -176,7 +176,7 @@ impl Walk<'_> {
         let contact = &self.system.contacts[index];
         let impulse = momentum::impulse(restitution, contact.effective_mass(), rate);
         let before: f64 = self.v[0].iter().map(|v| 0.5 * v * v).sum();
-        self.reduced.push_apart(contact, index, impulse, &mut self.v[0]);
+        self.reduced.push_apart(index, impulse, &mut self.v[0]);
         let dissipated = before - self.v[0].iter().map(|v| 0.5 * v * v).sum::<f64>();
         self.energy.contact += dissipated;
         let watched = [&mut self.u[0][..], &mut self.rate[0][..]];
@@ -202,13 +202,18 @@ impl Walk<'_> {
     fn close(&mut self, index: usize) {
         let contact = &self.system.contacts[index];
         let rate = self.trials[index].rate.max(0.0);
-        let mut episode = Episode::new(self.time, rate.max(SLOWEST_IMPACT), contact.law.touch(rate));
+        let mut episode =
+            Episode::new(self.time, rate.max(SLOWEST_IMPACT), contact.law.touch(rate));
         episode.force = contact.law.onset(rate);
         episode.peak_force = episode.force;
         let expected = contact.law.elastic_force(contact.effective_mass(), rate);
         let strongest = &mut self.strongest[contact.gap];
         *strongest = strongest.max(expected);
-        let share = if *strongest > 0.0 { expected / *strongest } else { 0.0 };
+        let share = if *strongest > 0.0 {
+            expected / *strongest
+        } else {
+            0.0
+        };
         // Steps of an impact just over may still be finer.
         let division = self.plan.first_division(contact, rate, share);
         self.contact_division[index] = division;
@@ -220,14 +225,13 @@ impl Walk<'_> {
     /// A sudden change of a contact force.
     fn jump(&mut self, index: usize, change: f64) {
         if change != 0.0 {
-            let contact = &self.system.contacts[index];
-            self.reduced.push_apart(contact, index, change, &mut self.p[0]);
+            self.reduced.push_apart(index, change, &mut self.p[0]);
         }
     }
 
     /// Solves for the forces of the closed contacts at the end of the tried step and lets them push.
     pub(super) fn find_contact_forces(&mut self, slot: usize) -> Result<(), StepError> {
-        self.coupling.closed.clear();
+        self.coupling.clear();
         for (index, phase) in self.phases.iter().enumerate() {
             let ContactPhase::Closed(episode) = phase else {
                 continue;
@@ -253,8 +257,8 @@ impl Walk<'_> {
         self.couple(slot);
         self.settle()?;
         for closed in &self.coupling.closed {
-            let contact = &self.system.contacts[closed.contact];
-            self.reduced.push_apart(contact, closed.contact, closed.force, &mut self.p[1]);
+            let loads = &mut self.p[1];
+            self.reduced.push_apart(closed.contact, closed.force, loads);
         }
         self.advance(slot);
         self.follow();
@@ -267,17 +271,17 @@ impl Walk<'_> {
     /// How far and how fast end forces open the closed contacts.
     fn couple(&mut self, slot: usize) {
         let n = self.coupling.closed.len();
-        self.coupling.compliance.clear();
+        self.coupling.compliance.reset(n, n - 1);
         self.rate_compliance.clear();
         for row in 0..n {
             for column in 0..n {
-                let pair = (self.coupling.closed[row].contact, self.coupling.closed[column].contact);
-                let [displacement, rate] = self.tables[slot].opening(pair.0, pair.1, self.system, &self.reduced);
-                self.coupling.compliance.push(displacement);
+                let [own, other] = [row, column].map(|at| self.coupling.closed[at].contact);
+                let [displacement, rate] = self.tables[slot].opening(own, other, &self.reduced);
+                self.coupling.compliance.set(row, column, displacement);
                 self.rate_compliance.push(rate);
             }
-            let own = row * n + row;
-            self.coupling.closed[row].rate_gain = self.rate_compliance[own] / self.coupling.compliance[own];
+            let own = self.coupling.compliance.get(row, row);
+            self.coupling.closed[row].rate_gain = self.rate_compliance[row * n + row] / own;
         }
     }
 
@@ -297,7 +301,9 @@ impl Walk<'_> {
                 for column in 0..n {
                     let at = row * n + column;
                     let gain = self.coupling.closed[row].rate_gain;
-                    beyond += (gain * self.coupling.compliance[at] - self.rate_compliance[at]) * self.forces[column];
+                    beyond += (gain * self.coupling.compliance.get(row, column)
+                        - self.rate_compliance[at])
+                        * self.forces[column];
                 }
                 let index = self.coupling.closed[row].contact;
                 self.coupling.closed[row].free_rate = self.trials[index].rate + beyond;
@@ -318,19 +324,14 @@ impl Walk<'_> {
 
     /// Relative acceleration of the faces of a contact; modal ones stand in `scratch` \[m/s²\].
     fn relative_acceleration(&self, index: usize) -> f64 {
-        let contact = &self.system.contacts[index];
-        let [left, right] = self.reduced.faces[index];
-        let of = |side: usize, watched: usize| -> f64 {
-            let building = contact.buildings[side];
-            let own = &self.scratch[self.reduced.buildings[building].modes.clone()];
-            self.reduced.row(building, watched).iter().zip(own).map(|(a, b)| a * b).sum()
-        };
-        of(0, left) - of(1, right)
+        self.reduced.closing_of_modes(index, &self.scratch)
     }
 
     /// dF/dt of a contact with the present accelerations \[N/s\].
     fn force_slope(&self, index: usize, indentation: f64, rate: f64, episode: &Episode) -> f64 {
-        let response = self.system.contacts[index].law.follow(indentation, rate, &episode.memory);
+        let response = self.system.contacts[index]
+            .law
+            .follow(indentation, rate, &episode.memory);
         response.by_indentation * rate + response.by_rate * self.relative_acceleration(index)
     }
 
@@ -382,14 +383,17 @@ impl Walk<'_> {
             };
             let law = &self.system.contacts[index].law;
             if episode.force > 0.0 && trial.force > 0.0 {
-                let turn = self.coupling.closed[closed].turn.filter(|_| law.has_corner_at_turn());
+                let turn = self.coupling.closed[closed]
+                    .turn
+                    .filter(|_| law.has_corner_at_turn());
                 if let Some(turn) = turn {
                     peak = Extreme {
                         value: law.follow(turn.value, 0.0, &episode.memory).force,
                         at: turn.at,
                     };
                 } else {
-                    let curve = Cubic::new(episode.force, start_slope, trial.force, end_slope, step);
+                    let curve =
+                        Cubic::new(episode.force, start_slope, trial.force, end_slope, step);
                     peak = curve.peak(start, step).unwrap_or(peak);
                 }
             }
@@ -422,9 +426,13 @@ impl Walk<'_> {
         let trial = self.trials[index];
         let observed = control::Observed {
             step,
-            slope: contact.law.follow(trial.indentation, trial.rate, &episode.memory).by_indentation,
+            slope: contact
+                .law
+                .follow(trial.indentation, trial.rate, &episode.memory)
+                .by_indentation,
             strongest: *strongest,
-            acceleration_change: (self.relative_acceleration(index) - closed.start_acceleration).abs(),
+            acceleration_change: (self.relative_acceleration(index) - closed.start_acceleration)
+                .abs(),
         };
         let division = &mut self.contact_division[index];
         *division = control::next_division(self.plan, contact, &observed, *division, &self.clock);

@@ -1,5 +1,5 @@
 //! Elastic buildings by their modes: exact between the points of a record, coupled at their contacts only (theory,
-//! section 16).
+//! section 14).
 //!
 //! Between two instants at which loads bend, every mode is known in closed form. Free flight therefore needs no steps
 //! but those of the record and of the search for touches; contacts take shorter ones, over which their forces are
@@ -15,14 +15,14 @@ mod walk;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use super::integrator::Integrator;
 use super::outcome::{Outcome, Progress, RunEnd, Settings, StepError};
 use super::plan::{ContactSteps, Plan};
-use super::integrator::Integrator;
 use crate::history::{Energy, Work};
 use crate::motion::GroundMotion;
 use crate::state::State;
 use crate::system::{BuildingSystem, System};
-use reduced::Reduced;
+use reduced::{Rates, Reduced};
 use walk::Walk;
 
 /// Why a building cannot be stepped by its modes; empty when it can.
@@ -39,7 +39,9 @@ pub fn refusals(building: &BuildingSystem, integrator: Integrator) -> Vec<String
         ));
     }
     if !building.rest.is_empty() {
-        reasons.push(format!("\"{name}\" starts under its weight: leave out gravity"));
+        reasons.push(format!(
+            "\"{name}\" starts under its weight: leave out gravity"
+        ));
     }
     if integrator != Integrator::default() {
         reasons.push("modes are advanced exactly: leave out the integrator".to_owned());
@@ -69,27 +71,42 @@ pub(super) fn simulate(
         ContactSteps::Fixed(_) => USUAL_TOLERANCE,
     };
     let buildings = 0..system.buildings.len();
-    let rates: Vec<f64> = buildings.map(|index| quickest(system, index)).collect();
+    let rates: Vec<Rates> = buildings.map(|index| rates(system, index)).collect();
     match Reduced::of(system, &rates, FLEXIBILITY_SHARE * tolerance, &mut work) {
         Ok(reduced) => Walk::new(system, motion, plan, settings, reduced, work).run(observer),
-        Err((building, source)) => not_begun(system, StepError::NotPositive {
-            building: system.buildings[building].name.clone(),
-            time: 0.0,
-            source,
-        }),
+        Err((building, source)) => not_begun(
+            system,
+            StepError::NotPositive {
+                building: system.buildings[building].name.clone(),
+                time: 0.0,
+                source,
+            },
+        ),
     }
 }
 
-/// Rate of what happens to a building: π over its shortest impact, or the frequency of its third lateral mode \[1/s\].
-fn quickest(system: &System, building: usize) -> f64 {
-    let contacts = system.contacts.iter().filter(|contact| contact.buildings.contains(&building));
+/// Rates of what happens to a building.
+fn rates(system: &System, building: usize) -> Rates {
+    let contacts = system
+        .contacts
+        .iter()
+        .filter(|contact| contact.faces.buildings().contains(&Some(building)));
     let durations = contacts
         .filter(|contact| contact.law.stiffness() > 0.0)
-        .map(|contact| contact.law.elastic_duration(contact.effective_mass(), TYPICAL_SPEED));
+        .map(|contact| {
+            contact
+                .law
+                .elastic_duration(contact.effective_mass(), TYPICAL_SPEED)
+        });
     let shortest = durations.fold(f64::INFINITY, f64::min);
     let modes = system.buildings[building].lateral_modes().take(3);
-    let own = modes.map(|mode| mode.circular_frequency).fold(0.0, f64::max);
-    (PI / shortest).max(own)
+    let swaying = modes
+        .map(|mode| mode.circular_frequency)
+        .fold(0.0, f64::max);
+    Rates {
+        pushed: (PI / shortest).max(swaying),
+        swaying,
+    }
 }
 
 /// What is left behind by a run that could not begin.
@@ -97,11 +114,16 @@ fn not_begun(system: &System, error: StepError) -> Outcome {
     Outcome {
         history: None,
         impacts: Vec::new(),
-        floors: system.buildings.iter().map(|b| vec![Default::default(); b.floors.len()]).collect(),
+        floors: system
+            .buildings
+            .iter()
+            .map(|b| vec![Default::default(); b.floors.len()])
+            .collect(),
         closing: vec![Default::default(); system.contacts.len()],
         base_shear: vec![0.0; system.buildings.len()],
         spring_events: Vec::new(),
         springs: Vec::new(),
+        links: Vec::new(),
         spring_history: None,
         energy: Energy::default(),
         work: Work::default(),

@@ -50,7 +50,11 @@ impl Peaks {
             history: interval.map(|_| History::new(columns(system))),
             interval: interval.unwrap_or(0.0),
             due: 0.0,
-            floors: system.buildings.iter().map(|b| vec![FloorPeaks::default(); b.floors.len()]).collect(),
+            floors: system
+                .buildings
+                .iter()
+                .map(|b| vec![FloorPeaks::default(); b.floors.len()])
+                .collect(),
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
             shear: vec![[0.0; 2]; system.buildings.len()],
@@ -85,7 +89,11 @@ impl Peaks {
         } = moment;
         self.acceleration.swap(0, 1);
         self.loose.swap(0, 1);
-        let modes = a.iter().zip(v).zip(&reduced.damping).zip(&reduced.stiffness);
+        let modes = a
+            .iter()
+            .zip(v)
+            .zip(&reduced.damping)
+            .zip(&reduced.stiffness);
         for (jerk, (((a, v), d), k)) in self.jerk.iter_mut().zip(modes) {
             *jerk = -d * a - k * v;
         }
@@ -98,7 +106,11 @@ impl Peaks {
             let own = &reduced.buildings[index];
             let watched = own.watched.start;
             let mut below = [[0.0; 2]; 2];
-            for (number, (peaks, floor)) in self.floors[index].iter_mut().zip(&building.floors).enumerate() {
+            for (number, (peaks, floor)) in self.floors[index]
+                .iter_mut()
+                .zip(&building.floors)
+                .enumerate()
+            {
                 let at = watched + number;
                 let pair = |time: usize| [u[time][at], rate[time][at]];
                 let (now, then) = (pair(0), pair(1));
@@ -113,7 +125,8 @@ impl Peaks {
                     let slope = self.loose[time][at] + ground_rate * (1.0 - self.driven[at]);
                     [self.acceleration[time][at] + ground[1 - time], slope]
                 };
-                peaks.total_acceleration = largest(total(1), total(0), step, peaks.total_acceleration);
+                peaks.total_acceleration =
+                    largest(total(1), total(0), step, peaks.total_acceleration);
             }
             let sum = |modal: &[f64]| -> f64 {
                 let own_modes = &modal[own.modes.clone()];
@@ -123,8 +136,13 @@ impl Peaks {
             self.base_shear[index] = largest(self.shear[index], now, step, self.base_shear[index]);
             self.shear[index] = now;
         }
-        for (closing, [left, right]) in self.closing.iter_mut().zip(&reduced.faces) {
-            let pair = |time: usize| [u[time][*left] - u[time][*right], rate[time][*left] - rate[time][*right]];
+        for (contact, closing) in self.closing.iter_mut().enumerate() {
+            let pair = |time: usize| {
+                [
+                    reduced.closing(contact, &u[time]),
+                    reduced.closing(contact, &rate[time]),
+                ]
+            };
             take(closing, 1.0, pair(1), pair(0), start, step);
         }
     }
@@ -180,7 +198,12 @@ impl Peaks {
 
 /// Keeps the greatest value, or with a sign of −1 the least one, of a step between (value, slope) at its ends.
 fn take(extreme: &mut Extreme, sign: f64, then: [f64; 2], now: [f64; 2], start: f64, step: f64) {
-    if !may_exceed([sign * then[0], then[1]], [sign * now[0], now[1]], step, sign * extreme.value) {
+    if !may_exceed(
+        [sign * then[0], then[1]],
+        [sign * now[0], now[1]],
+        step,
+        sign * extreme.value,
+    ) {
         return;
     }
     let greatest = greatest_in_step(
@@ -199,7 +222,12 @@ fn take(extreme: &mut Extreme, sign: f64, then: [f64; 2], now: [f64; 2], start: 
 
 /// Greatest magnitude in a step between (value, slope) at its ends, or that known so far.
 fn largest(then: [f64; 2], now: [f64; 2], step: f64, known: f64) -> f64 {
-    if !may_exceed([then[0].abs(), then[1]], [now[0].abs(), now[1]], step, known) {
+    if !may_exceed(
+        [then[0].abs(), then[1]],
+        [now[0].abs(), now[1]],
+        step,
+        known,
+    ) {
         return known;
     }
     let curve = Cubic::new(then[0], then[1], now[0], now[1], step);

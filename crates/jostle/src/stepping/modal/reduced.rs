@@ -3,10 +3,12 @@
 use std::ops::Range;
 
 use super::basis::{Basis, Demand};
-use super::response::{Response, damped};
+use super::response::{Response, Rules, damped};
+use crate::contact::ForceLaw;
+use crate::equations::Equations;
 use crate::history::Work;
 use crate::stepping::NotPositive;
-use crate::system::{Contact, System};
+use crate::system::System;
 
 /// A row of buildings as oscillators, and how they show at floors and contacts.
 pub(super) struct Reduced {
@@ -17,8 +19,15 @@ pub(super) struct Reduced {
     /// Γ = φᵀM r \[kg^½\].
     pub(super) participation: Vec<f64>,
     pub(super) buildings: Vec<ReducedBuilding>,
-    /// Where the two faces of every contact show among the watched displacements.
-    pub(super) faces: Vec<[usize; 2]>,
+    /// Where the two faces of every contact show; `None` is a wall.
+    pub(super) faces: Vec<[Option<Shown>; 2]>,
+}
+
+/// Where a face shows: its building, and its place among all watched displacements.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shown {
+    building: usize,
+    watched: usize,
 }
 
 /// Modes and watched displacements of one building.
@@ -39,10 +48,10 @@ pub(super) struct ReducedBuilding {
 }
 
 impl Reduced {
-    /// `rate`: how quick the pushes on every building are \[1/s\]; `closeness`: how well its answers to them must be met.
+    /// `rates`: how quickly things happen to every building; `closeness`: how well its answers must be met.
     pub(super) fn of(
         system: &System,
-        rates: &[f64],
+        rates: &[Rates],
         closeness: f64,
         work: &mut Work,
     ) -> Result<Self, (usize, NotPositive)> {
@@ -51,7 +60,7 @@ impl Reduced {
             stiffness: Vec::new(),
             participation: Vec::new(),
             buildings: Vec::new(),
-            faces: vec![[0; 2]; system.contacts.len()],
+            faces: vec![[None; 2]; system.contacts.len()],
         };
         let mut watching = 0;
         for (index, building) in system.buildings.iter().enumerate() {
@@ -63,29 +72,42 @@ impl Reduced {
             let floors = watched.len();
             let mut faces = Vec::new();
             for (number, contact) in system.contacts.iter().enumerate() {
-                for side in 0..2 {
-                    if contact.buildings[side] != index {
+                for (side, face) in contact.faces.0.iter().enumerate() {
+                    let Some(face) = face.filter(|face| face.building == index) else {
                         continue;
-                    }
-                    let dof = contact.dofs[side] - building.offset;
+                    };
+                    let dof = face.dof - building.offset;
                     let known = watched.iter().position(|other| *other == dof);
                     let place = known.unwrap_or_else(|| {
                         watched.push(dof);
                         watched.len() - 1
                     });
-                    reduced.faces[number][side] = watching + place;
+                    reduced.faces[number][side] = Some(Shown {
+                        building: index,
+                        watched: watching + place,
+                    });
                     if !faces.contains(&dof) {
                         faces.push(dof);
                     }
                 }
             }
-            let times = |factors: [f64; 2]| factors.map(|factor| factor * rates[index]);
-            let [slow, quick] = times(MET);
+            let Rates { pushed, swaying } = rates[index];
+            let [slow, quick] = MET.map(|factor| factor * pushed);
+            let [low, high] = COMPARED.map(|factor| factor * pushed);
+            let mut met = vec![0.0, quick, slow];
+            let mut struck = system.contacts.iter().filter(|contact| {
+                let law = matches!(contact.law, ForceLaw::Restitution { .. });
+                law && contact.faces.buildings().contains(&Some(index))
+            });
+            if struck.next().is_some() {
+                // At once nothing moves but the mass that is struck.
+                met.insert(0, at_once(&building.equations));
+            }
             let demand = Demand {
                 faces: &faces,
                 floors: &watched[..floors],
-                met: &[0.0, quick, slow],
-                compared: &times(COMPARED),
+                met: &met,
+                compared: &[swaying, 3.0 * swaying, low, high],
                 tolerance: closeness,
             };
             let basis = Basis::of(building, &demand).map_err(|failure| (index, failure))?;
@@ -138,7 +160,9 @@ impl Reduced {
 
     /// Number of watched displacements.
     pub(super) fn watched(&self) -> usize {
-        self.buildings.last().map_or(0, |building| building.watched.end)
+        self.buildings
+            .last()
+            .map_or(0, |building| building.watched.end)
     }
 
     /// What two lists of modal coordinates show at every watched displacement.
@@ -149,7 +173,9 @@ impl Reduced {
             let (a, b) = (&modal[0][range.clone()], &modal[1][range]);
             let blocks = building.blocks.chunks_exact(a.len().max(1));
             let own = building.watched.clone();
-            let places = first[own.clone()].chunks_mut(ROWS).zip(second[own].chunks_mut(ROWS));
+            let places = first[own.clone()]
+                .chunks_mut(ROWS)
+                .zip(second[own].chunks_mut(ROWS));
             for (block, (first, second)) in blocks.zip(places) {
                 let mut sums = [[0.0; ROWS]; 2];
                 for (shape, (a, b)) in block.iter().zip(a.iter().zip(b)) {
@@ -164,21 +190,48 @@ impl Reduced {
         }
     }
 
-    /// Shapes at one watched displacement of a building.
-    pub(super) fn row(&self, building: usize, watched: usize) -> &[f64] {
-        let own = &self.buildings[building];
-        let (at, n) = (watched - own.watched.start, own.modes.len());
+    /// Left minus right of watched values of a contact; a wall stands still.
+    #[inline]
+    pub(super) fn closing(&self, contact: usize, values: &[f64]) -> f64 {
+        let [left, right] = self.faces[contact];
+        let at = |face: Option<Shown>| face.map_or(0.0, |shown| values[shown.watched]);
+        at(left) - at(right)
+    }
+
+    /// The same of modal values.
+    pub(super) fn closing_of_modes(&self, contact: usize, modal: &[f64]) -> f64 {
+        let at = |face: Option<Shown>| {
+            face.map_or(0.0, |shown| {
+                let own = &modal[self.buildings[shown.building].modes.clone()];
+                let terms = self.row(shown).iter().zip(own);
+                terms.map(|(a, b)| a * b).sum::<f64>()
+            })
+        };
+        let [left, right] = self.faces[contact];
+        at(left) - at(right)
+    }
+
+    /// Shapes at a face.
+    fn row(&self, shown: Shown) -> &[f64] {
+        let own = &self.buildings[shown.building];
+        let (at, n) = (shown.watched - own.watched.start, own.modes.len());
         &own.rows[at * n..(at + 1) * n]
     }
 
+    /// The faces of a contact on buildings, with the direction in which the other side pushes them.
+    fn sides(&self, contact: usize) -> impl Iterator<Item = (Shown, f64)> + use<> {
+        let [left, right] = self.faces[contact];
+        [left.map(|face| (face, -1.0)), right.map(|face| (face, 1.0))]
+            .into_iter()
+            .flatten()
+    }
+
     /// Adds what a force on the faces of a contact, pushing them apart, makes of modal loads.
-    pub(super) fn push_apart(&self, contact: &Contact, index: usize, force: f64, loads: &mut [f64]) {
-        for (side, force) in [(0, -force), (1, force)] {
-            let building = contact.buildings[side];
-            let row = self.row(building, self.faces[index][side]);
-            let loads = &mut loads[self.buildings[building].modes.clone()];
-            for (load, shape) in loads.iter_mut().zip(row) {
-                *load += force * shape;
+    pub(super) fn push_apart(&self, contact: usize, force: f64, loads: &mut [f64]) {
+        for (shown, sign) in self.sides(contact) {
+            let loads = &mut loads[self.buildings[shown.building].modes.clone()];
+            for (load, shape) in loads.iter_mut().zip(self.row(shown)) {
+                *load += sign * force * shape;
             }
         }
     }
@@ -196,6 +249,27 @@ impl Reduced {
             offset += building.shapes.first().map_or(0, Vec::len);
         }
     }
+}
+
+/// How quickly things happen to a building \[1/s\].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rates {
+    /// π over its shortest impact.
+    pub(super) pushed: f64,
+    /// Frequency of its third lateral mode.
+    pub(super) swaying: f64,
+}
+
+/// A rate at which stiffness does not count beside inertia \[1/s\].
+fn at_once(equations: &Equations) -> f64 {
+    let stiffest = equations
+        .mass
+        .iter()
+        .zip(&equations.stiffness.diagonal)
+        .filter(|(mass, _)| **mass > 0.0)
+        .map(|(mass, stiffness)| stiffness / mass)
+        .fold(1.0, f64::max);
+    (1e13 * stiffest).sqrt()
 }
 
 /// Exact factors of all modes for one step size, quantity by quantity.
@@ -221,7 +295,7 @@ pub(super) struct StepEnergy {
 }
 
 impl Table {
-    pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rule: &[(f64, f64)]) {
+    pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rules: &Rules) {
         self.step = step;
         self.compliance.clear();
         let contacts = reduced.faces.len();
@@ -230,11 +304,13 @@ impl Table {
         lists.chain(&mut self.area).for_each(Vec::clear);
         self.damped.iter_mut().for_each(Vec::clear);
         for (damping, stiffness) in reduced.damping.iter().zip(&reduced.stiffness) {
+            let response = Response::over(*damping, *stiffness, step);
+            let form = damped(*damping, *stiffness, step, &response, rules);
             let Response {
                 displacement,
                 velocity,
                 area,
-            } = Response::over(*damping, *stiffness, step);
+            } = response;
             for (list, value) in self.displacement.iter_mut().zip(displacement) {
                 list.push(value);
             }
@@ -244,7 +320,6 @@ impl Table {
             for (list, value) in self.area.iter_mut().zip(area) {
                 list.push(value);
             }
-            let form = damped(*damping, *stiffness, step, rule);
             for (list, value) in self.damped.iter_mut().zip(form) {
                 list.push(value);
             }
@@ -267,7 +342,8 @@ impl Table {
     pub(super) fn damped(&self, start: [&[f64]; 2], loads: [&[f64]; 2]) -> f64 {
         let [a, b, c, d] = [start[0], start[1], loads[0], loads[1]];
         let n = a.len();
-        let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = std::array::from_fn(|i| &self.damped[i][..n]);
+        let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] =
+            std::array::from_fn(|i| &self.damped[i][..n]);
         let (b, c, d) = (&b[..n], &c[..n], &d[..n]);
         let term = |i: usize| {
             a[i] * (aa[i] * a[i] + ab[i] * b[i] + ac[i] * c[i] + ad[i] * d[i])
@@ -288,24 +364,23 @@ impl Table {
 
     /// Displacement and velocity of contact c at the end of the step under a unit end force of contact d, both
     /// counted as opening \[m/N, m/(N s)\].
-    pub(super) fn opening(&mut self, c: usize, d: usize, system: &System, reduced: &Reduced) -> [f64; 2] {
+    pub(super) fn opening(&mut self, c: usize, d: usize, reduced: &Reduced) -> [f64; 2] {
         let contacts = reduced.faces.len();
         if let Some(known) = self.compliance[c * contacts + d] {
             return known;
         }
         let mut sums = [0.0; 2];
-        for (own, own_sign) in [(0, -1.0), (1, 1.0)] {
-            for (other, other_sign) in [(0, -1.0), (1, 1.0)] {
-                let building = system.contacts[c].buildings[own];
-                if building != system.contacts[d].buildings[other] {
+        for (own, own_sign) in reduced.sides(c) {
+            for (other, other_sign) in reduced.sides(d) {
+                if own.building != other.building {
                     continue;
                 }
-                let range = reduced.buildings[building].modes.clone();
-                let (a, b) = (
-                    reduced.row(building, reduced.faces[c][own]),
-                    reduced.row(building, reduced.faces[d][other]),
-                );
-                let factors = [&self.displacement[3][range.clone()], &self.velocity[3][range]];
+                let range = reduced.buildings[own.building].modes.clone();
+                let (a, b) = (reduced.row(own), reduced.row(other));
+                let factors = [
+                    &self.displacement[3][range.clone()],
+                    &self.velocity[3][range],
+                ];
                 for (sum, factors) in sums.iter_mut().zip(factors) {
                     let pairs = a.iter().zip(b).zip(factors);
                     *sum += own_sign * other_sign * pairs.map(|((a, b), f)| a * b * f).sum::<f64>();
@@ -329,7 +404,12 @@ const ROWS: usize = 4;
 fn combine(factors: &[Vec<f64>; 4], start: [&[f64]; 2], loads: [&[f64]; 2], out: &mut [f64]) {
     let n = out.len();
     let [a, b, c, d] = std::array::from_fn(|i| &factors[i][..n]);
-    let (q, v, p0, p1) = (&start[0][..n], &start[1][..n], &loads[0][..n], &loads[1][..n]);
+    let (q, v, p0, p1) = (
+        &start[0][..n],
+        &start[1][..n],
+        &loads[0][..n],
+        &loads[1][..n],
+    );
     for i in 0..n {
         out[i] = a[i] * q[i] + b[i] * v[i] + c[i] * p0[i] + d[i] * p1[i];
     }

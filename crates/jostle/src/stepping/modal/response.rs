@@ -1,4 +1,4 @@
-//! One mode over one step, exactly (theory, Eqs. X1 and X2).
+//! One mode over one step, exactly (theory, Eqs. Q1 and Q2).
 
 /// What a mode makes of its state and of a load that runs straight from p₀ to p₁ over a step h.
 ///
@@ -126,10 +126,7 @@ impl Response {
     fn closed(damping: f64, stiffness: f64, step: f64) -> Self {
         let [[x11, x12], [x21, x22]] = Self::free(damping, stiffness, step);
         let static_rise = 1.0 / stiffness;
-        let (e1, e2) = (
-            static_rise / step,
-            damping / (stiffness * stiffness * step),
-        );
+        let (e1, e2) = (static_rise / step, damping / (stiffness * stiffness * step));
         let displacement = [
             x11,
             x12,
@@ -138,11 +135,17 @@ impl Response {
         ];
         let velocity = Self::closed_velocity(damping, stiffness, step, [x21, x22]);
         // k ∫q = ∫p − Δq̇ − d Δq.
-        let starts = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 0.5), (0.0, 0.0, 0.5)];
+        let starts = [
+            (1.0, 0.0, 0.0),
+            (0.0, 1.0, 0.0),
+            (0.0, 0.0, 0.5),
+            (0.0, 0.0, 0.5),
+        ];
         let mut area = [0.0; 4];
         for (column, (q, v, load)) in starts.into_iter().enumerate() {
-            area[column] = (load * step - (velocity[column] - v) - damping * (displacement[column] - q))
-                * static_rise;
+            area[column] =
+                (load * step - (velocity[column] - v) - damping * (displacement[column] - q))
+                    * static_rise;
         }
         Self {
             displacement,
@@ -167,28 +170,83 @@ impl Response {
     }
 }
 
-/// d ∫ q̇² dt over a step as a quadratic form in (q₀, q̇₀, p₀, p₁), by Gauss' rule with as many points as `rule` has: upper
-/// triangle row by row, what stands off the diagonal twice.
-pub(super) fn damped(damping: f64, stiffness: f64, step: f64, rule: &[(f64, f64)]) -> [f64; 10] {
+/// Below so many radians over a step four points of Gauss' rule have all digits, and up to so many twelve.
+const FEW_POINTS: f64 = 0.4;
+const MANY_POINTS: f64 = 6.0;
+
+/// Gauss' rules for the energy that damping takes.
+pub(super) struct Rules {
+    few: Vec<(f64, f64)>,
+    many: Vec<(f64, f64)>,
+}
+
+impl Rules {
+    pub(super) fn new() -> Self {
+        Self {
+            few: gauss(4),
+            many: gauss(12),
+        }
+    }
+}
+
+/// d ∫ q̇² dt over a step as a quadratic form in (q₀, q̇₀, p₀, p₁): upper triangle row by row, what stands off the diagonal
+/// twice. By quadrature, so that the energy balance is a check; where a mode turns or dies too quickly for that, as what
+/// its load puts in and its energy does not keep.
+pub(super) fn damped(
+    damping: f64,
+    stiffness: f64,
+    step: f64,
+    response: &Response,
+    rules: &Rules,
+) -> [f64; 10] {
+    let radians = stiffness.sqrt().max(damping) * step;
     let mut form = [0.0; 10];
+    if damping == 0.0 {
+        return form;
+    }
+    let mut add = |scale: f64, a: &[f64; 4], b: &[f64; 4]| {
+        let mut entry = 0;
+        for i in 0..4 {
+            for j in i..4 {
+                let twice = if i == j { 0.5 } else { 1.0 };
+                form[entry] += scale * twice * (a[i] * b[j] + a[j] * b[i]);
+                entry += 1;
+            }
+        }
+    };
+    if radians > MANY_POINTS {
+        let unit = |at: usize| std::array::from_fn(|i| if i == at { 1.0 } else { 0.0 });
+        let [q0, v0, p0, p1] = [0, 1, 2, 3].map(unit);
+        let slope = [0.0, 0.0, -1.0 / step, 1.0 / step];
+        add(1.0, &p1, &response.displacement);
+        add(-1.0, &p0, &q0);
+        add(-1.0, &slope, &response.area);
+        add(-0.5, &response.velocity, &response.velocity);
+        add(0.5, &v0, &v0);
+        add(
+            -0.5 * stiffness,
+            &response.displacement,
+            &response.displacement,
+        );
+        add(0.5 * stiffness, &q0, &q0);
+        return form;
+    }
+    let rule = if radians < FEW_POINTS {
+        &rules.few
+    } else {
+        &rules.many
+    };
     for (at, weight) in rule {
         let [q, v, first, second] = Response::velocity_over(damping, stiffness, at * step);
         // The load at that instant lies on the line from p₀ to p₁.
         let row = [q, v, first + second * (1.0 - at), second * at];
-        let scale = damping * weight * step;
-        let mut entry = 0;
-        for i in 0..4 {
-            for j in i..4 {
-                form[entry] += scale * row[i] * row[j] * if i == j { 1.0 } else { 2.0 };
-                entry += 1;
-            }
-        }
+        add(damping * weight * step, &row, &row);
     }
     form
 }
 
 /// Gauss' points and weights on 0…1.
-pub(super) fn gauss(points: usize) -> Vec<(f64, f64)> {
+fn gauss(points: usize) -> Vec<(f64, f64)> {
     let n = points as f64;
     let legendre = |x: f64| {
         let (mut before, mut now) = (1.0, x);
@@ -235,7 +293,9 @@ mod tests {
             let b = rate(t + 0.5 * dt, moved(0.5 * dt, a));
             let c = rate(t + 0.5 * dt, moved(0.5 * dt, b));
             let e = rate(t + dt, moved(dt, c));
-            state = std::array::from_fn(|i| state[i] + dt / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + e[i]));
+            state = std::array::from_fn(|i| {
+                state[i] + dt / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + e[i])
+            });
         }
         ([state[0], state[1], state[2]], state[3])
     }
@@ -243,19 +303,32 @@ mod tests {
     #[test]
     fn every_kind_of_mode_is_exact() {
         // ω, ζ: slow, fast, undamped, critical, overdamped; steps on both sides of the series.
-        for (omega, zeta) in [(3.0, 0.05), (60.0, 0.3), (20.0, 0.0), (25.0, 1.0), (40.0, 3.0)] {
+        for (omega, zeta) in [
+            (3.0, 0.05),
+            (60.0, 0.3),
+            (20.0, 0.0),
+            (25.0, 1.0),
+            (40.0, 3.0),
+        ] {
             for h in [1e-3, 0.02, 0.07] {
                 let (d, k) = (2.0 * zeta * omega, omega * omega);
                 let response = Response::over(d, k, h);
                 let (start, load) = ([0.3, -1.7], [5.0, -40.0]);
                 let input = [start[0], start[1], load[0], load[1]];
                 let of = |row: [f64; 4]| row.iter().zip(input).map(|(a, b)| a * b).sum::<f64>();
-                let got = [of(response.displacement), of(response.velocity), of(response.area)];
+                let got = [
+                    of(response.displacement),
+                    of(response.velocity),
+                    of(response.area),
+                ];
                 let (expected, lost) = integrated(d, k, h, start, load);
                 for (got, expected) in got.iter().zip(expected) {
-                    assert!((got - expected).abs() <= 1e-11 * (1.0 + expected.abs()), "ω = {omega}, ζ = {zeta}, h = {h}: {got} against {expected}");
+                    assert!(
+                        (got - expected).abs() <= 1e-11 * (1.0 + expected.abs()),
+                        "ω = {omega}, ζ = {zeta}, h = {h}: {got} against {expected}"
+                    );
                 }
-                let form = damped(d, k, h, &gauss(16));
+                let form = damped(d, k, h, &response, &Rules::new());
                 let mut sum = 0.0;
                 let mut entry = 0;
                 for i in 0..4 {
@@ -264,7 +337,10 @@ mod tests {
                         entry += 1;
                     }
                 }
-                assert!((sum - lost).abs() <= 1e-9 * (1.0 + lost), "ω = {omega}, ζ = {zeta}, h = {h}: {sum} against {lost} J");
+                assert!(
+                    (sum - lost).abs() <= 1e-9 * (1.0 + lost),
+                    "ω = {omega}, ζ = {zeta}, h = {h}: {sum} against {lost} J"
+                );
             }
         }
     }
@@ -283,7 +359,10 @@ mod tests {
             let rule = gauss(points);
             for power in 0..2 * points as i32 {
                 let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(power)).sum();
-                assert!((sum - 1.0 / f64::from(power + 1)).abs() < 1e-14, "{points}, {power}");
+                assert!(
+                    (sum - 1.0 / f64::from(power + 1)).abs() < 1e-14,
+                    "{points}, {power}"
+                );
             }
         }
     }

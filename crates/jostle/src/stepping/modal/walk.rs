@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::peaks::Peaks;
 use super::reduced::{Reduced, StepEnergy, Table};
-use super::response::gauss;
+use super::response::Rules;
 use crate::history::{Energy, Impact, Work};
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
@@ -20,9 +20,6 @@ use crate::system::System;
 const OBSERVED_EVERY: u64 = 256;
 /// Events without progress before a run gives up.
 const MOST_EVENTS_AT_ONCE: usize = 1000;
-/// Points of Gauss' rule for the energy lost in regular steps, and in others.
-const REGULAR_RULE: usize = 12;
-const ODD_RULE: usize = 4;
 
 /// A run under way.
 pub(super) struct Walk<'a> {
@@ -34,7 +31,7 @@ pub(super) struct Walk<'a> {
     /// The first serves steps off the grid, the others one division of the free-flight step each.
     pub(super) tables: Vec<Table>,
     divisions: Vec<u32>,
-    rules: [Vec<(f64, f64)>; 2],
+    rules: Rules,
     pub(super) clock: Clock,
     pub(super) time: f64,
     /// Ground acceleration now and at the end of the tried step.
@@ -91,15 +88,15 @@ impl<'a> Walk<'a> {
             *load = -participation * ground;
         }
         let contacts = system.contacts.len();
-        let rows = settings.record_interval.map_or(0.0, |interval| {
-            motion.duration / plan.step.max(interval)
-        });
+        let rows = settings
+            .record_interval
+            .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
         let mut peaks = Peaks::new(system, &reduced, settings.record_interval);
         peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
         Self {
             tables: vec![Table::default()],
             divisions: vec![0],
-            rules: [gauss(REGULAR_RULE), gauss(ODD_RULE)],
+            rules: Rules::new(),
             clock: Clock::new(plan.step),
             time: 0.0,
             ground: [ground; 2],
@@ -157,6 +154,7 @@ impl<'a> Walk<'a> {
                 self.report_impact(index, &episode, false);
             }
         }
+        self.work.coupling_operations = self.coupling.operations;
         let energy = self.balance();
         let contact_step = Some(self.finest_in_contact)
             .filter(|d| *d > 0)
@@ -171,6 +169,7 @@ impl<'a> Walk<'a> {
             history: self.peaks.into_history(),
             spring_events: Vec::new(),
             springs: Vec::new(),
+            links: Vec::new(),
             energy,
             work: self.work,
             contact_step,
@@ -244,7 +243,7 @@ impl<'a> Walk<'a> {
 
     fn table_for(&mut self, stride: &Stride) -> usize {
         if !stride.regular {
-            self.tables[0].set(&self.reduced, stride.length, &self.rules[1]);
+            self.tables[0].set(&self.reduced, stride.length, &self.rules);
             self.work.factorizations += 1;
             return 0;
         }
@@ -253,7 +252,7 @@ impl<'a> Walk<'a> {
             return slot;
         }
         let mut table = Table::default();
-        table.set(&self.reduced, stride.length, &self.rules[0]);
+        table.set(&self.reduced, stride.length, &self.rules);
         self.work.factorizations += 1;
         self.tables.push(table);
         self.divisions.push(division);
@@ -262,7 +261,7 @@ impl<'a> Walk<'a> {
 
     /// Sets the odd table to a length.
     pub(super) fn set_odd(&mut self, length: f64) {
-        self.tables[0].set(&self.reduced, length, &self.rules[1]);
+        self.tables[0].set(&self.reduced, length, &self.rules);
         self.work.factorizations += 1;
     }
 
@@ -276,7 +275,12 @@ impl<'a> Walk<'a> {
         self.advance(slot);
         self.work.solves += 1;
         self.follow();
-        if self.trials.iter().any(|trial| !trial.indentation.is_finite()) || self.u[1].iter().any(|u| !u.is_finite()) {
+        if self
+            .trials
+            .iter()
+            .any(|trial| !trial.indentation.is_finite())
+            || self.u[1].iter().any(|u| !u.is_finite())
+        {
             return Err(StepError::NotFinite { time: self.time });
         }
         self.find_contact_forces(slot)
@@ -303,10 +307,10 @@ impl<'a> Walk<'a> {
 
     fn read_trials(&mut self, at: usize) {
         let (u, rate) = (&self.u[at], &self.rate[at]);
-        let contacts = self.system.contacts.iter().zip(&self.reduced.faces);
-        for (trial, (contact, [left, right])) in self.trials.iter_mut().zip(contacts) {
-            trial.indentation = u[*left] - u[*right] - contact.width;
-            trial.rate = rate[*left] - rate[*right];
+        for (index, trial) in self.trials.iter_mut().enumerate() {
+            let width = self.system.contacts[index].width;
+            trial.indentation = self.reduced.closing(index, u) - width;
+            trial.rate = self.reduced.closing(index, rate);
             trial.force = 0.0;
         }
     }
@@ -323,7 +327,13 @@ impl<'a> Walk<'a> {
         let energy = self.step_energy(slot, was_closed);
         self.energy.input += energy.input;
         self.energy.damped += energy.damped;
-        for pair in [&mut self.q, &mut self.v, &mut self.p, &mut self.u, &mut self.rate] {
+        for pair in [
+            &mut self.q,
+            &mut self.v,
+            &mut self.p,
+            &mut self.u,
+            &mut self.rate,
+        ] {
             let [now, end] = pair;
             std::mem::swap(now, end);
         }
@@ -358,7 +368,10 @@ impl<'a> Walk<'a> {
     /// What the ground put in and damping took; with closed contacts their work as well.
     fn step_energy(&mut self, slot: usize, was_closed: bool) -> StepEnergy {
         let table = &self.tables[slot];
-        let (start, loads) = ([&self.q[0][..], &self.v[0][..]], [&self.p[0][..], &self.p[1][..]]);
+        let (start, loads) = (
+            [&self.q[0][..], &self.v[0][..]],
+            [&self.p[0][..], &self.p[1][..]],
+        );
         let damped = table.damped(start, loads);
         table.area(start, loads, &mut self.scratch);
         let step = table.step;
@@ -382,17 +395,13 @@ impl<'a> Walk<'a> {
             let ContactPhase::Closed(episode) = &mut self.phases[index] else {
                 continue;
             };
-            let contact = &self.system.contacts[index];
-            let [left, right] = self.reduced.faces[index];
-            let area = |side: usize, watched: usize| -> f64 {
-                let building = contact.buildings[side];
-                let own = &self.scratch[self.reduced.buildings[building].modes.clone()];
-                self.reduced.row(building, watched).iter().zip(own).map(|(a, b)| a * b).sum()
-            };
-            let area = area(0, left) - area(1, right) - contact.width * step;
-            let before = self.u[0][left] - self.u[0][right] - contact.width;
+            let width = self.system.contacts[index].width;
+            let area = self.reduced.closing_of_modes(index, &self.scratch) - width * step;
+            let before = self.reduced.closing(index, &self.u[0]) - width;
             let (first, last) = (episode.force, self.trials[index].force);
-            let work = last * self.trials[index].indentation - first * before - (last - first) / step * area;
+            let work = last * self.trials[index].indentation
+                - first * before
+                - (last - first) / step * area;
             episode.work += work;
             self.energy.contact += work;
         }
@@ -416,7 +425,10 @@ impl<'a> Walk<'a> {
     /// The balance now.
     pub(super) fn balance(&mut self) -> Energy {
         let (mut kinetic, mut strain) = (0.0, 0.0);
-        let modes = self.q[0].iter().zip(&self.v[0]).zip(&self.reduced.stiffness);
+        let modes = self.q[0]
+            .iter()
+            .zip(&self.v[0])
+            .zip(&self.reduced.stiffness);
         for ((q, v), k) in modes {
             kinetic += 0.5 * v * v;
             strain += 0.5 * k * q * q;
@@ -427,6 +439,7 @@ impl<'a> Walk<'a> {
             kinetic,
             strain,
             damped: audit.damped,
+            links: 0.0,
             hysteretic: 0.0,
             contact: audit.contact,
             worst_imbalance: 0.0,
@@ -447,8 +460,12 @@ impl<'a> Walk<'a> {
         self.accelerations();
         let energy = self.balance();
         // The places of the last step are free.
-        let (mut a, mut spare) = (std::mem::take(&mut self.u[1]), std::mem::take(&mut self.rate[1]));
-        self.reduced.show([&self.scratch, &self.scratch], [&mut a, &mut spare]);
+        let (mut a, mut spare) = (
+            std::mem::take(&mut self.u[1]),
+            std::mem::take(&mut self.rate[1]),
+        );
+        self.reduced
+            .show([&self.scratch, &self.scratch], [&mut a, &mut spare]);
         self.peaks.record(
             self.system,
             &self.reduced,
@@ -469,8 +486,7 @@ impl<'a> Walk<'a> {
     pub(super) fn awaited(&self, index: usize) -> Option<Crossing> {
         let trial = &self.trials[index];
         if self.is_open(index) {
-            let [left, right] = self.reduced.faces[index];
-            let closing = self.rate[0][left] - self.rate[0][right];
+            let closing = self.reduced.closing(index, &self.rate[0]);
             let turned_back = trial.rate < 0.0 && closing > 0.0;
             (trial.indentation > 0.0 || turned_back).then_some(Crossing::Upwards)
         } else {
