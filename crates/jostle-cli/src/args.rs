@@ -93,12 +93,28 @@ pub(crate) struct RunArgs {
     /// Add to the report what `jostle method` tells of these buildings
     #[arg(long, conflicts_with = "no_report")]
     pub(crate) method: bool,
+    /// Another solver than that of the model
+    #[arg(long, value_enum)]
+    pub(crate) solver: Option<SolverName>,
     /// Print summary.json and nothing else
     #[arg(long)]
     pub(crate) json: bool,
     /// Run even where solver = "product" is expected to lose its digits
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+/// Equations that advance a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum SolverName {
+    /// Riccati transfer recursion
+    Riccati,
+    /// Direct stiffness, the independent check
+    Stiffness,
+    /// The published product of transfer matrices
+    Product,
+    /// Elastic buildings by their modes
+    Modal,
 }
 
 #[derive(Debug, clap::Args)]

@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle::stepping::Progress;
-use jostle::{GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Summary, simulate};
+use jostle::{GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, simulate};
 use jostle_report::{Page, ReinforcedSection};
 
-use crate::args::RunArgs;
+use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
 use crate::open::{Opened, open};
 use crate::{method, run_text, terminal};
@@ -22,7 +22,15 @@ const RESULTS: &str = "jostle-out";
 const PATIENCE: Duration = Duration::from_millis(500);
 
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
-    let opened = open(args.model.model.as_deref(), &args.model.overrides()?)?;
+    let mut opened = open(args.model.model.as_deref(), &args.model.overrides()?)?;
+    if let Some(solver) = args.solver {
+        opened.input.model.analysis.solver = match solver {
+            SolverName::Riccati => Solver::Riccati,
+            SolverName::Stiffness => Solver::Stiffness,
+            SolverName::Product => Solver::Product,
+            SolverName::Modal => Solver::Modal,
+        };
+    }
     for warning in &opened.input.warnings {
         terminal::remark(&format!(
             "{} {warning}",

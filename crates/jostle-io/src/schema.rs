@@ -84,7 +84,10 @@ fn kind(kind: Kind) -> Value {
             schema["examples"] = json!(["2e9 N/m^1.5", "500 MN/m"]);
             schema
         }
-        Kind::CountPerSpan | Kind::Modes => one_or_list(count),
+        Kind::CountPerSpan => one_or_list(count),
+        Kind::Modes => {
+            json!({ "anyOf": [{ "const": "all" }, one_or_list(count)] })
+        }
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::WordOr(word, dimension) => {
             json!({ "anyOf": [{ "const": word }, quantity(dimension)] })

@@ -198,6 +198,9 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
         )
     };
     match damping {
+        Damping::AllModes { ratio } => {
+            format!("{}\u{a0}% in all modes", format::plain(ratio * 100.0, 3))
+        }
         Damping::Rayleigh { alpha, beta } => format!("Rayleigh, {}", coefficients(*alpha, *beta)),
         Damping::Ratio { ratio, modes } => {
             let modes: Vec<String> = modes.iter().map(usize::to_string).collect();
@@ -349,6 +352,7 @@ fn analysis(page: &Page) -> Facts {
                 Solver::Riccati => "Riccati transfer matrices".into(),
                 Solver::Stiffness => "direct stiffness".into(),
                 Solver::Product => "product of transfer matrices".into(),
+                Solver::Modal => "modes, exact between the points of the record".into(),
             },
         ),
         ("integrator", settings.integrator.to_string()),

@@ -202,6 +202,7 @@ fn newmark(
         Solver::Riccati => "Riccati",
         Solver::Stiffness => "direct stiffness",
         Solver::Product => "product",
+        Solver::Modal => "modal",
     };
     entries(expected, "")
         .map(|(steps, expected)| {

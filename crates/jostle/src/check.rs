@@ -122,6 +122,13 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
                 format!("takes one lateral mode, or two different ones in rising order, counted from 1; found {modes:?}")
             });
         }
+        Damping::AllModes { ratio } => {
+            faults.require(
+                (0.0..1.0).contains(ratio),
+                format!("{path}.damping.ratio"),
+                || format!("must lie between 0 and 1 (0.05 is 5 % of critical), found {ratio}"),
+            );
+        }
         Damping::Rayleigh { alpha, beta } => {
             faults.not_negative(*alpha, format!("{path}.damping.alpha"), "1/s");
             faults.not_negative(*beta, format!("{path}.damping.beta"), "s");

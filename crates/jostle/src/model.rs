@@ -212,6 +212,11 @@ pub enum Damping {
         /// Stiffness-proportional coefficient, ≥ 0 \[s\].
         beta: f64,
     },
+    /// The same ratio in every mode; needs [`Solver::Modal`], since no other knows all modes.
+    AllModes {
+        /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
+        ratio: f64,
+    },
 }
 
 /// The space between two neighbours, or between the building at an end of the row and a rigid wall there. A pair may
@@ -375,6 +380,8 @@ pub enum Solver {
     /// Total transfer equation: products of transfer matrices, as published for pounding frames. Loses digits
     /// at small steps and in tall buildings; ask [`crate::transfer::ProductEquations::check_step`] first.
     Product,
+    /// Elastic buildings by their modes, exact between the points of a record ([`crate::stepping::modal`]).
+    Modal,
 }
 
 /// One fault of a model.

@@ -43,6 +43,8 @@ pub struct BuildingSystem {
     /// Degree of freedom of the foot of the first column line in the vectors of a [`crate::State`], where the base
     /// gives way sideways.
     pub foot: Option<usize>,
+    /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
+    pub modal_damping: Option<f64>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
     /// [`modal::modes`] finds those of all kinds.
     pub modes: Vec<Mode>,
@@ -292,6 +294,7 @@ impl BuildingSystem {
             rest: Vec::new(),
             rest_springs: Vec::new(),
             spring_offset: 0,
+            modal_damping: None,
             modes: Vec::new(),
         };
         building.modes = modal::lateral_modes(&building).unwrap_or_default();
@@ -308,7 +311,12 @@ impl BuildingSystem {
     /// # Errors
     /// A message when a lateral mode of that number does not exist.
     pub fn damp(&mut self, damping: &Damping) -> Result<(), String> {
+        self.modal_damping = match damping {
+            Damping::AllModes { ratio } => Some(*ratio),
+            _ => None,
+        };
         (self.equations.alpha, self.equations.beta) = match damping {
+            Damping::AllModes { .. } => (0.0, 0.0),
             Damping::Rayleigh { alpha, beta } => (*alpha, *beta),
             Damping::Ratio { ratio, modes } => {
                 let lateral: Vec<f64> = self

@@ -2,7 +2,7 @@
 
 use jostle::{Analysis, Integrator, Solver};
 
-use crate::keys::{INTEGRATORS, LATER_SOLVERS, SOLVERS, Section};
+use crate::keys::{INTEGRATORS, SOLVERS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
 use crate::tree::Value;
@@ -27,9 +27,10 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
         analysis.energy_tolerance = value.unwrap_or(analysis.energy_tolerance);
     }
     if let Some(field) = reader.get(&view, "solver") {
-        analysis.solver = match reader.choice(&field, SOLVERS, LATER_SOLVERS) {
+        analysis.solver = match reader.choice(&field, SOLVERS, &[]) {
             Some("stiffness") => Solver::Stiffness,
             Some("product") => Solver::Product,
+            Some("modal") => Solver::Modal,
             _ => Solver::Riccati,
         };
     }

@@ -271,7 +271,12 @@ fn read_damping(
     let alpha = number(reader, "alpha", Dimension::Frequency);
     let beta = number(reader, "beta", Dimension::Time);
     let ratio = number(reader, "ratio", Dimension::Dimensionless);
+    let mut all = false;
     let modes = reader.get(&view, "modes").map(|field| {
+        if field.as_text() == Some("all") {
+            all = true;
+            return Vec::new();
+        }
         let modes = read_modes(reader, &field);
         if modes.is_empty() {
             *reader.bad(&field, "names no mode") =
@@ -290,6 +295,11 @@ fn read_damping(
         return Damping::Rayleigh {
             alpha: alpha.unwrap_or(0.0),
             beta: beta.unwrap_or(0.0),
+        };
+    }
+    if all {
+        return Damping::AllModes {
+            ratio: ratio.unwrap_or(0.05),
         };
     }
     Damping::Ratio {

@@ -3,9 +3,11 @@
 use std::f64::consts::PI;
 
 use super::StepEquations;
-use super::plan::ContactSteps;
+use super::clock::Clock;
+use super::plan::{ContactSteps, Plan};
 use super::simulation::Simulation;
 use crate::state::Episode;
+use crate::system::Contact;
 
 /// Steps of a half cycle at the present stiffness, relative to those planned, beyond which finer ones gain nothing.
 const MOST_FINER: f64 = 4.0;
@@ -42,36 +44,71 @@ impl<E: StepEquations> Simulation<'_, E> {
     /// present contact stiffness, ω² = F′/m, that is an error of the force of F′ h² |Δa|/12 · π/(ωh), relative to the
     /// greatest force of the gap.
     pub(super) fn control_division(&mut self, closed: usize, step: f64, episode: &Episode) {
-        let ContactSteps::PerImpact { steps, tolerance } = self.plan.contact_steps else {
-            return;
-        };
         let closed = &self.coupling.closed[closed];
         let index = closed.contact;
         let contact = &self.system.contacts[index];
         let strongest = &mut self.strongest[contact.gap];
         *strongest = strongest.max(episode.peak_force);
         let trial = self.trials[index];
-        let slope = contact
-            .law
-            .follow(trial.indentation, trial.rate, &episode.memory)
-            .by_indentation;
-        if slope <= 0.0 || *strongest <= 0.0 {
-            return;
-        }
-        let strongest = *strongest;
-        let change = (self.relative_acceleration(index) - closed.start_acceleration).abs();
-        let half_cycle = PI * (contact.effective_mass() / slope).sqrt();
-        let error = slope * step * change / 12.0 * half_cycle / strongest;
+        let observed = Observed {
+            step,
+            slope: contact
+                .law
+                .follow(trial.indentation, trial.rate, &episode.memory)
+                .by_indentation,
+            strongest: *strongest,
+            acceleration_change: (self.relative_acceleration(index) - closed.start_acceleration)
+                .abs(),
+        };
         let division = &mut self.contact_division[index];
-        if error > tolerance && step * MOST_FINER * steps > half_cycle {
-            *division = self.plan.finer(*division);
-            self.finest_in_contact = self.finest_in_contact.max(*division);
-        } else if error * SLACK < tolerance
-            && *division > 1
-            && self.clock.is_on_grid(*division / 2)
-            && *division / 2 >= self.plan.coarsest(contact, slope)
-        {
-            *division /= 2;
-        }
+        *division = next_division(self.plan, contact, &observed, *division, &self.clock);
+        self.finest_in_contact = self.finest_in_contact.max(*division);
+    }
+}
+
+/// What a step of a closed contact has shown.
+pub(super) struct Observed {
+    /// Its length \[s\].
+    pub(super) step: f64,
+    /// F′ at its end \[N/m\].
+    pub(super) slope: f64,
+    /// Greatest force of the gap so far \[N\].
+    pub(super) strongest: f64,
+    /// |Δa| of the closing \[m/s²\].
+    pub(super) acceleration_change: f64,
+}
+
+/// The division to go on with.
+pub(super) fn next_division(
+    plan: &Plan,
+    contact: &Contact,
+    observed: &Observed,
+    division: u32,
+    clock: &Clock,
+) -> u32 {
+    let ContactSteps::PerImpact { steps, tolerance } = plan.contact_steps else {
+        return division;
+    };
+    let Observed {
+        step,
+        slope,
+        strongest,
+        acceleration_change,
+    } = *observed;
+    if slope <= 0.0 || strongest <= 0.0 {
+        return division;
+    }
+    let half_cycle = PI * (contact.effective_mass() / slope).sqrt();
+    let error = slope * step * acceleration_change / 12.0 * half_cycle / strongest;
+    if error > tolerance && step * MOST_FINER * steps > half_cycle {
+        plan.finer(division)
+    } else if error * SLACK < tolerance
+        && division > 1
+        && clock.is_on_grid(division / 2)
+        && division / 2 >= plan.coarsest(contact, slope)
+    {
+        division / 2
+    } else {
+        division
     }
 }

@@ -52,7 +52,7 @@ impl Cubic {
     }
 
     /// Shares of the step, in order, where the slope vanishes strictly inside it.
-    fn turning_points(&self) -> impl Iterator<Item = f64> {
+    pub(crate) fn turning_points(&self) -> impl Iterator<Item = f64> {
         let [_, c1, c2, c3] = self.powers();
         let discriminant = c2 * c2 - 3.0 * c1 * c3;
         let mut points = [f64::NAN; 2];
@@ -60,7 +60,9 @@ impl Cubic {
             // The stable pair of roots of c1 + 2 c2 t + 3 c3 t².
             let q = -(c2 + c2.signum() * discriminant.sqrt());
             points = [q / (3.0 * c3), c1 / q];
-            points.sort_by(f64::total_cmp);
+            if points[0] > points[1] {
+                points.swap(0, 1);
+            }
         }
         points
             .into_iter()

@@ -28,17 +28,17 @@ pub(super) enum Landing {
 }
 
 /// A touch is located when the faces are this close \[m\].
-const TOUCH: f64 = 1e-13;
+pub(super) const TOUCH: f64 = 1e-13;
 /// Contacts this close to touching, and closing, close together with another \[m\].
-const TOGETHER: f64 = 1e-12;
+pub(super) const TOGETHER: f64 = 1e-12;
 /// An event nearer than this share of a step happens at its start.
-const AT_ONCE: f64 = 1e-4;
+pub(super) const AT_ONCE: f64 = 1e-4;
 /// Episodes that reach no deeper are grazes, not impacts: a touch is located to a thousandth of this \[m\].
 const GRAZE: f64 = 1e-10;
 /// Impact speeds are reported as at least this, so that ratios to them are finite \[m/s\].
-const SLOWEST_IMPACT: f64 = 1e-9;
+pub(super) const SLOWEST_IMPACT: f64 = 1e-9;
 /// Blows at one instant before bodies in touch are left to push each other.
-const MOST_BLOWS: usize = 10_000;
+pub(super) const MOST_BLOWS: usize = 10_000;
 
 impl<E: StepEquations> Simulation<'_, E> {
     /// The first touch, or release with a jump of force, in the tried step.
@@ -334,29 +334,32 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Lists an episode as an impact, if it ever pushed and was more than a graze. One that the end of the run cuts
-    /// off is not `finished`.
+    /// Lists an episode as an impact, if it was one.
     pub(super) fn report_impact(&mut self, contact: usize, episode: &Episode, finished: bool) {
-        let pushed = episode.peak_force > 0.0 && episode.end > episode.since;
-        if pushed && episode.peak_indentation > GRAZE {
-            self.impacts.push(Impact {
-                contact,
-                start: episode.since,
-                end: episode.end,
-                peak_force: episode.peak_force,
-                peak_force_at: episode.peak_force_at,
-                peak_indentation: episode.peak_indentation,
-                impact_speed: episode.impact_speed,
-                // Bodies that still approach, or lean on each other, have not separated.
-                separation_speed: if finished {
-                    episode.separation_speed.max(0.0)
-                } else {
-                    0.0
-                },
-                finished,
-                impulse: episode.impulse,
-                dissipated: episode.work,
-            });
-        }
+        self.impacts.extend(impact_of(contact, episode, finished));
     }
+}
+
+/// An episode as an impact, if it ever pushed and was more than a graze. One that the end of the run cuts off is not
+/// `finished`.
+pub(super) fn impact_of(contact: usize, episode: &Episode, finished: bool) -> Option<Impact> {
+    let pushed = episode.peak_force > 0.0 && episode.end > episode.since;
+    (pushed && episode.peak_indentation > GRAZE).then_some(Impact {
+        contact,
+        start: episode.since,
+        end: episode.end,
+        peak_force: episode.peak_force,
+        peak_force_at: episode.peak_force_at,
+        peak_indentation: episode.peak_indentation,
+        impact_speed: episode.impact_speed,
+        // Bodies that still approach, or lean on each other, have not separated.
+        separation_speed: if finished {
+            episode.separation_speed.max(0.0)
+        } else {
+            0.0
+        },
+        finished,
+        impulse: episode.impulse,
+        dissipated: episode.work,
+    })
 }

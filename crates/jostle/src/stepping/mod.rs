@@ -16,6 +16,7 @@ mod integrator;
 mod joints;
 mod lanes;
 mod links;
+pub mod modal;
 mod outcome;
 mod plan;
 mod recorder;

@@ -1,6 +1,7 @@
 //! Step sizes: fixed, or chosen from the tolerance (theory, Eqs. G1 and G2).
 
 use super::integrator::Integrator;
+use super::modal;
 use crate::model::{Analysis, ModelFault, Solver};
 use crate::motion::GroundMotion;
 use crate::system::{BuildingSystem, Contact, System};
@@ -55,6 +56,13 @@ const FEWEST_PER_PERIOD: f64 = 20.0;
 const FEWEST_PER_IMPACT: f64 = 8.0;
 /// Impact speed for judging fixed contact steps \[m/s\].
 const TYPICAL_SPEED: f64 = 0.5;
+/// Free-flight steps of modal stepping, at a tolerance of 1e-3: per first and third lateral period, and per period of
+/// an analytic motion.
+const MODAL_STEPS_PER_FIRST: f64 = 20.0;
+const MODAL_STEPS_PER_THIRD: f64 = 7.5;
+const MODAL_STEPS_PER_MOTION_PERIOD: f64 = 150.0;
+/// And where nothing else limits it \[s\].
+const LONGEST_MODAL_STEP: f64 = 0.05;
 /// Finest division of a free-flight step.
 const FINEST: u32 = 1 << 20;
 
@@ -69,12 +77,14 @@ impl Plan {
         analysis: &Analysis,
     ) -> Result<Self, Vec<ModelFault>> {
         let mut faults = Vec::new();
+        check_solver(system, analysis, &mut faults);
         let refinement = (analysis.tolerance / 1e-3).sqrt();
         let step = match analysis.step {
             Some(step) => {
                 check_step(step, system, motion, &mut faults);
                 step
             }
+            None if analysis.solver == Solver::Modal => modal_step(system, motion, refinement),
             None => automatic_step(system, motion, refinement),
         };
         let contact_steps = match analysis.contact_step {
@@ -179,6 +189,59 @@ impl Plan {
                 }
             }
         }
+    }
+}
+
+/// What the solver cannot do.
+fn check_solver(system: &System, analysis: &Analysis, faults: &mut Vec<ModelFault>) {
+    let modal = analysis.solver == Solver::Modal;
+    if modal && !system.links.is_empty() {
+        faults.push(ModelFault {
+            path: "analysis.solver".into(),
+            problem: "modal cannot be used: links join the buildings, so that none has modes of its own; take solver = \"riccati\"".into(),
+        });
+    }
+    for (index, building) in system.buildings.iter().enumerate() {
+        if modal {
+            for reason in modal::refusals(building, analysis.integrator) {
+                let fault = ModelFault {
+                    path: "analysis.solver".into(),
+                    problem: format!(
+                        "modal cannot be used: {reason}; or take solver = \"riccati\""
+                    ),
+                };
+                if !faults.contains(&fault) {
+                    faults.push(fault);
+                }
+            }
+        } else if building.modal_damping.is_some() {
+            faults.push(ModelFault {
+                path: format!("building[{index}].damping.modes"),
+                problem: "\"all\" needs solver = \"modal\" under [analysis]; other solvers know Rayleigh damping of one or two modes".into(),
+            });
+        }
+    }
+}
+
+/// The free-flight step in modal coordinates, where only the search for touches and peaks needs any: cubics must follow
+/// the third mode.
+fn modal_step(system: &System, motion: &GroundMotion, refinement: f64) -> f64 {
+    // Cubics are of fourth order.
+    let refinement = refinement.sqrt().min(2.0);
+    let mut step = LONGEST_MODAL_STEP;
+    for building in &system.buildings {
+        for (number, steps) in [(1, MODAL_STEPS_PER_FIRST), (3, MODAL_STEPS_PER_THIRD)] {
+            step = lateral_period(building, number)
+                .map_or(step, |period| step.min(refinement * period / steps));
+        }
+    }
+    if let Some(period) = motion.period() {
+        // Loads are straight over a step, which is of second order.
+        step = step.min(refinement * refinement * period / MODAL_STEPS_PER_MOTION_PERIOD);
+    }
+    match motion.step() {
+        Some(record_step) => record_step / (record_step / step - 1e-9).ceil().max(1.0),
+        None => step,
     }
 }
 

@@ -21,7 +21,7 @@ pub(crate) struct Recorder {
 }
 
 /// Columns of a history, in order.
-fn columns(system: &System) -> Vec<Column> {
+pub(crate) fn columns(system: &System) -> Vec<Column> {
     let mut columns = vec![Column::Time, Column::GroundAcceleration];
     for (building, properties) in system.buildings.iter().enumerate() {
         for floor in 1..=properties.floors.len() {
@@ -199,7 +199,12 @@ impl Recorder {
 }
 
 /// Greatest value in a step between (value, slope) at its ends.
-fn greatest_in_step(then: (f64, f64), now: (f64, f64), start: f64, step: f64) -> Extreme {
+pub(crate) fn greatest_in_step(
+    then: (f64, f64),
+    now: (f64, f64),
+    start: f64,
+    step: f64,
+) -> Extreme {
     let end = Extreme {
         value: now.0,
         at: start + step,

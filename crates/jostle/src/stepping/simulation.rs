@@ -38,6 +38,9 @@ pub fn simulate(
     settings: Settings,
     observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
+    if plan.solver == Solver::Modal {
+        return super::modal::simulate(system, motion, plan, settings, observer);
+    }
     simulate_from(
         system,
         motion,
@@ -49,7 +52,7 @@ pub fn simulate(
 }
 
 /// Runs a system from a given state at time zero. Where that state is not in equilibrium, the missing load
-/// appears within the first step.
+/// appears within the first step. [`Solver::Modal`] starts from rest only; Riccati's recursion takes its place.
 pub fn simulate_from(
     system: &System,
     motion: &GroundMotion,
@@ -59,7 +62,7 @@ pub fn simulate_from(
     observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
     match plan.solver {
-        Solver::Riccati => {
+        Solver::Riccati | Solver::Modal => {
             Simulation::<RiccatiSweep>::new(system, motion, plan, settings, state).run(observer)
         }
         Solver::Stiffness => {

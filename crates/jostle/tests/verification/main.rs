@@ -9,6 +9,7 @@ mod extremes_are_survived;
 mod forces_never_pull;
 mod links_and_walls;
 mod mirrored_model_mirrors_the_answer;
+mod modal_stepping;
 mod monolith;
 mod newmark_is_second_order;
 mod no_impact_is_lost_or_counted_twice;

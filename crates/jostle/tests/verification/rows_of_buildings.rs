@@ -66,7 +66,10 @@ fn peaks(outcome: &Outcome, system: &System) -> Vec<f64> {
         .collect()
 }
 
-#[allow(clippy::print_stdout, reason = "how closely they agree is worth seeing")]
+#[allow(
+    clippy::print_stdout,
+    reason = "how closely they agree is worth seeing"
+)]
 fn compare(model: &Model, motion: &GroundMotion, plan: &Plan, at_once: usize) {
     let system = assembled(model);
     let outcome = run(&system, motion, plan);

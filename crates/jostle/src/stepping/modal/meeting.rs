@@ -1,0 +1,446 @@
+//! Contacts that close, push and open, in modal coordinates.
+
+use super::walk::Walk;
+use crate::contact::momentum;
+use crate::history::{Extreme, Impact};
+use crate::state::{ContactPhase, Episode};
+use crate::stepping::clock::Stride;
+use crate::stepping::control;
+use crate::stepping::coupling::Closed;
+use crate::stepping::events::{Crossing, Cubic, bisect};
+use crate::stepping::impacts::{
+    AT_ONCE, Event, MOST_BLOWS, SLOWEST_IMPACT, TOGETHER, TOUCH, impact_of,
+};
+use crate::stepping::outcome::StepError;
+
+/// Rounds in which rates and forces of several contacts settle on each other.
+const ROUNDS: usize = 60;
+/// Change of the forces, relative to the greatest, at which they have settled.
+const SETTLED: f64 = 1e-13;
+
+impl Walk<'_> {
+    /// Motion of contact `index` over the tried step.
+    fn indentation_curve(&self, index: usize, step: f64) -> Cubic {
+        let trial = &self.trials[index];
+        Cubic::new(
+            self.reduced.closing(index, &self.u[0]) - self.system.contacts[index].width,
+            self.reduced.closing(index, &self.rate[0]),
+            trial.indentation,
+            trial.rate,
+            step,
+        )
+    }
+
+    /// The first touch, or release with a jump of force, in the tried step.
+    pub(super) fn first_event(&self, step: f64) -> Option<Event> {
+        if !self.pounding {
+            return None;
+        }
+        let mut first: Option<Event> = None;
+        for contact in 0..self.phases.len() {
+            let Some(crossing) = self.awaited(contact) else {
+                continue;
+            };
+            let curve = self.indentation_curve(contact, step);
+            if let Some(at) = curve.first_crossing(crossing)
+                && first.is_none_or(|event| at < event.at)
+            {
+                let event = Event {
+                    contact,
+                    crossing,
+                    at,
+                };
+                if !self.undoes_a_touch(&event, step) {
+                    first = Some(event);
+                }
+            }
+        }
+        first
+    }
+
+    /// Whether a contact would open at the very instant at which it closed.
+    fn undoes_a_touch(&self, event: &Event, step: f64) -> bool {
+        matches!(self.phases[event.contact], ContactPhase::Closed(episode)
+            if event.crossing == Crossing::Downwards && episode.since == self.time)
+            && event.at * step <= self.shortest_step(event)
+    }
+
+    /// An event nearer than this happens at the start of the step \[s\].
+    pub(super) fn shortest_step(&self, event: &Event) -> f64 {
+        let contact = &self.system.contacts[event.contact];
+        let division = self.plan.division(contact, self.trials[event.contact].rate);
+        AT_ONCE * self.plan.step / f64::from(self.division().max(division))
+    }
+
+    /// Repeats the step so that it ends on an event, or on an earlier one met on the way; false when that one happened
+    /// at the start, and time stands still.
+    pub(super) fn step_to(&mut self, mut event: Event, stride: &Stride) -> Result<bool, StepError> {
+        let mut length = event.at * stride.length;
+        for _ in 0..20 {
+            self.set_odd(length);
+            self.try_step(0, self.clock.after(length))?;
+            if let Some(other) = self
+                .first_event(length)
+                .filter(|other| other.contact != event.contact && other.at < 1.0 - 1e-9)
+            {
+                if other.at * length <= self.shortest_step(&other) {
+                    self.read_contacts();
+                    self.happen(other);
+                    return Ok(false);
+                }
+                event = other;
+                length *= other.at;
+                continue;
+            }
+            let trial = self.trials[event.contact];
+            let corrected = length - trial.indentation / trial.rate;
+            let wrong_way = (event.crossing == Crossing::Upwards) != (trial.rate > 0.0);
+            if trial.indentation.abs() <= TOUCH
+                || wrong_way
+                || !(corrected > 0.0 && corrected < stride.length)
+            {
+                break;
+            }
+            length = corrected;
+            self.work.repeated_steps += 1;
+        }
+        let trial = self.trials[event.contact];
+        let reached = match event.crossing {
+            Crossing::Upwards => trial.indentation >= -TOGETHER && trial.rate > 0.0,
+            Crossing::Downwards => trial.indentation <= TOGETHER && trial.rate < 0.0,
+        };
+        let tried = self.tables[0].step;
+        self.accept(0, self.clock.after(tried));
+        if reached {
+            self.read_contacts();
+            self.happen(event);
+        }
+        Ok(true)
+    }
+
+    /// Closes or opens contacts at the present instant, whose indentations and rates stand in `trials`.
+    pub(super) fn happen(&mut self, event: Event) {
+        let time = self.time;
+        if event.crossing == Crossing::Downwards {
+            if let ContactPhase::Closed(mut episode) = self.phases[event.contact] {
+                self.jump(event.contact, -episode.force);
+                (episode.end, episode.separation_speed) = (time, -self.trials[event.contact].rate);
+                self.report_impact(event.contact, &episode, true);
+                self.open(event.contact);
+            }
+            return;
+        }
+        let struck = self.strike(event.contact);
+        for index in 0..self.phases.len() {
+            if (index == event.contact && !struck) || self.is_closing(index) {
+                self.close(index);
+            }
+        }
+    }
+
+    fn open(&mut self, index: usize) {
+        self.phases[index] = ContactPhase::Open;
+        self.open_steps[index] = 0;
+    }
+
+    /// Whether an open contact touches and closes now.
+    fn is_closing(&self, index: usize) -> bool {
+        let trial = &self.trials[index];
+        self.is_open(index) && trial.indentation >= -TOGETHER && trial.rate > 0.0
+    }
+
+    /// Lets momentum laws act on a contact and on all others that touch and close, one after the other, until none
+    /// closes any more. Whether the given contact was struck.
+    fn strike(&mut self, first: usize) -> bool {
+        let mut struck = false;
+        let mut next = Some(first);
+        for _ in 0..MOST_BLOWS {
+            let Some(index) = next else { break };
+            let rate = self.trials[index].rate;
+            if let Some(restitution) = self.system.contacts[index].law.rebound(rate) {
+                struck |= index == first;
+                self.blow(index, restitution, rate);
+            } else if index != first {
+                break;
+            }
+            next = (0..self.phases.len()).find(|&other| {
+                let law = &self.system.contacts[other].law;
+                self.is_closing(other) && law.rebound(self.trials[other].rate).is_some()
+            });
+        }
+        struck
+    }
+
+    /// A contact closing at `rate` opens at once with `restitution` times that.
+    fn blow(&mut self, index: usize, restitution: f64, rate: f64) {
+        let contact = &self.system.contacts[index];
+        let impulse = momentum::impulse(restitution, contact.effective_mass(), rate);
+        let before: f64 = self.v[0].iter().map(|v| 0.5 * v * v).sum();
+        self.reduced.push_apart(index, impulse, &mut self.v[0]);
+        let dissipated = before - self.v[0].iter().map(|v| 0.5 * v * v).sum::<f64>();
+        self.energy.contact += dissipated;
+        let watched = [&mut self.u[0][..], &mut self.rate[0][..]];
+        self.reduced.show([&self.q[0], &self.v[0]], watched);
+        self.read_contacts();
+        let time = self.time;
+        self.impacts.push(Impact {
+            contact: index,
+            start: time,
+            end: time,
+            peak_force: 0.0,
+            peak_force_at: time,
+            peak_indentation: 0.0,
+            impact_speed: rate,
+            separation_speed: -self.trials[index].rate,
+            finished: true,
+            impulse,
+            dissipated,
+        });
+    }
+
+    /// A contact begins to push.
+    fn close(&mut self, index: usize) {
+        let contact = &self.system.contacts[index];
+        let rate = self.trials[index].rate.max(0.0);
+        let mut episode =
+            Episode::new(self.time, rate.max(SLOWEST_IMPACT), contact.law.touch(rate));
+        episode.force = contact.law.onset(rate);
+        episode.peak_force = episode.force;
+        let expected = contact.law.elastic_force(contact.effective_mass(), rate);
+        let strongest = &mut self.strongest[contact.gap];
+        *strongest = strongest.max(expected);
+        let share = if *strongest > 0.0 {
+            expected / *strongest
+        } else {
+            0.0
+        };
+        // Steps of an impact just over may still be finer.
+        let division = self.plan.first_division(contact, rate, share);
+        self.contact_division[index] = division;
+        self.finest_in_contact = self.finest_in_contact.max(division);
+        self.jump(index, episode.force);
+        self.phases[index] = ContactPhase::Closed(episode);
+    }
+
+    /// A sudden change of a contact force.
+    fn jump(&mut self, index: usize, change: f64) {
+        if change != 0.0 {
+            self.reduced.push_apart(index, change, &mut self.p[0]);
+        }
+    }
+
+    /// Solves for the forces of the closed contacts at the end of the tried step and lets them push.
+    pub(super) fn find_contact_forces(&mut self, slot: usize) -> Result<(), StepError> {
+        self.coupling.clear();
+        for (index, phase) in self.phases.iter().enumerate() {
+            let ContactPhase::Closed(episode) = phase else {
+                continue;
+            };
+            let trial = &self.trials[index];
+            self.coupling.closed.push(Closed {
+                contact: index,
+                law: self.system.contacts[index].law,
+                memory: episode.memory,
+                free: trial.indentation,
+                free_rate: trial.rate,
+                rate_gain: 0.0,
+                indentation: trial.indentation,
+                force: 0.0,
+                start_slope: 0.0,
+                turn: None,
+                start_acceleration: 0.0,
+            });
+        }
+        if self.coupling.closed.is_empty() {
+            return Ok(());
+        }
+        self.couple(slot);
+        self.settle()?;
+        for closed in &self.coupling.closed {
+            let loads = &mut self.p[1];
+            self.reduced.push_apart(closed.contact, closed.force, loads);
+        }
+        self.advance(slot);
+        self.follow();
+        for closed in &self.coupling.closed {
+            self.trials[closed.contact].force = closed.force;
+        }
+        Ok(())
+    }
+
+    /// How far and how fast end forces open the closed contacts.
+    fn couple(&mut self, slot: usize) {
+        let n = self.coupling.closed.len();
+        self.coupling.compliance.reset(n, n - 1);
+        self.rate_compliance.clear();
+        for row in 0..n {
+            for column in 0..n {
+                let [own, other] = [row, column].map(|at| self.coupling.closed[at].contact);
+                let [displacement, rate] = self.tables[slot].opening(own, other, &self.reduced);
+                self.coupling.compliance.set(row, column, displacement);
+                self.rate_compliance.push(rate);
+            }
+            let own = self.coupling.compliance.get(row, row);
+            self.coupling.closed[row].rate_gain = self.rate_compliance[row * n + row] / own;
+        }
+    }
+
+    /// Forces with which indentations and rates agree. The equations take a rate that goes with the indentation of its own
+    /// contact; what the others add beyond that is put in from the round before, and is small where steps are short.
+    fn settle(&mut self) -> Result<(), StepError> {
+        let n = self.coupling.closed.len();
+        let diverged = StepError::ContactDiverged {
+            time: self.time,
+            closed: n,
+        };
+        self.forces.clear();
+        self.forces.resize(n, 0.0);
+        for _ in 0..ROUNDS {
+            for row in 0..n {
+                let mut beyond = 0.0;
+                for column in 0..n {
+                    let at = row * n + column;
+                    let gain = self.coupling.closed[row].rate_gain;
+                    beyond += (gain * self.coupling.compliance.get(row, column)
+                        - self.rate_compliance[at])
+                        * self.forces[column];
+                }
+                let index = self.coupling.closed[row].contact;
+                self.coupling.closed[row].free_rate = self.trials[index].rate + beyond;
+            }
+            self.work.iterations += self.coupling.solve().ok_or_else(|| diverged.clone())?;
+            let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
+            for (force, closed) in self.forces.iter_mut().zip(&self.coupling.closed) {
+                change = change.max((closed.force - *force).abs());
+                greatest = greatest.max(closed.force.abs());
+                *force = closed.force;
+            }
+            if n == 1 || change <= SETTLED * greatest {
+                return Ok(());
+            }
+        }
+        Err(diverged)
+    }
+
+    /// Relative acceleration of the faces of a contact; modal ones stand in `scratch` \[m/s²\].
+    fn relative_acceleration(&self, index: usize) -> f64 {
+        self.reduced.closing_of_modes(index, &self.scratch)
+    }
+
+    /// dF/dt of a contact with the present accelerations \[N/s\].
+    fn force_slope(&self, index: usize, indentation: f64, rate: f64, episode: &Episode) -> f64 {
+        let response = self.system.contacts[index]
+            .law
+            .follow(indentation, rate, &episode.memory);
+        response.by_indentation * rate + response.by_rate * self.relative_acceleration(index)
+    }
+
+    /// Before the state moves on: what every closed contact does over the step.
+    pub(super) fn gather_episodes(&mut self, step: f64) {
+        for closed in 0..self.coupling.closed.len() {
+            let index = self.coupling.closed[closed].contact;
+            let ContactPhase::Closed(mut episode) = self.phases[index] else {
+                continue;
+            };
+            let (law, start) = (self.system.contacts[index].law, self.time);
+            let curve = self.indentation_curve(index, step);
+            let trial = self.trials[index];
+            let force = [episode.force, trial.force];
+            episode.impulse += 0.5 * step * (force[0] + force[1]);
+            let turn = curve.peak(start, step);
+            self.coupling.closed[closed].turn = turn;
+            let deepest = turn.map_or(curve.end, |peak| peak.value);
+            episode.peak_indentation = episode.peak_indentation.max(deepest);
+            if force[0] > 0.0 && force[1] <= 0.0 {
+                let (memory, rate) = (episode.memory, |at: f64| curve.rise(at) / step);
+                let at = bisect(0.0, 1.0, |at| {
+                    law.follow(curve.value(at), rate(at), &memory).force <= 0.0
+                });
+                (episode.end, episode.separation_speed) = (start + at * step, -rate(at));
+            } else if force[1] > 0.0 {
+                (episode.end, episode.separation_speed) = (start + step, -trial.rate);
+            }
+            self.phases[index] = ContactPhase::Closed(episode);
+            self.coupling.closed[closed].start_acceleration = self.relative_acceleration(index);
+            self.coupling.closed[closed].start_slope =
+                self.force_slope(index, curve.start, curve.start_rise / step, &episode);
+        }
+    }
+
+    /// After the state has moved on: peaks of the forces, and contacts that have opened.
+    pub(super) fn finish_episodes(&mut self, step: f64, start: f64) {
+        for closed in 0..self.coupling.closed.len() {
+            let index = self.coupling.closed[closed].contact;
+            let ContactPhase::Closed(mut episode) = self.phases[index] else {
+                continue;
+            };
+            let trial = self.trials[index];
+            let start_slope = self.coupling.closed[closed].start_slope;
+            let end_slope = self.force_slope(index, trial.indentation, trial.rate, &episode);
+            let mut peak = Extreme {
+                value: trial.force,
+                at: start + step,
+            };
+            let law = &self.system.contacts[index].law;
+            if episode.force > 0.0 && trial.force > 0.0 {
+                let turn = self.coupling.closed[closed]
+                    .turn
+                    .filter(|_| law.has_corner_at_turn());
+                if let Some(turn) = turn {
+                    peak = Extreme {
+                        value: law.follow(turn.value, 0.0, &episode.memory).force,
+                        at: turn.at,
+                    };
+                } else {
+                    let curve =
+                        Cubic::new(episode.force, start_slope, trial.force, end_slope, step);
+                    peak = curve.peak(start, step).unwrap_or(peak);
+                }
+            }
+            if peak.value > episode.peak_force {
+                (episode.peak_force, episode.peak_force_at) = (peak.value, peak.at);
+            }
+            self.control_division(closed, step, &episode);
+            episode.force = trial.force;
+            let law = &self.system.contacts[index].law;
+            if let Some(turn) = self.coupling.closed[closed].turn {
+                law.remember(turn.value, 0.0, &mut episode.memory);
+            }
+            law.remember(trial.indentation, trial.rate, &mut episode.memory);
+            let leaving = trial.indentation <= 0.0 && trial.rate <= 0.0;
+            if leaving && !law.jumps_at_release() {
+                self.report_impact(index, &episode, true);
+                self.open(index);
+            } else {
+                self.phases[index] = ContactPhase::Closed(episode);
+            }
+        }
+    }
+
+    fn control_division(&mut self, closed: usize, step: f64, episode: &Episode) {
+        let closed = &self.coupling.closed[closed];
+        let index = closed.contact;
+        let contact = &self.system.contacts[index];
+        let strongest = &mut self.strongest[contact.gap];
+        *strongest = strongest.max(episode.peak_force);
+        let trial = self.trials[index];
+        let observed = control::Observed {
+            step,
+            slope: contact
+                .law
+                .follow(trial.indentation, trial.rate, &episode.memory)
+                .by_indentation,
+            strongest: *strongest,
+            acceleration_change: (self.relative_acceleration(index) - closed.start_acceleration)
+                .abs(),
+        };
+        let division = &mut self.contact_division[index];
+        *division = control::next_division(self.plan, contact, &observed, *division, &self.clock);
+        self.finest_in_contact = self.finest_in_contact.max(*division);
+    }
+
+    /// Lists an episode as an impact, if it was one.
+    pub(super) fn report_impact(&mut self, contact: usize, episode: &Episode, finished: bool) {
+        self.impacts.extend(impact_of(contact, episode, finished));
+    }
+}

@@ -1,0 +1,416 @@
+//! All buildings in modal coordinates, one after the other.
+
+use std::ops::Range;
+
+use super::basis::{Basis, Demand};
+use super::response::{Response, Rules, damped};
+use crate::contact::ForceLaw;
+use crate::equations::Equations;
+use crate::history::Work;
+use crate::stepping::NotPositive;
+use crate::system::System;
+
+/// A row of buildings as oscillators, and how they show at floors and contacts.
+pub(super) struct Reduced {
+    /// d = 2ζω of every mode \[1/s\].
+    pub(super) damping: Vec<f64>,
+    /// k = ω² \[1/s²\].
+    pub(super) stiffness: Vec<f64>,
+    /// Γ = φᵀM r \[kg^½\].
+    pub(super) participation: Vec<f64>,
+    pub(super) buildings: Vec<ReducedBuilding>,
+    /// Where the two faces of every contact show; `None` is a wall.
+    pub(super) faces: Vec<[Option<Shown>; 2]>,
+}
+
+/// Where a face shows: its building, and its place among all watched displacements.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shown {
+    building: usize,
+    watched: usize,
+}
+
+/// Modes and watched displacements of one building.
+pub(super) struct ReducedBuilding {
+    /// Its modes among all.
+    pub(super) modes: Range<usize>,
+    /// Its watched displacements among all: floors from the ground up, then other faces of contacts.
+    pub(super) watched: Range<usize>,
+    /// Number of floors.
+    pub(super) floors: usize,
+    /// Shapes at the watched displacements, row by row \[kg^−½\].
+    rows: Vec<f64>,
+    /// The same for so many rows at once, mode by mode; rows that fill up the last block are zero.
+    blocks: Vec<[f64; ROWS]>,
+    /// Base shear of every mode \[N/(m·kg^½)\].
+    pub(super) shear: Vec<f64>,
+    shapes: Vec<Vec<f64>>,
+}
+
+impl Reduced {
+    /// `rates`: how quickly things happen to every building; `closeness`: how well its answers must be met.
+    pub(super) fn of(
+        system: &System,
+        rates: &[Rates],
+        closeness: f64,
+        work: &mut Work,
+    ) -> Result<Self, (usize, NotPositive)> {
+        let mut reduced = Self {
+            damping: Vec::new(),
+            stiffness: Vec::new(),
+            participation: Vec::new(),
+            buildings: Vec::new(),
+            faces: vec![[None; 2]; system.contacts.len()],
+        };
+        let mut watching = 0;
+        for (index, building) in system.buildings.iter().enumerate() {
+            let mut watched: Vec<usize> = building
+                .floors
+                .iter()
+                .map(|floor| floor.dof - building.offset)
+                .collect();
+            let floors = watched.len();
+            let mut faces = Vec::new();
+            for (number, contact) in system.contacts.iter().enumerate() {
+                for (side, face) in contact.faces.0.iter().enumerate() {
+                    let Some(face) = face.filter(|face| face.building == index) else {
+                        continue;
+                    };
+                    let dof = face.dof - building.offset;
+                    let known = watched.iter().position(|other| *other == dof);
+                    let place = known.unwrap_or_else(|| {
+                        watched.push(dof);
+                        watched.len() - 1
+                    });
+                    reduced.faces[number][side] = Some(Shown {
+                        building: index,
+                        watched: watching + place,
+                    });
+                    if !faces.contains(&dof) {
+                        faces.push(dof);
+                    }
+                }
+            }
+            let Rates { pushed, swaying } = rates[index];
+            let [slow, quick] = MET.map(|factor| factor * pushed);
+            let [low, high] = COMPARED.map(|factor| factor * pushed);
+            let mut met = vec![0.0, quick, slow];
+            let mut struck = system.contacts.iter().filter(|contact| {
+                let law = matches!(contact.law, ForceLaw::Restitution { .. });
+                law && contact.faces.buildings().contains(&Some(index))
+            });
+            if struck.next().is_some() {
+                // At once nothing moves but the mass that is struck.
+                met.insert(0, at_once(&building.equations));
+            }
+            let demand = Demand {
+                faces: &faces,
+                floors: &watched[..floors],
+                met: &met,
+                compared: &[swaying, 3.0 * swaying, low, high],
+                tolerance: closeness,
+            };
+            let basis = Basis::of(building, &demand).map_err(|failure| (index, failure))?;
+            work.factorizations += basis.factorizations;
+            work.solves += basis.solves;
+            let start = reduced.stiffness.len();
+            let equations = &building.equations;
+            for stiffness in &basis.stiffness {
+                reduced.damping.push(match building.modal_damping {
+                    Some(ratio) => 2.0 * ratio * stiffness.sqrt(),
+                    None => equations.alpha + equations.beta * stiffness,
+                });
+            }
+            reduced.stiffness.extend(&basis.stiffness);
+            reduced.participation.extend(&basis.participation);
+            let mut rows = Vec::with_capacity(watched.len() * basis.shapes.len());
+            for dof in &watched {
+                rows.extend(basis.shapes.iter().map(|shape| shape[*dof]));
+            }
+            let modes = basis.shapes.len();
+            let mut blocks = Vec::new();
+            for block in watched.chunks(ROWS) {
+                blocks.extend(basis.shapes.iter().map(|shape| {
+                    std::array::from_fn(|row| block.get(row).map_or(0.0, |dof| shape[*dof]))
+                }));
+            }
+            debug_assert_eq!(blocks.len(), modes * watched.len().div_ceil(ROWS));
+            reduced.buildings.push(ReducedBuilding {
+                modes: start..reduced.stiffness.len(),
+                watched: watching..watching + watched.len(),
+                floors,
+                rows,
+                blocks,
+                shear: basis
+                    .shapes
+                    .iter()
+                    .map(|shape| equations.base_shear(shape))
+                    .collect(),
+                shapes: basis.shapes,
+            });
+            watching += watched.len();
+        }
+        Ok(reduced)
+    }
+
+    /// Number of modes of all buildings.
+    pub(super) fn modes(&self) -> usize {
+        self.stiffness.len()
+    }
+
+    /// Number of watched displacements.
+    pub(super) fn watched(&self) -> usize {
+        self.buildings
+            .last()
+            .map_or(0, |building| building.watched.end)
+    }
+
+    /// What two lists of modal coordinates show at every watched displacement.
+    pub(super) fn show(&self, modal: [&[f64]; 2], watched: [&mut [f64]; 2]) {
+        let [first, second] = watched;
+        for building in &self.buildings {
+            let range = building.modes.clone();
+            let (a, b) = (&modal[0][range.clone()], &modal[1][range]);
+            let blocks = building.blocks.chunks_exact(a.len().max(1));
+            let own = building.watched.clone();
+            let places = first[own.clone()]
+                .chunks_mut(ROWS)
+                .zip(second[own].chunks_mut(ROWS));
+            for (block, (first, second)) in blocks.zip(places) {
+                let mut sums = [[0.0; ROWS]; 2];
+                for (shape, (a, b)) in block.iter().zip(a.iter().zip(b)) {
+                    for row in 0..ROWS {
+                        sums[0][row] += shape[row] * a;
+                        sums[1][row] += shape[row] * b;
+                    }
+                }
+                first.copy_from_slice(&sums[0][..first.len()]);
+                second.copy_from_slice(&sums[1][..second.len()]);
+            }
+        }
+    }
+
+    /// Left minus right of watched values of a contact; a wall stands still.
+    #[inline]
+    pub(super) fn closing(&self, contact: usize, values: &[f64]) -> f64 {
+        let [left, right] = self.faces[contact];
+        let at = |face: Option<Shown>| face.map_or(0.0, |shown| values[shown.watched]);
+        at(left) - at(right)
+    }
+
+    /// The same of modal values.
+    pub(super) fn closing_of_modes(&self, contact: usize, modal: &[f64]) -> f64 {
+        let at = |face: Option<Shown>| {
+            face.map_or(0.0, |shown| {
+                let own = &modal[self.buildings[shown.building].modes.clone()];
+                let terms = self.row(shown).iter().zip(own);
+                terms.map(|(a, b)| a * b).sum::<f64>()
+            })
+        };
+        let [left, right] = self.faces[contact];
+        at(left) - at(right)
+    }
+
+    /// Shapes at a face.
+    fn row(&self, shown: Shown) -> &[f64] {
+        let own = &self.buildings[shown.building];
+        let (at, n) = (shown.watched - own.watched.start, own.modes.len());
+        &own.rows[at * n..(at + 1) * n]
+    }
+
+    /// The faces of a contact on buildings, with the direction in which the other side pushes them.
+    fn sides(&self, contact: usize) -> impl Iterator<Item = (Shown, f64)> + use<> {
+        let [left, right] = self.faces[contact];
+        [left.map(|face| (face, -1.0)), right.map(|face| (face, 1.0))]
+            .into_iter()
+            .flatten()
+    }
+
+    /// Adds what a force on the faces of a contact, pushing them apart, makes of modal loads.
+    pub(super) fn push_apart(&self, contact: usize, force: f64, loads: &mut [f64]) {
+        for (shown, sign) in self.sides(contact) {
+            let loads = &mut loads[self.buildings[shown.building].modes.clone()];
+            for (load, shape) in loads.iter_mut().zip(self.row(shown)) {
+                *load += sign * force * shape;
+            }
+        }
+    }
+
+    /// Full displacements of all buildings.
+    pub(super) fn expand(&self, modal: &[f64], full: &mut [f64]) {
+        full.fill(0.0);
+        let mut offset = 0;
+        for building in &self.buildings {
+            for (shape, coordinate) in building.shapes.iter().zip(&modal[building.modes.clone()]) {
+                for (value, shape) in full[offset..].iter_mut().zip(shape) {
+                    *value += shape * coordinate;
+                }
+            }
+            offset += building.shapes.first().map_or(0, Vec::len);
+        }
+    }
+}
+
+/// How quickly things happen to a building \[1/s\].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rates {
+    /// π over its shortest impact.
+    pub(super) pushed: f64,
+    /// Frequency of its third lateral mode.
+    pub(super) swaying: f64,
+}
+
+/// A rate at which stiffness does not count beside inertia \[1/s\].
+fn at_once(equations: &Equations) -> f64 {
+    let stiffest = equations
+        .mass
+        .iter()
+        .zip(&equations.stiffness.diagonal)
+        .filter(|(mass, _)| **mass > 0.0)
+        .map(|(mass, stiffness)| stiffness / mass)
+        .fold(1.0, f64::max);
+    (1e13 * stiffest).sqrt()
+}
+
+/// Exact factors of all modes for one step size, quantity by quantity.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Table {
+    pub(super) step: f64,
+    /// Of (q₀, q̇₀, p₀, p₁) in q₁, q̇₁ and ∫q.
+    pub(super) displacement: [Vec<f64>; 4],
+    pub(super) velocity: [Vec<f64>; 4],
+    area: [Vec<f64>; 4],
+    /// Of the products of these in the energy lost by damping.
+    damped: [Vec<f64>; 10],
+    /// Σ φ b₁₂ φ and Σ φ b₂₂ φ between all pairs of contacts, where already asked for.
+    pub(super) compliance: Vec<Option<[f64; 2]>>,
+}
+
+/// What a step did to the energies of all modes \[J\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StepEnergy {
+    pub(super) damped: f64,
+    /// ∫ Σ Γ q̇ a_g dt, negative.
+    pub(super) input: f64,
+}
+
+impl Table {
+    pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rules: &Rules) {
+        self.step = step;
+        self.compliance.clear();
+        let contacts = reduced.faces.len();
+        self.compliance.resize(contacts * contacts, None);
+        let lists = self.displacement.iter_mut().chain(&mut self.velocity);
+        lists.chain(&mut self.area).for_each(Vec::clear);
+        self.damped.iter_mut().for_each(Vec::clear);
+        for (damping, stiffness) in reduced.damping.iter().zip(&reduced.stiffness) {
+            let response = Response::over(*damping, *stiffness, step);
+            let form = damped(*damping, *stiffness, step, &response, rules);
+            let Response {
+                displacement,
+                velocity,
+                area,
+            } = response;
+            for (list, value) in self.displacement.iter_mut().zip(displacement) {
+                list.push(value);
+            }
+            for (list, value) in self.velocity.iter_mut().zip(velocity) {
+                list.push(value);
+            }
+            for (list, value) in self.area.iter_mut().zip(area) {
+                list.push(value);
+            }
+            for (list, value) in self.damped.iter_mut().zip(form) {
+                list.push(value);
+            }
+        }
+    }
+
+    /// q₁ and q̇₁ of all modes.
+    pub(super) fn advance(&self, start: [&[f64]; 2], loads: [&[f64]; 2], end: [&mut [f64]; 2]) {
+        let [q1, v1] = end;
+        combine(&self.displacement, start, loads, q1);
+        combine(&self.velocity, start, loads, v1);
+    }
+
+    /// ∫q dt of all modes.
+    pub(super) fn area(&self, start: [&[f64]; 2], loads: [&[f64]; 2], area: &mut [f64]) {
+        combine(&self.area, start, loads, area);
+    }
+
+    /// Energy that damping takes over the step \[J\].
+    pub(super) fn damped(&self, start: [&[f64]; 2], loads: [&[f64]; 2]) -> f64 {
+        let [a, b, c, d] = [start[0], start[1], loads[0], loads[1]];
+        let n = a.len();
+        let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] =
+            std::array::from_fn(|i| &self.damped[i][..n]);
+        let (b, c, d) = (&b[..n], &c[..n], &d[..n]);
+        let term = |i: usize| {
+            a[i] * (aa[i] * a[i] + ab[i] * b[i] + ac[i] * c[i] + ad[i] * d[i])
+                + b[i] * (bb[i] * b[i] + bc[i] * c[i] + bd[i] * d[i])
+                + c[i] * (cc[i] * c[i] + cd[i] * d[i])
+                + dd[i] * d[i] * d[i]
+        };
+        let mut sums = [0.0; LANES];
+        let whole = n - n % LANES;
+        for start in (0..whole).step_by(LANES) {
+            for (lane, sum) in sums.iter_mut().enumerate() {
+                *sum += term(start + lane);
+            }
+        }
+        let rest: f64 = (whole..n).map(term).sum();
+        sums.iter().sum::<f64>() + rest
+    }
+
+    /// Displacement and velocity of contact c at the end of the step under a unit end force of contact d, both
+    /// counted as opening \[m/N, m/(N s)\].
+    pub(super) fn opening(&mut self, c: usize, d: usize, reduced: &Reduced) -> [f64; 2] {
+        let contacts = reduced.faces.len();
+        if let Some(known) = self.compliance[c * contacts + d] {
+            return known;
+        }
+        let mut sums = [0.0; 2];
+        for (own, own_sign) in reduced.sides(c) {
+            for (other, other_sign) in reduced.sides(d) {
+                if own.building != other.building {
+                    continue;
+                }
+                let range = reduced.buildings[own.building].modes.clone();
+                let (a, b) = (reduced.row(own), reduced.row(other));
+                let factors = [
+                    &self.displacement[3][range.clone()],
+                    &self.velocity[3][range],
+                ];
+                for (sum, factors) in sums.iter_mut().zip(factors) {
+                    let pairs = a.iter().zip(b).zip(factors);
+                    *sum += own_sign * other_sign * pairs.map(|((a, b), f)| a * b * f).sum::<f64>();
+                }
+            }
+        }
+        self.compliance[c * contacts + d] = Some(sums);
+        sums
+    }
+}
+
+/// Rates at which answers are met, besides the slowest, and at which they are compared, in units of that of the quickest
+/// push \[–\].
+const MET: [f64; 2] = [1.0, 4.0];
+const COMPARED: [f64; 2] = [0.5, 2.0];
+/// Modes taken at once, and watched displacements.
+const LANES: usize = 8;
+const ROWS: usize = 4;
+
+#[inline]
+fn combine(factors: &[Vec<f64>; 4], start: [&[f64]; 2], loads: [&[f64]; 2], out: &mut [f64]) {
+    let n = out.len();
+    let [a, b, c, d] = std::array::from_fn(|i| &factors[i][..n]);
+    let (q, v, p0, p1) = (
+        &start[0][..n],
+        &start[1][..n],
+        &loads[0][..n],
+        &loads[1][..n],
+    );
+    for i in 0..n {
+        out[i] = a[i] * q[i] + b[i] * v[i] + c[i] * p0[i] + d[i] * p1[i];
+    }
+}

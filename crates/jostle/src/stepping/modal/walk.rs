@@ -1,0 +1,500 @@
+//! The walk through a ground motion in modal coordinates.
+
+use std::ops::ControlFlow;
+
+use super::peaks::Peaks;
+use super::reduced::{Reduced, StepEnergy, Table};
+use super::response::Rules;
+use crate::history::{Energy, Impact, Work};
+use crate::motion::GroundMotion;
+use crate::state::{ContactPhase, State};
+use crate::stepping::clock::{Clock, Stride};
+use crate::stepping::coupling::ContactEquations;
+use crate::stepping::events::Crossing;
+use crate::stepping::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
+use crate::stepping::plan::Plan;
+use crate::stepping::trial::ContactTrial;
+use crate::system::System;
+
+/// Steps between calls of the observer.
+const OBSERVED_EVERY: u64 = 256;
+/// Events without progress before a run gives up.
+const MOST_EVENTS_AT_ONCE: usize = 1000;
+
+/// A run under way.
+pub(super) struct Walk<'a> {
+    pub(super) system: &'a System,
+    pub(super) motion: &'a GroundMotion,
+    pub(super) plan: &'a Plan,
+    pub(super) pounding: bool,
+    pub(super) reduced: Reduced,
+    /// The first serves steps off the grid, the others one division of the free-flight step each.
+    pub(super) tables: Vec<Table>,
+    divisions: Vec<u32>,
+    rules: Rules,
+    pub(super) clock: Clock,
+    pub(super) time: f64,
+    /// Ground acceleration now and at the end of the tried step.
+    pub(super) ground: [f64; 2],
+    /// Modal displacement, velocity and load now, and at the end of the tried step.
+    pub(super) q: [Vec<f64>; 2],
+    pub(super) v: [Vec<f64>; 2],
+    pub(super) p: [Vec<f64>; 2],
+    /// ∫q of the accepted step, then whatever else needs a list of modes.
+    pub(super) scratch: Vec<f64>,
+    /// Watched displacements and velocities now, and at the end of the tried step.
+    pub(super) u: [Vec<f64>; 2],
+    pub(super) rate: [Vec<f64>; 2],
+    pub(super) phases: Vec<ContactPhase>,
+    pub(super) trials: Vec<ContactTrial>,
+    pub(super) contact_division: Vec<u32>,
+    /// Steps that a contact has been open, while its division still counts.
+    pub(super) open_steps: Vec<u32>,
+    pub(super) strongest: Vec<f64>,
+    pub(super) coupling: ContactEquations,
+    pub(super) rate_compliance: Vec<f64>,
+    pub(super) forces: Vec<f64>,
+    pub(super) finest_in_contact: u32,
+    pub(super) impacts: Vec<Impact>,
+    pub(super) energy: Audit,
+    pub(super) work: Work,
+    pub(super) peaks: Peaks,
+}
+
+/// Sums that must balance; every one is exact for loads that are straight over a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Audit {
+    pub(super) input: f64,
+    pub(super) damped: f64,
+    pub(super) contact: f64,
+    largest: f64,
+    worst: f64,
+}
+
+impl<'a> Walk<'a> {
+    pub(super) fn new(
+        system: &'a System,
+        motion: &'a GroundMotion,
+        plan: &'a Plan,
+        settings: Settings,
+        reduced: Reduced,
+        work: Work,
+    ) -> Self {
+        let ground = motion.acceleration(0.0);
+        let (modes, watched) = (reduced.modes(), reduced.watched());
+        let pair = |n: usize| [vec![0.0; n], vec![0.0; n]];
+        let mut p = pair(modes);
+        for (load, participation) in p[0].iter_mut().zip(&reduced.participation) {
+            *load = -participation * ground;
+        }
+        let contacts = system.contacts.len();
+        let rows = settings
+            .record_interval
+            .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
+        let mut peaks = Peaks::new(system, &reduced, settings.record_interval);
+        peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
+        Self {
+            tables: vec![Table::default()],
+            divisions: vec![0],
+            rules: Rules::new(),
+            clock: Clock::new(plan.step),
+            time: 0.0,
+            ground: [ground; 2],
+            q: pair(modes),
+            v: pair(modes),
+            p,
+            scratch: vec![0.0; modes],
+            u: pair(watched),
+            rate: pair(watched),
+            phases: vec![ContactPhase::Open; contacts],
+            trials: vec![ContactTrial::default(); contacts],
+            contact_division: vec![1; contacts],
+            open_steps: vec![0; contacts],
+            strongest: vec![0.0; system.contacts.iter().map(|c| c.gap + 1).max().unwrap_or(0)],
+            coupling: ContactEquations::default(),
+            rate_compliance: Vec::new(),
+            forces: Vec::new(),
+            finest_in_contact: 0,
+            impacts: Vec::new(),
+            energy: Audit::default(),
+            work,
+            peaks,
+            pounding: settings.pounding == Pounding::Included,
+            system,
+            motion,
+            plan,
+            reduced,
+        }
+    }
+
+    pub(super) fn run(mut self, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Outcome {
+        let duration = self.motion.duration;
+        self.take_row(true);
+        let mut end = RunEnd::Completed;
+        while duration - self.time > 1e-9 * self.plan.step {
+            let progress = Progress {
+                time: self.time,
+                duration,
+            };
+            if self.work.steps.is_multiple_of(OBSERVED_EVERY) && observer(progress).is_break() {
+                end = RunEnd::Stopped;
+                break;
+            }
+            if let Err(error) = self.step() {
+                end = RunEnd::Failed(error);
+                break;
+            }
+        }
+        self.close_books(end)
+    }
+
+    fn close_books(mut self, end: RunEnd) -> Outcome {
+        for index in 0..self.system.contacts.len() {
+            if let ContactPhase::Closed(episode) = self.phases[index] {
+                self.report_impact(index, &episode, false);
+            }
+        }
+        self.work.coupling_operations = self.coupling.operations;
+        let energy = self.balance();
+        let contact_step = Some(self.finest_in_contact)
+            .filter(|d| *d > 0)
+            .map(|d| self.plan.step / f64::from(d));
+        let state = self.full_state();
+        Outcome {
+            impacts: self.impacts,
+            floors: std::mem::take(&mut self.peaks.floors),
+            closing: std::mem::take(&mut self.peaks.closing),
+            base_shear: std::mem::take(&mut self.peaks.base_shear),
+            spring_history: None,
+            history: self.peaks.into_history(),
+            spring_events: Vec::new(),
+            springs: Vec::new(),
+            links: Vec::new(),
+            energy,
+            work: self.work,
+            contact_step,
+            state,
+            end,
+        }
+    }
+
+    /// Displacements, velocities and accelerations of everything.
+    fn full_state(&mut self) -> State {
+        let mut state = State::at_rest(self.system, 0.0);
+        state.time = self.time;
+        self.reduced.expand(&self.q[0], &mut state.displacement);
+        self.reduced.expand(&self.v[0], &mut state.velocity);
+        self.accelerations();
+        self.reduced.expand(&self.scratch, &mut state.acceleration);
+        state.contacts.clone_from(&self.phases);
+        state
+    }
+
+    /// Modal accelerations now, in `scratch`.
+    pub(super) fn accelerations(&mut self) {
+        let loads = self.p[0].iter().zip(&self.q[0]).zip(&self.v[0]);
+        let factors = self.reduced.damping.iter().zip(&self.reduced.stiffness);
+        for ((a, ((p, q), v)), (d, k)) in self.scratch.iter_mut().zip(loads).zip(factors) {
+            *a = p - d * v - k * q;
+        }
+    }
+
+    /// One accepted step, ending on the grid or on the first event in between.
+    fn step(&mut self) -> Result<(), StepError> {
+        for _ in 0..MOST_EVENTS_AT_ONCE {
+            let stride = self.next_stride();
+            let slot = self.table_for(&stride);
+            self.try_step(slot, stride.end)?;
+            let Some(event) = self.first_event(stride.length) else {
+                self.accept(slot, stride.end);
+                return Ok(());
+            };
+            self.work.repeated_steps += 1;
+            if event.at * stride.length > self.shortest_step(&event) {
+                if self.step_to(event, &stride)? {
+                    return Ok(());
+                }
+                continue;
+            }
+            self.read_contacts();
+            self.happen(event);
+        }
+        Err(StepError::Chattering { time: self.time })
+    }
+
+    /// The regular step from here, cut at the end of the motion.
+    fn next_stride(&self) -> Stride {
+        let stride = self.clock.stride(self.division());
+        let left = self.motion.duration - self.time;
+        if stride.length > left * (1.0 + 1e-9) {
+            return Stride {
+                length: left,
+                regular: false,
+                end: self.clock.after(left),
+            };
+        }
+        stride
+    }
+
+    /// Into how many parts the free-flight step is divided now.
+    pub(super) fn division(&self) -> u32 {
+        self.contact_division.iter().copied().max().unwrap_or(1)
+    }
+
+    fn table_for(&mut self, stride: &Stride) -> usize {
+        if !stride.regular {
+            self.tables[0].set(&self.reduced, stride.length, &self.rules);
+            self.work.factorizations += 1;
+            return 0;
+        }
+        let division = self.division();
+        if let Some(slot) = self.divisions.iter().position(|d| *d == division) {
+            return slot;
+        }
+        let mut table = Table::default();
+        table.set(&self.reduced, stride.length, &self.rules);
+        self.work.factorizations += 1;
+        self.tables.push(table);
+        self.divisions.push(division);
+        self.tables.len() - 1
+    }
+
+    /// Sets the odd table to a length.
+    pub(super) fn set_odd(&mut self, length: f64) {
+        self.tables[0].set(&self.reduced, length, &self.rules);
+        self.work.factorizations += 1;
+    }
+
+    /// Takes the step to `end` without accepting it.
+    pub(super) fn try_step(&mut self, slot: usize, end: Clock) -> Result<(), StepError> {
+        self.ground[1] = self.motion.acceleration(end.time());
+        let ground = self.ground[1];
+        for (load, participation) in self.p[1].iter_mut().zip(&self.reduced.participation) {
+            *load = -participation * ground;
+        }
+        self.advance(slot);
+        self.work.solves += 1;
+        self.follow();
+        if self
+            .trials
+            .iter()
+            .any(|trial| !trial.indentation.is_finite())
+            || self.u[1].iter().any(|u| !u.is_finite())
+        {
+            return Err(StepError::NotFinite { time: self.time });
+        }
+        self.find_contact_forces(slot)
+    }
+
+    /// q₁ and q̇₁ under the loads that stand in `p`.
+    pub(super) fn advance(&mut self, slot: usize) {
+        let ([q0, q1], [v0, v1]) = (&mut self.q, &mut self.v);
+        let [p0, p1] = &self.p;
+        self.tables[slot].advance([q0, v0], [p0, p1], [q1, v1]);
+    }
+
+    /// Watched displacements, indentations and rates at the end of the tried step.
+    pub(super) fn follow(&mut self) {
+        let watched = [&mut self.u[1][..], &mut self.rate[1][..]];
+        self.reduced.show([&self.q[1], &self.v[1]], watched);
+        self.read_trials(1);
+    }
+
+    /// Sets `trials` to the present.
+    pub(super) fn read_contacts(&mut self) {
+        self.read_trials(0);
+    }
+
+    fn read_trials(&mut self, at: usize) {
+        let (u, rate) = (&self.u[at], &self.rate[at]);
+        for (index, trial) in self.trials.iter_mut().enumerate() {
+            let width = self.system.contacts[index].width;
+            trial.indentation = self.reduced.closing(index, u) - width;
+            trial.rate = self.reduced.closing(index, rate);
+            trial.force = 0.0;
+        }
+    }
+
+    /// Moves on to the end of the tried step.
+    pub(super) fn accept(&mut self, slot: usize, end: Clock) {
+        let step = self.tables[slot].step;
+        let was_closed = !self.coupling.closed.is_empty();
+        let start = self.time;
+        if was_closed {
+            self.accelerations();
+            self.gather_episodes(step);
+        }
+        let energy = self.step_energy(slot, was_closed);
+        self.energy.input += energy.input;
+        self.energy.damped += energy.damped;
+        for pair in [
+            &mut self.q,
+            &mut self.v,
+            &mut self.p,
+            &mut self.u,
+            &mut self.rate,
+        ] {
+            let [now, end] = pair;
+            std::mem::swap(now, end);
+        }
+        self.clock = end;
+        self.time = end.time();
+        let ground = self.ground;
+        self.ground[0] = self.ground[1];
+        self.accelerations();
+        if was_closed {
+            self.finish_episodes(step, start);
+        }
+        self.cool_down();
+        self.work.steps += 1;
+        self.work.contact_steps += u64::from(was_closed);
+        self.peaks.after_step(
+            self.system,
+            &self.reduced,
+            super::peaks::Moment {
+                u: &self.u,
+                rate: &self.rate,
+                q: &self.q[0],
+                v: &self.v[0],
+                a: &self.scratch,
+                ground,
+                start,
+                step,
+            },
+        );
+        self.take_row(was_closed);
+    }
+
+    /// What the ground put in and damping took; with closed contacts their work as well.
+    fn step_energy(&mut self, slot: usize, was_closed: bool) -> StepEnergy {
+        let table = &self.tables[slot];
+        let (start, loads) = (
+            [&self.q[0][..], &self.v[0][..]],
+            [&self.p[0][..], &self.p[1][..]],
+        );
+        let damped = table.damped(start, loads);
+        table.area(start, loads, &mut self.scratch);
+        let step = table.step;
+        let slope = (self.ground[1] - self.ground[0]) / step;
+        let mut input = 0.0;
+        let modes = self.q[0].iter().zip(&self.q[1]).zip(&self.scratch);
+        for (((q0, q1), area), participation) in modes.zip(&self.reduced.participation) {
+            // ∫ a_g q̇ dt by parts.
+            input -= participation * (self.ground[1] * q1 - self.ground[0] * q0 - slope * area);
+        }
+        if was_closed {
+            self.contact_work(step);
+        }
+        StepEnergy { damped, input }
+    }
+
+    /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch`.
+    fn contact_work(&mut self, step: f64) {
+        for closed in &self.coupling.closed {
+            let index = closed.contact;
+            let ContactPhase::Closed(episode) = &mut self.phases[index] else {
+                continue;
+            };
+            let width = self.system.contacts[index].width;
+            let area = self.reduced.closing_of_modes(index, &self.scratch) - width * step;
+            let before = self.reduced.closing(index, &self.u[0]) - width;
+            let (first, last) = (episode.force, self.trials[index].force);
+            let work = last * self.trials[index].indentation
+                - first * before
+                - (last - first) / step * area;
+            episode.work += work;
+            self.energy.contact += work;
+        }
+    }
+
+    /// After an impact steps grow back to those of free flight, doubled every few.
+    fn cool_down(&mut self) {
+        for (index, phase) in self.phases.iter().enumerate() {
+            let division = &mut self.contact_division[index];
+            if *division == 1 || matches!(phase, ContactPhase::Closed(_)) {
+                continue;
+            }
+            self.open_steps[index] += 1;
+            if self.open_steps[index] >= STEPS_AFTERWARDS && self.clock.is_on_grid(*division / 2) {
+                self.open_steps[index] = 0;
+                *division /= 2;
+            }
+        }
+    }
+
+    /// The balance now.
+    pub(super) fn balance(&mut self) -> Energy {
+        let (mut kinetic, mut strain) = (0.0, 0.0);
+        let modes = self.q[0]
+            .iter()
+            .zip(&self.v[0])
+            .zip(&self.reduced.stiffness);
+        for ((q, v), k) in modes {
+            kinetic += 0.5 * v * v;
+            strain += 0.5 * k * q * q;
+        }
+        let audit = &mut self.energy;
+        let mut energy = Energy {
+            input: audit.input,
+            kinetic,
+            strain,
+            damped: audit.damped,
+            links: 0.0,
+            hysteretic: 0.0,
+            contact: audit.contact,
+            worst_imbalance: 0.0,
+        };
+        audit.largest = audit.largest.max(energy.input.abs()).max(kinetic + strain);
+        if audit.largest > 0.0 {
+            audit.worst = audit.worst.max((energy.residual() / audit.largest).abs());
+        }
+        energy.worst_imbalance = audit.worst;
+        energy
+    }
+
+    /// Adds a row to the history where one is due.
+    fn take_row(&mut self, wanted: bool) {
+        if !self.peaks.is_due(self.time, wanted) {
+            return;
+        }
+        self.accelerations();
+        let energy = self.balance();
+        // The places of the last step are free.
+        let (mut a, mut spare) = (
+            std::mem::take(&mut self.u[1]),
+            std::mem::take(&mut self.rate[1]),
+        );
+        self.reduced
+            .show([&self.scratch, &self.scratch], [&mut a, &mut spare]);
+        self.peaks.record(
+            self.system,
+            &self.reduced,
+            (self.time, self.ground[0]),
+            [&self.u[0], &self.rate[0], &a],
+            &self.phases,
+            &energy,
+        );
+        (self.u[1], self.rate[1]) = (a, spare);
+    }
+
+    /// Whether steps may end on contacts of this kind of crossing.
+    pub(super) fn is_open(&self, index: usize) -> bool {
+        self.phases[index] == ContactPhase::Open
+    }
+
+    /// Direction of the crossing that would end the step at a contact.
+    pub(super) fn awaited(&self, index: usize) -> Option<Crossing> {
+        let trial = &self.trials[index];
+        if self.is_open(index) {
+            let closing = self.reduced.closing(index, &self.rate[0]);
+            let turned_back = trial.rate < 0.0 && closing > 0.0;
+            (trial.indentation > 0.0 || turned_back).then_some(Crossing::Upwards)
+        } else {
+            (trial.indentation < 0.0 && self.system.contacts[index].law.jumps_at_release())
+                .then_some(Crossing::Downwards)
+        }
+    }
+}
+
+/// Steps of a size after an impact.
+const STEPS_AFTERWARDS: u32 = 4;

@@ -1,0 +1,327 @@
+//! Modal stepping against closed forms, against Riccati's recursion at fine steps, and against its own refusals.
+
+use jostle::contact::ForceLaw;
+use jostle::{Analysis, Damping, GroundMotion, LawKind, Model, Outcome, Plan, Solver, System};
+
+use crate::support::{
+    LAWS, Random, assembled, frame, framed, law, random_frame, row, run, shaking, slider, sliders,
+    steps, still, tower, two_frames,
+};
+
+fn modal(plan: &Plan) -> Plan {
+    Plan {
+        solver: Solver::Modal,
+        ..*plan
+    }
+}
+
+/// Automatic steps.
+fn planned(system: &System, motion: &GroundMotion, solver: Solver, tolerance: f64) -> Plan {
+    let analysis = Analysis {
+        solver,
+        tolerance,
+        ..Analysis::default()
+    };
+    Plan::choose(system, motion, &analysis).expect("usable steps")
+}
+
+/// A ramp of ground acceleration a t makes u = −a/k (t − d/k) + … of a damped oscillator at rest, whatever the steps.
+#[test]
+fn a_ramp_is_answered_exactly() {
+    let (mass, stiffness, rate) = (3e4, 2.5e6, 0.8);
+    for ratio in [0.0, 0.05, 0.6] {
+        let mut building = slider("oscillator", mass, Some(stiffness));
+        let omega = f64::sqrt(stiffness / mass);
+        building.equations.alpha = 2.0 * ratio * omega;
+        let system = System::of_buildings(vec![building]);
+        let motion = GroundMotion::sampled("ramp", 1.0, vec![0.0, rate, 2.0 * rate, 3.0 * rate]);
+        for step in [1.0, 0.1, 0.013] {
+            let outcome = run(&system, &motion, &modal(&steps(step, 1)));
+            let (t, k, d) = (3.0, omega * omega, 2.0 * ratio * omega);
+            // −rate/k (t − d/k + e^(−dt/2) (d/k cos ω′t + (d²/2k − 1)/ω′ sin ω′t))
+            let own = f64::sqrt(k - 0.25 * d * d);
+            let decay = (-0.5 * d * t).exp();
+            let wave = d / k * (own * t).cos() + (0.5 * d * d / k - 1.0) / own * (own * t).sin();
+            let expected = -rate / k * (t - d / k + decay * wave);
+            let got = outcome.state.displacement[0];
+            assert!(
+                (got / expected - 1.0).abs() < 1e-11,
+                "ζ = {ratio}, h = {step}: {got} against {expected}"
+            );
+            assert!(
+                outcome.energy.worst_imbalance < 1e-9,
+                "{:?}",
+                outcome.energy
+            );
+        }
+    }
+}
+
+/// Two sliders on springs that meet: energies balance to rounding, whatever the law and however coarse its steps.
+#[test]
+fn contacts_keep_the_balance_of_energy() {
+    for kind in LAWS {
+        let system = sliders(
+            vec![
+                slider("left", 3e4, Some(2e6)),
+                slider("right", 8e4, Some(3e7)),
+            ],
+            0.004,
+            &law(kind, 0.6),
+        );
+        let lost = |division: u32| {
+            let outcome = run(&system, &shaking(2.0), &modal(&steps(0.01, division)));
+            assert!(outcome.impacts.len() > 1, "{kind:?} hits");
+            assert!(
+                outcome.energy.worst_imbalance < 1e-9,
+                "{kind:?}: {:?}",
+                outcome.energy
+            );
+            outcome.energy.contact / outcome.energy.input
+        };
+        let (coarse, fine) = (lost(64), lost(256));
+        if kind.is_dissipative() {
+            assert!(fine > 1e-3, "{kind:?} loses energy: {fine:e}");
+        } else {
+            // Forces are straight over a step: what an elastic law seems to keep or give is of second order.
+            assert!(
+                coarse.abs() < 1e-3 && fine.abs() < 0.1 * coarse.abs(),
+                "{kind:?} keeps energy: {coarse:e}, {fine:e}"
+            );
+        }
+    }
+}
+
+fn peak(outcome: &Outcome) -> f64 {
+    let forces = outcome.impacts.iter().map(|impact| impact.peak_force);
+    forces.fold(0.0, f64::max)
+}
+
+fn compare(what: &str, model: &Model, duration: f64) -> bool {
+    const TOLERANCE: f64 = 1e-3;
+    let system = assembled(model);
+    let motion = shaking(duration);
+    let fine = run(
+        &system,
+        &motion,
+        &planned(&system, &motion, Solver::Riccati, 1e-5),
+    );
+    let got = run(
+        &system,
+        &motion,
+        &planned(&system, &motion, Solver::Modal, TOLERANCE),
+    );
+    let (expected, force) = (peak(&fine), peak(&got));
+    assert!(
+        (force - expected).abs() <= TOLERANCE * expected,
+        "{what}: greatest force {force} against {expected}"
+    );
+    for (building, (floors, wanted)) in got.floors.iter().zip(&fine.floors).enumerate() {
+        let largest = |floors: &[jostle::history::FloorPeaks]| {
+            let both = floors
+                .iter()
+                .flat_map(|f| [f.displacement_max.value, -f.displacement_min.value]);
+            both.fold(0.0, f64::max)
+        };
+        let scale = largest(wanted);
+        for (floor, (got, wanted)) in floors.iter().zip(wanted).enumerate() {
+            for (got, wanted) in [
+                (got.displacement_max, wanted.displacement_max),
+                (got.displacement_min, wanted.displacement_min),
+            ] {
+                assert!(
+                    (got.value - wanted.value).abs() <= TOLERANCE * scale,
+                    "{what}, building {building}, floor {floor}: {got:?} against {wanted:?}"
+                );
+            }
+        }
+    }
+    assert!(
+        got.energy.worst_imbalance < 1e-8,
+        "{what}: {:?}",
+        got.energy
+    );
+    assert!(
+        got.work.solves * 3 < fine.work.solves,
+        "{what}: modal stepping is there to save steps: {:?}",
+        got.work
+    );
+    expected > 0.0
+}
+
+#[test]
+fn frames_agree_with_riccati_under_every_law() {
+    for kind in LAWS {
+        let model = two_frames(0.03, law(kind, 0.65));
+        assert!(
+            compare(&format!("{kind:?}"), &model, 2.5),
+            "{kind:?}: the frames meet"
+        );
+    }
+}
+
+#[test]
+fn random_frames_agree_with_riccati() {
+    let mut random = Random(77);
+    let mut hits = 0;
+    for case in 0..12 {
+        let mut frames: Vec<_> = (0..2).map(|_| random_frame(&mut random)).collect();
+        for frame in &mut frames {
+            // Floors that face each other.
+            frame.storey_heights.fill(3.2);
+        }
+        let names = ["left", "right"];
+        let buildings = frames.into_iter().zip(names).map(|(frame, name)| {
+            let mut building = framed(name, frame);
+            building.damping = Damping::Rayleigh {
+                alpha: random.between(0.0, 1.0),
+                beta: random.between(5e-4, 4e-3),
+            };
+            building
+        });
+        let model = row(buildings.collect(), 0.02, law(LawKind::HertzDamp, 0.65));
+        hits += usize::from(compare(&format!("pair {case}"), &model, 1.5));
+    }
+    assert!(hits > 5, "{hits} pairs meet");
+}
+
+/// A row of three, the one in the middle hit from both sides.
+#[test]
+fn a_row_agrees_with_riccati() {
+    let towers = vec![
+        tower("left", 3, 6e4, 0.5),
+        tower("middle", 5, 4e4, 0.9),
+        tower("right", 4, 9e4, 0.4),
+    ];
+    assert!(compare(
+        "three towers",
+        &row(towers, 0.02, law(LawKind::Hertz, 1.0)),
+        3.0
+    ));
+}
+
+/// With the same ratio in all modes: shear buildings of one storey know no other damping, so that both ways agree.
+#[test]
+fn damping_in_all_modes_is_that_of_a_single_mode() {
+    let with = |damping: Damping| {
+        let mut model = row(
+            vec![tower("left", 1, 5e4, 0.7), tower("right", 1, 9e4, 0.3)],
+            0.02,
+            law(LawKind::Hertz, 1.0),
+        );
+        for building in &mut model.buildings {
+            building.damping = damping.clone();
+        }
+        let system = assembled(&model);
+        run(&system, &shaking(4.0), &modal(&steps(0.005, 32)))
+    };
+    let one = with(Damping::Ratio {
+        ratio: 0.05,
+        modes: vec![1],
+    });
+    let all = with(Damping::AllModes { ratio: 0.05 });
+    assert!(!one.impacts.is_empty());
+    assert!((peak(&one) / peak(&all) - 1.0).abs() < 1e-12);
+}
+
+/// Each mode decays by itself: released in the shape of a mode, a building comes back after one period by e^(−2πζ/√(1−ζ²)).
+#[test]
+fn every_mode_decays_with_the_ratio() {
+    let mut building = framed("frame", frame(3, &[4.0, 5.0]));
+    building.damping = Damping::AllModes { ratio: 0.05 };
+    let model = Model {
+        buildings: vec![building],
+        gaps: Vec::new(),
+        ..row(
+            vec![tower("t", 1, 1e4, 1.0), tower("u", 1, 1e4, 1.0)],
+            0.1,
+            law(LawKind::Hertz, 1.0),
+        )
+    };
+    let system = assembled(&model);
+    // A pulse so short that all modes ring; afterwards the envelope of each is its own.
+    let mut values = vec![0.0; 400];
+    values[1] = 50.0;
+    let motion = GroundMotion::sampled("pulse", 0.002, values);
+    let outcome = run(&system, &motion, &modal(&steps(0.002, 1)));
+    let modes: Vec<_> = system.buildings[0].lateral_modes().collect();
+    let equations = &system.buildings[0].equations;
+    for mode in modes {
+        // ∫ of the triangular pulse over e^(iωt) is 50·0.002·sinc²; the rest is free motion from its centre on.
+        let omega = mode.circular_frequency;
+        let (zeta, h): (f64, f64) = (0.05, 0.002);
+        let own = omega * (1.0 - zeta * zeta).sqrt();
+        let amplitude = |displacement: &[f64]| -> f64 {
+            let terms = mode.shape.iter().zip(displacement).zip(&equations.mass);
+            terms.map(|((shape, u), mass)| shape * mass * u).sum()
+        };
+        let (q, v) = (
+            amplitude(&outcome.state.displacement),
+            amplitude(&outcome.state.velocity),
+        );
+        let energy = (0.5 * (v * v + omega * omega * q * q) + zeta * omega * q * v).sqrt();
+        // Exact: the answer to a triangle is the sum of three ramps.
+        let ramp = |t: f64| {
+            if t <= 0.0 {
+                return [0.0; 2];
+            }
+            let (k, d) = (omega * omega, 2.0 * zeta * omega);
+            let decay = (-0.5 * d * t).exp();
+            let (sin, cos) = (own * t).sin_cos();
+            let (a, b) = (d / k, (0.5 * d * d / k - 1.0) / own);
+            let wave = a * cos + b * sin;
+            let slope = -0.5 * d * wave + own * (b * cos - a * sin);
+            [(t - d / k + decay * wave) / k, (1.0 + decay * slope) / k]
+        };
+        let end = motion.duration;
+        let rate = -mode.participation * 50.0 / h;
+        let sum = |index: usize| {
+            rate * (ramp(end)[index] - 2.0 * ramp(end - h)[index] + ramp(end - 2.0 * h)[index])
+        };
+        let (q0, v0) = (sum(0), sum(1));
+        let expected = (0.5 * (v0 * v0 + omega * omega * q0 * q0) + zeta * omega * q0 * v0).sqrt();
+        assert!(
+            (energy / expected - 1.0).abs() < 1e-6,
+            "ω = {omega}: {energy} against {expected}"
+        );
+    }
+}
+
+/// Buildings that cannot be stepped by their modes say why.
+#[test]
+fn what_modes_cannot_do_is_refused() {
+    let refused = |change: &dyn Fn(&mut Model)| {
+        let mut model = two_frames(0.03, law(LawKind::Hertz, 1.0));
+        model.analysis.solver = Solver::Modal;
+        change(&mut model);
+        let system = assembled(&model);
+        let faults = Plan::choose(&system, &shaking(1.0), &model.analysis)
+            .expect_err("it should be refused");
+        faults[0].clone()
+    };
+    let fault = refused(&|model| model.buildings[1].gravity.p_delta = true);
+    assert_eq!(fault.path, "analysis.solver");
+    assert!(
+        fault.problem.contains("P-Delta") && fault.problem.contains("riccati"),
+        "{fault}"
+    );
+    let fault = refused(&|model| model.buildings[0].gravity.preload = true);
+    assert!(fault.problem.contains("weight"), "{fault}");
+    let fault = refused(&|model| model.analysis.integrator = jostle::Integrator::hht(0.1));
+    assert!(fault.problem.contains("integrator"), "{fault}");
+    let fault = refused(&|model| {
+        model.analysis.solver = Solver::Riccati;
+        model.buildings[0].damping = Damping::AllModes { ratio: 0.05 };
+    });
+    assert_eq!(fault.path, "building[0].damping.modes");
+}
+
+/// Nothing moves, nothing is lost: a still ground leaves zero behind.
+#[test]
+fn rest_stays_rest() {
+    let system = assembled(&two_frames(0.0, law(LawKind::HertzDamp, 0.65)));
+    let outcome = run(&system, &still(1.0), &modal(&steps(0.01, 8)));
+    assert!(outcome.impacts.is_empty());
+    assert!(outcome.state.displacement.iter().all(|u| *u == 0.0));
+    assert!(matches!(system.contacts[0].law, ForceLaw::Hertz { .. }));
+}
