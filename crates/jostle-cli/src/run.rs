@@ -8,7 +8,9 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle::stepping::Progress;
-use jostle::{GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, simulate};
+use jostle::{
+    GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, simulate,
+};
 use jostle_report::{Page, ReinforcedSection};
 
 use crate::args::{RunArgs, SolverName};
@@ -170,7 +172,7 @@ fn result(out: &Path, no_report: bool) -> PathBuf {
 }
 
 /// Set by Ctrl-C; a second one ends the program at once.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
+pub(crate) fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     // Without a handler Ctrl-C still stops the program, only less gently.
