@@ -46,6 +46,17 @@ pub(crate) enum Section {
     Gap,
     Link,
     Analysis,
+    /// A study file.
+    Study,
+    /// One thing that varies in a study.
+    Vary,
+    Range,
+    Distribution,
+    Design,
+    Correlation,
+    Fragility,
+    Ida,
+    Sensitivity,
 }
 
 /// What may stand behind a key.
@@ -93,6 +104,8 @@ pub(crate) enum Kind {
     PerContact(Dimension),
     /// A grade, or a strength.
     GradeOr(&'static [&'static str]),
+    /// Whatever the key of the model file takes that a study varies.
+    Any,
 }
 
 /// One key.
@@ -108,6 +121,20 @@ pub(crate) struct Key {
     pub(crate) doc: &'static str,
 }
 
+pub(crate) const DESIGNS: &[&str] = &[
+    "factorial",
+    "zipped",
+    "latin-hypercube",
+    "sobol",
+    "random",
+    "saltelli",
+    "morris",
+    "one-at-a-time",
+];
+pub(crate) const SAMPLINGS: &[&str] = &["latin-hypercube", "sobol", "random"];
+pub(crate) const DISTRIBUTIONS: &[&str] = &["uniform", "normal", "lognormal"];
+pub(crate) const SPACINGS: &[&str] = &["linear", "log"];
+pub(crate) const FRAGILITY_METHODS: &[&str] = &["stripes", "cloud"];
 pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear"];
 /// Spellings of the contact laws.
 pub const LAW_NAMES: [&str; 11] = [
@@ -413,6 +440,62 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Integrator, "gamma", Quantity(D::Dimensionless), "0.5", "Newmark's gamma."),
     default(S::Integrator, "alpha", Quantity(D::Dimensionless), "0.05", "Shift of HHT, 0 to 1/3."),
     default(S::Integrator, "spectral_radius", Quantity(D::Dimensionless), "0.8", "What generalized-alpha leaves of the highest frequencies in one step, 0 to 1."),
+
+    optional(S::Study, "title", Text, "Title of the study."),
+    optional(S::Study, "base", Text, "The model that varies: a path from this file, or a built-in name."),
+    optional(S::Study, "model", Kind::Any, "The model written out here, instead of base."),
+    required(S::Study, "vary", Tables(&[S::Vary]), "What varies."),
+    optional(S::Study, "design", Kind::Table(S::Design), "How cases are made of it; without it every combination."),
+    optional(S::Study, "histories", Kind::Any, "Numbers of the cases whose histories are kept, from 0."),
+    optional(S::Study, "fragility", Tables(&[S::Fragility]), "Fragility curves to fit."),
+    optional(S::Study, "ida", Tables(&[S::Ida]), "Curves of demand over intensity."),
+    optional(S::Study, "sensitivity", Kind::Table(S::Sensitivity), "Which results are to be ranked."),
+
+    required(S::Vary, "path", Kind::Any, "Where the value goes in the model file, or a list of such places."),
+    optional(S::Vary, "name", Text, "Name of the column; the path without it."),
+    default(S::Vary, "multiply", Flag, "false", "Whether the value multiplies what stands there."),
+    optional(S::Vary, "values", Kind::Any, "A list of values."),
+    optional(S::Vary, "range", Kind::Table(S::Range), "Equally spaced values."),
+    optional(S::Vary, "distribution", Kind::Table(S::Distribution), "A distribution to draw from."),
+    optional(S::Vary, "files", Text, "Record files whose names fit, such as records/*.at2."),
+
+    required(S::Range, "from", Kind::Any, "First value."),
+    required(S::Range, "to", Kind::Any, "Last value."),
+    required(S::Range, "count", Count, "Number of values."),
+    default(S::Range, "spacing", Choice(SPACINGS), "\"linear\"", "Equal differences or equal ratios."),
+
+    required(S::Distribution, "kind", Choice(DISTRIBUTIONS), "Shape."),
+    optional(S::Distribution, "from", Kind::Any, "Least value of a uniform distribution."),
+    optional(S::Distribution, "to", Kind::Any, "Its greatest value."),
+    optional(S::Distribution, "mean", Kind::Any, "Mean."),
+    optional(S::Distribution, "deviation", Kind::Any, "Standard deviation of a normal distribution."),
+    optional(S::Distribution, "cov", Quantity(D::Dimensionless), "Coefficient of variation: standard deviation over mean."),
+    optional(S::Distribution, "median", Kind::Any, "Median of a lognormal distribution."),
+    optional(S::Distribution, "dispersion", Quantity(D::Dimensionless), "Standard deviation of its natural logarithm."),
+    optional(S::Distribution, "low", Kind::Any, "Nothing below is drawn."),
+    optional(S::Distribution, "high", Kind::Any, "Nothing above is drawn."),
+
+    default(S::Design, "kind", Choice(DESIGNS), "\"factorial\"", "How cases are made."),
+    default(S::Design, "sampling", Choice(SAMPLINGS), "\"latin-hypercube\"", "How distributions are drawn beside crossed or zipped lists."),
+    optional(S::Design, "samples", Count, "How many are drawn."),
+    default(S::Design, "seed", Count, "0", "Seed of everything drawn."),
+    default(S::Design, "quantiles", Kind::Any, "[0.1, 0.9]", "Low and high of one-at-a-time designs."),
+    optional(S::Design, "correlation", Tables(&[S::Correlation]), "Correlations of normal scores (Gaussian copula)."),
+    required(S::Correlation, "between", Neighbours, "Names of two factors."),
+    required(S::Correlation, "value", Quantity(D::Dimensionless), "Their correlation."),
+
+    required(S::Fragility, "intensity", Text, "Column with the intensity."),
+    default(S::Fragility, "demand", Text, "\"impact_count\"", "Column with the demand."),
+    default(S::Fragility, "threshold", Kind::Any, "0", "The event is a demand above this."),
+    optional(S::Fragility, "by", Kind::Any, "Factors for each of whose values a curve of its own is fitted."),
+    default(S::Fragility, "method", Choice(FRAGILITY_METHODS), "\"stripes\"", "Maximum likelihood of outcomes, or regression of logarithms."),
+    default(S::Fragility, "bootstrap", Count, "500", "Resampled fits for the confidence band."),
+    default(S::Fragility, "confidence", Quantity(D::Dimensionless), "0.9", "Confidence of the band."),
+
+    required(S::Ida, "intensity", Text, "Column with the intensity."),
+    required(S::Ida, "demand", Text, "Column with the demand."),
+
+    required(S::Sensitivity, "responses", Kind::Any, "Columns of the results."),
 ];
 
 /// The keys of some sections, in order.

@@ -8,6 +8,7 @@ mod fault;
 mod json_tree;
 mod keys;
 mod model_file;
+mod model_tree;
 mod motion_spec;
 mod output;
 mod pushover;
@@ -18,6 +19,7 @@ mod record_text;
 mod reference;
 mod schema;
 mod source;
+mod study_file;
 mod tables;
 mod target;
 mod templates;
@@ -34,6 +36,7 @@ pub use keys::LAW_NAMES;
 pub use model_file::{
     Input, OverrideError, Overrides, ReinforcedMember, read_model_file, read_model_text,
 };
+pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
 pub use output::{OutputError, summary_json, write_atomically, write_summary_json};
 pub use pushover::{pushover_csv, pushover_json};
@@ -47,9 +50,13 @@ pub use record_text::{at2_text, csv_text};
 pub use reference::model_reference;
 pub use schema::model_schema;
 pub use source::Place;
+pub use study_file::{
+    Correlation, Design, DesignKind, Distribution, Factor, FactorValues, FragilityMethod,
+    FragilityWanted, IdaWanted, Level, Sampling, Shape, StudyFile,
+};
 pub use tables::{
     Values, history_names, impact_columns, write_columns_parquet, write_hinges_parquet,
-    write_history_parquet, write_impacts_parquet,
+    write_history_parquet, write_impacts_parquet, write_values_parquet,
 };
 pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
 pub use templates::{TEMPLATE_NAMES, template};

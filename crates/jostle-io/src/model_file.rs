@@ -22,6 +22,7 @@ pub use reinforced::ReinforcedMember;
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::Arc;
 
 use jostle::{GroundMotion, Model, ModelFault};
 
@@ -50,7 +51,7 @@ pub struct Input {
 /// Where a model came from, to point at its lines later.
 #[derive(Clone, Debug)]
 struct Origin {
-    source: Source,
+    source: Arc<Source>,
     root: Node,
 }
 
@@ -89,6 +90,13 @@ pub enum OverrideError {
 /// # Errors
 /// Every fault of the file in one go.
 pub fn read_model_file(path: &Path) -> Result<Input, InputError> {
+    let (name, text) = read_text(path)?;
+    let base = path.parent().unwrap_or(Path::new(""));
+    read_model_text(&name, &text, Format::of_path(path), base)
+}
+
+/// The name and the text of a file, without a byte-order mark.
+pub(crate) fn read_text(path: &Path) -> Result<(String, String), InputError> {
     let name = path.display().to_string();
     let unreadable =
         |error: std::io::Error| InputError::whole(&name, format!("cannot be read: {error}"), None);
@@ -97,9 +105,8 @@ pub fn read_model_file(path: &Path) -> Result<Input, InputError> {
         return Err(tree::too_large(&name, size));
     }
     let bytes = std::fs::read(path).map_err(unreadable)?;
-    let text = tree::decode(&name, &bytes)?;
-    let base = path.parent().unwrap_or(Path::new(""));
-    read_model_text(&name, text, Format::of_path(path), base)
+    let text = tree::decode(&name, &bytes)?.to_owned();
+    Ok((name, text))
 }
 
 /// Reads and checks the text of a model file. `name` stands in messages; records are looked for from `base`.
@@ -115,6 +122,15 @@ pub fn read_model_text(
     let text = tree::decode(name, text.as_bytes())?;
     let source = Source::new(name, text);
     let root = tree::parse(&source, format)?;
+    read_tree(Arc::new(source), root, base)
+}
+
+/// Reads and checks a parsed model file.
+pub(crate) fn read_tree(
+    source: Arc<Source>,
+    root: Node,
+    base: &Path,
+) -> Result<Input, InputError> {
     let mut reader = Reader::new(&source);
     let read = read_root(&mut reader, &root, base);
     if let Some((model, ..)) = &read {

@@ -114,7 +114,7 @@ impl Dimension {
         self.facts().2
     }
 
-    fn exponents(self) -> [f64; 3] {
+    pub(crate) fn exponents(self) -> [f64; 3] {
         self.facts().3
     }
 
@@ -280,7 +280,7 @@ pub(crate) fn unit_size(
 }
 
 /// The number at the start, and the rest.
-fn split_number(text: &str) -> Option<(f64, &str)> {
+pub(crate) fn split_number(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let bytes = text.as_bytes();
     let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);

@@ -73,6 +73,7 @@ fn kind(kind: Kind) -> Value {
             json!({ "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 1 }] })
         }
         Kind::Count => count,
+        Kind::Any => json!({}),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) | Kind::PerContact(dimension) => {

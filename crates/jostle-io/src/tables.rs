@@ -152,6 +152,24 @@ pub fn write_columns_parquet(
     write_atomically(path, &bytes)
 }
 
+/// Writes columns of equal length of any kind, with `facts` about them, pairs of a key and a text, in the file.
+///
+/// # Errors
+/// [`OutputError`] with path and reason.
+pub fn write_values_parquet(
+    path: &Path,
+    title: &str,
+    facts: &[(&str, String)],
+    columns: Vec<(String, Values)>,
+) -> Result<(), OutputError> {
+    let bytes = encode_with(env!("CARGO_PKG_VERSION"), title, facts, columns);
+    let bytes = bytes.map_err(|error| OutputError::Encoding {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    })?;
+    write_atomically(path, &bytes)
+}
+
 /// Writes what can crack and yield: one row per hinge or storey spring, building by building, touched or not.
 ///
 /// `kind` is `column`, `beam` or `storey`; `level` is the storey of a column, the floor of a beam; `line` is the
@@ -359,6 +377,15 @@ fn encode_titled(
     title: &str,
     columns: Vec<(String, Values)>,
 ) -> Result<Vec<u8>, ParquetError> {
+    encode_with(version, title, &[], columns)
+}
+
+fn encode_with(
+    version: &str,
+    title: &str,
+    facts: &[(&str, String)],
+    columns: Vec<(String, Values)>,
+) -> Result<Vec<u8>, ParquetError> {
     let fields = columns
         .iter()
         .map(|(name, values)| field(name, values).map(Arc::new))
@@ -367,10 +394,12 @@ fn encode_titled(
         .with_fields(fields)
         .build()?;
     let pair = |key: &str, value: &str| KeyValue::new(key.to_owned(), value.to_owned());
+    let mut pairs = vec![pair("jostle", version), pair("title", title)];
+    pairs.extend(facts.iter().map(|(key, value)| pair(key, value)));
     let properties = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
         .set_created_by(format!("jostle {version}"))
-        .set_key_value_metadata(Some(vec![pair("jostle", version), pair("title", title)]))
+        .set_key_value_metadata(Some(pairs))
         .build();
     let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
     let mut group = writer.next_row_group()?;

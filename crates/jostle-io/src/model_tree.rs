@@ -1,0 +1,452 @@
+//! A model file as a tree whose values can be changed before it is read: what studies vary.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::builtin;
+use crate::fault::InputError;
+use crate::model_file::{self, Input};
+use crate::reader::join;
+use crate::source::Source;
+use crate::tree::{self, Entry, Format, Node, Table, Value};
+
+/// A model file, parsed but not yet read. Values can be replaced by path; [`ModelTree::input`] then reads the
+/// tree as if it had been written that way.
+#[derive(Clone, Debug)]
+pub struct ModelTree {
+    source: Arc<Source>,
+    root: Node,
+    base: PathBuf,
+}
+
+/// A value to put into a model file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TreeValue {
+    /// Text, quantities with units included.
+    Text(String),
+    /// Whole number.
+    Integer(i64),
+    /// Number.
+    Number(f64),
+    /// True or false.
+    Flag(bool),
+    /// List.
+    List(Vec<TreeValue>),
+    /// Table, in order.
+    Table(Vec<(String, TreeValue)>),
+}
+
+/// Why a value cannot be put where a path points.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{path}: {problem}")]
+pub struct PathError {
+    /// The path as asked for.
+    pub path: String,
+    /// What is wrong with it, and what would be right.
+    pub problem: String,
+}
+
+/// One step of a path.
+#[derive(Clone, Debug, PartialEq)]
+enum Part {
+    /// A key of a table, or the `name` of an entry of a list.
+    Key(String),
+    Index(usize),
+    /// Every entry, `[*]`.
+    Every,
+}
+
+/// What to do with the value at the end of a path.
+enum Change<'v> {
+    Replace(&'v TreeValue),
+    Multiply(f64),
+}
+
+/// Keys that cannot stand beside each other: putting in one takes the others out.
+const ALTERNATIVES: [(&str, &[&str]); 4] = [
+    ("pga", &["scale", "match"]),
+    ("scale", &["pga", "match"]),
+    ("match", &["pga", "scale"]),
+    ("record", &["kind", "amplitude", "period", "centre"]),
+];
+
+impl ModelTree {
+    /// Parses the model file at a path. A name ending in `.json` is JSON, any other TOML.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is not TOML or JSON; its contents are checked by [`ModelTree::input`].
+    pub fn load(path: &Path) -> Result<Self, InputError> {
+        let (name, text) = model_file::read_text(path)?;
+        let base = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&name, &text, Format::of_path(path), base)
+    }
+
+    /// Parses the text of a model file. `name` stands in messages; records are looked for from `base`.
+    ///
+    /// # Errors
+    /// Syntax errors.
+    pub fn parse(name: &str, text: &str, format: Format, base: &Path) -> Result<Self, InputError> {
+        let source = Source::new(name, tree::decode(name, text.as_bytes())?);
+        let root = tree::parse(&source, format)?;
+        Ok(Self::of(Arc::new(source), root, base))
+    }
+
+    /// A built-in model.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    pub fn builtin(name: &str) -> Result<Self, InputError> {
+        // Says which names there are.
+        builtin::builtin_model(name)?;
+        let text = builtin::model_text(name).unwrap_or_default();
+        Self::parse(name, text, Format::Toml, Path::new(""))
+    }
+
+    pub(crate) fn of(source: Arc<Source>, root: Node, base: &Path) -> Self {
+        Self {
+            source,
+            root,
+            base: base.to_owned(),
+        }
+    }
+
+    /// The text that was parsed.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.source.text()
+    }
+
+    /// Name of the file.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.source.name
+    }
+
+    /// The folder from where records are looked for.
+    #[must_use]
+    pub fn base(&self) -> &Path {
+        &self.base
+    }
+
+    /// Puts a value in at a path such as `gap[0].width`, `gap[*].width`, `building.J1.column.depth` or
+    /// `motion.pga`. Tables that are absent are made.
+    ///
+    /// A way of scaling the motion (`pga`, `scale`, `match`) takes the place of the one in the file, a record
+    /// that of an analytic wave.
+    ///
+    /// # Errors
+    /// [`PathError`] when the path leads nowhere; then nothing is changed.
+    pub fn set(&mut self, path: &str, value: &TreeValue) -> Result<(), PathError> {
+        self.change(path, &Change::Replace(value))
+    }
+
+    /// Multiplies the number, the quantity or the list of such at a path.
+    ///
+    /// # Errors
+    /// [`PathError`] when there is nothing, or no number.
+    pub fn multiply(&mut self, path: &str, factor: f64) -> Result<(), PathError> {
+        self.change(path, &Change::Multiply(factor))
+    }
+
+    fn change(&mut self, path: &str, change: &Change<'_>) -> Result<(), PathError> {
+        let wrong = |problem: String| PathError {
+            path: path.to_owned(),
+            problem,
+        };
+        let parts = parts(path).map_err(wrong)?;
+        let mut root = self.root.clone();
+        walk(&mut root, &parts, "", change).map_err(wrong)?;
+        self.root = root;
+        Ok(())
+    }
+
+    /// Reads and checks the tree.
+    ///
+    /// # Errors
+    /// Every fault in one go. A value that was put in has no line of its own.
+    pub fn input(&self) -> Result<Input, InputError> {
+        model_file::read_tree(Arc::clone(&self.source), self.root.clone(), &self.base)
+    }
+}
+
+/// The steps of a path.
+fn parts(path: &str) -> Result<Vec<Part>, String> {
+    const EXAMPLE: &str = "write it like gap[0].width, gap[*].width or building.J1.damping.ratio";
+    let mut parts = Vec::new();
+    for piece in path.split('.') {
+        let (key, indices) = match piece.find('[') {
+            Some(at) => piece.split_at(at),
+            None => (piece, ""),
+        };
+        if key.trim().is_empty() {
+            return Err(format!("is not a path; {EXAMPLE}"));
+        }
+        parts.push(Part::Key(key.trim().to_owned()));
+        let mut rest = indices;
+        while !rest.is_empty() {
+            let inside = rest.strip_prefix('[').and_then(|rest| rest.split_once(']'));
+            let Some((index, after)) = inside else {
+                return Err(format!("has unpaired brackets; {EXAMPLE}"));
+            };
+            parts.push(match index.trim() {
+                "*" => Part::Every,
+                index => Part::Index(
+                    index
+                        .parse()
+                        .map_err(|_| format!("\"[{index}]\" is no index; {EXAMPLE}"))?,
+                ),
+            });
+            rest = after;
+        }
+    }
+    Ok(parts)
+}
+
+fn walk(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Result<(), String> {
+    let Some((part, rest)) = parts.split_first() else {
+        return match change {
+            Change::Replace(value) => {
+                *node = value.node();
+                Ok(())
+            }
+            Change::Multiply(factor) => multiply(node, *factor),
+        };
+    };
+    let here = if at.is_empty() { "the model" } else { at };
+    match (part, &mut node.value) {
+        (Part::Key(key), Value::Table(table)) => {
+            if at == "motion" {
+                let others = ALTERNATIVES.iter().find(|(name, _)| name == key);
+                let others = others.map_or(&[][..], |(_, others)| others);
+                table
+                    .entries
+                    .retain(|entry| !others.contains(&entry.key.as_str()));
+            }
+            let known = table.entries.iter().position(|entry| entry.key == *key);
+            let index = match (known, change) {
+                (Some(index), _) => index,
+                (None, Change::Multiply(_)) => {
+                    return Err(format!("{here} has no {key} to multiply"));
+                }
+                (None, Change::Replace(_)) => {
+                    if matches!(rest.first(), Some(Part::Index(_) | Part::Every)) {
+                        return Err(format!("{here} has no {key}"));
+                    }
+                    table.entries.push(Entry {
+                        key: key.clone(),
+                        key_span: 0..0,
+                        node: Node {
+                            span: 0..0,
+                            value: Value::Table(Table::default()),
+                        },
+                    });
+                    table.entries.len() - 1
+                }
+            };
+            walk(
+                &mut table.entries[index].node,
+                rest,
+                &join(at, key),
+                change,
+            )
+        }
+        (Part::Key(key), Value::List(list)) => {
+            let names: Vec<String> = list.iter().map(name_of).collect();
+            match names.iter().position(|name| name == key) {
+                Some(index) => walk(&mut list[index], rest, &join(at, key), change),
+                None => Err(format!(
+                    "{here} is a list without an entry named \"{key}\"; say which one, such as {here}[0], or {here}[*] for all"
+                )),
+            }
+        }
+        (Part::Index(index), Value::List(list)) => {
+            let count = list.len();
+            match list.get_mut(*index) {
+                Some(entry) => walk(entry, rest, &format!("{at}[{index}]"), change),
+                None => Err(format!(
+                    "{here} has {count} entr{}, counted from 0; there is no [{index}]",
+                    if count == 1 { "y" } else { "ies" }
+                )),
+            }
+        }
+        (Part::Every, Value::List(list)) => {
+            if list.is_empty() {
+                return Err(format!("{here} is empty"));
+            }
+            for (index, entry) in list.iter_mut().enumerate() {
+                walk(entry, rest, &format!("{at}[{index}]"), change)?;
+            }
+            Ok(())
+        }
+        (Part::Index(_) | Part::Every, _) => Err(format!("{here} is not a list")),
+        (Part::Key(key), _) => Err(format!(
+            "{here} is a single value and has no {key}; write a table in the model file first"
+        )),
+    }
+}
+
+/// The name by which an entry of a list can be called: its `name`, or for a gap its neighbours.
+fn name_of(node: &Node) -> String {
+    let Value::Table(table) = &node.value else {
+        return String::new();
+    };
+    let text = |node: &Node| match &node.value {
+        Value::Text(text) => text.clone(),
+        _ => String::new(),
+    };
+    if let Some(name) = table.get("name") {
+        return text(name);
+    }
+    match table.get("between").map(|node| &node.value) {
+        Some(Value::List(pair)) => pair.iter().map(text).collect::<Vec<_>>().join("-"),
+        _ => String::new(),
+    }
+}
+
+fn multiply(node: &mut Node, factor: f64) -> Result<(), String> {
+    let product = match &mut node.value {
+        Value::Integer(value) => Value::Number(*value as f64 * factor),
+        Value::Number(value) => Value::Number(*value * factor),
+        Value::Text(text) => match crate::quantity::split_number(text) {
+            Some((number, unit)) => Value::Text(quantity_text(number * factor, unit)),
+            None => return Err(format!("\"{text}\" is not a number that could be multiplied")),
+        },
+        Value::List(list) => {
+            return list.iter_mut().try_for_each(|entry| multiply(entry, factor));
+        }
+        _ => return Err(format!("{} cannot be multiplied", node.describe())),
+    };
+    node.value = product;
+    Ok(())
+}
+
+/// A number and a unit as they stand in a file; reading it gives back the number to the last bit.
+pub(crate) fn quantity_text(number: f64, unit: &str) -> String {
+    let unit = unit.trim();
+    if unit.is_empty() {
+        format!("{number:?}")
+    } else {
+        format!("{number:?} {unit}")
+    }
+}
+
+impl TreeValue {
+    fn node(&self) -> Node {
+        let value = match self {
+            Self::Text(text) => Value::Text(text.clone()),
+            Self::Integer(value) => Value::Integer(*value),
+            Self::Number(value) => Value::Number(*value),
+            Self::Flag(value) => Value::Flag(*value),
+            Self::List(list) => Value::List(list.iter().map(Self::node).collect()),
+            Self::Table(table) => Value::Table(Table {
+                entries: table
+                    .iter()
+                    .map(|(key, value)| Entry {
+                        key: key.clone(),
+                        key_span: 0..0,
+                        node: value.node(),
+                    })
+                    .collect(),
+            }),
+        };
+        Node { span: 0..0, value }
+    }
+
+    /// The value of a node; dates and the like are none.
+    pub(crate) fn of(node: &Node) -> Option<Self> {
+        Some(match &node.value {
+            Value::Text(text) => Self::Text(text.clone()),
+            Value::Integer(value) => Self::Integer(*value),
+            Value::Number(value) => Self::Number(*value),
+            Value::Flag(value) => Self::Flag(*value),
+            Value::List(list) => Self::List(list.iter().map(Self::of).collect::<Option<_>>()?),
+            Value::Table(table) => Self::Table(
+                table
+                    .entries
+                    .iter()
+                    .map(|entry| Some((entry.key.clone(), Self::of(&entry.node)?)))
+                    .collect::<Option<_>>()?,
+            ),
+            Value::Other(_) => return None,
+        })
+    }
+}
+
+impl fmt::Display for TreeValue {
+    /// Texts plain, everything else as in a model file.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let list = |f: &mut fmt::Formatter<'_>, entries: Vec<String>, marks: [&str; 2]| {
+            write!(f, "{}{}{}", marks[0], entries.join(", "), marks[1])
+        };
+        match self {
+            Self::Text(text) => f.write_str(text),
+            Self::Integer(value) => write!(f, "{value}"),
+            Self::Number(value) => write!(f, "{value}"),
+            Self::Flag(value) => write!(f, "{value}"),
+            Self::List(entries) => list(f, entries.iter().map(ToString::to_string).collect(), ["[", "]"]),
+            Self::Table(entries) => {
+                let entries = entries.iter().map(|(key, value)| format!("{key} = {value}"));
+                list(f, entries.collect(), ["{ ", " }"])
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn paper() -> ModelTree {
+        ModelTree::builtin("paper").unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn text(text: &str) -> TreeValue {
+        TreeValue::Text(text.into())
+    }
+
+    #[test]
+    fn changed_values_are_read_as_if_written() {
+        let mut tree = paper();
+        for (path, value) in [
+            ("gap[*].width", text("35 mm")),
+            ("building.J1.storeys", TreeValue::Integer(4)),
+            ("motion.scale", TreeValue::Number(0.5)),
+            ("analysis.tolerance", TreeValue::Number(0.01)),
+        ] {
+            tree.set(path, &value).unwrap_or_else(|error| panic!("{error}"));
+        }
+        tree.multiply("building[1].beam_mass", 2.0)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let input = tree.input().unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(input.model.gaps[0].width, 0.035);
+        assert_eq!(input.model.buildings[0].floors(), 4);
+        assert_eq!(input.model.analysis.tolerance, 0.01);
+        let motion = input.motion.unwrap_or_else(|| panic!("a motion"));
+        // The peak of the file has given way to the factor.
+        assert_eq!(motion.scaling, crate::Scaling::Factor(0.5));
+        match &input.model.buildings[1].structure {
+            jostle::Structure::Frame(frame) => assert_eq!(frame.beam_mass[0], 11_700.0),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn paths_that_lead_nowhere_say_so() {
+        let mut tree = paper();
+        for (path, expected) in [
+            ("gap[3].width", "there is no [3]"),
+            ("gap.width", "gap[0]"),
+            ("title.x", "single value"),
+            ("gap[x].width", "no index"),
+            ("building[0].mass[0]", "has no mass"),
+            ("", "not a path"),
+        ] {
+            let error = tree.set(path, &TreeValue::Number(1.0));
+            let error = error.err().map(|error| error.to_string()).unwrap_or_default();
+            assert!(error.contains(expected), "{path}: {error}");
+        }
+        let error = tree.multiply("motion.record", 2.0);
+        assert!(error.is_err(), "a name cannot be multiplied");
+    }
+}

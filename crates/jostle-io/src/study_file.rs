@@ -1,0 +1,561 @@
+//! Study files: a base model, what varies in it, and what is wanted of the results.
+
+mod distribution;
+mod factor;
+mod wanted;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+pub use distribution::{Distribution, Shape};
+pub use factor::{Factor, FactorValues, Level};
+pub use wanted::{FragilityMethod, FragilityWanted, IdaWanted};
+
+use crate::builtin;
+use crate::fault::{Fault, InputError};
+use crate::keys::{DESIGNS, SAMPLINGS, Section, nearest};
+use crate::model_file;
+use crate::model_tree::ModelTree;
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+use crate::source::Source;
+use crate::tree::{self, Format, Node, Value};
+
+/// A study file, read and checked as far as that is possible without its models.
+#[derive(Clone, Debug)]
+pub struct StudyFile {
+    /// Title.
+    pub title: String,
+    /// The model in which something varies.
+    pub base: ModelTree,
+    /// What varies, in the order of the file; at least one.
+    pub factors: Vec<Factor>,
+    /// How cases are made of it.
+    pub design: Design,
+    /// Cases whose histories are kept, from 0.
+    pub histories: Vec<u64>,
+    /// Fragility curves to fit.
+    pub fragilities: Vec<FragilityWanted>,
+    /// Curves of demand over intensity.
+    pub idas: Vec<IdaWanted>,
+    /// Columns whose sensitivity is wanted; empty leaves the choice to the study.
+    pub responses: Vec<String>,
+    /// The folder of the file, from where records are looked for.
+    pub folder: PathBuf,
+    source: Arc<Source>,
+}
+
+/// How cases are made of what varies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// The rule.
+    pub kind: DesignKind,
+    /// How distributions are drawn where `kind` does not say it.
+    pub sampling: Sampling,
+    /// Number of draws, of base samples or of trajectories; `None` where nothing is drawn.
+    pub samples: Option<u64>,
+    /// Seed of everything drawn.
+    pub seed: u64,
+    /// Correlations of the normal scores (Gaussian copula).
+    pub correlations: Vec<Correlation>,
+    /// Quantiles of one-at-a-time designs, each between 0 and 1.
+    pub quantiles: [f64; 2],
+}
+
+/// Rules that make cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DesignKind {
+    /// Every combination of the lists; distributions are drawn `samples` times for each.
+    Factorial,
+    /// The lists side by side, entry by entry; distributions are drawn `samples` times for each.
+    Zipped,
+    /// Latin hypercube.
+    LatinHypercube,
+    /// Sobol sequence.
+    Sobol,
+    /// Independent draws.
+    Random,
+    /// Two samples and their mixtures, for Sobol indices.
+    Saltelli,
+    /// Trajectories of elementary effects.
+    Morris,
+    /// The middle, and each factor low and high.
+    OneAtATime,
+}
+
+/// How distributions are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampling {
+    /// Latin hypercube.
+    LatinHypercube,
+    /// Sobol sequence with a random shift of its digits.
+    Sobol,
+    /// Independent draws.
+    Random,
+}
+
+/// A correlation of the normal scores of two factors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Correlation {
+    /// Indices of the factors.
+    pub between: [usize; 2],
+    /// −1 < value < 1 \[–\].
+    pub value: f64,
+}
+
+/// Most cases of a study: their numbers are 32-bit in the tables.
+const MOST_SAMPLES: u64 = 1 << 31;
+
+impl StudyFile {
+    /// Reads the study file at a path: JSON if its name ends in `.json`, else TOML. `base` replaces the base model
+    /// of the file.
+    ///
+    /// # Errors
+    /// Every fault in one go.
+    pub fn load(path: &Path, base: Option<&Path>) -> Result<Self, InputError> {
+        let (name, text) = model_file::read_text(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&name, &text, Format::of_path(path), folder, base)
+    }
+
+    /// Reads the text of a study file. `name` stands in messages; paths start from `folder`.
+    ///
+    /// # Errors
+    /// Every fault in one go.
+    pub fn parse(
+        name: &str,
+        text: &str,
+        format: Format,
+        folder: &Path,
+        base: Option<&Path>,
+    ) -> Result<Self, InputError> {
+        let text = tree::decode(name, text.as_bytes())?;
+        let source = Arc::new(Source::new(name, text));
+        let root = tree::parse(&source, format)?;
+        let mut reader = Reader::new(&source);
+        let read = read_root(&mut reader, &source, &root, folder, base);
+        let error = reader.into_error();
+        match read {
+            Some(study) if error.faults.is_empty() => study,
+            _ => Err(error),
+        }
+    }
+
+    /// The text that was read.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.source.text()
+    }
+
+    /// Name of the file.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.source.name
+    }
+
+    /// A fault at a factor of the file.
+    #[must_use]
+    pub fn fault(&self, factor: usize, problem: impl Into<String>) -> InputError {
+        InputError {
+            name: self.source.name.clone(),
+            faults: vec![Fault {
+                path: format!("vary[{factor}]"),
+                place: self
+                    .factors
+                    .get(factor)
+                    .map(|factor| self.source.place(&factor.span)),
+                problem: problem.into(),
+                remedy: None,
+            }],
+            more: 0,
+        }
+    }
+
+    /// Shows the faults that come from what a factor puts in at that factor, the others where they are.
+    #[must_use]
+    pub fn relocate(&self, factors: &[usize], error: InputError) -> InputError {
+        let mut moved = error;
+        let mut all_here = true;
+        for fault in &mut moved.faults {
+            let own = factors.iter().find(|&&index| {
+                self.factors[index]
+                    .paths
+                    .iter()
+                    .any(|path| touches(path, &fault.path))
+            });
+            match own {
+                Some(&index) => {
+                    fault.place = Some(self.source.place(&self.factors[index].span));
+                    fault.path = format!("vary[{index}]: {}", fault.path);
+                }
+                None => all_here = false,
+            }
+        }
+        if all_here {
+            moved.name.clone_from(&self.source.name);
+        }
+        moved
+    }
+}
+
+/// Whether a fault at a field may come from a value put in at a path: one is the other or lies below it.
+fn touches(path: &str, field: &str) -> bool {
+    let plain = |text: &str| -> Vec<String> {
+        let pieces = text.split(['.', '[']).map(|part| part.trim_end_matches(']'));
+        pieces.map(str::to_owned).collect()
+    };
+    let (path, field) = (plain(path), plain(field));
+    let same = |a: &String, b: &String| {
+        let index = |text: &String| text.parse::<usize>().is_ok();
+        // A list entry may be called by its name.
+        a == b || a == "*" || (index(b) && !index(a))
+    };
+    !field.is_empty() && path.iter().zip(&field).all(|(a, b)| same(a, b))
+}
+
+fn read_root(
+    reader: &mut Reader<'_>,
+    source: &Arc<Source>,
+    root: &Node,
+    folder: &Path,
+    base: Option<&Path>,
+) -> Option<Result<StudyFile, InputError>> {
+    let field = Field {
+        node: root,
+        path: String::new(),
+    };
+    let view = reader.open(&field, &[Section::Study])?;
+    let title = match reader.get(&view, "title") {
+        Some(field) => reader.text(&field),
+        None => Some("Untitled study".to_owned()),
+    };
+    let tree = base_model(reader, source, &view, folder, base);
+    let factors = match reader.get(&view, "vary") {
+        Some(field) => factor::read_all(reader, &field, folder),
+        None => {
+            reader.missing(
+                &view,
+                "vary",
+                "add a [[vary]] with path = \"gap[0].width\" and values = [\"20 mm\", \"40 mm\"]",
+            );
+            None
+        }
+    };
+    let names: Vec<String> = factors
+        .iter()
+        .flatten()
+        .map(|factor| factor.name.clone())
+        .collect();
+    let design = reader.get(&view, "design");
+    let design = design_of(reader, design.as_ref(), factors.as_deref(), &names);
+    let histories = reader.get(&view, "histories");
+    let histories = histories.map_or(Some(Vec::new()), |field| case_numbers(reader, &field));
+    let fragilities = wanted::fragilities(reader, &view);
+    let idas = wanted::idas(reader, &view);
+    let responses = reader.get(&view, "sensitivity");
+    let responses = responses.map_or(Some(Vec::new()), |field| {
+        let view = reader.open(&field, &[Section::Sensitivity])?;
+        let field = reader.get(&view, "responses")?;
+        wanted::texts(reader, &field)
+    });
+    Some(tree?.map(|tree| StudyFile {
+        title: title.unwrap_or_default(),
+        base: tree,
+        factors: factors.unwrap_or_default(),
+        design: design.unwrap_or(Design {
+            kind: DesignKind::Factorial,
+            sampling: Sampling::LatinHypercube,
+            samples: None,
+            seed: 0,
+            correlations: Vec::new(),
+            quantiles: [0.1, 0.9],
+        }),
+        histories: histories.unwrap_or_default(),
+        fragilities,
+        idas,
+        responses: responses.unwrap_or_default(),
+        folder: folder.to_owned(),
+        source: Arc::clone(source),
+    }))
+}
+
+/// The model in which something varies: a path, a built-in name, or written out in the study.
+fn base_model(
+    reader: &mut Reader<'_>,
+    source: &Arc<Source>,
+    view: &View<'_>,
+    folder: &Path,
+    other: Option<&Path>,
+) -> Option<Result<ModelTree, InputError>> {
+    let (base, model) = (reader.get(view, "base"), reader.get(view, "model"));
+    if let (Some(base), Some(_)) = (&base, &model) {
+        *reader.bad(base, "cannot stand beside model") = Some("keep either base or model".into());
+        return None;
+    }
+    if let Some(path) = other {
+        return Some(load_base(path, path));
+    }
+    if let Some(model) = model {
+        if !matches!(model.node.value, Value::Table(_)) {
+            let found = model.node.describe();
+            reader.bad(&model, format!("expected a model written out, found {found}"));
+            return None;
+        }
+        return Some(Ok(ModelTree::of(
+            Arc::clone(source),
+            model.node.clone(),
+            folder,
+        )));
+    }
+    let Some(base) = base else {
+        reader.missing(
+            view,
+            "base",
+            "add base = \"model.toml\", a path from this file, or the name of a built-in model",
+        );
+        return None;
+    };
+    let name = reader.text(&base)?;
+    let path = folder.join(&name);
+    if !path.exists() && !builtin::model_names().contains(&name.as_str()) {
+        let remedy = nearest(&name, builtin::model_names().into_iter())
+            .map(|name| format!("did you mean the built-in \"{name}\"?"));
+        let problem = format!(
+            "there is no file {}, and no built-in model of this name; built in: {}",
+            path.display(),
+            builtin::model_names().join(", ")
+        );
+        *reader.bad(&base, problem) = remedy;
+        return None;
+    }
+    Some(load_base(&path, Path::new(&name)))
+}
+
+fn load_base(path: &Path, name: &Path) -> Result<ModelTree, InputError> {
+    match name.to_str().filter(|name| {
+        !path.exists() && builtin::model_names().contains(name)
+    }) {
+        Some(name) => ModelTree::builtin(name),
+        None => ModelTree::load(path),
+    }
+}
+
+fn design_of(
+    reader: &mut Reader<'_>,
+    field: Option<&Field<'_>>,
+    factors: Option<&[Factor]>,
+    names: &[String],
+) -> Option<Design> {
+    let drawn = factors.map(|factors| {
+        factors
+            .iter()
+            .any(|factor| matches!(factor.values, FactorValues::Drawn(_)))
+    });
+    let mut design = Design {
+        kind: DesignKind::Factorial,
+        sampling: Sampling::LatinHypercube,
+        samples: None,
+        seed: 0,
+        correlations: Vec::new(),
+        quantiles: [0.1, 0.9],
+    };
+    let Some(field) = field else {
+        if drawn == Some(true)
+            && let Some(first) = factors.and_then(|factors| {
+                factors
+                    .iter()
+                    .find(|factor| matches!(factor.values, FactorValues::Drawn(_)))
+            })
+        {
+            *reader.fault(&first.span, "design", "is missing") = Some(
+                "a distribution needs a [design] such as kind = \"latin-hypercube\", samples = 200, seed = 1".into(),
+            );
+            return None;
+        }
+        return Some(design);
+    };
+    let view = reader.open(field, &[Section::Design])?;
+    if let Some(field) = reader.get(&view, "kind") {
+        design.kind = match reader.choice(&field, DESIGNS, &[])? {
+            "zipped" => DesignKind::Zipped,
+            "latin-hypercube" => DesignKind::LatinHypercube,
+            "sobol" => DesignKind::Sobol,
+            "random" => DesignKind::Random,
+            "saltelli" => DesignKind::Saltelli,
+            "morris" => DesignKind::Morris,
+            "one-at-a-time" => DesignKind::OneAtATime,
+            _ => DesignKind::Factorial,
+        };
+    }
+    if let Some(field) = reader.get(&view, "sampling") {
+        design.sampling = match reader.choice(&field, SAMPLINGS, &[])? {
+            "sobol" => Sampling::Sobol,
+            "random" => Sampling::Random,
+            _ => Sampling::LatinHypercube,
+        };
+    }
+    if let Some(field) = reader.get(&view, "samples") {
+        let samples = reader.count(&field)? as u64;
+        if !(1..=MOST_SAMPLES).contains(&samples) {
+            reader.bad(&field, "must lie between 1 and 2^31");
+            return None;
+        }
+        design.samples = Some(samples);
+    }
+    if let Some(field) = reader.get(&view, "seed") {
+        design.seed = reader.count(&field)? as u64;
+    }
+    if let Some(field) = reader.get(&view, "quantiles") {
+        design.quantiles = quantiles(reader, &field)?;
+    }
+    if let Some(field) = reader.get(&view, "correlation") {
+        design.correlations = correlations(reader, &field, factors, names)?;
+        if matches!(
+            design.kind,
+            DesignKind::Saltelli | DesignKind::Morris | DesignKind::OneAtATime
+        ) {
+            *reader.bad(&field, "does not go with this kind of design") = Some(
+                "sensitivities are defined for independent factors; remove correlation".into(),
+            );
+        }
+    }
+    let needs_samples = match design.kind {
+        DesignKind::Factorial | DesignKind::Zipped => drawn == Some(true),
+        DesignKind::OneAtATime => false,
+        _ => true,
+    };
+    if needs_samples && design.samples.is_none() {
+        reader.missing(
+            &view,
+            "samples",
+            "say how many are drawn: samples = 200 (base samples of saltelli, trajectories of morris)",
+        );
+    }
+    if !needs_samples && let (Some(_), Some(field)) = (design.samples, reader.get(&view, "samples"))
+    {
+        *reader.bad(&field, "has no effect: nothing is drawn") = Some("remove it".into());
+    }
+    if design.kind == DesignKind::Zipped {
+        zipped_lists_are_equal(reader, factors?);
+    }
+    Some(design)
+}
+
+fn zipped_lists_are_equal(reader: &mut Reader<'_>, factors: &[Factor]) {
+    let lists = factors.iter().filter_map(|factor| match &factor.values {
+        FactorValues::Listed(levels) => Some((factor, levels.len())),
+        FactorValues::Drawn(_) => None,
+    });
+    let mut first = None;
+    for (factor, count) in lists {
+        let expected = *first.get_or_insert(count);
+        if count != expected {
+            reader.fault(
+                &factor.span.clone(),
+                "vary",
+                format!(
+                    "\"{}\" has {count} values, the first list {expected}; zipped lists must be equally long",
+                    factor.name
+                ),
+            );
+        }
+    }
+}
+
+fn quantiles(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<[f64; 2]> {
+    let entries = field.entries().unwrap_or_default();
+    let [low, high] = &entries[..] else {
+        reader.bad(field, "expected two numbers such as [0.1, 0.9]");
+        return None;
+    };
+    let low = reader.quantity(low, Dimension::Dimensionless)?;
+    let high = reader.quantity(high, Dimension::Dimensionless)?;
+    if !(0.0 < low && low < high && high < 1.0) {
+        reader.bad(field, "expected two growing numbers between 0 and 1");
+        return None;
+    }
+    Some([low, high])
+}
+
+fn correlations(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    factors: Option<&[Factor]>,
+    names: &[String],
+) -> Option<Vec<Correlation>> {
+    let Some(entries) = field.entries() else {
+        *reader.bad(field, "expected a list") =
+            Some("write correlation = [{ between = [\"a\", \"b\"], value = 0.5 }]".into());
+        return None;
+    };
+    let mut all = Vec::new();
+    for entry in entries {
+        let view = reader.open(&entry, &[Section::Correlation])?;
+        let Some(between) = reader.get(&view, "between") else {
+            reader.missing(&view, "between", "name two factors: between = [\"a\", \"b\"]");
+            continue;
+        };
+        let pair = wanted::texts(reader, &between)?;
+        let found: Vec<Option<usize>> = pair
+            .iter()
+            .map(|name| names.iter().position(|known| known == name))
+            .collect();
+        let [Some(a), Some(b)] = found[..] else {
+            reader.bad(
+                &between,
+                format!(
+                    "expected the names of two factors; there are {}",
+                    names.join(", ")
+                ),
+            );
+            continue;
+        };
+        let drawn = |index: usize| {
+            factors.is_some_and(|factors| matches!(factors[index].values, FactorValues::Drawn(_)))
+        };
+        if a == b || !drawn(a) || !drawn(b) {
+            reader.bad(
+                &between,
+                "expected two different factors that have distributions",
+            );
+            continue;
+        }
+        let Some(value) = reader.get(&view, "value") else {
+            reader.missing(&view, "value", "add value = 0.5");
+            continue;
+        };
+        let number = reader.quantity(&value, Dimension::Dimensionless)?;
+        if number.abs() >= 1.0 {
+            reader.bad(&value, format!("must lie between −1 and 1, found {number}"));
+            continue;
+        }
+        all.push(Correlation {
+            between: [a, b],
+            value: number,
+        });
+    }
+    Some(all)
+}
+
+fn case_numbers(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<u64>> {
+    let Some(entries) = field.entries() else {
+        reader.bad(field, "expected a list of case numbers such as [0, 12]");
+        return None;
+    };
+    entries
+        .iter()
+        .map(|entry| reader.count(entry).map(|number| number as u64))
+        .collect()
+}
+
+/// The keys that reading a study file asks for.
+#[cfg(test)]
+pub(crate) fn keys_asked(
+    source: &Source,
+    root: &Node,
+) -> std::collections::BTreeSet<(Section, &'static str)> {
+    let mut reader = Reader::new(source);
+    let source = Arc::new(source.clone());
+    let _ = read_root(&mut reader, &source, root, Path::new(""), None);
+    reader.asked
+}

@@ -1,0 +1,473 @@
+//! `[[vary]]` of a study file: what varies, and through which values.
+
+use std::path::Path;
+
+use super::distribution::{self, Distribution};
+use crate::builtin;
+use crate::keys::{KEYS, Kind, SPACINGS, Section};
+use crate::model_tree::{TreeValue, quantity_text};
+use crate::quantity::{Dimension, check_magnitude, split_number, unit_size};
+use crate::reader::{Field, Reader, View};
+use crate::source::Span;
+use crate::tree::{Node, Value};
+use crate::unit::Unit;
+
+/// Something that varies.
+#[derive(Clone, Debug)]
+pub struct Factor {
+    /// Name, unique in the study.
+    pub name: String,
+    /// Where its value goes in the model file; at least one path.
+    pub paths: Vec<String>,
+    /// Whether the value multiplies what stands there instead of replacing it.
+    pub multiplies: bool,
+    /// Its values.
+    pub values: FactorValues,
+    /// What numbers are, spelt for the end of a column name: `m`, `m_s2`, or nothing.
+    pub unit: String,
+    pub(crate) span: Span,
+}
+
+/// Values of a factor.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FactorValues {
+    /// One after the other; at least one.
+    Listed(Vec<Level>),
+    /// Drawn from a distribution.
+    Drawn(Distribution),
+}
+
+/// One value of a factor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// What goes into the model.
+    pub value: TreeValue,
+    /// The same as it was written, for tables.
+    pub label: String,
+    /// Its number in SI, if it is one.
+    pub number: Option<f64>,
+}
+
+/// A number and its unit.
+pub(super) struct Measured {
+    pub(super) number: f64,
+    pub(super) unit: String,
+    /// Size of the unit in SI.
+    pub(super) size: f64,
+}
+
+/// Most values of a list.
+const MOST_LEVELS: usize = 1_000_000;
+
+pub(super) fn read_all(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    folder: &Path,
+) -> Option<Vec<Factor>> {
+    let Some(entries) = field.entries().filter(|entries| !entries.is_empty()) else {
+        *reader.bad(field, "expected at least one [[vary]]") =
+            Some("write [[vary]] with two pairs of brackets".into());
+        return None;
+    };
+    let mut factors: Vec<Factor> = Vec::new();
+    for entry in &entries {
+        let Some(factor) = read(reader, entry, folder) else {
+            continue;
+        };
+        if factors.iter().any(|known| known.name == factor.name) {
+            let problem = format!("a second factor is named \"{}\"", factor.name);
+            *reader.bad(entry, problem) = Some("give one of them another name = \"…\"".into());
+            continue;
+        }
+        factors.push(factor);
+    }
+    (factors.len() == entries.len()).then_some(factors)
+}
+
+fn read(reader: &mut Reader<'_>, field: &Field<'_>, folder: &Path) -> Option<Factor> {
+    let view = reader.open(field, &[Section::Vary])?;
+    let paths = match reader.get(&view, "path") {
+        Some(field) if field.entries().is_some() => super::wanted::texts(reader, &field)?,
+        Some(field) => vec![reader.text(&field)?],
+        None => {
+            reader.missing(
+                &view,
+                "path",
+                "say where the value goes in the model file: path = \"gap[0].width\"",
+            );
+            return None;
+        }
+    };
+    let Some(first) = paths.first().cloned() else {
+        let field = reader.get(&view, "path")?;
+        reader.bad(&field, "must not be empty");
+        return None;
+    };
+    let name = match reader.get(&view, "name") {
+        Some(field) => reader.text(&field)?,
+        None => first.clone(),
+    };
+    let multiplies = match reader.get(&view, "multiply") {
+        Some(field) => reader.flag(&field)?,
+        None => false,
+    };
+    let dimension = if multiplies {
+        Some(Dimension::Dimensionless)
+    } else {
+        dimension_of(&first)
+    };
+    let (values, at) = values(reader, &view, dimension, &first, folder)?;
+    let mut values = values;
+    if let FactorValues::Listed(levels) = &values {
+        if levels.is_empty() {
+            reader.fault(&at, view.path.clone(), "has no values");
+            return None;
+        }
+        if multiplies && levels.iter().any(|level| level.number.is_none()) {
+            reader.fault(&at, view.path.clone(), "multiply needs numbers");
+            return None;
+        }
+    }
+    if first.ends_with("record")
+        && let FactorValues::Listed(levels) = &mut values
+    {
+        levels
+            .iter_mut()
+            .for_each(|level| find_record(level, folder));
+    }
+    let unit = unit_suffix(&values, dimension, &at, reader);
+    Some(Factor {
+        name,
+        paths,
+        multiplies,
+        values,
+        unit,
+        span: at,
+    })
+}
+
+/// Records of a study lie beside the study.
+fn find_record(level: &mut Level, folder: &Path) {
+    if let TreeValue::Text(name) = &mut level.value {
+        let path = folder.join(name.as_str());
+        if builtin::builtin_record(name).is_none()
+            && path.is_file()
+            && let Ok(absolute) = std::path::absolute(&path)
+        {
+            *name = absolute.to_string_lossy().into_owned();
+        }
+    }
+}
+
+/// The values and where they stand.
+fn values(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    dimension: Option<Dimension>,
+    path: &str,
+    folder: &Path,
+) -> Option<(FactorValues, Span)> {
+    let given = ["values", "range", "distribution", "files"].map(|key| reader.get(view, key));
+    let mut present = given.iter().flatten();
+    let Some(field) = present.next() else {
+        reader.missing(
+            view,
+            "values",
+            "add values = […], range = { from, to, count }, distribution = { … } or files = \"records/*.at2\"",
+        );
+        return None;
+    };
+    if let Some(second) = present.next() {
+        let problem = format!("cannot stand beside {}", field.path);
+        *reader.bad(second, problem) = Some("keep one of them".into());
+        return None;
+    }
+    let at = field.node.span.clone();
+    let [list, range_field, drawn, files] = &given;
+    let values = if let Some(field) = list {
+        FactorValues::Listed(listed(reader, field, dimension)?)
+    } else if let Some(field) = range_field {
+        FactorValues::Listed(range(reader, field, dimension)?)
+    } else if let Some(field) = drawn {
+        FactorValues::Drawn(distribution::read(reader, field, dimension)?)
+    } else {
+        let field = files.as_ref()?;
+        if !path.ends_with("record") {
+            *reader.bad(field, "goes with records only") =
+                Some("use values, or path = \"motion.record\"".into());
+            return None;
+        }
+        FactorValues::Listed(files_of(reader, field, folder)?)
+    };
+    Some((values, at))
+}
+
+fn listed(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    dimension: Option<Dimension>,
+) -> Option<Vec<Level>> {
+    let Some(entries) = field.entries() else {
+        let found = field.node.describe();
+        *reader.bad(field, format!("expected a list, found {found}")) =
+            Some("write values = [\"20 mm\", \"40 mm\"]".into());
+        return None;
+    };
+    if entries.len() > MOST_LEVELS {
+        reader.bad(field, format!("has more than {MOST_LEVELS} values"));
+        return None;
+    }
+    let mut levels = Vec::new();
+    for entry in &entries {
+        let Some(value) = TreeValue::of(entry.node) else {
+            let found = entry.node.describe();
+            reader.bad(entry, format!("{found} has no place in a model"));
+            return None;
+        };
+        levels.push(Level {
+            label: value.to_string(),
+            number: number_of(entry.node, dimension),
+            value,
+        });
+    }
+    Some(levels)
+}
+
+/// The number of a value in SI, if it is one.
+fn number_of(node: &Node, dimension: Option<Dimension>) -> Option<f64> {
+    match &node.value {
+        Value::Integer(value) => Some(*value as f64),
+        Value::Number(value) => Some(*value),
+        Value::Text(text) => {
+            let (number, unit) = split_number(text)?;
+            Some(number * size_of(unit, dimension)?)
+        }
+        _ => None,
+    }
+}
+
+fn size_of(unit: &str, dimension: Option<Dimension>) -> Option<f64> {
+    if unit.trim().is_empty() {
+        return Some(1.0);
+    }
+    match dimension {
+        Some(dimension) => unit_size(unit, unit, dimension).ok(),
+        None => Unit::parse(unit).ok().map(|unit| unit.factor),
+    }
+}
+
+fn range(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    dimension: Option<Dimension>,
+) -> Option<Vec<Level>> {
+    let view = reader.open(field, &[Section::Range])?;
+    let ends = ["from", "to"].map(|key| match reader.get(&view, key) {
+        Some(field) => measure(reader, &field, dimension),
+        None => {
+            reader.missing(&view, key, format!("add {key}"));
+            None
+        }
+    });
+    let [from, to] = ends;
+    let (from, to) = (from?, to?);
+    if from.unit != to.unit {
+        let problem = format!("from has the unit \"{}\", to \"{}\"", from.unit, to.unit);
+        *reader.bad(field, problem) = Some("write both with one unit".into());
+        return None;
+    }
+    let Some(count) = reader.get(&view, "count") else {
+        reader.missing(&view, "count", "say how many values: count = 11");
+        return None;
+    };
+    let number = reader.count(&count)?;
+    if !(1..=MOST_LEVELS).contains(&number) {
+        reader.bad(&count, format!("must lie between 1 and {MOST_LEVELS}"));
+        return None;
+    }
+    let spacing = match reader.get(&view, "spacing") {
+        Some(field) => reader.choice(&field, SPACINGS, &[])?,
+        None => "linear",
+    };
+    if spacing == "log" && (from.number <= 0.0 || to.number <= 0.0) {
+        reader.bad(field, "logarithmic spacing needs ends greater than zero");
+        return None;
+    }
+    let last = number.saturating_sub(1).max(1) as f64;
+    let at = |index: usize| {
+        if index == 0 {
+            return from.number;
+        }
+        if index + 1 == number {
+            return to.number;
+        }
+        let share = index as f64;
+        match spacing {
+            "log" => from.number * (to.number / from.number).powf(share / last),
+            _ => from.number + (to.number - from.number) * share / last,
+        }
+    };
+    let level = |number: f64| {
+        let value = if from.unit.is_empty() {
+            TreeValue::Number(number)
+        } else {
+            TreeValue::Text(quantity_text(number, &from.unit))
+        };
+        Level {
+            label: value.to_string(),
+            value,
+            number: Some(number * from.size),
+        }
+    };
+    Some((0..number).map(|index| level(at(index))).collect())
+}
+
+/// A number with its unit.
+pub(super) fn measure(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    dimension: Option<Dimension>,
+) -> Option<Measured> {
+    if let Some(dimension) = dimension {
+        // Says what is wrong.
+        reader.quantity(field, dimension)?;
+    }
+    let plain = |number: f64| Measured {
+        number,
+        unit: String::new(),
+        size: 1.0,
+    };
+    let measured = match &field.node.value {
+        Value::Integer(value) => Some(plain(*value as f64)),
+        Value::Number(value) => Some(plain(*value)),
+        Value::Text(text) => split_number(text).and_then(|(number, unit)| {
+            Some(Measured {
+                number,
+                unit: unit.trim().to_owned(),
+                size: size_of(unit, dimension)?,
+            })
+        }),
+        _ => None,
+    };
+    let usable = |number: f64| check_magnitude(number, Dimension::Dimensionless).is_ok();
+    let measured = measured.filter(|measured| usable(measured.number));
+    if measured.is_none() {
+        let found = field.node.describe();
+        reader.bad(
+            field,
+            format!("expected a number, or one with a unit such as \"20 mm\", found {found}"),
+        );
+    }
+    measured
+}
+
+/// Files of a folder whose names fit a pattern, sorted.
+fn files_of(reader: &mut Reader<'_>, field: &Field<'_>, folder: &Path) -> Option<Vec<Level>> {
+    let pattern = reader.text(field)?;
+    let path = folder.join(&pattern);
+    let wanted = path.file_name().unwrap_or_default().to_string_lossy();
+    let inside = path.parent().unwrap_or(Path::new(""));
+    let look = if inside == Path::new("") {
+        Path::new(".")
+    } else {
+        inside
+    };
+    let entries = match std::fs::read_dir(look) {
+        Ok(entries) => entries,
+        Err(error) => {
+            reader.bad(field, format!("{}: {error}", look.display()));
+            return None;
+        }
+    };
+    let mut names: Vec<String> = entries
+        .flatten()
+        .filter(|entry| entry.path().is_file())
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|name| fits(name, &wanted))
+        .collect();
+    names.sort();
+    if names.is_empty() {
+        reader.bad(field, format!("no file fits {}", path.display()));
+        return None;
+    }
+    let before = Path::new(&pattern).parent().unwrap_or(Path::new(""));
+    let level = |name: String| {
+        let path = before.join(name).to_string_lossy().into_owned();
+        Level {
+            value: TreeValue::Text(path.clone()),
+            label: path,
+            number: None,
+        }
+    };
+    Some(names.into_iter().map(level).collect())
+}
+
+/// Whether a name fits a pattern in which `*` stands for anything.
+fn fits(name: &str, pattern: &str) -> bool {
+    match pattern.split_once('*') {
+        None => name == pattern,
+        Some((before, after)) => name.strip_prefix(before).is_some_and(|rest| {
+            (0..=rest.len())
+                .filter(|at| rest.is_char_boundary(*at))
+                .any(|at| fits(&rest[at..], after))
+        }),
+    }
+}
+
+/// The dimension of the key that a path ends with, where the key has one everywhere.
+fn dimension_of(path: &str) -> Option<Dimension> {
+    let last = path.rsplit('.').next()?;
+    let last = last.split('[').next()?;
+    let study = [Section::Distribution, Section::Range, Section::Fragility];
+    let mut found = KEYS
+        .iter()
+        .filter(|key| key.name == last && !study.contains(&key.section))
+        .map(|key| match key.kind {
+            Kind::Quantity(dimension)
+            | Kind::PerStorey(dimension)
+            | Kind::Quantities(dimension)
+            | Kind::WordOr(_, dimension) => Some(dimension),
+            _ => None,
+        });
+    let first = found.next()??;
+    found.all(|other| other == Some(first)).then_some(first)
+}
+
+/// The SI unit of the numbers of a factor as the end of a column name.
+fn unit_suffix(
+    values: &FactorValues,
+    dimension: Option<Dimension>,
+    _at: &Span,
+    _reader: &mut Reader<'_>,
+) -> String {
+    let spell = |dimension: Dimension| -> String {
+        match dimension {
+            Dimension::Dimensionless => String::new(),
+            Dimension::Frequency => "per_s".into(),
+            other => other
+                .si_unit()
+                .to_lowercase()
+                .replace("^1.5", "1_5")
+                .replace(['/', '.'], "_"),
+        }
+    };
+    if let Some(dimension) = dimension {
+        return spell(dimension);
+    }
+    let unit = match values {
+        FactorValues::Drawn(distribution) => distribution.unit.clone(),
+        FactorValues::Listed(levels) => match levels.first().map(|level| &level.value) {
+            Some(TreeValue::Text(text)) => split_number(text)
+                .map(|(_, unit)| unit.trim().to_owned())
+                .unwrap_or_default(),
+            _ => String::new(),
+        },
+    };
+    let unit = Unit::parse(&unit).ok().filter(|_| !unit.is_empty());
+    unit.and_then(|unit| {
+        let mut all = Dimension::ALL.into_iter();
+        all.find(|dimension| unit.has_dimension(dimension.exponents()))
+    })
+    .map(spell)
+    .unwrap_or_default()
+}

@@ -1,0 +1,272 @@
+//! One case: from the values of its factors to a row.
+
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use jostle::{
+    GroundMotion, Model, Outcome, Plan, RunEnd, Settings, StepError, Summary, System, simulate,
+};
+use jostle_io::{Input, InputError, MotionSource, MotionSpec, PathError, Scaling};
+
+use crate::design::value_of;
+use crate::measures::measures;
+use crate::row::{Row, Status};
+use crate::study::Study;
+
+/// What cases that follow each other share: assembled systems, and records that have been read.
+#[derive(Default)]
+pub struct Workshop {
+    /// The last systems, the most recent at the end.
+    systems: Mutex<Vec<(Arc<Model>, Arc<System>)>>,
+    records: Mutex<Vec<(MotionSource, Arc<GroundMotion>)>>,
+}
+
+/// Assembled systems that are kept.
+const SYSTEMS: usize = 32;
+/// Records that are kept.
+const RECORDS: usize = 256;
+
+/// A case ready to be stepped.
+pub struct Prepared {
+    /// Its model file, read.
+    pub input: Input,
+    /// Assembled.
+    pub system: Arc<System>,
+    /// Its ground motion.
+    pub motion: GroundMotion,
+    /// Its steps.
+    pub plan: Plan,
+}
+
+/// Why a case cannot be stepped.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    /// A path leads nowhere.
+    #[error("{0}")]
+    Path(#[from] PathError),
+    /// The model is wrong.
+    #[error("{0}")]
+    Input(#[from] InputError),
+}
+
+impl Workshop {
+    /// Reads a case, finds its system and its motion, and plans its steps.
+    ///
+    /// # Errors
+    /// [`CaseError`], as the reader of model files says it.
+    pub fn prepare(&self, study: &Study, case: u64) -> Result<Prepared, CaseError> {
+        let tree = study.tree(&study.design.choices(case, &study.file.factors))?;
+        self.assemble(tree.input()?)
+    }
+
+    pub(crate) fn assemble(&self, input: Input) -> Result<Prepared, CaseError> {
+        let system = self.system(&input)?;
+        let motion = self.motion(&input)?;
+        let plan = Plan::choose(&system, &motion, &input.model.analysis)
+            .map_err(|faults| input.faults(faults))?;
+        plan.check_digits(&system)
+            .map_err(|refusal| input.fault("analysis.solver", refusal.to_string()))?;
+        Ok(Prepared {
+            input,
+            system,
+            motion,
+            plan,
+        })
+    }
+
+    fn system(&self, input: &Input) -> Result<Arc<System>, InputError> {
+        {
+            let systems = self.systems.lock().unwrap_or_else(PoisonError::into_inner);
+            let known = systems.iter().find(|(model, _)| same(model, &input.model));
+            if let Some((_, system)) = known {
+                return Ok(Arc::clone(system));
+            }
+        }
+        let system = System::assemble(&input.model).map_err(|faults| input.faults(faults))?;
+        let system = Arc::new(system);
+        let mut systems = self.systems.lock().unwrap_or_else(PoisonError::into_inner);
+        if systems.len() >= SYSTEMS {
+            systems.remove(0);
+        }
+        systems.push((Arc::new(input.model.clone()), Arc::clone(&system)));
+        Ok(system)
+    }
+
+    /// The motion of a case; a record is read once.
+    fn motion(&self, input: &Input) -> Result<GroundMotion, InputError> {
+        let Some(spec) = &input.motion else {
+            return input.ground_motion();
+        };
+        if !matches!(spec.source, MotionSource::Record { .. }) {
+            return input.ground_motion();
+        }
+        let known = {
+            let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
+            let found = records.iter().find(|(source, _)| *source == spec.source);
+            found.map(|(_, motion)| Arc::clone(motion))
+        };
+        let unscaled = match known {
+            Some(motion) => motion,
+            None => {
+                let plain = MotionSpec {
+                    scaling: Scaling::AsRecorded,
+                    reverse: false,
+                    duration: None,
+                    ..spec.clone()
+                };
+                // The error shows the line of the record.
+                let Ok(motion) = plain.resolve() else {
+                    return input.ground_motion();
+                };
+                let motion = Arc::new(motion);
+                let mut records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
+                if records.len() >= RECORDS {
+                    records.remove(0);
+                }
+                records.push((spec.source.clone(), Arc::clone(&motion)));
+                motion
+            }
+        };
+        let given = MotionSpec {
+            source: MotionSource::Given(GroundMotion::clone(&unscaled)),
+            ..spec.clone()
+        };
+        given.resolve().or_else(|_| input.ground_motion())
+    }
+}
+
+/// Whether two models make the same system: what is said about steps and the title makes no difference.
+fn same(a: &Model, b: &Model) -> bool {
+    a.buildings == b.buildings && a.gaps == b.gaps
+}
+
+/// A case that was run, with its histories if they were asked for.
+pub struct Ran {
+    /// Prepared from.
+    pub prepared: Prepared,
+    /// What came out.
+    pub outcome: Outcome,
+    /// In numbers; without wall time, so that it is the same on every machine.
+    pub summary: Summary,
+}
+
+impl Prepared {
+    /// Steps the case; `None` when `stop` asked to.
+    pub fn run(self, settings: Settings, stop: &(dyn Fn() -> bool + Sync)) -> Option<Ran> {
+        let outcome = simulate(&self.system, &self.motion, &self.plan, settings, |_| {
+            if stop() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        if outcome.end == RunEnd::Stopped {
+            return None;
+        }
+        let summary = Summary::of(&jostle::Run {
+            model: &self.input.model,
+            system: &self.system,
+            motion: &self.motion,
+            plan: &self.plan,
+            outcome: &outcome,
+            without_contact: None,
+            wall: 0.0,
+        });
+        Some(Ran {
+            prepared: self,
+            outcome,
+            summary,
+        })
+    }
+}
+
+/// The row of a case without results.
+pub(crate) fn blank(study: &Study, case: u64) -> Row {
+    let choices = study.design.choices(case, &study.file.factors);
+    let mut numbers = Vec::with_capacity(study.layout.count_numbers());
+    let mut texts = Vec::new();
+    let columns = study.layout.inputs.iter();
+    for ((factor, choice), column) in study.file.factors.iter().zip(&choices).zip(columns) {
+        let (_, number, label) = value_of(factor, choice);
+        if column.kind == crate::layout::Kind::Text {
+            texts.push(label);
+        } else {
+            numbers.push(number);
+        }
+    }
+    texts.push(String::new());
+    numbers.resize(study.layout.count_numbers(), None);
+    Row {
+        case,
+        status: Status::Completed,
+        reason: String::new(),
+        numbers,
+        texts,
+    }
+}
+
+/// The row of a case that could not be computed.
+pub(crate) fn failed(study: &Study, case: u64, reason: &str) -> Row {
+    Row {
+        status: Status::Failed,
+        reason: one_line(reason),
+        ..blank(study, case)
+    }
+}
+
+/// A message of several lines without its excerpts of the file.
+fn one_line(text: &str) -> String {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let lines = lines.filter(|line| {
+        let excerpt = line.split_once('|').is_some_and(|(number, _)| {
+            number.trim().is_empty() || number.trim().parse::<usize>().is_ok()
+        });
+        !excerpt && !line.starts_with('|') && !line.contains(" fault in ") && !line.contains(" faults in ")
+    });
+    lines.collect::<Vec<_>>().join("; ")
+}
+
+/// The row of a case that ran.
+pub(crate) fn row_of(study: &Study, case: u64, ran: &Ran) -> Row {
+    let mut row = blank(study, case);
+    if let Some(text) = row.texts.last_mut() {
+        text.clone_from(&ran.summary.motion.name);
+    }
+    row.status = match &ran.outcome.end {
+        RunEnd::Completed | RunEnd::Stopped => Status::Completed,
+        RunEnd::Failed(StepError::Collapse { .. }) => Status::Collapsed,
+        RunEnd::Failed(_) => Status::Failed,
+    };
+    if let RunEnd::Failed(error) = &ran.outcome.end {
+        row.reason = error.to_string();
+    }
+    let offset = row.numbers.len() - study.layout.results.len();
+    let mut homeless: Vec<String> = Vec::new();
+    let found = measures(&ran.summary, &ran.prepared.system, &ran.prepared.motion);
+    for named in found {
+        // Peaks until a case failed say nothing about the rest.
+        let known_anyway = matches!(&named.name[..], "pga_m_s2")
+            || named.name.ends_with(".width_m")
+            || named.name.ends_with("_t1_m_s2")
+            || named.name.ends_with(".period_s");
+        if row.status == Status::Failed && !known_anyway {
+            continue;
+        }
+        match study.layout.place(&named.name) {
+            Some(place) => row.numbers[offset + place] = named.value,
+            None => homeless.push(named.name),
+        }
+    }
+    if row.reason.is_empty() {
+        row.reason = ran.summary.warnings.join("; ");
+    }
+    if !homeless.is_empty() {
+        let more = format!("without a column: {}", homeless.join(", "));
+        row.reason = if row.reason.is_empty() {
+            more
+        } else {
+            format!("{}; {more}", row.reason)
+        };
+    }
+    row
+}

@@ -1,0 +1,177 @@
+//! Finished cases of a part that is not finished: appended one by one, and read back after a crash.
+//!
+//! The file of the journal is also the claim to its part. The lock on it belongs to the process: it is gone when the
+//! process is, however it ended.
+
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use fs4::{FileExt, TryLockError};
+
+use crate::row::Row;
+
+/// A claim to a part.
+pub(crate) enum Claim {
+    /// It is ours, with the rows that were finished before.
+    Ours(Journal, Vec<Row>),
+    /// Another process computes it.
+    Taken,
+}
+
+/// An open journal; the part is claimed as long as this lives.
+pub(crate) struct Journal {
+    file: File,
+    path: PathBuf,
+}
+
+/// What a journal begins with: another study would not be read by mistake.
+const HEAD: usize = 64;
+
+impl Journal {
+    /// Claims a part for the study with this fingerprint of 64 characters.
+    pub(crate) fn claim(path: &Path, fingerprint: &str) -> std::io::Result<Claim> {
+        let mut file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)?;
+        match FileExt::try_lock(&file) {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Ok(Claim::Taken),
+            Err(TryLockError::Error(error)) => return Err(error),
+        }
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes)?;
+        let (rows, good) = if bytes.get(..HEAD) == Some(fingerprint.as_bytes()) {
+            records(&bytes)
+        } else {
+            (Vec::new(), 0)
+        };
+        // A record that was half written when the process died is cut off.
+        file.set_len(good as u64)?;
+        file.seek(SeekFrom::Start(good as u64))?;
+        if good == 0 {
+            file.write_all(fingerprint.as_bytes())?;
+        }
+        let journal = Self {
+            file,
+            path: path.to_owned(),
+        };
+        Ok(Claim::Ours(journal, rows))
+    }
+
+    /// Adds a finished case, in one write.
+    pub(crate) fn append(&mut self, row: &Row) -> std::io::Result<()> {
+        let payload = row.encode();
+        let mut record = Vec::with_capacity(payload.len() + 8);
+        record.extend((payload.len() as u32).to_le_bytes());
+        record.extend(crc32fast::hash(&payload).to_le_bytes());
+        record.extend(payload);
+        self.file.write_all(&record)
+    }
+
+    /// Removes the journal of a part that is finished, and gives up the claim.
+    pub(crate) fn remove(self) -> std::io::Result<()> {
+        std::fs::remove_file(&self.path)
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// The whole records of a journal and the bytes up to the end of the last of them.
+fn records(bytes: &[u8]) -> (Vec<Row>, usize) {
+    let (mut rows, mut good) = (Vec::new(), HEAD);
+    while let Some(head) = bytes.get(good..good + 8) {
+        let number = |at: usize| {
+            let bytes = [head[at], head[at + 1], head[at + 2], head[at + 3]];
+            u32::from_le_bytes(bytes)
+        };
+        let end = good + 8 + number(0) as usize;
+        let Some(payload) = bytes.get(good + 8..end) else {
+            break;
+        };
+        if crc32fast::hash(payload) != number(4) {
+            break;
+        }
+        let Some(row) = Row::decode(payload) else {
+            break;
+        };
+        rows.push(row);
+        good = end;
+    }
+    (rows, good)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::row::Status;
+
+    fn row(case: u64) -> Row {
+        Row {
+            case,
+            status: Status::Completed,
+            reason: String::new(),
+            numbers: vec![Some(case as f64), None],
+            texts: vec!["el-centro".into()],
+        }
+    }
+
+    fn ours(path: &Path) -> (Journal, Vec<Row>) {
+        match Journal::claim(path, &"a".repeat(64)) {
+            Ok(Claim::Ours(journal, rows)) => (journal, rows),
+            Ok(Claim::Taken) => panic!("taken"),
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    #[test]
+    fn whole_records_survive_wherever_the_file_is_cut() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let path = folder.path().join("j");
+        let (mut journal, rows) = ours(&path);
+        assert!(rows.is_empty());
+        for case in 0..3 {
+            journal.append(&row(case)).unwrap_or_else(|error| panic!("{error}"));
+        }
+        drop(journal);
+        let whole = std::fs::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let record = (whole.len() - HEAD) / 3;
+        for length in 0..=whole.len() {
+            std::fs::write(&path, &whole[..length]).unwrap_or_else(|error| panic!("{error}"));
+            let (mut journal, rows) = ours(&path);
+            let expected = length.saturating_sub(HEAD) / record;
+            let expected: Vec<Row> = (0..expected as u64).map(row).collect();
+            assert_eq!(rows, expected, "cut after {length} bytes");
+            // And it goes on from there.
+            journal.append(&row(9)).unwrap_or_else(|error| panic!("{error}"));
+            drop(journal);
+            let (_, rows) = ours(&path);
+            assert_eq!(rows.len(), expected.len() + 1, "cut after {length} bytes");
+        }
+        // Damage inside ends what can be trusted.
+        let mut damaged = whole.clone();
+        damaged[HEAD + record + 20] ^= 1;
+        std::fs::write(&path, &damaged).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(ours(&path).1, [row(0)]);
+    }
+
+    #[test]
+    fn a_part_is_claimed_once_and_by_its_own_study() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let path = folder.path().join("j");
+        let (mut journal, _) = ours(&path);
+        journal.append(&row(0)).unwrap_or_else(|error| panic!("{error}"));
+        let second = Journal::claim(&path, &"a".repeat(64));
+        assert!(matches!(second, Ok(Claim::Taken)), "claimed twice");
+        drop(journal);
+        match Journal::claim(&path, &"b".repeat(64)) {
+            Ok(Claim::Ours(_, rows)) => assert!(rows.is_empty(), "rows of another study"),
+            _ => panic!("the claim was not given up"),
+        }
+    }
+}

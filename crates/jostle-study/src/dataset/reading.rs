@@ -1,0 +1,110 @@
+//! Reading columns of a study back.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::Path;
+
+use parquet::column::reader::ColumnReader;
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+
+use super::part_path;
+use crate::study::{Study, StudyError};
+
+/// Columns of a study, case by case.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Numbers by column; whole ones too.
+    pub numbers: BTreeMap<String, Vec<Option<f64>>>,
+    /// Texts by column.
+    pub texts: BTreeMap<String, Vec<String>>,
+    /// Number of rows.
+    pub rows: usize,
+}
+
+impl Table {
+    /// The numbers of a column; empty when it has none.
+    #[must_use]
+    pub fn column(&self, name: &str) -> &[Option<f64>] {
+        self.numbers.get(name).map_or(&[], |values| values)
+    }
+}
+
+/// Reads columns of all parts, in the order of the cases.
+///
+/// # Errors
+/// [`StudyError::Output`] when a part is absent or cannot be read.
+pub fn read_columns(study: &Study, folder: &Path, wanted: &[&str]) -> Result<Table, StudyError> {
+    let mut table = Table::default();
+    for part in 0..study.parts() {
+        let path = part_path(folder, study.part(part).start);
+        read_part(&path, wanted, &mut table)
+            .map_err(|error| StudyError::Output(format!("{}: {error}", path.display())))?;
+    }
+    Ok(table)
+}
+
+/// Adds the rows of a part to a table.
+pub(crate) fn read_part(
+    path: &Path,
+    wanted: &[&str],
+    table: &mut Table,
+) -> Result<(), ParquetError> {
+    let reader = SerializedFileReader::new(File::open(path)?)?;
+    for group in 0..reader.num_row_groups() {
+        let group = reader.get_row_group(group)?;
+        let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+        for index in 0..group.num_columns() {
+            let description = group.metadata().column(index).column_descr();
+            let name = description.name().to_owned();
+            if !wanted.contains(&&name[..]) {
+                continue;
+            }
+            let most = description.max_def_level();
+            match group.get_column_reader(index)? {
+                ColumnReader::DoubleColumnReader(mut reader) => {
+                    let (mut levels, mut values) = (Vec::new(), Vec::new());
+                    reader.read_records(rows, Some(&mut levels), None, &mut values)?;
+                    let numbers = table.numbers.entry(name).or_default();
+                    spread(rows, most, &levels, values.into_iter(), numbers);
+                }
+                ColumnReader::Int32ColumnReader(mut reader) => {
+                    let (mut levels, mut values) = (Vec::new(), Vec::new());
+                    reader.read_records(rows, Some(&mut levels), None, &mut values)?;
+                    let numbers = table.numbers.entry(name).or_default();
+                    let values = values.into_iter().map(f64::from);
+                    spread(rows, most, &levels, values, numbers);
+                }
+                ColumnReader::ByteArrayColumnReader(mut reader) => {
+                    let mut values = Vec::new();
+                    reader.read_records(rows, None, None, &mut values)?;
+                    let texts = table.texts.entry(name).or_default();
+                    texts.extend(values.iter().map(|value| {
+                        String::from_utf8_lossy(value.data()).into_owned()
+                    }));
+                }
+                _ => {}
+            }
+        }
+        table.rows += rows;
+    }
+    Ok(())
+}
+
+/// Puts absent values where the definition levels say so.
+fn spread(
+    rows: usize,
+    most: i16,
+    levels: &[i16],
+    mut values: impl Iterator<Item = f64>,
+    into: &mut Vec<Option<f64>>,
+) {
+    if most == 0 {
+        into.extend(values.map(Some));
+        return;
+    }
+    into.extend((0..rows).map(|row| {
+        let present = levels.get(row).copied().unwrap_or(0) == most;
+        if present { values.next() } else { None }
+    }));
+}

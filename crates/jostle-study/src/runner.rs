@@ -1,0 +1,395 @@
+//! Runs the cases of a study on all cores and loses none of them.
+
+use std::any::Any;
+use std::collections::VecDeque;
+use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use jostle_io::write_values_parquet;
+
+use crate::case::{self, Workshop};
+use crate::dataset::{Claim, Journal, Manifest, journal_path, part_path};
+use crate::row::{Row, Status};
+use crate::study::{Study, StudyError};
+
+/// Which part of a study this process computes, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RunSettings {
+    /// Threads; `None` is one for every core.
+    pub jobs: Option<usize>,
+    /// Every `shards`-th part, from the one with number `shard`, 0-based.
+    pub shard: u64,
+    /// 1 computes everything.
+    pub shards: u64,
+}
+
+impl Default for RunSettings {
+    fn default() -> Self {
+        Self {
+            jobs: None,
+            shard: 0,
+            shards: 1,
+        }
+    }
+}
+
+/// How far a study has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Cases that are finished, those of earlier runs included.
+    pub finished: u64,
+    /// Cases that this process has computed.
+    pub computed: u64,
+    /// Cases to finish.
+    pub cases: u64,
+}
+
+/// What a run of a study leaves behind besides its files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Done {
+    /// How far it came.
+    pub progress: Progress,
+    /// Cases of this process that failed.
+    pub failed: u64,
+    /// Whether it was asked to stop.
+    pub stopped: bool,
+    /// Whether every part of the whole study is there.
+    pub complete: bool,
+}
+
+/// How often a waiting thread looks up.
+const LOOK_UP: Duration = Duration::from_millis(50);
+
+/// Runs what is not finished yet. `stop` is asked often; what is finished by then stays.
+///
+/// # Errors
+/// [`StudyError::Folder`] when the folder holds another study, [`StudyError::Output`] when nothing more can be written.
+pub fn run(
+    study: &Study,
+    folder: &Path,
+    settings: &RunSettings,
+    stop: &(dyn Fn() -> bool + Sync),
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Done, StudyError> {
+    let workshop = Workshop::default();
+    let compute = |case: u64| compute(study, folder, &workshop, case, stop);
+    run_with(study, folder, settings, stop, progress, &compute)
+}
+
+/// The same for any way of computing a case; `None` when it was stopped.
+pub(crate) fn run_with(
+    study: &Study,
+    folder: &Path,
+    settings: &RunSettings,
+    stop: &(dyn Fn() -> bool + Sync),
+    progress: &(dyn Fn(Progress) + Sync),
+    compute: &(dyn Fn(u64) -> Result<Option<Row>, StudyError> + Sync),
+) -> Result<Done, StudyError> {
+    Manifest::settle(study, folder)?;
+    let parts: VecDeque<u64> = (0..study.parts())
+        .filter(|part| part % settings.shards == settings.shard)
+        .collect();
+    let cases = parts.iter().map(|part| count(study, *part)).sum();
+    let work = Work {
+        study,
+        folder,
+        queue: Mutex::new(Queue {
+            parts,
+            taken: VecDeque::new(),
+            current: None,
+        }),
+        finished: AtomicU64::new(0),
+        computed: AtomicU64::new(0),
+        failed: AtomicU64::new(0),
+        cases,
+        error: Mutex::new(None),
+        halt: AtomicBool::new(false),
+        stop,
+        progress,
+    };
+    let threads = settings.jobs.unwrap_or(0);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| StudyError::Output(error.to_string()))?;
+    pool.broadcast(|_| work.labour(compute));
+    work.report();
+    if let Some(error) = lock(&work.error).take() {
+        return Err(error);
+    }
+    let complete = (0..study.parts()).all(|part| {
+        part_path(folder, study.part(part).start).exists()
+    });
+    Ok(Done {
+        progress: work.now(),
+        failed: work.failed.load(Ordering::Relaxed),
+        stopped: stop() && !complete,
+        complete,
+    })
+}
+
+fn count(study: &Study, part: u64) -> u64 {
+    let cases = study.part(part);
+    cases.end - cases.start
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // A panic outside the computation of a case would be a fault of this file; the data stay usable.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What all threads share.
+struct Work<'a> {
+    study: &'a Study,
+    folder: &'a Path,
+    queue: Mutex<Queue>,
+    finished: AtomicU64,
+    computed: AtomicU64,
+    failed: AtomicU64,
+    cases: u64,
+    error: Mutex<Option<StudyError>>,
+    /// An error has occurred: nobody begins anything more.
+    halt: AtomicBool,
+    stop: &'a (dyn Fn() -> bool + Sync),
+    progress: &'a (dyn Fn(Progress) + Sync),
+}
+
+/// What is still to be dealt out.
+struct Queue {
+    parts: VecDeque<u64>,
+    /// Parts that other processes compute.
+    taken: VecDeque<u64>,
+    current: Option<Arc<Part>>,
+}
+
+/// A part under way.
+struct Part {
+    number: u64,
+    inner: Mutex<Inner>,
+}
+
+struct Inner {
+    journal: Option<Journal>,
+    rows: Vec<Option<Row>>,
+    /// Cases that nobody has begun.
+    open: VecDeque<u64>,
+    /// Cases without a row.
+    missing: usize,
+}
+
+impl Work<'_> {
+    fn labour(&self, compute: &(dyn Fn(u64) -> Result<Option<Row>, StudyError> + Sync)) {
+        while let Some((part, case)) = self.next() {
+            let computed = catch_unwind(AssertUnwindSafe(|| compute(case)));
+            let row = match computed {
+                Ok(Ok(Some(row))) => row,
+                Ok(Ok(None)) => return,
+                Ok(Err(error)) => return self.fail(error),
+                Err(panic) => {
+                    let reason = format!("the program failed on this case: {}", message(&*panic));
+                    case::failed(self.study, case, &reason)
+                }
+            };
+            self.computed.fetch_add(1, Ordering::Relaxed);
+            if row.status == Status::Failed {
+                self.failed.fetch_add(1, Ordering::Relaxed);
+            }
+            if let Err(error) = self.keep(&part, row) {
+                return self.fail(error);
+            }
+            self.report();
+        }
+    }
+
+    fn now(&self) -> Progress {
+        Progress {
+            finished: self.finished.load(Ordering::Relaxed),
+            computed: self.computed.load(Ordering::Relaxed),
+            cases: self.cases,
+        }
+    }
+
+    fn report(&self) {
+        (self.progress)(self.now());
+    }
+
+    fn fail(&self, error: StudyError) {
+        self.halt.store(true, Ordering::Relaxed);
+        lock(&self.error).get_or_insert(error);
+    }
+
+    /// The next case to compute; `None` when there is no more to do.
+    fn next(&self) -> Option<(Arc<Part>, u64)> {
+        let mut queue = lock(&self.queue);
+        loop {
+            if self.halt.load(Ordering::Relaxed) || (self.stop)() {
+                return None;
+            }
+            if let Some(part) = &queue.current {
+                let case = lock(&part.inner).open.pop_front();
+                if let Some(case) = case {
+                    return Some((Arc::clone(part), case));
+                }
+                queue.current = None;
+            }
+            let Some(number) = queue.parts.pop_front() else {
+                if queue.taken.is_empty() {
+                    return None;
+                }
+                // Others are at work on the rest; if one of them dies, its part is taken over.
+                std::thread::sleep(LOOK_UP);
+                let taken = std::mem::take(&mut queue.taken);
+                queue.parts = taken;
+                self.report();
+                continue;
+            };
+            match self.open(number) {
+                Ok(Opened::Ours(part)) => queue.current = Some(part),
+                Ok(Opened::Finished) => {
+                    let count = count(self.study, number);
+                    self.finished.fetch_add(count, Ordering::Relaxed);
+                }
+                Ok(Opened::Taken) => queue.taken.push_back(number),
+                Err(error) => {
+                    self.fail(error);
+                    return None;
+                }
+            }
+        }
+    }
+
+    /// Claims a part.
+    fn open(&self, number: u64) -> Result<Opened, StudyError> {
+        let cases = self.study.part(number);
+        let path = part_path(self.folder, cases.start);
+        if path.exists() {
+            return Ok(Opened::Finished);
+        }
+        let journal_path = journal_path(self.folder, cases.start);
+        let claimed = Journal::claim(&journal_path, &self.study.fingerprint);
+        let (journal, known) = match claimed.map_err(|error| unwritable(&journal_path, &error))? {
+            Claim::Ours(journal, rows) => (journal, rows),
+            Claim::Taken => return Ok(Opened::Taken),
+        };
+        // It may have been finished between the first look and the claim.
+        if path.exists() {
+            journal.remove().map_err(|error| unwritable(&journal_path, &error))?;
+            return Ok(Opened::Finished);
+        }
+        let mut rows: Vec<Option<Row>> = cases.clone().map(|_| None).collect();
+        for row in known {
+            let index = row.case.checked_sub(cases.start).map(|index| index as usize);
+            if let Some(place) = index.and_then(|index| rows.get_mut(index)) {
+                *place = Some(row);
+            }
+        }
+        let open: VecDeque<u64> = cases
+            .clone()
+            .zip(&rows)
+            .filter(|(_, row)| row.is_none())
+            .map(|(case, _)| case)
+            .collect();
+        let missing = open.len();
+        self.finished
+            .fetch_add((rows.len() - missing) as u64, Ordering::Relaxed);
+        let part = Arc::new(Part {
+            number,
+            inner: Mutex::new(Inner {
+                journal: Some(journal),
+                rows,
+                open,
+                missing,
+            }),
+        });
+        if missing == 0 {
+            self.write(&part, &mut lock(&part.inner))?;
+        }
+        Ok(Opened::Ours(part))
+    }
+
+    /// Notes a row, and writes the part when it was the last.
+    fn keep(&self, part: &Part, row: Row) -> Result<(), StudyError> {
+        let mut inner = lock(&part.inner);
+        if let Some(journal) = &mut inner.journal {
+            let path = journal.path().to_owned();
+            journal.append(&row).map_err(|error| unwritable(&path, &error))?;
+        }
+        let index = (row.case - self.study.part(part.number).start) as usize;
+        if let Some(place) = inner.rows.get_mut(index).filter(|place| place.is_none()) {
+            *place = Some(row);
+            inner.missing -= 1;
+            self.finished.fetch_add(1, Ordering::Relaxed);
+        }
+        if inner.missing == 0 {
+            self.write(part, &mut inner)?;
+        }
+        Ok(())
+    }
+
+    fn write(&self, part: &Part, inner: &mut Inner) -> Result<(), StudyError> {
+        let rows: Vec<Row> = std::mem::take(&mut inner.rows).into_iter().flatten().collect();
+        let path = part_path(self.folder, self.study.part(part.number).start);
+        let facts = [("study_sha256", self.study.fingerprint.clone())];
+        let columns = self.study.layout.columns(&rows);
+        write_values_parquet(&path, &self.study.file.title, &facts, columns)?;
+        if let Some(journal) = inner.journal.take() {
+            let path = journal.path().to_owned();
+            journal.remove().map_err(|error| unwritable(&path, &error))?;
+        }
+        Ok(())
+    }
+}
+
+enum Opened {
+    Ours(Arc<Part>),
+    Finished,
+    Taken,
+}
+
+fn unwritable(path: &Path, error: &io::Error) -> StudyError {
+    StudyError::Output(format!("{}: {error}", path.display()))
+}
+
+/// The text of a panic.
+fn message(panic: &(dyn Any + Send)) -> String {
+    panic
+        .downcast_ref::<&str>()
+        .map(|text| (*text).to_owned())
+        .or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "no reason given".to_owned())
+}
+
+/// Where the histories of a case lie.
+#[must_use]
+pub fn run_folder(folder: &Path, case: u64) -> PathBuf {
+    folder.join("runs").join(format!("case-{case:010}"))
+}
+
+fn compute(
+    study: &Study,
+    folder: &Path,
+    workshop: &Workshop,
+    number: u64,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Row>, StudyError> {
+    let prepared = match workshop.prepare(study, number) {
+        Ok(prepared) => prepared,
+        Err(error) => return Ok(Some(case::failed(study, number, &error.to_string()))),
+    };
+    let keep = study.file.histories.contains(&number);
+    let settings = jostle::Settings {
+        record_interval: keep.then_some(0.005),
+        ..jostle::Settings::default()
+    };
+    let Some(ran) = prepared.run(settings, stop) else {
+        return Ok(None);
+    };
+    if keep {
+        crate::single::write_run(&ran, &run_folder(folder, number))?;
+    }
+    Ok(Some(case::row_of(study, number, &ran)))
+}

@@ -1,0 +1,15 @@
+//! Numbers between 0 and 1, each a function of the seed and its place alone, and what distributions make of them.
+
+mod copula;
+mod latin_hypercube;
+mod quantile;
+mod sequence;
+mod stream;
+
+pub use copula::{Copula, CopulaError};
+pub use latin_hypercube::LatinHypercube;
+pub use quantile::quantile;
+pub(crate) use quantile::{normal_cdf, normal_quantile};
+pub(crate) use sequence::MOST_DIMENSIONS;
+pub use sequence::SobolSequence;
+pub use stream::Stream;

@@ -1,0 +1,394 @@
+//! A study ready to be run: file, cases, columns.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use jostle::Settings;
+use jostle_io::{FactorValues, InputError, ModelTree, MotionSource, PathError, StudyFile};
+use sha2::{Digest, Sha256};
+
+use crate::case::{CaseError, Workshop};
+use crate::design::{CaseDesign, Choice, DesignError, value_of};
+use crate::layout::{Layout, Named};
+use crate::measures::measures;
+
+/// A study ready to be run.
+pub struct Study {
+    /// Its file.
+    pub file: StudyFile,
+    /// Its cases.
+    pub design: CaseDesign,
+    /// The columns of its table.
+    pub layout: Layout,
+    /// Cases in one part of the table.
+    pub part_cases: u64,
+    /// What tells this study from others: file, model, records, version.
+    pub fingerprint: String,
+    /// Hash of the base model.
+    pub model_hash: String,
+    /// Things the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Why a study cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The study file or its model is wrong.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Input(Vec<InputError>),
+    /// The design makes no cases.
+    #[error("design: {0}")]
+    Design(#[from] DesignError),
+    /// A folder holds something else.
+    #[error("{0}")]
+    Folder(String),
+    /// Results could not be written or read; what is finished stays.
+    #[error("{0}; what is finished stays, and the same command goes on from there")]
+    Output(String),
+    /// A column that is asked for does not exist.
+    #[error("{0}")]
+    Column(String),
+}
+
+impl From<InputError> for StudyError {
+    fn from(error: InputError) -> Self {
+        Self::Input(vec![error])
+    }
+}
+
+impl From<jostle_io::OutputError> for StudyError {
+    fn from(error: jostle_io::OutputError) -> Self {
+        Self::Output(error.to_string())
+    }
+}
+
+/// Entries of lists that are tried before the study begins.
+const MOST_TRIED: usize = 500;
+/// Combinations of lists that change the columns.
+const MOST_COMBINED: usize = 4000;
+/// Parts of a study, if it is large enough for them.
+const PARTS: u64 = 256;
+/// Cases of a part.
+const PART: std::ops::RangeInclusive<u64> = 16..=4096;
+
+impl Study {
+    /// Checks a study against its models: every entry of a list is tried by itself, and distributions low, in the
+    /// middle and high.
+    ///
+    /// # Errors
+    /// [`StudyError`] with every fault in one go.
+    pub fn new(file: StudyFile) -> Result<Self, StudyError> {
+        let design = CaseDesign::of(&file)?;
+        let workshop = Workshop::default();
+        let trial = Trial::of(&file, &workshop)?;
+        let layout = Layout::new(&file, &trial.results);
+        let (fingerprint, model_hash) = hashes(&file, &workshop);
+        let part_cases = design.cases.div_ceil(PARTS).clamp(*PART.start(), *PART.end());
+        let study = Self {
+            design,
+            layout,
+            part_cases,
+            fingerprint,
+            model_hash,
+            warnings: trial.warnings,
+            file,
+        };
+        study.check_wishes()?;
+        Ok(study)
+    }
+
+    /// Number of parts of the table.
+    #[must_use]
+    pub fn parts(&self) -> u64 {
+        self.design.cases.div_ceil(self.part_cases)
+    }
+
+    /// The cases of a part.
+    #[must_use]
+    pub fn part(&self, part: u64) -> std::ops::Range<u64> {
+        let first = part * self.part_cases;
+        first..(first + self.part_cases).min(self.design.cases)
+    }
+
+    /// The model file of a case.
+    ///
+    /// # Errors
+    /// [`PathError`].
+    pub fn tree(&self, choices: &[Choice]) -> Result<ModelTree, PathError> {
+        tree(&self.file, choices)
+    }
+
+    /// Names in the wishes of the file that are no columns.
+    fn check_wishes(&self) -> Result<(), StudyError> {
+        let names = self.layout.names();
+        let missing = |wanted: &str| -> Result<(), StudyError> {
+            if names.contains(&wanted) {
+                return Ok(());
+            }
+            let near: Vec<&str> = names
+                .iter()
+                .copied()
+                .filter(|name| name.contains(wanted) || wanted.contains(name))
+                .take(8)
+                .collect();
+            let hint = if near.is_empty() {
+                String::new()
+            } else {
+                format!("; similar: {}", near.join(", "))
+            };
+            Err(StudyError::Column(format!(
+                "{}: there is no column \"{wanted}\"{hint}; all columns: {}",
+                self.file.name(),
+                names.join(", ")
+            )))
+        };
+        for wanted in &self.file.fragilities {
+            missing(&wanted.intensity)?;
+            missing(&wanted.demand)?;
+            for name in &wanted.by {
+                self.input_column(name)?;
+            }
+        }
+        for wanted in &self.file.idas {
+            missing(&wanted.intensity)?;
+            missing(&wanted.demand)?;
+        }
+        self.file.responses.iter().try_for_each(|name| missing(name))?;
+        if let Some(case) = self.file.histories.iter().find(|case| **case >= self.design.cases) {
+            return Err(StudyError::Column(format!(
+                "{}: histories: there is no case {case}; there are {}, counted from 0",
+                self.file.name(),
+                self.design.cases
+            )));
+        }
+        Ok(())
+    }
+
+    /// The column of a factor, by the name of the factor or of the column.
+    ///
+    /// # Errors
+    /// [`StudyError::Column`].
+    pub fn input_column(&self, name: &str) -> Result<usize, StudyError> {
+        let factors = self.file.factors.iter().zip(&self.layout.inputs);
+        let found = factors
+            .enumerate()
+            .find(|(_, (factor, column))| factor.name == name || column.name == name);
+        found.map(|(index, _)| index).ok_or_else(|| {
+            let names: Vec<&str> = self.file.factors.iter().map(|f| &f.name[..]).collect();
+            StudyError::Column(format!(
+                "{}: there is no factor \"{name}\"; there are {}",
+                self.file.name(),
+                names.join(", ")
+            ))
+        })
+    }
+}
+
+/// The model file with the values of a case put in.
+fn tree(file: &StudyFile, choices: &[Choice]) -> Result<ModelTree, PathError> {
+    let mut tree = file.base.clone();
+    for (factor, choice) in file.factors.iter().zip(choices) {
+        let (value, number, _) = value_of(factor, choice);
+        for path in &factor.paths {
+            if factor.multiplies {
+                tree.multiply(path, number.unwrap_or(1.0))?;
+            } else {
+                tree.set(path, &value)?;
+            }
+        }
+    }
+    Ok(tree)
+}
+
+/// What trying the entries of the lists brought to light.
+struct Trial {
+    results: Vec<Vec<Named>>,
+    warnings: Vec<String>,
+}
+
+impl Trial {
+    fn of(file: &StudyFile, workshop: &Workshop) -> Result<Self, StudyError> {
+        let usual: Vec<Choice> = file.factors.iter().map(|factor| at(factor, 0.5, 0)).collect();
+        let mut errors: Vec<InputError> = Vec::new();
+        let mut first: Option<(Vec<Named>, Vec<String>)> = None;
+        let mut results: Vec<Vec<Named>> = Vec::new();
+        // Factors whose values change the columns, and the values that do.
+        let mut shaping: Vec<(usize, Vec<Choice>)> = Vec::new();
+        for (index, factor) in file.factors.iter().enumerate() {
+            let mut own: Vec<Choice> = Vec::new();
+            for choice in tried(factor) {
+                let mut choices = usual.clone();
+                choices[index] = choice.clone();
+                match columns(file, workshop, &choices) {
+                    Ok((list, warnings)) => {
+                        let names = |list: &[Named]| -> Vec<String> {
+                            list.iter().map(|named| named.name.clone()).collect()
+                        };
+                        let differs = first
+                            .as_ref()
+                            .is_some_and(|(known, _)| names(known) != names(&list));
+                        if differs && !results.iter().any(|known| names(known) == names(&list)) {
+                            results.push(list.clone());
+                        }
+                        if differs {
+                            own.push(choice);
+                        }
+                        first.get_or_insert((list, warnings));
+                    }
+                    Err(CaseError::Path(error)) => {
+                        errors.push(file.fault(index, error.to_string()));
+                        break;
+                    }
+                    Err(CaseError::Input(error)) => {
+                        let drawn = matches!(factor.values, FactorValues::Drawn(_));
+                        let mut error = file.relocate(&[index], error);
+                        if drawn {
+                            for fault in &mut error.faults {
+                                fault.remedy.get_or_insert_with(|| {
+                                    "set low or high, so that nothing impossible is drawn".into()
+                                });
+                            }
+                        }
+                        if !errors.contains(&error) {
+                            errors.push(error);
+                        }
+                    }
+                }
+            }
+            if !own.is_empty() {
+                own.push(usual[index].clone());
+                shaping.push((index, own));
+            }
+        }
+        if !errors.is_empty() {
+            // The same fault of the model comes with every entry.
+            let mut seen: Vec<String> = Vec::new();
+            errors.retain(|error| {
+                let text = error.to_string();
+                let new = !seen.contains(&text);
+                seen.push(text);
+                new
+            });
+            errors.truncate(20);
+            return Err(StudyError::Input(errors));
+        }
+        let (list, warnings) = first.unwrap_or_default();
+        results.insert(0, list);
+        if shaping.len() > 1 {
+            combine(file, workshop, &usual, &shaping, &mut results);
+        }
+        Ok(Self { results, warnings })
+    }
+}
+
+/// Columns that only show when several factors change together.
+fn combine(
+    file: &StudyFile,
+    workshop: &Workshop,
+    usual: &[Choice],
+    shaping: &[(usize, Vec<Choice>)],
+    results: &mut Vec<Vec<Named>>,
+) {
+    let total: usize = shaping.iter().map(|(_, values)| values.len()).product();
+    for number in 0..total.min(MOST_COMBINED) {
+        let (mut choices, mut rest) = (usual.to_vec(), number);
+        for (index, values) in shaping {
+            choices[*index] = values[rest % values.len()].clone();
+            rest /= values.len();
+        }
+        // What cannot be assembled becomes a row with its reason.
+        if let Ok((list, _)) = columns(file, workshop, &choices) {
+            let same = |known: &Vec<Named>| {
+                known.len() == list.len() && known.iter().zip(&list).all(|(a, b)| a.name == b.name)
+            };
+            if !results.iter().any(same) {
+                results.push(list);
+            }
+        }
+    }
+}
+
+/// A value of a factor: a quantile, or an entry of its list.
+fn at(factor: &jostle_io::Factor, p: f64, entry: usize) -> Choice {
+    match &factor.values {
+        FactorValues::Listed(_) => Choice::Listed(entry),
+        FactorValues::Drawn(distribution) => {
+            Choice::Drawn(crate::sampling::quantile(distribution, p))
+        }
+    }
+}
+
+/// The values of a factor to try.
+fn tried(factor: &jostle_io::Factor) -> Vec<Choice> {
+    match &factor.values {
+        FactorValues::Listed(levels) => {
+            let step = levels.len().div_ceil(MOST_TRIED).max(1);
+            let last = levels.len() - 1;
+            let mut entries: Vec<usize> = (0..levels.len()).step_by(step).collect();
+            if entries.last() != Some(&last) {
+                entries.push(last);
+            }
+            entries.into_iter().map(Choice::Listed).collect()
+        }
+        FactorValues::Drawn(_) => [0.5, 0.02, 0.98].map(|p| at(factor, p, 0)).to_vec(),
+    }
+}
+
+/// The results that a case would have, without running it: a run of no length has them all.
+fn columns(
+    file: &StudyFile,
+    workshop: &Workshop,
+    choices: &[Choice],
+) -> Result<(Vec<Named>, Vec<String>), CaseError> {
+    let input = tree(file, choices)?.input()?;
+    let warnings = input.warnings.clone();
+    let mut prepared = workshop.assemble(input)?;
+    prepared.motion.duration = 0.0;
+    let settings = Settings {
+        record_interval: None,
+        ..Settings::default()
+    };
+    let motion = prepared.motion.clone();
+    let ran = prepared.run(settings, &|| false);
+    let list = ran.map(|ran| measures(&ran.summary, &ran.prepared.system, &motion));
+    Ok((list.unwrap_or_default(), warnings))
+}
+
+/// What tells studies apart, and the hash of the base model.
+fn hashes(file: &StudyFile, _workshop: &Workshop) -> (String, String) {
+    let model = hex(&Sha256::digest(file.base.text().as_bytes()));
+    let mut all = Sha256::new();
+    for text in [env!("CARGO_PKG_VERSION"), file.text(), &model] {
+        all.update((text.len() as u64).to_le_bytes());
+        all.update(text.as_bytes());
+    }
+    let base_record = file.base.input().ok().and_then(|input| input.motion);
+    let named = base_record.and_then(|motion| match motion.source {
+        MotionSource::Record { name, base, .. } => Some(base.join(name)),
+        _ => None,
+    });
+    let varied = file.factors.iter().filter(|factor| {
+        factor.paths.iter().any(|path| path.ends_with("record"))
+    });
+    let varied = varied.flat_map(|factor| match &factor.values {
+        FactorValues::Listed(levels) => levels
+            .iter()
+            .map(|level| file.base.base().join(level.value.to_string()))
+            .collect(),
+        FactorValues::Drawn(_) => Vec::new(),
+    });
+    for path in named.into_iter().chain(varied) {
+        // Built-in records belong to the version.
+        if let Ok(bytes) = std::fs::read(Path::new(&path)) {
+            all.update(Sha256::digest(&bytes));
+        }
+    }
+    (hex(&all.finalize()), model)
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
