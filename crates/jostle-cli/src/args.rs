@@ -49,6 +49,10 @@ pub(crate) enum Command {
     /// Ground motions: look at them, convert them, make them
     #[command(subcommand)]
     Motion(Box<crate::motion::MotionCommand>),
+    /// Many cases of one model: lists, ranges and distributions of whatever stands in the model file
+    Study(crate::study::StudyArgs),
+    /// The smallest gap without pounding, beside what rules and codes ask for
+    Gap(crate::gap::GapArgs),
     /// Push buildings sideways until they have swayed far enough or can stand no more
     Pushover(PushoverArgs),
     /// Write a commented starter file

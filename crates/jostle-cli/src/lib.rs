@@ -5,6 +5,7 @@ mod check;
 mod collide;
 mod export;
 mod failure;
+mod gap;
 mod method;
 mod modes;
 mod motion;
@@ -16,6 +17,7 @@ mod run;
 mod run_text;
 mod section;
 mod starter;
+mod study;
 mod terminal;
 
 use args::{Args, Command};
@@ -40,6 +42,8 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Export(args) => export::export(&args),
         Command::Method(args) => method::method(&args),
         Command::Pushover(args) => pushover::pushover(&args),
+        Command::Study(args) => study::study(&args),
+        Command::Gap(args) => gap::gap(&args),
         Command::Motion(command) => motion::run(&command),
         Command::Section(args) => section::section(&args),
         Command::New(args) => starter::new(&args),

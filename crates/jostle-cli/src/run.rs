@@ -170,7 +170,7 @@ fn result(out: &Path, no_report: bool) -> PathBuf {
 }
 
 /// Set by Ctrl-C; a second one ends the program at once.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
+pub(crate) fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     // Without a handler Ctrl-C still stops the program, only less gently.

@@ -17,6 +17,7 @@ mod payload;
 mod pushover;
 mod section;
 mod special;
+mod study_page;
 mod tables;
 mod thin_loop;
 mod verdict;
@@ -26,6 +27,9 @@ pub use method::render_method;
 pub use motion_page::{MotionPage, SelectionPage, render_motion, render_selection};
 pub use pushover::render_pushover;
 pub use section::render_sections;
+pub use study_page::{
+    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, render_study,
+};
 pub use verdict::verdict;
 
 use jostle::history::SpringHistory;

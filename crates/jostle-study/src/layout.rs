@@ -50,7 +50,7 @@ pub struct Named {
 }
 
 /// Name of the column with the name of the motion.
-pub const MOTION: &str = "motion";
+pub(crate) const MOTION: &str = "motion";
 /// Columns before the inputs.
 const LEADING: [&str; 3] = ["case", "status", "reason"];
 

@@ -6,19 +6,26 @@
 //! case alone: not on threads, order, processes or interruptions.
 
 mod case;
+mod critical_gap;
 pub mod dataset;
 mod design;
 mod layout;
 mod measures;
+mod ready_made;
+mod results;
 mod row;
 mod runner;
 pub mod sampling;
 mod single;
+pub mod statistics;
 mod study;
 
+pub use critical_gap::{CriticalGap, GapError, GapSettings, RuleGap, critical_gaps};
 pub use case::{CaseError, Prepared, Ran, Workshop};
 pub use design::{CaseDesign, Choice, DesignError};
 pub use layout::{Column, Kind, Layout, Named};
+pub use ready_made::{ready_made, ready_made_names};
+pub use results::finish;
 pub use row::{Row, Status};
 pub use runner::{Done, Progress, RunSettings, run, run_folder};
 pub use single::run_case;

@@ -32,8 +32,7 @@ impl List {
 }
 
 /// Every number of a run that the table has, in its order.
-#[must_use]
-pub fn measures(summary: &Summary, system: &System, motion: &GroundMotion) -> Vec<Named> {
+pub(crate) fn measures(summary: &Summary, system: &System, motion: &GroundMotion) -> Vec<Named> {
     let mut list = List(Vec::new());
     list.real("pga_m_s2".into(), summary.motion.pga_m_s2);
     let gaps = &summary.gaps;

@@ -15,6 +15,33 @@ pub fn gb50011_frame_joint(height: f64, intensity: u32) -> Option<f64> {
     Some(0.1 + per_metre * (height - 15.0).max(0.0))
 }
 
+/// Structural systems that GB 50011-2010 (2016) §6.1.4 and §8.1.4 tell apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum JointSystem {
+    /// Concrete frames.
+    #[default]
+    Frame,
+    /// Concrete frames with walls: 0.7 of the frame's width, at least 100 mm.
+    FrameWall,
+    /// Concrete walls: 0.5 of it, at least 100 mm.
+    Wall,
+    /// Steel frames: 1.5 of it.
+    SteelFrame,
+}
+
+/// Width of the seismic joint by GB 50011-2010 (2016) for a structural system \[m\]; the rest as
+/// [`gb50011_frame_joint`]. Between different systems the one that needs the wider joint counts.
+#[must_use]
+pub fn gb50011_joint(height: f64, intensity: u32, system: JointSystem) -> Option<f64> {
+    let frame = gb50011_frame_joint(height, intensity)?;
+    Some(match system {
+        JointSystem::Frame => frame,
+        JointSystem::FrameWall => (0.7 * frame).max(0.1),
+        JointSystem::Wall => (0.5 * frame).max(0.1),
+        JointSystem::SteelFrame => 1.5 * frame,
+    })
+}
+
 /// Square root of the sum of squares of two peak displacements, the separation of ASCE 7-16 §12.12.3 and
 /// EN 1998-1 §4.4.2.7 when the displacements are the design ones \[m\].
 #[must_use]
@@ -28,9 +55,75 @@ pub fn absolute_sum(left: f64, right: f64) -> f64 {
     left.abs() + right.abs()
 }
 
+/// Correlation of the responses of two oscillators to the same broad-band motion,
+///
+/// ```text
+/// ρ = 8 √(ξ_A ξ_B) (ξ_A + ξ_B r) r^1.5 / [(1 − r²)² + 4 ξ_A ξ_B r (1 + r²) + 4 (ξ_A² + ξ_B²) r²],   r = T_A/T_B   (SP1)
+/// ```
+/// that of the complete quadratic combination (Der Kiureghian 1981) as Jeng, Kasai and Maison (1992) and Penzien
+/// (1997) use it for neighbouring buildings. `periods` > 0 \[s\]; `damping` ratios > 0 \[–\].
+#[must_use]
+pub fn ddc_coefficient(periods: [f64; 2], damping: [f64; 2]) -> f64 {
+    let [a, b] = damping;
+    let r = periods[0] / periods[1];
+    let square = r * r;
+    8.0 * (a * b).sqrt() * (a + b * r) * r * r.sqrt()
+        / ((1.0 - square).powi(2)
+            + 4.0 * a * b * r * (1.0 + square)
+            + 4.0 * (a * a + b * b) * square)
+}
+
+/// Double difference combination of two peak displacements, √(δ_A² + δ_B² − 2ρ δ_A δ_B): buildings that move alike
+/// need less room (Jeng, Kasai and Maison 1992) \[m\].
+#[must_use]
+pub fn double_difference(left: f64, right: f64, correlation: f64) -> f64 {
+    // Rounding may leave a little below zero.
+    let square = left * left + right * right - 2.0 * correlation * (left * right).abs();
+    square.max(0.0).sqrt()
+}
+
+/// Share of the SRSS that EN 1998-1 §4.4.2.7(3) asks for where the floors of both buildings lie at equal height.
+pub const EN1998_ALIGNED_FLOORS: f64 = 0.7;
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Values computed apart from this program, to five digits.
+    #[test]
+    fn ddc_coefficients_are_the_published_form() {
+        for (periods, damping, expected) in [
+            ([0.6, 1.0], [0.05, 0.05], 0.035_00),
+            ([0.9, 1.0], [0.05, 0.02], 0.282_40),
+            ([1.0, 0.5], [0.02, 0.10], 0.024_08),
+        ] {
+            let rho = ddc_coefficient(periods, damping);
+            assert!((rho - expected).abs() < 5e-6, "{periods:?}: {rho}");
+            // Which building is called left makes no difference.
+            let [t, u] = periods;
+            let [x, y] = damping;
+            let other = ddc_coefficient([u, t], [y, x]);
+            assert!((rho - other).abs() < 1e-15, "{rho} {other}");
+        }
+        assert!((ddc_coefficient([0.7, 0.7], [0.05, 0.05]) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn stiffer_systems_need_less_but_never_under_100_mm() {
+        let at = |system| gb50011_joint(45.0, 8, system).map(|w| (w * 1e3).round());
+        assert_eq!(at(JointSystem::Frame), Some(300.0));
+        assert_eq!(at(JointSystem::FrameWall), Some(210.0));
+        assert_eq!(at(JointSystem::Wall), Some(150.0));
+        assert_eq!(at(JointSystem::SteelFrame), Some(450.0));
+        assert_eq!(gb50011_joint(15.0, 8, JointSystem::Wall), Some(0.1));
+    }
+
+    #[test]
+    fn double_difference_lies_between_twins_and_strangers() {
+        assert_eq!(double_difference(0.1, 0.1, 1.0), 0.0);
+        assert!((double_difference(0.3, -0.4, 0.0) - 0.5).abs() < 1e-15);
+        assert!(double_difference(0.3, 0.4, 0.3) < srss(0.3, 0.4));
+    }
 
     #[test]
     fn joint_of_a_16_m_frame_by_intensity() {

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 pub(crate) use journal::{Claim, Journal};
 pub(crate) use manifest::Manifest;
+pub(crate) use reading::read_part;
 pub use reading::{Table, read_columns};
 
 /// Where the parts of a table of cases lie.

@@ -1,0 +1,206 @@
+//! `jostle gap`: the smallest gap without pounding, beside what rules and codes ask for.
+
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+
+use jostle::separation::JointSystem;
+use jostle_io::{Dimension, Overrides, parse_quantity};
+use jostle_study::{CriticalGap, GapError, GapSettings, critical_gaps};
+
+use crate::args::ModelArgs;
+use crate::failure::Failure;
+use crate::numbers::{counted, kn, mm};
+use crate::open::open;
+use crate::run::stop_on_interrupt;
+use crate::terminal;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct GapArgs {
+    /// Model file (TOML or JSON), or the name of a built-in example; without it, the built-in "paper"
+    model: Option<PathBuf>,
+    /// Scale the motions to this peak ground acceleration
+    #[arg(long, value_name = "QUANTITY")]
+    pga: Option<String>,
+    /// Another ground motion: a built-in name or a file; repeated, a set of records
+    #[arg(long, value_name = "RECORD")]
+    record: Vec<String>,
+    /// How closely the gap is found
+    #[arg(long, value_name = "QUANTITY", default_value = "0.1mm")]
+    tolerance: String,
+    /// Structural system for GB 50011: the one of both that needs the wider joint
+    #[arg(long, value_enum, default_value_t = SystemChoice::Frame)]
+    system: SystemChoice,
+    /// Do not run the gaps of the rules
+    #[arg(long)]
+    no_outcomes: bool,
+    /// Print JSON and nothing else
+    #[arg(long)]
+    json: bool,
+}
+
+/// Structural systems of GB 50011.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum SystemChoice {
+    Frame,
+    FrameWall,
+    Wall,
+    SteelFrame,
+}
+
+pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
+    let tolerance = parse_quantity(&args.tolerance, Dimension::Length)
+        .map_err(|error| Failure::Input(format!("--tolerance: {error}")))?;
+    if tolerance < 1e-9 {
+        return Err(Failure::Input(
+            "--tolerance: must be at least 1e-9 m".into(),
+        ));
+    }
+    let settings = GapSettings {
+        tolerance,
+        system: match args.system {
+            SystemChoice::Frame => JointSystem::Frame,
+            SystemChoice::FrameWall => JointSystem::FrameWall,
+            SystemChoice::Wall => JointSystem::Wall,
+            SystemChoice::SteelFrame => JointSystem::SteelFrame,
+        },
+        outcomes: !args.no_outcomes,
+    };
+    let flag = stop_on_interrupt();
+    let stop = || flag.load(Ordering::Relaxed);
+    let records: Vec<Option<String>> = if args.record.is_empty() {
+        vec![None]
+    } else {
+        args.record.iter().cloned().map(Some).collect()
+    };
+    let mut found: Vec<CriticalGap> = Vec::new();
+    let mut title = String::new();
+    for record in records {
+        let overrides = ModelArgs {
+            model: args.model.clone(),
+            pga: args.pga.clone(),
+            gap: None,
+            record,
+        };
+        let overrides: Overrides = overrides.overrides()?;
+        let opened = open(args.model.as_deref(), &overrides)?;
+        let (motion, _) = opened.plan()?;
+        title.clone_from(&opened.input.model.title);
+        let gaps = critical_gaps(&opened.input.model, &motion, &settings, &stop);
+        found.extend(gaps.map_err(|error| match error {
+            GapError::Stopped => Failure::Stopped,
+            GapError::Run(_) => Failure::Analysis(error.to_string()),
+            _ => opened.input.fault("gap", error.to_string()).into(),
+        })?);
+    }
+    if args.json {
+        return terminal::print(&json(&title, &found));
+    }
+    terminal::print(&describe(&title, &found))
+}
+
+/// Greatest, mean and standard deviation of the gaps between the same neighbours.
+fn sets(found: &[CriticalGap]) -> Vec<([String; 2], [f64; 3], usize)> {
+    let mut pairs: Vec<[String; 2]> = found.iter().map(|gap| gap.between.clone()).collect();
+    pairs.dedup();
+    pairs.sort();
+    pairs.dedup();
+    let of = |pair: [String; 2]| {
+        let gaps = found.iter().filter(|gap| gap.between == pair);
+        let widths: Vec<f64> = gaps.map(|gap| gap.gap_m).collect();
+        let n = widths.len() as f64;
+        let mean = widths.iter().sum::<f64>() / n;
+        let square: f64 = widths.iter().map(|w| (w - mean).powi(2)).sum();
+        let deviation = (square / (n - 1.0).max(1.0)).sqrt();
+        let most = widths.iter().copied().fold(0.0, f64::max);
+        (pair, [most, mean, deviation], widths.len())
+    };
+    pairs.into_iter().map(of).collect()
+}
+
+fn json(title: &str, found: &[CriticalGap]) -> String {
+    let sets: Vec<_> = sets(found)
+        .into_iter()
+        .map(|(between, [most, mean, deviation], records)| {
+            serde_json::json!({
+                "between": between,
+                "records": records,
+                "gap_max_m": most,
+                "gap_mean_m": mean,
+                "gap_deviation_m": deviation,
+            })
+        })
+        .collect();
+    let value = serde_json::json!({
+        "title": title,
+        "jostle": env!("CARGO_PKG_VERSION"),
+        "gaps": found,
+        "sets": sets,
+    });
+    serde_json::to_string_pretty(&value).unwrap_or_default()
+}
+
+fn describe(title: &str, found: &[CriticalGap]) -> String {
+    let mut text = format!("{}\n", terminal::styled(terminal::BOLD, title));
+    for gap in found {
+        text += &format!(
+            "\n{}  under {}, {:.1} cm/s²\n",
+            gap.between.join(" – "),
+            gap.motion,
+            100.0 * gap.pga_m_s2
+        );
+        let bracket = match gap.pounding_at_m {
+            Some(hit) => format!("at {} they still meet", millimetres(hit)),
+            None => "they do not even meet when they touch at rest".to_owned(),
+        };
+        text += &format!(
+            "  smallest gap without pounding {}  ({bracket}; {}, closest at {:.2} m)\n",
+            terminal::styled(terminal::BOLD, &millimetres(gap.gap_m)),
+            counted(gap.runs, "run"),
+            gap.height_m
+        );
+        if let Some(rho) = gap.ddc_correlation {
+            text += &format!(
+                "  periods {:.3} and {:.3} s, damping {:.1} and {:.1} %, correlation {rho:.4}\n",
+                gap.periods_s[0],
+                gap.periods_s[1],
+                100.0 * gap.damping[0],
+                100.0 * gap.damping[1]
+            );
+        }
+        text += "  rule             gap       of need   would have led to\n";
+        for rule in &gap.rules {
+            let ratio = rule.ratio.map_or("–".to_owned(), |ratio| format!("{ratio:.2}"));
+            let led = match (rule.impact_count, rule.peak_force_n, rule.first_impact_s) {
+                (Some(0), ..) => "no impact".to_owned(),
+                (Some(count), Some(force), Some(first)) => format!(
+                    "{}, up to {} kN, from {first:.2} s",
+                    counted(count, "impact"),
+                    kn(force)
+                ),
+                _ => String::new(),
+            };
+            text += &format!(
+                "  {:<14} {:>9}   {ratio:>7}   {led}\n",
+                rule.rule,
+                format!("{} mm", mm(rule.gap_m))
+            );
+        }
+    }
+    for (pair, [most, mean, deviation], records) in sets(found) {
+        if records > 1 {
+            text += &format!(
+                "\n{} over {}: greatest {}, mean {}, standard deviation {}\n",
+                pair.join(" – "),
+                counted(records, "record"),
+                millimetres(most),
+                millimetres(mean),
+                millimetres(deviation)
+            );
+        }
+    }
+    text
+}
+
+fn millimetres(metres: f64) -> String {
+    format!("{:.2} mm", 1e3 * metres)
+}

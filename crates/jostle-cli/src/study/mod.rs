@@ -1,0 +1,222 @@
+//! `jostle study`: many cases of one model.
+
+mod bar;
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use jostle_io::StudyFile;
+use jostle_study::{Done, RunSettings, Study, StudyError, run, run_case, run_folder};
+
+use crate::failure::Failure;
+use crate::numbers::{counted_grouped, grouped};
+use crate::run::stop_on_interrupt;
+use crate::terminal;
+
+/// Where results go when nothing else is said.
+const RESULTS: &str = "jostle-out";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "The same command goes on where an earlier one stopped, whatever stopped it.\n\
+                  Ready-made studies: table2, gap-sweep, ida, fragility, sensitivity, tornado;\n  \
+                  jostle study gap-sweep --base model.toml")]
+pub(crate) struct StudyArgs {
+    /// Study file (TOML or JSON), or the name of a ready-made study
+    study: PathBuf,
+    /// Another base model: a file, or the name of a built-in example
+    #[arg(long, value_name = "MODEL")]
+    base: Option<PathBuf>,
+    /// Folder for the results [default: jostle-out/STUDY]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Threads [default: one for every core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    jobs: Option<u32>,
+    /// Only the I-th of N equal shares, for arrays of jobs; all may use one folder
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<(u64, u64)>,
+    /// Only this case, with its histories and report, in runs/ of the folder; may be repeated
+    #[arg(long, value_name = "NUMBER", conflicts_with = "shard")]
+    case: Vec<u64>,
+    /// Neither the report nor the tables beside it when all cases are finished
+    #[arg(long)]
+    no_report: bool,
+    /// Check the study, say how many cases it has and what their columns are, and run nothing
+    #[arg(long)]
+    check: bool,
+}
+
+/// `3/8`: the third of eight.
+fn shard(text: &str) -> Result<(u64, u64), String> {
+    let number = |text: &str| text.trim().parse::<u64>().ok();
+    let parsed = text
+        .split_once('/')
+        .and_then(|(index, of)| Some((number(index)?, number(of)?)));
+    match parsed {
+        Some((index, of)) if 1 <= index && index <= of => Ok((index - 1, of)),
+        _ => Err("expected I/N with I from 1 to N, such as 3/8".into()),
+    }
+}
+
+pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
+    let (file, name) = open(args)?;
+    let study = Study::new(file)?;
+    for warning in &study.warnings {
+        terminal::remark(&format!(
+            "{} {warning}",
+            terminal::styled(terminal::LOUD, "warning:")
+        ));
+    }
+    if args.check {
+        return terminal::print(&description(&study));
+    }
+    let out = args
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new(RESULTS).join(&name));
+    std::fs::create_dir_all(&out).map_err(|error| {
+        Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
+    })?;
+    let flag = stop_on_interrupt();
+    let stop = || flag.load(Ordering::Relaxed);
+    if !args.case.is_empty() {
+        return single(args, &study, &out, &stop);
+    }
+    terminal::remark(&headline(&study));
+    let (shard, shards) = args.shard.unwrap_or((0, 1));
+    let settings = RunSettings {
+        jobs: args.jobs.map(|jobs| jobs as usize),
+        shard,
+        shards,
+    };
+    let started = Instant::now();
+    let bar = bar::Bar::new();
+    let done = run(&study, &out, &settings, &stop, &|progress| bar.show(progress));
+    bar.finish();
+    let done = done?;
+    terminal::print(&outcome(&study, &done, &out, started.elapsed().as_secs_f64()))?;
+    if done.stopped {
+        return Err(Failure::Stopped);
+    }
+    if done.complete && !args.no_report {
+        let written = jostle_study::finish(&study, &out)?;
+        terminal::print(&written)?;
+    }
+    Ok(())
+}
+
+/// The study file, and a name for its results.
+fn open(args: &StudyArgs) -> Result<(StudyFile, String), Failure> {
+    let path = &args.study;
+    let ready = path
+        .to_str()
+        .filter(|_| !path.exists())
+        .and_then(|name| Some((name, jostle_study::ready_made(name)?)));
+    let base = args.base.as_deref();
+    if let Some((name, text)) = ready {
+        let file = StudyFile::parse(name, text, jostle_io::Format::Toml, Path::new(""), base)?;
+        return Ok((file, name.to_owned()));
+    }
+    let file = StudyFile::load(path, base)?;
+    let name = path.file_stem().map_or_else(
+        || "study".to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    );
+    Ok((file, name))
+}
+
+fn headline(study: &Study) -> String {
+    let design = &study.file.design;
+    let seed = if design.samples.is_some() {
+        format!(", seed {}", design.seed)
+    } else {
+        String::new()
+    };
+    let inputs: Vec<&str> = study.layout.inputs.iter().map(|c| &c.name[..]).collect();
+    format!(
+        "{}: {}{seed}, over {}",
+        terminal::styled(terminal::BOLD, &study.file.title),
+        counted_grouped(study.design.cases, "case"),
+        inputs.join(", ")
+    )
+}
+
+fn description(study: &Study) -> String {
+    format!(
+        "{}\n{} in {}; fingerprint {}\ncolumns: {}",
+        headline(study),
+        counted_grouped(study.design.cases, "row"),
+        counted_grouped(study.parts(), "part"),
+        study.fingerprint,
+        study.layout.names().join(", ")
+    )
+}
+
+fn single(
+    args: &StudyArgs,
+    study: &Study,
+    out: &Path,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<(), Failure> {
+    for &case in &args.case {
+        if case >= study.design.cases {
+            return Err(Failure::Input(format!(
+                "--case: there is no case {case}; there are {}, counted from 0",
+                grouped(study.design.cases)
+            )));
+        }
+        let folder = run_folder(out, case);
+        if !run_case(study, case, &folder, stop)? {
+            return Err(Failure::Stopped);
+        }
+        terminal::print(&folder.join("report.html").display().to_string())?;
+    }
+    Ok(())
+}
+
+fn outcome(study: &Study, done: &Done, out: &Path, wall: f64) -> String {
+    let progress = done.progress;
+    let rate = if progress.computed > 0 {
+        format!(
+            " ({} now, {:.1} per second)",
+            grouped(progress.computed),
+            progress.computed as f64 / wall.max(1e-9)
+        )
+    } else {
+        String::new()
+    };
+    let mut lines = vec![format!(
+        "{} of {} finished{rate}",
+        grouped(progress.finished),
+        counted_grouped(progress.cases, "case")
+    )];
+    if done.failed > 0 {
+        lines.push(format!(
+            "{} could not be computed: see the columns status and reason",
+            counted_grouped(done.failed, "case")
+        ));
+    }
+    if done.stopped {
+        lines.push("stopped; the same command goes on from here".to_owned());
+    } else if !done.complete {
+        let missing = (0..study.parts())
+            .filter(|part| !jostle_study::dataset::part_path(out, study.part(*part).start).exists())
+            .count();
+        lines.push(format!(
+            "{} of other shards are still missing",
+            counted_grouped(missing as u64, "part")
+        ));
+    }
+    lines.push(format!("table: {}", out.join("cases").join("*.parquet").display()));
+    lines.join("\n")
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Output(_) => Self::Analysis(error.to_string()),
+            _ => Self::Input(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Rankings: horizontal bars from a centre.
+
+use maud::{Markup, html};
+
+use super::{Axis, number};
+
+/// A ranking.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bars {
+    /// Heading.
+    pub title: String,
+    /// What the bars measure.
+    pub value: Axis,
+    /// Where bars begin.
+    pub centre: f64,
+    /// Bars, the longest first.
+    pub bars: Vec<Bar>,
+    /// Meaning of the first and the second bar of a row.
+    pub legend: [String; 2],
+}
+
+/// One row of a ranking.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bar {
+    /// Name.
+    pub name: String,
+    /// Ends of its one or two bars.
+    pub ends: [f64; 2],
+    /// Limits of uncertainty of these, if known.
+    pub limits: Option<[[f64; 2]; 2]>,
+}
+
+const WIDTH: f64 = 520.0;
+const LEFT: f64 = 170.0;
+const RIGHT: f64 = 56.0;
+const ROW: f64 = 34.0;
+
+pub(super) fn figure(bars: &Bars) -> Markup {
+    let all = || {
+        let limits = bars.bars.iter().filter_map(|bar| bar.limits);
+        let ends = bars.bars.iter().flat_map(|bar| bar.ends);
+        ends.chain(limits.flatten().flatten())
+    };
+    let (low, high) = (
+        all().fold(bars.centre, f64::min),
+        all().fold(bars.centre, f64::max),
+    );
+    let span = if high > low { high - low } else { 1.0 };
+    let px = |value: f64| LEFT + (WIDTH - LEFT - RIGHT) * (value - low) / span;
+    let height = ROW * bars.bars.len() as f64 + 26.0;
+    html! {
+        figure.study-chart {
+            figcaption {
+                span.chart-title { (bars.title) }
+                span.legend {
+                    @for (index, name) in bars.legend.iter().enumerate() {
+                        span.key style=(format!("--c:var(--c{index})")) { span.swatch {} (name) }
+                    }
+                }
+            }
+            svg viewBox=(format!("0 0 {WIDTH} {height}")) role="img" aria-label=(bars.title) {
+                @for (row, bar) in bars.bars.iter().enumerate() {
+                    @let y = ROW * row as f64 + 4.0;
+                    text x=(LEFT - 8.0) y=(y + 17.0) text-anchor="end" { (short(&bar.name)) title { (bar.name) } }
+                    @for (index, end) in bar.ends.iter().enumerate() {
+                        @let (from, to) = (px(bars.centre.min(*end)), px(bars.centre.max(*end)));
+                        @let top = y + 12.0 * index as f64;
+                        rect.study-bar x=(format!("{from:.1}")) y=(top) width=(format!("{:.1}", (to - from).max(0.8))) height="11" style=(format!("--c:var(--c{index})")) { title { (bar.name) ", " (bars.legend[index]) ": " (number(*end)) " " (bars.value.unit) } }
+                        @if let Some(limits) = bar.limits {
+                            line.study-limits x1=(format!("{:.1}", px(limits[index][0]))) x2=(format!("{:.1}", px(limits[index][1]))) y1=(top + 5.5) y2=(top + 5.5) {}
+                        }
+                        text x=(WIDTH - RIGHT + 6.0) y=(top + 9.5) { (number(*end)) }
+                    }
+                }
+                line.study-axis x1=(px(bars.centre)) x2=(px(bars.centre)) y1="0" y2=(height - 22.0) {}
+                text x=(LEFT) y=(height - 6.0) { (bars.value.label()) }
+            }
+        }
+    }
+}
+
+/// A name that fits beside its bar.
+fn short(name: &str) -> String {
+    const FITS: usize = 26;
+    if name.chars().count() <= FITS {
+        return name.to_owned();
+    }
+    let tail: Vec<char> = name.chars().rev().take(FITS - 1).collect();
+    format!("…{}", tail.into_iter().rev().collect::<String>())
+}

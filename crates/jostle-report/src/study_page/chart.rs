@@ -1,0 +1,190 @@
+//! Lines over an axis, with bands, dots and level lines.
+
+use maud::{Markup, html};
+
+use super::{Axis, number};
+
+/// Lines over an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// Heading; may be empty.
+    pub title: String,
+    /// To the right.
+    pub x: Axis,
+    /// Upwards.
+    pub y: Axis,
+    /// Lines and dots.
+    pub series: Vec<Series>,
+    /// Horizontal lines.
+    pub levels: Vec<Level>,
+    /// The least that the vertical axis reaches up to.
+    pub reach: f64,
+}
+
+/// A horizontal line with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// Name.
+    pub name: String,
+    /// Where.
+    pub value: f64,
+}
+
+/// One line, or dots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name; series without one have no place in the legend.
+    pub name: String,
+    /// Points in order.
+    pub points: Vec<[f64; 2]>,
+    /// Lower and upper limits at the points, if there are any.
+    pub band: Vec<[f64; 2]>,
+    /// How it is drawn.
+    pub stroke: Stroke,
+    /// Number of its colour; series that belong together share one.
+    pub colour: usize,
+}
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stroke {
+    /// A line.
+    Line,
+    /// A line with a dot at every point.
+    Dotted,
+    /// A thin, pale line among many.
+    Thin,
+    /// A heavy line.
+    Heavy,
+    /// A dashed line.
+    Dashed,
+    /// Dots alone.
+    Dots,
+}
+
+const WIDTH: f64 = 520.0;
+const HEIGHT: f64 = 300.0;
+const LEFT: f64 = 54.0;
+const RIGHT: f64 = 12.0;
+const TOP: f64 = 10.0;
+const BOTTOM: f64 = 40.0;
+/// Colours of the style sheet.
+const COLOURS: usize = 7;
+/// Series in a legend at most.
+const LEGEND: usize = 14;
+
+/// Round numbers that divide 0..=`reach` into about five parts, and the last of them at or above `reach`.
+fn ticks(reach: f64) -> Vec<f64> {
+    if !(reach.is_finite() && reach > 0.0) {
+        return vec![0.0, 1.0];
+    }
+    let rough = reach / 4.5;
+    let power = 10f64.powf(rough.log10().floor());
+    let steps = [1.0, 2.0, 2.5, 5.0, 10.0].map(|step| step * power);
+    let step = steps.into_iter().find(|step| *step >= rough).unwrap_or(rough);
+    let count = (reach / step - 1e-9).ceil() as usize;
+    (0..=count).map(|index| step * index as f64).collect()
+}
+
+pub(super) fn figure(chart: &Chart) -> Markup {
+    let points = || chart.series.iter().flat_map(|series| &series.points);
+    let bands = || chart.series.iter().flat_map(|series| &series.band);
+    let most_x = points().map(|p| p[0]).fold(0.0, f64::max);
+    let most_y = points()
+        .map(|p| p[1])
+        .chain(bands().map(|band| band[1]))
+        .chain(chart.levels.iter().map(|level| level.value))
+        .fold(chart.reach, f64::max);
+    let (xs, ys) = (ticks(most_x), ticks(most_y));
+    let (end_x, end_y) = (
+        xs.last().copied().unwrap_or(1.0),
+        ys.last().copied().unwrap_or(1.0),
+    );
+    let px = move |x: f64| LEFT + (WIDTH - LEFT - RIGHT) * x / end_x;
+    let py = move |y: f64| HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * y / end_y;
+    let path = |points: &[[f64; 2]]| {
+        let mut text = String::new();
+        for (index, [x, y]) in points.iter().enumerate() {
+            let letter = if index == 0 { 'M' } else { 'L' };
+            text += &format!("{letter}{:.1} {:.1}", px(*x), py(*y));
+        }
+        text
+    };
+    let area = |series: &Series| {
+        let upper = series.points.iter().zip(&series.band);
+        let upper: Vec<[f64; 2]> = upper.map(|(p, band)| [p[0], band[1]]).collect();
+        let lower = series.points.iter().zip(&series.band).rev();
+        let lower: Vec<[f64; 2]> = lower.map(|(p, band)| [p[0], band[0]]).collect();
+        format!("{}Z", path(&[upper, lower].concat()))
+    };
+    let named: Vec<&Series> = chart
+        .series
+        .iter()
+        .filter(|series| !series.name.is_empty())
+        .collect();
+    let label = format!("{} over {}", chart.y.name, chart.x.name);
+    html! {
+        figure.study-chart {
+            figcaption {
+                @if !chart.title.is_empty() { span.chart-title { (chart.title) } }
+                span.legend {
+                    @for series in named.iter().take(LEGEND) {
+                        span.key style=(colour(series.colour)) { span.swatch.dashed[series.stroke == Stroke::Dashed] {} (series.name) }
+                    }
+                    @if named.len() > LEGEND { span.key { "and " (named.len() - LEGEND) " more" } }
+                }
+            }
+            svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(label) {
+                g.grid {
+                    @for y in &ys { line x1=(LEFT) x2=(WIDTH - RIGHT) y1=(py(*y)) y2=(py(*y)) {} }
+                    @for x in &xs { line x1=(px(*x)) x2=(px(*x)) y1=(TOP) y2=(HEIGHT - BOTTOM) {} }
+                }
+                @for y in &ys { text x=(LEFT - 6.0) y=(py(*y) + 4.0) text-anchor="end" { (number(*y)) } }
+                @for x in &xs { text x=(px(*x)) y=(HEIGHT - BOTTOM + 15.0) text-anchor="middle" { (number(*x)) } }
+                @for series in &chart.series {
+                    @if series.band.len() == series.points.len() && series.points.len() > 1 {
+                        path.study-band d=(area(series)) style=(colour(series.colour)) {}
+                    }
+                }
+                @for level in &chart.levels {
+                    line.study-level x1=(LEFT) x2=(WIDTH - RIGHT) y1=(py(level.value)) y2=(py(level.value)) {}
+                    text.study-level-name x=(WIDTH - RIGHT - 4.0) y=(py(level.value) - 4.0) text-anchor="end" { (level.name) }
+                }
+                @for series in &chart.series {
+                    @if series.stroke != Stroke::Dots && series.points.len() > 1 {
+                        path.line.thin[series.stroke == Stroke::Thin].heavy[series.stroke == Stroke::Heavy].dashed[series.stroke == Stroke::Dashed] d=(path(&series.points)) style=(colour(series.colour)) { title { (series.name) } }
+                    }
+                    @if matches!(series.stroke, Stroke::Dots | Stroke::Dotted) {
+                        @for [x, y] in &series.points {
+                            circle.dot cx=(format!("{:.1}", px(*x))) cy=(format!("{:.1}", py(*y))) r="3" style=(colour(series.colour)) {
+                                title { (series.name) " " (number(*x)) " " (chart.x.unit) ": " (number(*y)) " " (chart.y.unit) }
+                            }
+                        }
+                    }
+                }
+                text x=(LEFT) y=(HEIGHT - 6.0) { "→ " (chart.x.label()) "   ↑ " (chart.y.label()) }
+            }
+        }
+    }
+}
+
+fn colour(number: usize) -> String {
+    format!("--c:var(--c{})", number % COLOURS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_reach_the_greatest_value() {
+        assert_eq!(ticks(10.0), [0.0, 2.5, 5.0, 7.5, 10.0]);
+        assert_eq!(ticks(0.97).last(), Some(&1.0));
+        assert_eq!(ticks(0.0), [0.0, 1.0]);
+        for reach in [1e-3, 0.3, 7.0, 4321.0] {
+            let all = ticks(reach);
+            assert!(all.len() >= 4 && all.len() <= 7, "{all:?}");
+            assert!(all.last().is_some_and(|last| *last >= reach * 0.999_999));
+        }
+    }
+}

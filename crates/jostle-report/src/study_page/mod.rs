@@ -1,0 +1,220 @@
+//! The page of `jostle study`: heat maps, curves, fragility with bands, rankings.
+
+mod bars;
+mod chart;
+mod heat_map;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::format;
+use crate::page::{POLICY, STYLE};
+
+pub use bars::{Bar, Bars};
+pub use chart::{Chart, Level, Series, Stroke};
+pub use heat_map::{Cell, HeatMap};
+
+const OWN_STYLE: &str = include_str!("../../assets/study.css");
+const SCRIPT: &str = include_str!("../../assets/study.js");
+
+/// An axis in the unit that people read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Name.
+    pub name: String,
+    /// Unit; may be empty.
+    pub unit: String,
+}
+
+/// Everything the page of a study shows; numbers are in the units of their axes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StudyPage {
+    /// Title.
+    pub title: String,
+    /// What it says, in sentences.
+    pub headline: Vec<String>,
+    /// Facts about the study: name and value.
+    pub facts: Vec<(String, String)>,
+    /// Heat maps, under a heading for each group of them.
+    pub maps: Vec<(String, Vec<HeatMap>)>,
+    /// Charts under a heading and a remark.
+    pub sections: Vec<Section>,
+    /// Cases that were not completed: number and reason; at most as many as are to be shown.
+    pub failures: Vec<(u64, String)>,
+    /// How many there are.
+    pub failed: usize,
+    /// Cases with histories: number, description, link.
+    pub runs: Vec<(u64, String, String)>,
+    /// The command that runs one case with its histories, without its number.
+    pub command: String,
+    /// Files beside the page: name and what it holds.
+    pub files: Vec<(String, String)>,
+}
+
+/// Charts that belong together.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// Heading.
+    pub title: String,
+    /// How to read them.
+    pub remark: String,
+    /// Charts.
+    pub charts: Vec<Chart>,
+    /// Rankings.
+    pub bars: Vec<Bars>,
+    /// A table: heads and rows.
+    pub table: Option<(Vec<String>, Vec<Vec<String>>)>,
+}
+
+/// The whole page; it loads nothing from outside.
+#[must_use]
+pub fn render_study(page: &StudyPage) -> String {
+    let markup = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="description" content=(page.headline.join(" "));
+                title { (page.title) " – study" }
+                link rel="icon" href="data:,";
+                style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
+            }
+            body {
+                header.head {
+                    div {
+                        p.kicker { "Study" }
+                        h1 { (page.title) }
+                    }
+                    button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+                }
+                main {
+                    @for sentence in &page.headline { p.verdict { (sentence) } }
+                    div.tiles {
+                        @for (name, value) in &page.facts {
+                            div.tile { div.tile-name { (name) } div.tile-value.study-value { (value) } }
+                        }
+                    }
+                    @if !page.maps.is_empty() { (maps(page)) }
+                    @for section in &page.sections { (charts(section)) }
+                    @if !page.runs.is_empty() || !page.command.is_empty() { (runs(page)) }
+                    @if page.failed > 0 { (failures(page)) }
+                    @if !page.files.is_empty() { (files(page)) }
+                }
+                footer {
+                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file, nothing is loaded from elsewhere."
+                }
+                script type="module" { (PreEscaped(SCRIPT)) }
+            }
+        }
+    };
+    markup.into_string()
+}
+
+fn maps(page: &StudyPage) -> Markup {
+    html! {
+        section #maps {
+            h2 { "Maps" }
+            p.quiet { "Every cell is one case, or the mean of several; point at it for its number. A frame marks cases whose histories are kept: press to open them." }
+            @for (heading, maps) in &page.maps {
+                @if !heading.is_empty() { h3 { (heading) } }
+                div.study-maps { @for map in maps { (heat_map::figure(map)) } }
+            }
+        }
+    }
+}
+
+fn charts(section: &Section) -> Markup {
+    html! {
+        section {
+            h2 { (section.title) }
+            @if !section.remark.is_empty() { p.quiet { (section.remark) } }
+            div.study-charts {
+                @for chart in &section.charts { (chart::figure(chart)) }
+                @for bars in &section.bars { (bars::figure(bars)) }
+            }
+            @if let Some((heads, rows)) = &section.table {
+                div.scroll {
+                    table {
+                        thead { tr { @for head in heads { th { (head) } } } }
+                        tbody { @for row in rows { tr { @for cell in row { td { (cell) } } } } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn runs(page: &StudyPage) -> Markup {
+    html! {
+        section #runs {
+            h2 { "Runs" }
+            @if !page.runs.is_empty() {
+                ul.study-list {
+                    @for (case, what, link) in &page.runs {
+                        li { a href=(link) { "Case " (case) } " – " (what) }
+                    }
+                }
+            }
+            @if !page.command.is_empty() {
+                p.quiet { "Any other case, with histories and animation: " code { (page.command) " --case NUMBER" } }
+            }
+        }
+    }
+}
+
+fn failures(page: &StudyPage) -> Markup {
+    html! {
+        section #failures {
+            h2 { (page.failed) " of the cases did not complete" }
+            ul.study-list {
+                @for (case, reason) in &page.failures { li { "Case " (case) ": " (reason) } }
+            }
+            @if page.failed > page.failures.len() {
+                p.quiet { "… and " (page.failed - page.failures.len()) " more: see the columns " code { "status" } " and " code { "reason" } "." }
+            }
+        }
+    }
+}
+
+fn files(page: &StudyPage) -> Markup {
+    html! {
+        section #files {
+            h2 { "Files" }
+            table {
+                tbody {
+                    @for (name, what) in &page.files {
+                        tr { td { code { (name) } } td.study-wrap { (what) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A number as short as it can be said.
+fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    if !value.is_finite() {
+        return "–".into();
+    }
+    let text = format::significant(value, 3);
+    if text.contains('.') && !text.contains('⁰') && !text.contains('·') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+impl Axis {
+    /// Name with unit.
+    fn label(&self) -> String {
+        if self.unit.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{} [{}]", self.name, self.unit)
+        }
+    }
+}

@@ -1,0 +1,412 @@
+//! The smallest gap without pounding, by bracketing on the response, beside what rules and codes ask for.
+
+use jostle::separation::{
+    EN1998_ALIGNED_FLOORS, JointSystem, absolute_sum, ddc_coefficient, double_difference,
+    gb50011_joint, srss,
+};
+use jostle::{
+    FloorPairs, GroundMotion, Model, Outcome, Plan, Pounding, RunEnd, Settings, Summary, System,
+    simulate,
+};
+use serde::Serialize;
+use std::ops::ControlFlow;
+
+/// What is asked of a search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapSettings {
+    /// Width of the last bracket, > 0 \[m\].
+    pub tolerance: f64,
+    /// Structural system for GB 50011.
+    pub system: JointSystem,
+    /// Whether every rule's gap is run too, to see what it would have led to.
+    pub outcomes: bool,
+}
+
+impl Default for GapSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-4,
+            system: JointSystem::Frame,
+            outcomes: true,
+        }
+    }
+}
+
+/// The smallest gap without pounding under one motion.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CriticalGap {
+    /// Neighbours.
+    pub between: [String; 2],
+    /// Name of the motion.
+    pub motion: String,
+    /// Its peak \[m/s²\].
+    pub pga_m_s2: f64,
+    /// Smallest gap found without an impact \[m\].
+    pub gap_m: f64,
+    /// Widest gap tried with an impact; `null` when not even a gap of zero is hit \[m\].
+    pub pounding_at_m: Option<f64>,
+    /// Greatest closing of the buildings passing through each other \[m\].
+    pub closing_without_contact_m: f64,
+    /// Height of the contact that closes most \[m\].
+    pub height_m: f64,
+    /// Runs made.
+    pub runs: usize,
+    /// First lateral periods of the neighbours \[s\].
+    pub periods_s: [f64; 2],
+    /// Damping ratios at these \[–\].
+    pub damping: [f64; 2],
+    /// Correlation of the double difference combination; `null` without damping \[–\].
+    pub ddc_correlation: Option<f64>,
+    /// What rules ask for, and what they would have led to.
+    pub rules: Vec<RuleGap>,
+}
+
+/// The gap of a rule.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RuleGap {
+    /// Short name.
+    pub rule: String,
+    /// Where it stands.
+    pub source: String,
+    /// Gap \[m\].
+    pub gap_m: f64,
+    /// Over the smallest gap without pounding; `null` when that is zero \[–\].
+    pub ratio: Option<f64>,
+    /// Impacts at this gap; `null` when it was not run.
+    pub impact_count: Option<usize>,
+    /// Greatest force at this gap \[N\].
+    pub peak_force_n: Option<f64>,
+    /// First impact at this gap \[s\].
+    pub first_impact_s: Option<f64>,
+}
+
+/// Why a search failed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum GapError {
+    /// The model has no gap.
+    #[error("the model has no gap")]
+    NoGap,
+    /// The neighbours have no common heights.
+    #[error("{0} have no place where they could touch")]
+    NoContact(String),
+    /// The model or its steps are wrong.
+    #[error("{0}")]
+    Model(String),
+    /// A run failed.
+    #[error("{0}")]
+    Run(String),
+    /// Asked to stop.
+    #[error("stopped")]
+    Stopped,
+}
+
+/// A gap that no displacement closes \[m\].
+const NEVER: f64 = 1e6;
+/// Runs before a search gives up.
+const MOST_RUNS: usize = 200;
+
+/// Searches every gap of a model under one motion, each by itself while the others are out of reach.
+///
+/// Buildings that do not touch do not feel the gap, so the greatest closing of a run without contact is the answer
+/// but for the error of steps; runs with contact on both sides of it make sure, and bisection narrows the bracket to
+/// `settings.tolerance`.
+///
+/// # Errors
+/// [`GapError`].
+pub fn critical_gaps(
+    model: &Model,
+    motion: &GroundMotion,
+    settings: &GapSettings,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<CriticalGap>, GapError> {
+    if model.gaps.is_empty() {
+        return Err(GapError::NoGap);
+    }
+    let search = Search {
+        model,
+        motion,
+        stop,
+    };
+    let widths = vec![NEVER; model.gaps.len()];
+    let apart = search.run(&widths, Pounding::Excluded)?;
+    (0..model.gaps.len())
+        .map(|gap| search.gap(gap, &apart, settings))
+        .collect()
+}
+
+struct Search<'a> {
+    model: &'a Model,
+    motion: &'a GroundMotion,
+    stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// A run and what it belongs to.
+struct Tried {
+    system: System,
+    outcome: Outcome,
+    summary: Summary,
+}
+
+impl Search<'_> {
+    fn run(&self, widths: &[f64], pounding: Pounding) -> Result<Tried, GapError> {
+        let mut model = self.model.clone();
+        for (gap, width) in model.gaps.iter_mut().zip(widths) {
+            gap.width = *width;
+        }
+        let wrong = |faults: Vec<jostle::ModelFault>| {
+            let faults: Vec<String> = faults.iter().map(ToString::to_string).collect();
+            GapError::Model(faults.join("; "))
+        };
+        let system = System::assemble(&model).map_err(wrong)?;
+        let plan = Plan::choose(&system, self.motion, &model.analysis).map_err(wrong)?;
+        let settings = Settings {
+            pounding,
+            record_interval: None,
+        };
+        let outcome = simulate(&system, self.motion, &plan, settings, |_| {
+            if (self.stop)() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        match &outcome.end {
+            RunEnd::Completed => {}
+            RunEnd::Stopped => return Err(GapError::Stopped),
+            RunEnd::Failed(error) => return Err(GapError::Run(error.to_string())),
+        }
+        let summary = Summary::of(&jostle::Run {
+            model: &model,
+            system: &system,
+            motion: self.motion,
+            plan: &plan,
+            outcome: &outcome,
+            without_contact: None,
+            wall: 0.0,
+        });
+        Ok(Tried {
+            system,
+            outcome,
+            summary,
+        })
+    }
+
+    /// A run with one gap of this width and all others out of reach.
+    fn at(&self, gap: usize, width: f64) -> Result<Tried, GapError> {
+        let mut widths = vec![NEVER; self.model.gaps.len()];
+        widths[gap] = width;
+        self.run(&widths, Pounding::Included)
+    }
+
+    fn gap(
+        &self,
+        gap: usize,
+        apart: &Tried,
+        settings: &GapSettings,
+    ) -> Result<CriticalGap, GapError> {
+        let between = apart.summary.gaps[gap].between.clone();
+        let own: Vec<usize> = (0..apart.system.contacts.len())
+            .filter(|&contact| apart.system.contacts[contact].gap == gap)
+            .collect();
+        let nearest = own.iter().copied().max_by(|&a, &b| {
+            apart.outcome.closing[a]
+                .value
+                .total_cmp(&apart.outcome.closing[b].value)
+        });
+        let Some(nearest) = nearest else {
+            return Err(GapError::NoContact(between.join(" and ")));
+        };
+        let closing = apart.outcome.closing[nearest].value.max(0.0);
+        let bracket = self.bracket(gap, closing, settings.tolerance)?;
+        let sides = self.model.gaps[gap].left;
+        let neighbours = [&apart.system.buildings[sides], &apart.system.buildings[sides + 1]];
+        let periods = neighbours.map(|building| {
+            building
+                .lateral_modes()
+                .next()
+                .map_or(0.0, jostle::modal::Mode::period)
+        });
+        let damping = [0, 1].map(|side| {
+            let omega = std::f64::consts::TAU / periods[side];
+            let equations = &neighbours[side].equations;
+            0.5 * (equations.alpha / omega + equations.beta * omega)
+        });
+        let usable = periods.iter().chain(&damping).all(|x| *x > 0.0 && x.is_finite());
+        let rho = usable.then(|| ddc_coefficient(periods, damping));
+        let mut rules = self.rules(gap, &own, apart, rho, settings);
+        let mut runs = bracket.runs + 1;
+        for rule in &mut rules {
+            rule.ratio = (bracket.free > 0.0).then(|| rule.gap_m / bracket.free);
+            if settings.outcomes {
+                let tried = self.at(gap, rule.gap_m)?;
+                let led = &tried.summary.gaps[gap];
+                rule.impact_count = Some(led.impact_count);
+                rule.peak_force_n = Some(led.peak_force_n);
+                rule.first_impact_s = led.first_impact_s;
+                runs += 1;
+            }
+        }
+        Ok(CriticalGap {
+            between,
+            motion: self.motion.name.clone(),
+            pga_m_s2: self.motion.peak(),
+            gap_m: bracket.free,
+            pounding_at_m: bracket.pounding,
+            closing_without_contact_m: closing,
+            height_m: apart.system.contacts[nearest].height,
+            runs,
+            periods_s: periods,
+            damping,
+            ddc_correlation: rho,
+            rules,
+        })
+    }
+
+    /// Narrows down the smallest gap without an impact, beginning with the closing of a run without contact.
+    fn bracket(&self, gap: usize, closing: f64, tolerance: f64) -> Result<Bracket, GapError> {
+        let mut runs = 0;
+        let mut is_hit = |width: f64| {
+            runs += 1;
+            if runs > MOST_RUNS {
+                return Err(GapError::Run("the search did not come to an end".into()));
+            }
+            Ok(self.at(gap, width)?.summary.gaps[gap].impact_count > 0)
+        };
+        let mut reach = 0.5 * tolerance;
+        let mut free = closing + reach;
+        while is_hit(free)? {
+            reach *= 2.0;
+            free = closing + reach;
+        }
+        let mut reach = 0.5 * tolerance;
+        let mut hit = closing - reach;
+        loop {
+            if hit <= 0.0 {
+                // The last try: touching at rest.
+                if is_hit(0.0)? {
+                    hit = 0.0;
+                    break;
+                }
+                return Ok(Bracket {
+                    free: 0.0,
+                    pounding: None,
+                    runs,
+                });
+            }
+            if is_hit(hit)? {
+                break;
+            }
+            free = hit;
+            reach *= 2.0;
+            hit = closing - reach;
+        }
+        while free - hit > tolerance * (1.0 + 1e-9) {
+            let middle = 0.5 * (free + hit);
+            if is_hit(middle)? {
+                hit = middle;
+            } else {
+                free = middle;
+            }
+        }
+        Ok(Bracket {
+            free,
+            pounding: Some(hit),
+            runs,
+        })
+    }
+
+    fn rules(
+        &self,
+        gap: usize,
+        own: &[usize],
+        apart: &Tried,
+        rho: Option<f64>,
+        settings: &GapSettings,
+    ) -> Vec<RuleGap> {
+        let peaks: Vec<[f64; 2]> = own
+            .iter()
+            .map(|&contact| {
+                let contact = &apart.system.contacts[contact];
+                contact
+                    .buildings
+                    .map(|building| peak_at(apart, building, contact.height))
+            })
+            .collect();
+        let widest = |rule: &dyn Fn(f64, f64) -> f64| {
+            let all = peaks.iter().map(|[left, right]| rule(*left, *right));
+            all.fold(0.0, f64::max)
+        };
+        let rule = |rule: &str, source: &str, gap_m: f64| RuleGap {
+            rule: rule.to_owned(),
+            source: source.to_owned(),
+            gap_m,
+            ratio: None,
+            impact_count: None,
+            peak_force_n: None,
+            first_impact_s: None,
+        };
+        let root = widest(&srss);
+        let mut rules = vec![
+            rule("ABS", "sum of peak displacements", widest(&absolute_sum)),
+            rule(
+                "SRSS",
+                "ASCE 7-16 §12.12.3 and EN 1998-1 §4.4.2.7(2), with the computed displacements",
+                root,
+            ),
+        ];
+        if self.model.gaps[gap].floors == FloorPairs::Common {
+            rules.push(rule(
+                "0.7 SRSS",
+                "EN 1998-1 §4.4.2.7(3), floors at equal height",
+                EN1998_ALIGNED_FLOORS * root,
+            ));
+        }
+        if let Some(rho) = rho {
+            rules.push(rule(
+                "DDC",
+                "double difference, Jeng, Kasai and Maison (1992)",
+                widest(&|left, right| double_difference(left, right, rho)),
+            ));
+        }
+        let sides = self.model.gaps[gap].left;
+        let height = [sides, sides + 1]
+            .map(|building| {
+                let floors = apart.system.buildings[building].floors.last();
+                floors.map_or(0.0, |floor| floor.height)
+            })
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        for intensity in 6..=9 {
+            if let Some(width) = gb50011_joint(height, intensity, settings.system) {
+                let name = format!("GB 50011, {intensity}");
+                rules.push(rule(
+                    &name,
+                    &format!("GB 50011-2010 (2016) §6.1.4, intensity {intensity}, {height:.1} m"),
+                    width,
+                ));
+            }
+        }
+        rules
+    }
+}
+
+struct Bracket {
+    free: f64,
+    pounding: Option<f64>,
+    runs: usize,
+}
+
+/// Greatest displacement of a building at a height, either way; between floors by a straight line between theirs.
+fn peak_at(run: &Tried, building: usize, height: f64) -> f64 {
+    let floors = &run.summary.buildings[building].floors;
+    let (mut below, mut peak_below) = (0.0, 0.0);
+    for floor in floors {
+        let peak = floor.displacement_max_m.max(-floor.displacement_min_m);
+        if height <= floor.height_m + 1e-3 {
+            let share = ((height - below) / (floor.height_m - below)).clamp(0.0, 1.0);
+            return peak_below + share * (peak - peak_below);
+        }
+        (below, peak_below) = (floor.height_m, peak);
+    }
+    peak_below
+}

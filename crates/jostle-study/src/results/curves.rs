@@ -1,0 +1,222 @@
+//! Curves over the gap for every intensity, and demand over intensity (IDA).
+
+use jostle_io::Values;
+use jostle_report::{Chart, Section, Series, Stroke};
+
+use super::{Results, words};
+use crate::statistics::percentile;
+use crate::study::StudyError;
+
+/// Groups of curves at most.
+const MOST_GROUPS: usize = 8;
+/// Curves of one chart at most; more say nothing.
+const MOST_CURVES: usize = 200;
+/// Curves from which on fractiles are drawn.
+const ENOUGH: usize = 5;
+
+impl Results<'_> {
+    /// Force and impacts over the gap, a line for every intensity.
+    pub(super) fn curves(&self) -> Option<Section> {
+        let (right, up) = self.plane()?;
+        let (xs, ys) = (self.input(right), self.input(up));
+        let (x_axis, x_size) = words::axis(&self.study.layout.inputs[right].name);
+        let (y_axis, y_size) = words::axis(&self.study.layout.inputs[up].name);
+        let mut charts = Vec::new();
+        let groups = self.grouped(&self.others(&[right, up]));
+        for (name, cases) in groups.into_iter().take(MOST_GROUPS) {
+            for shown in ["peak_force_n", "impact_count"] {
+                let values = self.table.column(shown);
+                if values.is_empty() {
+                    continue;
+                }
+                let (axis, size) = words::axis(shown);
+                let levels = self.numbers(up);
+                let series = levels.iter().enumerate().map(|(colour, level)| {
+                    let of_level = cases.iter().filter(|case| ys[**case] == Some(*level));
+                    let mut points: Vec<[f64; 2]> = of_level
+                        .filter_map(|case| Some([x_size * xs[*case]?, size * values[*case]?]))
+                        .collect();
+                    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                    Series {
+                        name: format!("{:.4} {}", y_size * level, y_axis.unit).trim().to_owned(),
+                        points: means(&points),
+                        band: Vec::new(),
+                        stroke: Stroke::Dotted,
+                        colour,
+                    }
+                });
+                charts.push(Chart {
+                    title: if name.is_empty() { axis.name.clone() } else { format!("{}, {name}", axis.name) },
+                    x: x_axis.clone(),
+                    y: axis,
+                    series: series.take(14).map(short_name).collect(),
+                    levels: Vec::new(),
+                    reach: 0.0,
+                });
+            }
+        }
+        (!charts.is_empty()).then(|| Section {
+            title: format!("Over {}", x_axis.name),
+            remark: format!("One line for each {}.", y_axis.name),
+            charts,
+            ..Section::default()
+        })
+    }
+
+    /// Demand over intensity, one curve for every combination of the other factors, with fractiles.
+    pub(super) fn idas(&mut self) -> Result<Vec<Section>, StudyError> {
+        let mut sections = Vec::new();
+        for (number, wanted) in self.study.file.idas.clone().iter().enumerate() {
+            let intensity = self.table.column(&wanted.intensity).to_vec();
+            let demand = self.table.column(&wanted.demand).to_vec();
+            let along: Vec<usize> = (0..self.study.file.factors.len())
+                .filter(|factor| {
+                    let paths = &self.study.file.factors[*factor].paths;
+                    let name = &self.study.layout.inputs[*factor].name;
+                    *name == wanted.intensity
+                        || paths.iter().any(|path| {
+                            ["motion.pga", "motion.scale", "motion.match.value"]
+                                .iter()
+                                .any(|end| path.ends_with(end))
+                        })
+                })
+                .collect();
+            let groups = self.grouped(&self.others(&along));
+            let (x, x_size) = words::axis(&wanted.demand);
+            let (y, y_size) = words::axis(&wanted.intensity);
+            let mut curves: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
+            for (name, cases) in groups.iter().take(MOST_CURVES) {
+                let mut points: Vec<[f64; 2]> = cases
+                    .iter()
+                    .filter(|case| self.completed(**case))
+                    .filter_map(|case| Some([intensity[*case]?, demand[*case]?]))
+                    .collect();
+                points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                curves.push((name.clone(), means(&points)));
+            }
+            let fractiles = fractiles(&curves);
+            let enough = !fractiles.is_empty();
+            let draw = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
+                points.iter().map(|[i, d]| [x_size * d, y_size * i]).collect()
+            };
+            let mut series: Vec<Series> = curves
+                .iter()
+                .enumerate()
+                .map(|(index, (name, points))| Series {
+                    name: if enough && index > 0 { String::new() } else if enough { "each".into() } else { name.clone() },
+                    points: draw(points),
+                    band: Vec::new(),
+                    stroke: if enough { Stroke::Thin } else { Stroke::Dotted },
+                    colour: if enough { 6 } else { index },
+                })
+                .collect();
+            for (share, points) in &fractiles {
+                series.push(Series {
+                    name: format!("{:.0} %", 100.0 * share),
+                    points: draw(points),
+                    band: Vec::new(),
+                    stroke: if *share == 0.5 { Stroke::Heavy } else { Stroke::Dashed },
+                    colour: 1,
+                });
+            }
+            let columns = ida_table(&wanted.intensity, &wanted.demand, &curves, &fractiles);
+            let name = if number == 0 { "ida".to_owned() } else { format!("ida-{}", number + 1) };
+            self.write(&name, "demand over intensity, curve by curve, with fractiles", columns)?;
+            sections.push(Section {
+                title: "Incremental dynamic analysis".into(),
+                remark: if enough {
+                    "Thin: one curve for each record or other combination. Heavy: the median; dashed: the 16th and 84th percentile of the demand at each intensity.".into()
+                } else {
+                    String::new()
+                },
+                charts: vec![Chart {
+                    title: format!("{} up to {}", y.name, x.name),
+                    x,
+                    y,
+                    series,
+                    levels: Vec::new(),
+                    reach: 0.0,
+                }],
+                ..Section::default()
+            });
+        }
+        Ok(sections)
+    }
+}
+
+fn short_name(mut series: Series) -> Series {
+    // 35.0000 cm/s² reads better as 35 cm/s².
+    if let Some((number, unit)) = series.name.clone().split_once(' ')
+        && number.contains('.')
+    {
+        let number = number.trim_end_matches('0').trim_end_matches('.');
+        series.name = format!("{number} {unit}");
+    }
+    series
+}
+
+/// Means of points at equal places, which follow each other.
+fn means(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut means: Vec<[f64; 2]> = Vec::new();
+    let mut rest = points;
+    while let Some([x, _]) = rest.first() {
+        let count = rest.iter().take_while(|p| p[0] == *x).count();
+        let sum: f64 = rest[..count].iter().map(|p| p[1]).sum();
+        means.push([*x, sum / count as f64]);
+        rest = &rest[count..];
+    }
+    means
+}
+
+/// The 16th, 50th and 84th percentile of the demand at every intensity that enough curves have.
+fn fractiles(curves: &[(String, Vec<[f64; 2]>)]) -> Vec<(f64, Vec<[f64; 2]>)> {
+    let mut places: Vec<f64> = curves.iter().flat_map(|(_, c)| c.iter().map(|p| p[0])).collect();
+    places.sort_by(f64::total_cmp);
+    // Scaled peaks agree but for rounding.
+    places.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * b.abs());
+    let mut at_places: Vec<(f64, Vec<f64>)> = Vec::new();
+    for place in places {
+        let near = |p: &&[f64; 2]| (p[0] - place).abs() <= 1e-9 * place.abs();
+        let mut demands: Vec<f64> = curves
+            .iter()
+            .filter_map(|(_, curve)| curve.iter().find(near).map(|p| p[1]))
+            .collect();
+        if demands.len() >= ENOUGH && 2 * demands.len() >= curves.len() {
+            demands.sort_by(f64::total_cmp);
+            at_places.push((place, demands));
+        }
+    }
+    if at_places.len() < 2 {
+        return Vec::new();
+    }
+    [0.16, 0.5, 0.84]
+        .map(|share| {
+            let points = at_places.iter().map(|(place, d)| [*place, percentile(d, share)]);
+            (share, points.collect())
+        })
+        .to_vec()
+}
+
+fn ida_table(
+    intensity: &str,
+    demand: &str,
+    curves: &[(String, Vec<[f64; 2]>)],
+    fractiles: &[(f64, Vec<[f64; 2]>)],
+) -> Vec<(String, Values)> {
+    let (mut names, mut xs, mut ds) = (Vec::new(), Vec::new(), Vec::new());
+    let shares = fractiles
+        .iter()
+        .map(|(share, points)| (format!("fractile {share}"), points.clone()));
+    for (name, points) in curves.iter().cloned().chain(shares) {
+        for [x, d] in points {
+            names.push(name.clone());
+            xs.push(x);
+            ds.push(d);
+        }
+    }
+    vec![
+        ("curve".into(), Values::Text(names)),
+        (intensity.to_owned(), Values::Real(xs)),
+        (demand.to_owned(), Values::Real(ds)),
+    ]
+}

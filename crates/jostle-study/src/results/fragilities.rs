@@ -1,0 +1,281 @@
+//! Fragility curves with confidence bands.
+
+use std::collections::BTreeMap;
+
+use jostle_io::{FragilityMethod, FragilityWanted, Values};
+use jostle_report::{Axis, Chart, Section, Series, Stroke};
+
+use super::{Results, words};
+use crate::statistics::{
+    Band, FitError, Lognormal, bootstrap_band, fit_cloud, fit_lognormal,
+};
+use crate::study::StudyError;
+
+/// Points at which curves are drawn.
+const POINTS: usize = 60;
+
+/// One fitted curve.
+struct Fitted {
+    name: String,
+    curve: Result<Lognormal, FitError>,
+    band: Option<Band>,
+    cases: usize,
+    events: usize,
+    stripes: Vec<[f64; 2]>,
+    grid: Vec<f64>,
+}
+
+impl Results<'_> {
+    pub(super) fn fragilities(&mut self) -> Result<Vec<Section>, StudyError> {
+        let wishes = self.study.file.fragilities.clone();
+        let mut sections = Vec::new();
+        for (number, wanted) in wishes.iter().enumerate() {
+            let mut by = Vec::new();
+            for name in &wanted.by {
+                by.push(self.study.input_column(name)?);
+            }
+            let groups = self.grouped(&by);
+            let fitted: Vec<Fitted> = groups
+                .into_iter()
+                .map(|(name, cases)| self.fit(wanted, name, &cases))
+                .collect();
+            let name = if number == 0 { "fragility".to_owned() } else { format!("fragility-{}", number + 1) };
+            self.write(
+                &name,
+                "medians and dispersions of the fragility curves, with their limits",
+                parameters(wanted, &fitted),
+            )?;
+            self.write(
+                &format!("{name}-curves"),
+                "probabilities and bands, point by point",
+                points(wanted, &fitted),
+            )?;
+            sections.push(section(wanted, &fitted));
+        }
+        Ok(sections)
+    }
+
+    fn fit(&self, wanted: &FragilityWanted, name: String, cases: &[usize]) -> Fitted {
+        let intensity = self.table.column(&wanted.intensity);
+        let demand = self.table.column(&wanted.demand);
+        let motion = self.table.texts.get("motion");
+        // Cases of one record belong together.
+        let mut records: BTreeMap<&str, Vec<(f64, f64)>> = BTreeMap::new();
+        let status = self.table.texts.get("status");
+        for &case in cases {
+            let collapsed = status.is_some_and(|status| status[case] == "collapsed");
+            let (Some(x), true) = (intensity[case], self.completed(case)) else {
+                continue;
+            };
+            // A building that collapses exceeds every demand.
+            let d = if collapsed && wanted.method == FragilityMethod::MultipleStripe {
+                Some(f64::INFINITY)
+            } else {
+                demand[case]
+            };
+            if let Some(d) = d {
+                let record = motion.map_or("", |motion| &motion[case][..]);
+                records.entry(record).or_default().push((x, d));
+            }
+        }
+        let all: Vec<(f64, f64)> = records.values().flatten().copied().collect();
+        let threshold = wanted.threshold;
+        let fit = |data: &[(f64, f64)]| match wanted.method {
+            FragilityMethod::MultipleStripe => {
+                let outcomes: Vec<(f64, bool)> =
+                    data.iter().map(|(x, d)| (*x, *d > threshold)).collect();
+                fit_lognormal(&outcomes)
+            }
+            FragilityMethod::Cloud => fit_cloud(data).and_then(|fit| fit.fragility(threshold)),
+        };
+        let curve = fit(&all);
+        let most = all.iter().map(|(x, _)| *x).fold(0.0, f64::max);
+        let grid: Vec<f64> = (0..=POINTS).map(|i| most * i as f64 / POINTS as f64).collect();
+        // With one record, or too few, single cases are drawn.
+        let groups: Vec<Vec<(f64, f64)>> = if records.len() >= 5 {
+            records.values().cloned().collect()
+        } else {
+            all.iter().map(|one| vec![*one]).collect()
+        };
+        let band = curve.is_ok().then(|| {
+            bootstrap_band(
+                &groups,
+                wanted.bootstrap,
+                wanted.confidence,
+                self.study.file.design.seed,
+                &grid,
+                fit,
+            )
+        });
+        Fitted {
+            name,
+            curve,
+            band: band.flatten(),
+            cases: all.len(),
+            events: all.iter().filter(|(_, d)| *d > threshold).count(),
+            stripes: stripes(&all, threshold),
+            grid,
+        }
+    }
+}
+
+/// Shares of events at intensities that at least five cases have in common.
+fn stripes(all: &[(f64, f64)], threshold: f64) -> Vec<[f64; 2]> {
+    let mut sorted = all.to_vec();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut shares = Vec::new();
+    let mut rest = &sorted[..];
+    while let Some((x, _)) = rest.first() {
+        let count = rest
+            .iter()
+            .take_while(|(other, _)| (other - x).abs() <= 1e-9 * x.abs())
+            .count();
+        let events = rest[..count].iter().filter(|(_, d)| *d > threshold).count();
+        if count >= 5 {
+            shares.push([*x, events as f64 / count as f64]);
+        }
+        rest = &rest[count..];
+    }
+    shares
+}
+
+fn parameters(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Values)> {
+    let real = |of: &dyn Fn(&Fitted) -> Option<f64>| {
+        Values::Instant(fitted.iter().map(of).collect())
+    };
+    let whole = |of: &dyn Fn(&Fitted) -> usize| {
+        Values::Whole(fitted.iter().map(|one| i32::try_from(of(one)).ok()).collect())
+    };
+    let limit = |which: usize, end: usize| {
+        move |one: &Fitted| {
+            let band = one.band.as_ref()?;
+            Some([band.median, band.dispersion][which][end])
+        }
+    };
+    let unit = &wanted.intensity;
+    vec![
+        ("curve".into(), Values::Text(fitted.iter().map(|one| one.name.clone()).collect())),
+        ("demand".into(), Values::Text(fitted.iter().map(|_| wanted.demand.clone()).collect())),
+        ("threshold".into(), Values::Real(fitted.iter().map(|_| wanted.threshold).collect())),
+        ("cases".into(), whole(&|one| one.cases)),
+        ("events".into(), whole(&|one| one.events)),
+        (format!("median_{unit}"), real(&|one| one.curve.ok().map(|c| c.median))),
+        (format!("median_low_{unit}"), real(&limit(0, 0))),
+        (format!("median_high_{unit}"), real(&limit(0, 1))),
+        ("dispersion".into(), real(&|one| one.curve.ok().map(|c| c.dispersion))),
+        ("dispersion_low".into(), real(&limit(1, 0))),
+        ("dispersion_high".into(), real(&limit(1, 1))),
+        (
+            "remark".into(),
+            Values::Text(
+                fitted
+                    .iter()
+                    .map(|one| one.curve.err().map_or(String::new(), |error| error.to_string()))
+                    .collect(),
+            ),
+        ),
+    ]
+}
+
+fn points(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Values)> {
+    let (mut names, mut xs, mut ps) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut lows, mut highs) = (Vec::new(), Vec::new());
+    for one in fitted {
+        let Ok(curve) = one.curve else { continue };
+        for (index, x) in one.grid.iter().enumerate() {
+            names.push(one.name.clone());
+            xs.push(*x);
+            ps.push(curve.probability(*x));
+            lows.push(one.band.as_ref().map(|band| band.low[index]));
+            highs.push(one.band.as_ref().map(|band| band.high[index]));
+        }
+    }
+    vec![
+        ("curve".into(), Values::Text(names)),
+        (wanted.intensity.clone(), Values::Real(xs)),
+        ("probability".into(), Values::Real(ps)),
+        ("probability_low".into(), Values::Instant(lows)),
+        ("probability_high".into(), Values::Instant(highs)),
+    ]
+}
+
+fn section(wanted: &FragilityWanted, fitted: &[Fitted]) -> Section {
+    let (x, size) = words::axis(&wanted.intensity);
+    let (demand, demand_size) = words::axis(&wanted.demand);
+    let event = if wanted.demand == "impact_count" && wanted.threshold == 0.0 {
+        "pounding".to_owned()
+    } else {
+        format!("{} above {} {}", demand.name, demand_size * wanted.threshold, demand.unit)
+            .trim()
+            .to_owned()
+    };
+    let mut series = Vec::new();
+    for (colour, one) in fitted.iter().enumerate() {
+        let Ok(curve) = one.curve else { continue };
+        let points = one.grid.iter().map(|at| [size * at, curve.probability(*at)]);
+        let band = one.band.as_ref().map_or(Vec::new(), |band| {
+            band.low.iter().zip(&band.high).map(|(low, high)| [*low, *high]).collect()
+        });
+        series.push(Series {
+            name: if one.name.is_empty() { event.clone() } else { one.name.clone() },
+            points: points.collect(),
+            band,
+            stroke: Stroke::Line,
+            colour,
+        });
+        series.push(Series {
+            name: String::new(),
+            points: one.stripes.iter().map(|[at, share]| [size * at, *share]).collect(),
+            band: Vec::new(),
+            stroke: Stroke::Dots,
+            colour,
+        });
+    }
+    let method = match wanted.method {
+        FragilityMethod::MultipleStripe => "Lognormal curves of greatest likelihood (multiple stripes); dots are observed shares.",
+        FragilityMethod::Cloud => "Lognormal curves from a straight line through the logarithms of demand and intensity (cloud); dots are observed shares.",
+    };
+    let heads = ["", "cases", "events", "median", "limits", "β", "limits"].map(str::to_owned);
+    let rows = fitted.iter().map(|one| {
+        let mut row = vec![
+            if one.name.is_empty() { event.clone() } else { one.name.clone() },
+            one.cases.to_string(),
+            one.events.to_string(),
+        ];
+        match (&one.curve, &one.band) {
+            (Ok(curve), band) => {
+                row.push(format!("{:.4} {}", size * curve.median, x.unit));
+                row.push(band.as_ref().map_or("–".into(), |band| {
+                    format!("{:.4} … {:.4}", size * band.median[0], size * band.median[1])
+                }));
+                row.push(format!("{:.3}", curve.dispersion));
+                row.push(band.as_ref().map_or("–".into(), |band| {
+                    format!("{:.3} … {:.3}", band.dispersion[0], band.dispersion[1])
+                }));
+            }
+            (Err(error), _) => row.push(error.to_string()),
+        }
+        row
+    });
+    Section {
+        title: format!("Fragility: {event}"),
+        remark: format!(
+            "{method} Bands hold {:.0} % of {} resampled fits.",
+            100.0 * wanted.confidence,
+            wanted.bootstrap
+        ),
+        table: Some((heads.to_vec(), rows.collect())),
+        charts: vec![Chart {
+            title: format!("Probability of {event}"),
+            x,
+            y: Axis {
+                name: "probability".into(),
+                unit: String::new(),
+            },
+            series,
+            levels: Vec::new(),
+            reach: 1.0,
+        }],
+        bars: Vec::new(),
+    }
+}

@@ -1,0 +1,271 @@
+//! What is made of a finished study: a page, and the tables behind its figures.
+
+mod curves;
+mod fragilities;
+mod groups;
+mod maps;
+mod needed;
+mod rankings;
+mod words;
+
+use std::io::Write;
+use std::path::Path;
+
+use jostle_io::{FactorValues, Values, write_atomically, write_values_parquet};
+use jostle_report::{Section, StudyPage, render_study};
+
+use crate::dataset::{Table, part_path, read_columns};
+use crate::layout::Kind;
+use crate::runner::run_folder;
+use crate::study::{Study, StudyError};
+
+/// Columns that every page uses.
+const ALWAYS: [&str; 7] = [
+    "status",
+    "reason",
+    "motion",
+    "impact_count",
+    "peak_force_n",
+    "first_impact_s",
+    "pga_m_s2",
+];
+/// Cases beyond which no CSV of all cases is written.
+const MOST_IN_CSV: u64 = 200_000;
+/// Failed cases named on the page.
+const NAMED_FAILURES: usize = 20;
+
+/// A finished study with the columns that its figures need.
+struct Results<'a> {
+    study: &'a Study,
+    folder: &'a Path,
+    table: Table,
+    /// Tables written so far: name and what it holds.
+    files: Vec<(String, String)>,
+}
+
+/// Writes `report.html`, the tables behind its figures and, unless there are very many cases, `cases.csv`. Returns
+/// what was written, in words.
+///
+/// # Errors
+/// [`StudyError`] when a part is absent or a file cannot be written.
+pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
+    let mut wanted: Vec<&str> = ALWAYS.to_vec();
+    wanted.extend(study.layout.inputs.iter().map(|column| &column.name[..]));
+    let own = needed::columns(study);
+    wanted.extend(own.iter().map(|name| &name[..]));
+    for fragility in &study.file.fragilities {
+        wanted.extend([&fragility.intensity[..], &fragility.demand]);
+    }
+    for ida in &study.file.idas {
+        wanted.extend([&ida.intensity[..], &ida.demand]);
+    }
+    let responses = rankings::responses(study);
+    wanted.extend(responses.iter().map(|name| &name[..]));
+    let table = read_columns(study, folder, &wanted)?;
+    let mut results = Results {
+        study,
+        folder,
+        table,
+        files: vec![(
+            "cases/*.parquet".into(),
+            "one row a case: inputs and everything that came out".into(),
+        )],
+    };
+    if study.design.cases <= MOST_IN_CSV {
+        write_csv(study, folder)?;
+        results
+            .files
+            .push(("cases.csv".into(), "the same as text".into()));
+    }
+    let mut sections: Vec<Section> = Vec::new();
+    let maps = results.maps();
+    sections.extend(results.curves());
+    sections.extend(results.needed_gap());
+    sections.extend(results.idas()?);
+    sections.extend(results.fragilities()?);
+    sections.extend(results.rankings(&responses)?);
+    let page = results.page(maps, sections);
+    write_atomically(&folder.join("report.html"), render_study(&page).as_bytes())?;
+    let mut said = page.headline.join("\n");
+    said += &format!("\nreport: {}", folder.join("report.html").display());
+    Ok(said)
+}
+
+impl Results<'_> {
+    /// Numbers of a factor case by case; positions in its list where it has no numbers.
+    fn input(&self, factor: usize) -> Vec<Option<f64>> {
+        let column = &self.study.layout.inputs[factor];
+        if column.kind != Kind::Text {
+            return self.table.column(&column.name).to_vec();
+        }
+        let Some(texts) = self.table.texts.get(&column.name) else {
+            return Vec::new();
+        };
+        let FactorValues::Listed(levels) = &self.study.file.factors[factor].values else {
+            return Vec::new();
+        };
+        texts
+            .iter()
+            .map(|text| {
+                let at = levels.iter().position(|level| level.label == *text);
+                at.map(|at| at as f64)
+            })
+            .collect()
+    }
+
+    fn completed(&self, case: usize) -> bool {
+        let status = self.table.texts.get("status");
+        status.and_then(|status| status.get(case)).is_some_and(|status| status != "failed")
+    }
+
+    /// The link to the report of a case whose histories are kept.
+    fn link(&self, case: u64) -> Option<String> {
+        let kept = run_folder(self.folder, case).join("report.html").is_file();
+        kept.then(|| format!("runs/case-{case:010}/report.html"))
+    }
+
+    /// Writes a table as Parquet and as CSV.
+    fn write(
+        &mut self,
+        name: &str,
+        what: &str,
+        columns: Vec<(String, Values)>,
+    ) -> Result<(), StudyError> {
+        let text = csv(&columns);
+        let path = self.folder.join(format!("{name}.csv"));
+        write_atomically(&path, text.as_bytes())?;
+        let path = self.folder.join(format!("{name}.parquet"));
+        write_values_parquet(&path, &self.study.file.title, &[], columns)?;
+        self.files.push((format!("{name}.csv, {name}.parquet"), what.to_owned()));
+        Ok(())
+    }
+
+    fn page(self, maps: Vec<(String, Vec<jostle_report::HeatMap>)>, sections: Vec<Section>) -> StudyPage {
+        let study = self.study;
+        let status = self.table.texts.get("status").cloned().unwrap_or_default();
+        let reasons = self.table.texts.get("reason").cloned().unwrap_or_default();
+        let incomplete = status.iter().zip(&reasons).enumerate();
+        let incomplete = incomplete.filter(|(_, (status, _))| *status != "completed");
+        let failed = incomplete.clone().count();
+        let failures = incomplete
+            .take(NAMED_FAILURES)
+            .map(|(case, (_, reason))| (case as u64, reason.clone()));
+        let pounding = self.table.column("impact_count");
+        let touched = pounding.iter().flatten().filter(|count| **count > 0.0).count();
+        let mut headline = Vec::new();
+        let known = pounding.iter().flatten().count();
+        if known > 0 {
+            let force = self.table.column("peak_force_n").iter().flatten();
+            let most = force.copied().fold(0.0, f64::max);
+            let forces = if touched == 0 {
+                String::new()
+            } else {
+                format!("; the greatest force is {:.0} kN", 1e-3 * most)
+            };
+            headline.push(format!(
+                "The buildings pound in {touched} of {known} cases{forces}."
+            ));
+        }
+        let mut facts = vec![
+            ("cases".to_owned(), study.design.cases.to_string()),
+            ("design".into(), words::design(study.file.design.kind).into()),
+        ];
+        if study.file.design.samples.is_some() {
+            facts.push(("seed".into(), study.file.design.seed.to_string()));
+        }
+        facts.extend(study.file.factors.iter().map(words::factor));
+        let runs = study.file.histories.iter().filter_map(|case| {
+            let choices = study.design.choices(*case, &study.file.factors);
+            let what: Vec<String> = study
+                .file
+                .factors
+                .iter()
+                .zip(&choices)
+                .map(|(factor, choice)| {
+                    format!("{} {}", factor.name, crate::design::value_of(factor, choice).2)
+                })
+                .collect();
+            Some((*case, what.join(", "), self.link(*case)?))
+        });
+        StudyPage {
+            title: study.file.title.clone(),
+            headline,
+            facts,
+            maps,
+            sections,
+            failures: failures.collect(),
+            failed,
+            runs: runs.collect(),
+            command: format!("jostle study {}", study.file.name()),
+            files: self.files,
+        }
+    }
+}
+
+/// All cases as text, part by part.
+fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
+    let path = folder.join("cases.csv");
+    let unwritable =
+        |error: &dyn std::fmt::Display| StudyError::Output(format!("{}: {error}", path.display()));
+    let names = study.layout.names();
+    let part = path.with_extension("csv.part");
+    let file = std::fs::File::create(&part).map_err(|error| unwritable(&error))?;
+    let mut writer = std::io::BufWriter::new(file);
+    let quoted: Vec<String> = names.iter().map(|name| quote(name)).collect();
+    writeln!(writer, "{}", quoted.join(",")).map_err(|error| unwritable(&error))?;
+    for number in 0..study.parts() {
+        let mut table = Table::default();
+        let source = part_path(folder, study.part(number).start);
+        crate::dataset::read_part(&source, &names, &mut table)
+            .map_err(|error| unwritable(&error))?;
+        for row in 0..table.rows {
+            let cells = names.iter().map(|name| match table.numbers.get(*name) {
+                Some(values) => values
+                    .get(row)
+                    .copied()
+                    .flatten()
+                    .map_or(String::new(), |value| value.to_string()),
+                None => {
+                    let texts = table.texts.get(*name);
+                    quote(texts.and_then(|texts| texts.get(row)).map_or("", |text| text))
+                }
+            });
+            let line: Vec<String> = cells.collect();
+            writeln!(writer, "{}", line.join(",")).map_err(|error| unwritable(&error))?;
+        }
+    }
+    let file = writer.into_inner().map_err(|error| unwritable(&error))?;
+    file.sync_all().map_err(|error| unwritable(&error))?;
+    std::fs::rename(&part, &path).map_err(|error| unwritable(&error))
+}
+
+/// A text as a field of CSV (RFC 4180).
+fn quote(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+fn csv(columns: &[(String, Values)]) -> String {
+    let length = |values: &Values| match values {
+        Values::Real(values) => values.len(),
+        Values::Instant(values) => values.len(),
+        Values::Whole(values) => values.len(),
+        Values::Text(values) => values.len(),
+    };
+    let cell = |values: &Values, row: usize| match values {
+        Values::Real(values) => values[row].to_string(),
+        Values::Instant(values) => values[row].map_or(String::new(), |value| value.to_string()),
+        Values::Whole(values) => values[row].map_or(String::new(), |value| value.to_string()),
+        Values::Text(values) => quote(&values[row]),
+    };
+    let heads: Vec<String> = columns.iter().map(|(name, _)| quote(name)).collect();
+    let mut text = heads.join(",") + "\n";
+    for row in 0..columns.first().map_or(0, |(_, values)| length(values)) {
+        let cells: Vec<String> = columns.iter().map(|(_, values)| cell(values, row)).collect();
+        text += &(cells.join(",") + "\n");
+    }
+    text
+}

@@ -1,0 +1,189 @@
+//! The gap that is needed at every intensity, beside the rules.
+
+use jostle::Structure;
+use jostle::separation::{ddc_coefficient, double_difference, gb50011_frame_joint, srss};
+use jostle_report::{Chart, Level, Section, Series, Stroke};
+
+use super::{Results, words};
+use crate::study::Study;
+
+/// Columns that [`Results::needed_gap`] reads: peaks of the highest common floors of the first gap.
+pub(super) fn columns(study: &Study) -> Vec<String> {
+    places(study).map_or(Vec::new(), |places| {
+        let mut names: Vec<String> = places
+            .roofs
+            .iter()
+            .flat_map(|roof| {
+                [
+                    format!("{roof}.displacement_max_m"),
+                    format!("{roof}.displacement_min_m"),
+                ]
+            })
+            .collect();
+        names.extend(places.names.iter().map(|name| format!("{name}.period_s")));
+        names
+    })
+}
+
+struct Places {
+    names: [String; 2],
+    /// The highest common floor of either neighbour, as its columns begin.
+    roofs: [String; 2],
+    height: f64,
+    damping: f64,
+}
+
+/// The highest floors that face each other in the base model.
+fn places(study: &Study) -> Option<Places> {
+    let model = study.file.base.input().ok()?.model;
+    let gap = model.gaps.first().filter(|_| model.gaps.len() == 1)?;
+    let pair = [&model.buildings[gap.left], &model.buildings[gap.left + 1]];
+    let heights = pair.map(|building| building.floor_heights());
+    let top = heights[0]
+        .iter()
+        .enumerate()
+        .rev()
+        .find_map(|(left, height)| {
+            let right = heights[1].iter().position(|h| (h - height).abs() < 1e-3)?;
+            Some([left, right])
+        })?;
+    let height = heights.iter().filter_map(|h| h.last()).copied();
+    let ratio = |building: &jostle::Building| match building.damping {
+        jostle::Damping::Ratio { ratio, .. } => ratio,
+        jostle::Damping::Rayleigh { .. } => 0.05,
+    };
+    let frames = pair
+        .iter()
+        .all(|building| matches!(building.structure, Structure::Frame(_)));
+    Some(Places {
+        names: pair.map(|building| building.name.clone()),
+        roofs: [0, 1].map(|side| format!("{}.floor{}", pair[side].name, top[side] + 1)),
+        height: if frames { height.fold(f64::INFINITY, f64::min) } else { f64::NAN },
+        damping: (ratio(pair[0]) * ratio(pair[1])).sqrt(),
+    })
+}
+
+impl Results<'_> {
+    /// The smallest gap of the study without an impact at every intensity, and what rules make of the peaks of
+    /// buildings that did not touch.
+    pub(super) fn needed_gap(&mut self) -> Option<Section> {
+        let (right, up) = self.plane()?;
+        let is_width = |path: &String| path.ends_with(".width");
+        if !self.study.file.factors[right].paths.iter().any(is_width) {
+            return None;
+        }
+        let (gaps, intensities) = (self.input(right), self.input(up));
+        let (gap_axis, gap_size) = words::axis(&self.study.layout.inputs[right].name);
+        let (axis, size) = words::axis(&self.study.layout.inputs[up].name);
+        let impacts = self.table.column("impact_count").to_vec();
+        let groups = self.grouped(&self.others(&[right, up]));
+        let places = places(self.study);
+        let levels = self.numbers(up);
+        let widest = self.numbers(right).last().copied().unwrap_or(0.0);
+        let mut series = Vec::new();
+        for (colour, (name, cases)) in groups.iter().enumerate().take(7) {
+            let mut needed = Vec::new();
+            let mut rules: [Vec<[f64; 2]>; 3] = Default::default();
+            for level in &levels {
+                let own = || {
+                    cases
+                        .iter()
+                        .filter(|case| intensities[**case] == Some(*level))
+                };
+                let hit = own().filter(|case| impacts[**case].is_some_and(|count| count > 0.0));
+                let hit = hit.filter_map(|case| gaps[*case]).fold(-1.0, f64::max);
+                let free = own()
+                    .filter(|case| impacts[**case] == Some(0.0))
+                    .filter_map(|case| gaps[*case])
+                    .filter(|gap| *gap > hit)
+                    .fold(f64::INFINITY, f64::min);
+                if free.is_finite() {
+                    needed.push([size * level, gap_size * free]);
+                }
+                let apart = own().find(|case| impacts[**case] == Some(0.0));
+                if let (Some(case), Some(places)) = (apart, &places) {
+                    self.rules(*case, places, [size * level, gap_size], &mut rules);
+                }
+            }
+            let label = |what: &str| {
+                if name.is_empty() { what.to_owned() } else { format!("{what}, {name}") }
+            };
+            series.push(Series {
+                name: label("needed"),
+                points: needed,
+                band: Vec::new(),
+                stroke: Stroke::Dotted,
+                colour,
+            });
+            for (rule, points) in ["ABS", "SRSS", "DDC"].into_iter().zip(rules) {
+                if groups.len() == 1 && !points.is_empty() {
+                    series.push(Series {
+                        name: rule.to_owned(),
+                        points,
+                        band: Vec::new(),
+                        stroke: Stroke::Dashed,
+                        colour: series.len(),
+                    });
+                }
+            }
+        }
+        let height = places.map_or(f64::NAN, |places| places.height);
+        let codes = [7, 8, 9].into_iter().filter_map(|intensity| {
+            Some(Level {
+                name: format!("GB 50011, intensity {intensity}"),
+                value: gap_size * gb50011_frame_joint(height, intensity).filter(|_| height.is_finite())?,
+            })
+        });
+        let mut codes: Vec<Level> = codes.collect();
+        // Lines that nearly coincide would write over each other.
+        if let [first, .., last] = &codes[..]
+            && last.value - first.value < 0.08 * gap_size * widest
+        {
+            let joined = Level {
+                name: format!("GB 50011, intensities 7 to 9: {:.0} to {:.0} mm", first.value, last.value),
+                value: first.value,
+            };
+            codes = vec![joined];
+        }
+        Some(Section {
+            title: "Required gap".into(),
+            remark: "Needed: the smallest gap of this study without an impact and without one at any wider gap. ABS, SRSS and DDC come from the peak displacements of cases without contact, at the highest floors that face each other; where even the widest gap is closed there is nothing to show.".into(),
+            charts: vec![Chart {
+                title: "Gap without pounding, and rules".into(),
+                x: axis,
+                y: gap_axis,
+                series,
+                levels: codes,
+                reach: gap_size * widest,
+            }],
+            ..Section::default()
+        })
+    }
+
+    fn rules(
+        &self,
+        case: usize,
+        places: &Places,
+        [x, size]: [f64; 2],
+        into: &mut [Vec<[f64; 2]>; 3],
+    ) {
+        let value = |name: String| self.table.column(&name).get(case).copied().flatten();
+        let peak = |roof: &String| {
+            let high = value(format!("{roof}.displacement_max_m"))?;
+            let low = value(format!("{roof}.displacement_min_m"))?;
+            Some(high.max(-low))
+        };
+        let (Some(left), Some(right)) = (peak(&places.roofs[0]), peak(&places.roofs[1])) else {
+            return;
+        };
+        into[0].push([x, size * (left + right)]);
+        into[1].push([x, size * srss(left, right)]);
+        let periods = places.names.each_ref().map(|name| value(format!("{name}.period_s")));
+        if let [Some(a), Some(b)] = periods
+            && places.damping > 0.0
+        {
+            let rho = ddc_coefficient([a, b], [places.damping; 2]);
+            into[2].push([x, size * double_difference(left, right, rho)]);
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Which factors matter: Sobol indices, elementary effects, tornado.
+
+use jostle_io::{DesignKind, Values};
+use jostle_report::{Axis, Bar, Bars, Section};
+
+use super::{Results, words};
+use crate::statistics::{elementary_effects, sobol_indices};
+use crate::study::{Study, StudyError};
+
+/// Columns whose sensitivity is shown, where the design shows any.
+pub(super) fn responses(study: &Study) -> Vec<String> {
+    let sensitive = matches!(
+        study.file.design.kind,
+        DesignKind::Saltelli | DesignKind::Morris | DesignKind::OneAtATime
+    );
+    if !sensitive {
+        return Vec::new();
+    }
+    if !study.file.responses.is_empty() {
+        return study.file.responses.clone();
+    }
+    let names = study.layout.names();
+    ["peak_force_n", "impact_count", "closing_peak_m"]
+        .into_iter()
+        .filter(|name| names.contains(name))
+        .map(str::to_owned)
+        .collect()
+}
+
+/// One row of the table of sensitivities.
+struct Line {
+    response: String,
+    factor: String,
+    numbers: [f64; 2],
+    limits: Option<[[f64; 2]; 2]>,
+}
+
+impl Results<'_> {
+    pub(super) fn rankings(&mut self, responses: &[String]) -> Result<Option<Section>, StudyError> {
+        if responses.is_empty() {
+            return Ok(None);
+        }
+        let file = &self.study.file;
+        let (k, seed) = (file.factors.len(), file.design.seed);
+        let kind = file.design.kind;
+        let legend = match kind {
+            DesignKind::Saltelli => ["first_order", "total"],
+            DesignKind::Morris => ["mean_absolute_effect", "deviation"],
+            _ => ["low", "high"],
+        };
+        let mut lines: Vec<Line> = Vec::new();
+        let mut bars: Vec<Bars> = Vec::new();
+        let mut silent: Vec<String> = Vec::new();
+        for response in responses {
+            let values = self.table.column(response).to_vec();
+            let (axis, size) = words::axis(response);
+            let mut centre = 0.0;
+            let mut own: Vec<Line> = Vec::new();
+            let mut push = |factor: usize, numbers: [f64; 2], limits: Option<[[f64; 2]; 2]>| {
+                own.push(Line {
+                    response: response.clone(),
+                    factor: file.factors[factor].name.clone(),
+                    numbers,
+                    limits,
+                });
+            };
+            match kind {
+                DesignKind::Saltelli => {
+                    for (factor, index) in
+                        sobol_indices(&values, k, seed).unwrap_or_default().iter().enumerate()
+                    {
+                        push(
+                            factor,
+                            [index.first, index.total],
+                            Some([index.first_limits, index.total_limits]),
+                        );
+                    }
+                }
+                DesignKind::Morris => {
+                    let effects = elementary_effects(&values, k, seed);
+                    for (factor, effect) in effects.iter().enumerate() {
+                        if effect.count > 0 {
+                            push(factor, [effect.mean_absolute, effect.deviation], None);
+                        }
+                    }
+                }
+                _ => {
+                    centre = values.first().copied().flatten().unwrap_or(0.0);
+                    for factor in 0..k {
+                        let at = |side: usize| values.get(1 + 2 * factor + side).copied().flatten();
+                        if let (Some(low), Some(high)) = (at(0), at(1)) {
+                            push(factor, [low, high], None);
+                        }
+                    }
+                }
+            }
+            if own.is_empty() {
+                silent.push(response.clone());
+                continue;
+            }
+            let weight = |line: &Line| match kind {
+                DesignKind::OneAtATime => (line.numbers[1] - line.numbers[0]).abs(),
+                DesignKind::Saltelli => line.numbers[1],
+                _ => line.numbers[0],
+            };
+            own.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+            let size = if kind == DesignKind::Saltelli { 1.0 } else { size };
+            bars.push(Bars {
+                title: axis.name.clone(),
+                value: if kind == DesignKind::Saltelli {
+                    Axis {
+                        name: "share of the variance".into(),
+                        unit: String::new(),
+                    }
+                } else {
+                    axis
+                },
+                centre: size * centre,
+                bars: own
+                    .iter()
+                    .map(|line| Bar {
+                        name: line.factor.clone(),
+                        ends: line.numbers.map(|value| size * value),
+                        limits: line.limits,
+                    })
+                    .collect(),
+                legend: legend.map(|name| name.replace('_', " ")),
+            });
+            lines.extend(own);
+        }
+        let limit = |which: usize, end: usize| {
+            let all = lines.iter().map(|line| Some(line.limits?[which][end]));
+            Values::Instant(all.collect())
+        };
+        let columns = vec![
+            (
+                "response".into(),
+                Values::Text(lines.iter().map(|line| line.response.clone()).collect()),
+            ),
+            (
+                "factor".into(),
+                Values::Text(lines.iter().map(|line| line.factor.clone()).collect()),
+            ),
+            (
+                legend[0].to_owned(),
+                Values::Real(lines.iter().map(|line| line.numbers[0]).collect()),
+            ),
+            (format!("{}_lower", legend[0]), limit(0, 0)),
+            (format!("{}_upper", legend[0]), limit(0, 1)),
+            (
+                legend[1].to_owned(),
+                Values::Real(lines.iter().map(|line| line.numbers[1]).collect()),
+            ),
+            (format!("{}_lower", legend[1]), limit(1, 0)),
+            (format!("{}_upper", legend[1]), limit(1, 1)),
+        ];
+        self.write("sensitivity", "how much every factor matters", columns)?;
+        let mut remark = match kind {
+            DesignKind::Saltelli => "Shares of the variance (Sobol indices): by itself, and together with all others; lines are 90 % limits of resampled estimates.".to_owned(),
+            DesignKind::Morris => "Elementary effects of moving a factor over its range (Morris): mean of absolute values, and standard deviation, which shows interactions and curvature.".to_owned(),
+            _ => format!(
+                "Tornado: every factor by itself at its {:.0} % and {:.0} % quantile, the others in the middle.",
+                100.0 * file.design.quantiles[0],
+                100.0 * file.design.quantiles[1]
+            ),
+        };
+        if !silent.is_empty() {
+            remark += &format!(" Nothing to rank in {}: it does not vary, or is absent.", silent.join(", "));
+        }
+        Ok(Some(Section {
+            title: "Sensitivity".into(),
+            remark,
+            bars,
+            ..Section::default()
+        }))
+    }
+}

@@ -1,0 +1,89 @@
+//! Columns in words and in the units that people read.
+
+use jostle_io::{DesignKind, Factor, FactorValues};
+use jostle_report::Axis;
+
+/// Endings of column names: the size of the unit that people read, and its name.
+const UNITS: [(&str, f64, &str); 8] = [
+    ("_m_s2", 100.0, "cm/s²"),
+    ("_n_s", 1e-3, "kN·s"),
+    ("_per_s", 1.0, "1/s"),
+    ("_kg", 1e-3, "t"),
+    ("_n", 1e-3, "kN"),
+    ("_j", 1e-3, "kJ"),
+    ("_m", 1e3, "mm"),
+    ("_s", 1.0, "s"),
+];
+
+/// The axis of a column, and by what its numbers are multiplied there.
+pub(super) fn axis(column: &str) -> (Axis, f64) {
+    let unit = UNITS.iter().find(|(ending, ..)| column.ends_with(ending));
+    let (plain, size, unit) = match unit {
+        Some((ending, size, unit)) => (column.trim_end_matches(ending), *size, *unit),
+        None if column.ends_with("drift_peak") || column.ends_with("drift") => (column, 100.0, "%"),
+        None => (column, 1.0, ""),
+    };
+    let name = match plain {
+        "peak_force" => "greatest force".into(),
+        "impact_count" => "impacts".into(),
+        "first_impact" => "first impact".into(),
+        "closing_peak" => "greatest closing".into(),
+        "pga" | "motion.pga" => "peak ground acceleration".into(),
+        other => other.replace('_', " "),
+    };
+    let axis = Axis {
+        name,
+        unit: unit.to_owned(),
+    };
+    (axis, size)
+}
+
+/// A design in words.
+pub(super) fn design(kind: DesignKind) -> &'static str {
+    match kind {
+        DesignKind::Factorial => "every combination",
+        DesignKind::Zipped => "side by side",
+        DesignKind::LatinHypercube => "Latin hypercube",
+        DesignKind::Sobol => "Sobol sequence",
+        DesignKind::Random => "random draws",
+        DesignKind::Saltelli => "Saltelli, for Sobol indices",
+        DesignKind::Morris => "Morris trajectories",
+        DesignKind::OneAtATime => "one at a time",
+    }
+}
+
+/// A factor and its values in words.
+pub(super) fn factor(factor: &Factor) -> (String, String) {
+    let values = match &factor.values {
+        FactorValues::Listed(levels) => match &levels[..] {
+            [only] => only.label.clone(),
+            [first, second] => format!("{}, {}", first.label, second.label),
+            [first, .., last] if levels.len() > 4 => {
+                format!("{} values, {} … {}", levels.len(), first.label, last.label)
+            }
+            all => {
+                let labels: Vec<&str> = all.iter().map(|level| &level.label[..]).collect();
+                labels.join(", ")
+            }
+        },
+        FactorValues::Drawn(drawn) => {
+            let unit = &drawn.unit;
+            let text = match drawn.shape {
+                jostle_io::Shape::Uniform { from, to } => format!("uniform, {from} … {to} {unit}"),
+                jostle_io::Shape::Normal { mean, deviation } => {
+                    format!("normal, {mean} ± {deviation} {unit}")
+                }
+                jostle_io::Shape::LogNormal { median, dispersion } => {
+                    format!("lognormal, median {median} {unit}, β {dispersion:.3}")
+                }
+            };
+            text.trim_end().to_owned()
+        }
+    };
+    let values = if factor.multiplies {
+        format!("× {values}")
+    } else {
+        values
+    };
+    (factor.name.clone(), values)
+}
