@@ -30,6 +30,7 @@ from ._own_law import Experiment, experiment
 from ._pushover import CapacityCurve, pushover
 from ._result import Contact, Floor, LinkedFloors, Result
 from ._run import run
+from ._study import CriticalGap, RuleGap, Study, StudyResult, critical_gap
 from ._table import Table
 
 __all__ = [
@@ -40,6 +41,7 @@ __all__ = [
     "Collision",
     "Contact",
     "ContactLaw",
+    "CriticalGap",
     "Experiment",
     "Fault",
     "Floor",
@@ -56,13 +58,17 @@ __all__ = [
     "ModelWarning",
     "Motion",
     "Result",
+    "RuleGap",
     "Shear",
     "Spectrum",
+    "Study",
+    "StudyResult",
     "Table",
     "__version__",
     "collide",
     "collide_all",
     "contact_laws",
+    "critical_gap",
     "experiment",
     "modes",
     "pushover",

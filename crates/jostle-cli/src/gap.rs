@@ -169,7 +169,9 @@ fn describe(title: &str, found: &[CriticalGap]) -> String {
         }
         text += "  rule             gap       of need   would have led to\n";
         for rule in &gap.rules {
-            let ratio = rule.ratio.map_or("–".to_owned(), |ratio| format!("{ratio:.2}"));
+            let ratio = rule
+                .ratio
+                .map_or("–".to_owned(), |ratio| format!("{ratio:.2}"));
             let led = match (rule.impact_count, rule.peak_force_n, rule.first_impact_s) {
                 (Some(0), ..) => "no impact".to_owned(),
                 (Some(count), Some(force), Some(first)) => format!(

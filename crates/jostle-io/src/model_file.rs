@@ -126,11 +126,7 @@ pub fn read_model_text(
 }
 
 /// Reads and checks a parsed model file.
-pub(crate) fn read_tree(
-    source: Arc<Source>,
-    root: Node,
-    base: &Path,
-) -> Result<Input, InputError> {
+pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<Input, InputError> {
     let mut reader = Reader::new(&source);
     let read = read_root(&mut reader, &root, base);
     if let Some((model, ..)) = &read {

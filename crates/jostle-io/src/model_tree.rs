@@ -92,6 +92,18 @@ impl ModelTree {
         Ok(Self::of(Arc::new(source), root, base))
     }
 
+    /// The model file at a path, or the built-in model of that name.
+    ///
+    /// # Errors
+    /// As [`ModelTree::load`].
+    pub fn find(path: &Path) -> Result<Self, InputError> {
+        let name = path.to_str().filter(|_| !path.exists());
+        match name.filter(|name| builtin::model_names().contains(name)) {
+            Some(name) => Self::builtin(name),
+            None => Self::load(path),
+        }
+    }
+
     /// A built-in model.
     ///
     /// # Errors
@@ -244,12 +256,7 @@ fn walk(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Resul
                     table.entries.len() - 1
                 }
             };
-            walk(
-                &mut table.entries[index].node,
-                rest,
-                &join(at, key),
-                change,
-            )
+            walk(&mut table.entries[index].node, rest, &join(at, key), change)
         }
         (Part::Key(key), Value::List(list)) => {
             let names: Vec<String> = list.iter().map(name_of).collect();
@@ -310,10 +317,16 @@ fn multiply(node: &mut Node, factor: f64) -> Result<(), String> {
         Value::Number(value) => Value::Number(*value * factor),
         Value::Text(text) => match crate::quantity::split_number(text) {
             Some((number, unit)) => Value::Text(quantity_text(number * factor, unit)),
-            None => return Err(format!("\"{text}\" is not a number that could be multiplied")),
+            None => {
+                return Err(format!(
+                    "\"{text}\" is not a number that could be multiplied"
+                ));
+            }
         },
         Value::List(list) => {
-            return list.iter_mut().try_for_each(|entry| multiply(entry, factor));
+            return list
+                .iter_mut()
+                .try_for_each(|entry| multiply(entry, factor));
         }
         _ => return Err(format!("{} cannot be multiplied", node.describe())),
     };
@@ -384,9 +397,15 @@ impl fmt::Display for TreeValue {
             Self::Integer(value) => write!(f, "{value}"),
             Self::Number(value) => write!(f, "{value}"),
             Self::Flag(value) => write!(f, "{value}"),
-            Self::List(entries) => list(f, entries.iter().map(ToString::to_string).collect(), ["[", "]"]),
+            Self::List(entries) => list(
+                f,
+                entries.iter().map(ToString::to_string).collect(),
+                ["[", "]"],
+            ),
             Self::Table(entries) => {
-                let entries = entries.iter().map(|(key, value)| format!("{key} = {value}"));
+                let entries = entries
+                    .iter()
+                    .map(|(key, value)| format!("{key} = {value}"));
                 list(f, entries.collect(), ["{ ", " }"])
             }
         }
@@ -414,7 +433,8 @@ mod tests {
             ("motion.scale", TreeValue::Number(0.5)),
             ("analysis.tolerance", TreeValue::Number(0.01)),
         ] {
-            tree.set(path, &value).unwrap_or_else(|error| panic!("{error}"));
+            tree.set(path, &value)
+                .unwrap_or_else(|error| panic!("{error}"));
         }
         tree.multiply("building[1].beam_mass", 2.0)
             .unwrap_or_else(|error| panic!("{error}"));
@@ -443,7 +463,10 @@ mod tests {
             ("", "not a path"),
         ] {
             let error = tree.set(path, &TreeValue::Number(1.0));
-            let error = error.err().map(|error| error.to_string()).unwrap_or_default();
+            let error = error
+                .err()
+                .map(|error| error.to_string())
+                .unwrap_or_default();
             assert!(error.contains(expected), "{path}: {error}");
         }
         let error = tree.multiply("motion.record", 2.0);

@@ -112,7 +112,7 @@ impl StudyFile {
     ///
     /// # Errors
     /// Every fault in one go.
-    pub fn load(path: &Path, base: Option<&Path>) -> Result<Self, InputError> {
+    pub fn load(path: &Path, base: Option<ModelTree>) -> Result<Self, InputError> {
         let (name, text) = model_file::read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Self::parse(&name, &text, Format::of_path(path), folder, base)
@@ -127,7 +127,7 @@ impl StudyFile {
         text: &str,
         format: Format,
         folder: &Path,
-        base: Option<&Path>,
+        base: Option<ModelTree>,
     ) -> Result<Self, InputError> {
         let text = tree::decode(name, text.as_bytes())?;
         let source = Arc::new(Source::new(name, text));
@@ -201,7 +201,9 @@ impl StudyFile {
 /// Whether a fault at a field may come from a value put in at a path: one is the other or lies below it.
 fn touches(path: &str, field: &str) -> bool {
     let plain = |text: &str| -> Vec<String> {
-        let pieces = text.split(['.', '[']).map(|part| part.trim_end_matches(']'));
+        let pieces = text
+            .split(['.', '['])
+            .map(|part| part.trim_end_matches(']'));
         pieces.map(str::to_owned).collect()
     };
     let (path, field) = (plain(path), plain(field));
@@ -218,7 +220,7 @@ fn read_root(
     source: &Arc<Source>,
     root: &Node,
     folder: &Path,
-    base: Option<&Path>,
+    base: Option<ModelTree>,
 ) -> Option<Result<StudyFile, InputError>> {
     let field = Field {
         node: root,
@@ -285,20 +287,23 @@ fn base_model(
     source: &Arc<Source>,
     view: &View<'_>,
     folder: &Path,
-    other: Option<&Path>,
+    other: Option<ModelTree>,
 ) -> Option<Result<ModelTree, InputError>> {
     let (base, model) = (reader.get(view, "base"), reader.get(view, "model"));
     if let (Some(base), Some(_)) = (&base, &model) {
         *reader.bad(base, "cannot stand beside model") = Some("keep either base or model".into());
         return None;
     }
-    if let Some(path) = other {
-        return Some(load_base(path, path));
+    if let Some(tree) = other {
+        return Some(Ok(tree));
     }
     if let Some(model) = model {
         if !matches!(model.node.value, Value::Table(_)) {
             let found = model.node.describe();
-            reader.bad(&model, format!("expected a model written out, found {found}"));
+            reader.bad(
+                &model,
+                format!("expected a model written out, found {found}"),
+            );
             return None;
         }
         return Some(Ok(ModelTree::of(
@@ -328,16 +333,11 @@ fn base_model(
         *reader.bad(&base, problem) = remedy;
         return None;
     }
-    Some(load_base(&path, Path::new(&name)))
-}
-
-fn load_base(path: &Path, name: &Path) -> Result<ModelTree, InputError> {
-    match name.to_str().filter(|name| {
-        !path.exists() && builtin::model_names().contains(name)
-    }) {
-        Some(name) => ModelTree::builtin(name),
-        None => ModelTree::load(path),
-    }
+    Some(if path.exists() {
+        ModelTree::load(&path)
+    } else {
+        ModelTree::builtin(&name)
+    })
 }
 
 fn design_of(
@@ -492,7 +492,11 @@ fn correlations(
     for entry in entries {
         let view = reader.open(&entry, &[Section::Correlation])?;
         let Some(between) = reader.get(&view, "between") else {
-            reader.missing(&view, "between", "name two factors: between = [\"a\", \"b\"]");
+            reader.missing(
+                &view,
+                "between",
+                "name two factors: between = [\"a\", \"b\"]",
+            );
             continue;
         };
         let pair = wanted::texts(reader, &between)?;

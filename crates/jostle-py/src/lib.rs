@@ -11,6 +11,7 @@ mod model;
 mod motion;
 mod quantity;
 mod run;
+mod study;
 mod table;
 
 /// The compiled half of the package; its contents are used by `jostle` and may change at any time.
@@ -28,6 +29,8 @@ mod _jostle {
     use super::quantity::quantity;
     #[pymodule_export]
     use super::run::{Run, run};
+    #[pymodule_export]
+    use super::study::{Study, critical_gaps};
     #[pymodule_export]
     use super::table::Table;
 

@@ -221,7 +221,10 @@ fn one_line(text: &str) -> String {
         let excerpt = line.split_once('|').is_some_and(|(number, _)| {
             number.trim().is_empty() || number.trim().parse::<usize>().is_ok()
         });
-        !excerpt && !line.starts_with('|') && !line.contains(" fault in ") && !line.contains(" faults in ")
+        !excerpt
+            && !line.starts_with('|')
+            && !line.contains(" fault in ")
+            && !line.contains(" faults in ")
     });
     lines.collect::<Vec<_>>().join("; ")
 }

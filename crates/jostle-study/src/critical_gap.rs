@@ -219,7 +219,10 @@ impl Search<'_> {
         let closing = apart.outcome.closing[nearest].value.max(0.0);
         let bracket = self.bracket(gap, closing, settings.tolerance)?;
         let sides = self.model.gaps[gap].left;
-        let neighbours = [&apart.system.buildings[sides], &apart.system.buildings[sides + 1]];
+        let neighbours = [
+            &apart.system.buildings[sides],
+            &apart.system.buildings[sides + 1],
+        ];
         let periods = neighbours.map(|building| {
             building
                 .lateral_modes()
@@ -231,7 +234,10 @@ impl Search<'_> {
             let equations = &neighbours[side].equations;
             0.5 * (equations.alpha / omega + equations.beta * omega)
         });
-        let usable = periods.iter().chain(&damping).all(|x| *x > 0.0 && x.is_finite());
+        let usable = periods
+            .iter()
+            .chain(&damping)
+            .all(|x| *x > 0.0 && x.is_finite());
         let rho = usable.then(|| ddc_coefficient(periods, damping));
         let mut rules = self.rules(gap, &own, apart, rho, settings);
         let mut runs = bracket.runs + 1;

@@ -181,7 +181,9 @@ impl CaseDesign {
             Points::Sequence(sequence) => sequence.point(sample),
             Points::Random(seed) => {
                 let mut stream = Stream::new(*seed, RANDOM, sample);
-                (0..self.dimensions).map(|_| stream.open_uniform()).collect()
+                (0..self.dimensions)
+                    .map(|_| stream.open_uniform())
+                    .collect()
             }
         };
         self.copula.apply(&mut point);
@@ -245,7 +247,11 @@ pub(crate) fn morris_steps(seed: u64, trajectory: u64, k: usize) -> MorrisSteps 
     let moves = order.into_iter().map(|factor| {
         let from = start[factor];
         // On this grid exactly one of the two directions stays inside.
-        let to = if from + step > 1.0 + 1e-12 { from - step } else { from + step };
+        let to = if from + step > 1.0 + 1e-12 {
+            from - step
+        } else {
+            from + step
+        };
         (factor, to)
     });
     MorrisSteps {

@@ -33,7 +33,7 @@ pub struct Column {
 pub struct Layout {
     /// Columns of what varies, factor by factor.
     pub inputs: Vec<Column>,
-    /// Columns of what comes out; all hold numbers but the first, the name of the motion.
+    /// Columns of what comes out, numbers all of them; the name of the motion stands before them.
     pub results: Vec<Column>,
     places: HashMap<String, usize>,
 }
@@ -82,7 +82,7 @@ impl Layout {
         for factor in &file.factors {
             let mut name = input_name(&factor.name, &factor.unit);
             while taken(&name) || inputs.iter().any(|column| column.name == name) {
-                name.push('_');
+                name.insert_str(0, "input.");
             }
             let numeric = match &factor.values {
                 jostle_io::FactorValues::Listed(levels) => {
@@ -130,24 +130,26 @@ impl Layout {
         let mut columns = vec![
             (
                 "case".to_owned(),
-                Values::Whole(rows.iter().map(|row| i32::try_from(row.case).ok()).collect()),
+                Values::Whole(
+                    rows.iter()
+                        .map(|row| i32::try_from(row.case).ok())
+                        .collect(),
+                ),
             ),
             ("status".into(), text(&|row| row.status.name().to_owned())),
             ("reason".into(), text(&|row| row.reason.clone())),
         ];
         let (mut number, mut word) = (0, 0);
-        let all = self.inputs.iter().chain(std::iter::once(&MOTION_COLUMN));
+        let motion = Column {
+            name: MOTION.to_owned(),
+            kind: Kind::Text,
+        };
+        let all = self.inputs.iter().chain(std::iter::once(&motion));
         for column in all.chain(&self.results) {
-            let name = if column.kind == Kind::Text && column.name.is_empty() {
-                MOTION.to_owned()
-            } else {
-                column.name.clone()
-            };
+            let name = column.name.clone();
             let at = |row: &Row| row.numbers.get(number).copied().flatten();
             let values = match column.kind {
-                Kind::Text => {
-                    text(&|row| row.texts.get(word).cloned().unwrap_or_default())
-                }
+                Kind::Text => text(&|row| row.texts.get(word).cloned().unwrap_or_default()),
                 Kind::Real => Values::Instant(rows.iter().map(at).collect()),
                 Kind::Whole => Values::Whole(rows.iter().map(|row| whole(at(row))).collect()),
             };
@@ -164,23 +166,26 @@ impl Layout {
     /// How many numbers a row has.
     #[must_use]
     pub fn count_numbers(&self) -> usize {
-        let inputs = self.inputs.iter().filter(|column| column.kind != Kind::Text);
+        let inputs = self
+            .inputs
+            .iter()
+            .filter(|column| column.kind != Kind::Text);
         inputs.count() + self.results.len()
     }
 }
-
-/// Stands for the name of the motion among the columns.
-static MOTION_COLUMN: Column = Column {
-    name: String::new(),
-    kind: Kind::Text,
-};
 
 /// `gap[0].width` in metres becomes `gap0.width_m`, `gap[*].width` becomes `gap.width_m`.
 fn input_name(name: &str, unit: &str) -> String {
     let name = name.replace("[*]", "").replace(['[', ']'], "");
     let name: String = name
         .chars()
-        .map(|c| if c.is_whitespace() || c.is_control() || c == ',' || c == '"' { '_' } else { c })
+        .map(|c| {
+            if c.is_whitespace() || c.is_control() || c == ',' || c == '"' {
+                '_'
+            } else {
+                c
+            }
+        })
         .collect();
     if unit.is_empty() || name.ends_with(&format!("_{unit}")) {
         name

@@ -20,8 +20,8 @@ mod single;
 pub mod statistics;
 mod study;
 
-pub use critical_gap::{CriticalGap, GapError, GapSettings, RuleGap, critical_gaps};
 pub use case::{CaseError, Prepared, Ran, Workshop};
+pub use critical_gap::{CriticalGap, GapError, GapSettings, RuleGap, critical_gaps};
 pub use design::{CaseDesign, Choice, DesignError};
 pub use layout::{Column, Kind, Layout, Named};
 pub use ready_made::{ready_made, ready_made_names};

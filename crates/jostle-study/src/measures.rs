@@ -122,10 +122,12 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
         building.periods_s.first().copied(),
     );
     list.real(format!("{name}.sa_t1_m_s2"), sa);
-    let greatest = |of: fn(&jostle::summary::FloorSummary) -> f64| {
-        floors.iter().map(of).fold(0.0, f64::max)
-    };
-    list.real(format!("{name}.drift_peak"), greatest(|f| f.storey_drift_peak));
+    let greatest =
+        |of: fn(&jostle::summary::FloorSummary) -> f64| floors.iter().map(of).fold(0.0, f64::max);
+    list.real(
+        format!("{name}.drift_peak"),
+        greatest(|f| f.storey_drift_peak),
+    );
     list.real(
         format!("{name}.total_acceleration_peak_m_s2"),
         greatest(|f| f.total_acceleration_peak_m_s2),
@@ -134,7 +136,10 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
         format!("{name}.residual_drift_peak"),
         greatest(|f| f.residual_drift.abs()),
     );
-    list.real(format!("{name}.base_shear_peak_n"), building.base_shear_peak_n);
+    list.real(
+        format!("{name}.base_shear_peak_n"),
+        building.base_shear_peak_n,
+    );
     list.real(
         format!("{name}.residual_roof_displacement_m"),
         building.residual_roof_displacement_m,
@@ -147,13 +152,22 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
     }
     for floor in floors {
         let place = format!("{name}.floor{}", floor.floor);
-        list.real(format!("{place}.displacement_max_m"), floor.displacement_max_m);
-        list.real(format!("{place}.displacement_min_m"), floor.displacement_min_m);
+        list.real(
+            format!("{place}.displacement_max_m"),
+            floor.displacement_max_m,
+        );
+        list.real(
+            format!("{place}.displacement_min_m"),
+            floor.displacement_min_m,
+        );
         list.real(
             format!("{place}.total_acceleration_peak_m_s2"),
             floor.total_acceleration_peak_m_s2,
         );
-        list.real(format!("{place}.storey_drift_peak"), floor.storey_drift_peak);
+        list.real(
+            format!("{place}.storey_drift_peak"),
+            floor.storey_drift_peak,
+        );
         list.real(format!("{place}.residual_drift"), floor.residual_drift);
     }
 }
@@ -172,8 +186,9 @@ fn spectral_accelerations(summary: &Summary, motion: &GroundMotion) -> Vec<Optio
     let points = (motion.duration / step * (1.0 + 1e-12)).floor() as usize + 1;
     let used = acceleration.iter().take(points);
     let scaled: Vec<f64> = used.map(|a| motion.scale * a).collect();
-    let spectrum = Accelerogram::new(*step, scaled)
-        .and_then(|motion| response_spectrum(&motion, &present, &[SPECTRUM_DAMPING], Reading::Between));
+    let spectrum = Accelerogram::new(*step, scaled).and_then(|motion| {
+        response_spectrum(&motion, &present, &[SPECTRUM_DAMPING], Reading::Between)
+    });
     let values = spectrum.ok().and_then(|spectrum| {
         let curve = spectrum.curves.into_iter().next()?;
         Some(curve.pseudo_acceleration)

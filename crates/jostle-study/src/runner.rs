@@ -121,9 +121,8 @@ pub(crate) fn run_with(
     if let Some(error) = lock(&work.error).take() {
         return Err(error);
     }
-    let complete = (0..study.parts()).all(|part| {
-        part_path(folder, study.part(part).start).exists()
-    });
+    let complete =
+        (0..study.parts()).all(|part| part_path(folder, study.part(part).start).exists());
     Ok(Done {
         progress: work.now(),
         failed: work.failed.load(Ordering::Relaxed),
@@ -277,12 +276,17 @@ impl Work<'_> {
         };
         // It may have been finished between the first look and the claim.
         if path.exists() {
-            journal.remove().map_err(|error| unwritable(&journal_path, &error))?;
+            journal
+                .remove()
+                .map_err(|error| unwritable(&journal_path, &error))?;
             return Ok(Opened::Finished);
         }
         let mut rows: Vec<Option<Row>> = cases.clone().map(|_| None).collect();
         for row in known {
-            let index = row.case.checked_sub(cases.start).map(|index| index as usize);
+            let index = row
+                .case
+                .checked_sub(cases.start)
+                .map(|index| index as usize);
             if let Some(place) = index.and_then(|index| rows.get_mut(index)) {
                 *place = Some(row);
             }
@@ -316,7 +320,9 @@ impl Work<'_> {
         let mut inner = lock(&part.inner);
         if let Some(journal) = &mut inner.journal {
             let path = journal.path().to_owned();
-            journal.append(&row).map_err(|error| unwritable(&path, &error))?;
+            journal
+                .append(&row)
+                .map_err(|error| unwritable(&path, &error))?;
         }
         let index = (row.case - self.study.part(part.number).start) as usize;
         if let Some(place) = inner.rows.get_mut(index).filter(|place| place.is_none()) {
@@ -331,14 +337,19 @@ impl Work<'_> {
     }
 
     fn write(&self, part: &Part, inner: &mut Inner) -> Result<(), StudyError> {
-        let rows: Vec<Row> = std::mem::take(&mut inner.rows).into_iter().flatten().collect();
+        let rows: Vec<Row> = std::mem::take(&mut inner.rows)
+            .into_iter()
+            .flatten()
+            .collect();
         let path = part_path(self.folder, self.study.part(part.number).start);
         let facts = [("study_sha256", self.study.fingerprint.clone())];
         let columns = self.study.layout.columns(&rows);
         write_values_parquet(&path, &self.study.file.title, &facts, columns)?;
         if let Some(journal) = inner.journal.take() {
             let path = journal.path().to_owned();
-            journal.remove().map_err(|error| unwritable(&path, &error))?;
+            journal
+                .remove()
+                .map_err(|error| unwritable(&path, &error))?;
         }
         Ok(())
     }
@@ -392,4 +403,91 @@ fn compute(
         crate::single::write_run(&ran, &run_folder(folder, number))?;
     }
     Ok(Some(case::row_of(study, number, &ran)))
+}
+
+#[cfg(test)]
+mod tests {
+    use jostle_io::{Format, StudyFile};
+
+    use super::*;
+
+    const STUDY: &str = r#"
+base = "paper"
+[[vary]]
+path = "gap[0].width"
+range = { from = 0.01, to = 0.5, count = 50 }
+"#;
+
+    fn study() -> Study {
+        let file = StudyFile::parse("s.toml", STUDY, Format::Toml, Path::new(""), None);
+        Study::new(file.unwrap_or_else(|error| panic!("{error}")))
+            .unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn quick(study: &Study, case: u64) -> Row {
+        let mut row = case::blank(study, case);
+        row.reason = format!("made up for case {case}");
+        row
+    }
+
+    #[test]
+    fn a_panic_in_one_case_is_a_row_and_the_rest_goes_on() {
+        let study = study();
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let compute = |case: u64| {
+            assert!(case != 17, "a bug that only case 17 has");
+            Ok(Some(quick(&study, case)))
+        };
+        let settings = RunSettings {
+            jobs: Some(3),
+            ..RunSettings::default()
+        };
+        let done = run_with(
+            &study,
+            folder.path(),
+            &settings,
+            &|| false,
+            &|_| {},
+            &compute,
+        );
+        let done = done.unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((done.failed, done.progress.finished), (1, 50));
+        assert!(done.complete);
+        let table = crate::dataset::read_columns(&study, folder.path(), &["status", "reason"]);
+        let table = table.unwrap_or_else(|error| panic!("{error}"));
+        for case in 0..50 {
+            let (status, reason) = (&table.texts["status"][case], &table.texts["reason"][case]);
+            if case == 17 {
+                assert_eq!(status, "failed");
+                assert!(reason.contains("a bug that only case 17 has"), "{reason}");
+            } else {
+                assert_eq!(status, "completed");
+                assert_eq!(*reason, format!("made up for case {case}"));
+            }
+        }
+    }
+
+    /// A process that dies with a part half done loses nothing that was finished: the cases computed by both add up.
+    #[test]
+    fn finished_cases_of_an_unfinished_part_are_not_computed_again() {
+        let study = study();
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let one = RunSettings {
+            jobs: Some(1),
+            ..RunSettings::default()
+        };
+        let counted = AtomicU64::new(0);
+        let compute = |case: u64| {
+            counted.fetch_add(1, Ordering::Relaxed);
+            Ok(Some(quick(&study, case)))
+        };
+        let stop = || counted.load(Ordering::Relaxed) >= 23;
+        let done = run_with(&study, folder.path(), &one, &stop, &|_| {}, &compute);
+        assert!(done.is_ok_and(|done| done.stopped && !done.complete));
+        let first = counted.swap(0, Ordering::Relaxed);
+        let done = run_with(&study, folder.path(), &one, &|| false, &|_| {}, &compute);
+        assert!(done.is_ok_and(|done| done.complete));
+        assert_eq!(first, 23);
+        assert_eq!(counted.load(Ordering::Relaxed), 50 - 23);
+    }
 }

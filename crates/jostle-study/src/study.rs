@@ -83,7 +83,10 @@ impl Study {
         let trial = Trial::of(&file, &workshop)?;
         let layout = Layout::new(&file, &trial.results);
         let (fingerprint, model_hash) = hashes(&file, &workshop);
-        let part_cases = design.cases.div_ceil(PARTS).clamp(*PART.start(), *PART.end());
+        let part_cases = design
+            .cases
+            .div_ceil(PARTS)
+            .clamp(*PART.start(), *PART.end());
         let study = Self {
             design,
             layout,
@@ -153,8 +156,16 @@ impl Study {
             missing(&wanted.intensity)?;
             missing(&wanted.demand)?;
         }
-        self.file.responses.iter().try_for_each(|name| missing(name))?;
-        if let Some(case) = self.file.histories.iter().find(|case| **case >= self.design.cases) {
+        self.file
+            .responses
+            .iter()
+            .try_for_each(|name| missing(name))?;
+        if let Some(case) = self
+            .file
+            .histories
+            .iter()
+            .find(|case| **case >= self.design.cases)
+        {
             return Err(StudyError::Column(format!(
                 "{}: histories: there is no case {case}; there are {}, counted from 0",
                 self.file.name(),
@@ -208,7 +219,11 @@ struct Trial {
 
 impl Trial {
     fn of(file: &StudyFile, workshop: &Workshop) -> Result<Self, StudyError> {
-        let usual: Vec<Choice> = file.factors.iter().map(|factor| at(factor, 0.5, 0)).collect();
+        let usual: Vec<Choice> = file
+            .factors
+            .iter()
+            .map(|factor| at(factor, 0.5, 0))
+            .collect();
         let mut errors: Vec<InputError> = Vec::new();
         let mut first: Option<(Vec<Named>, Vec<String>)> = None;
         let mut results: Vec<Vec<Named>> = Vec::new();
@@ -367,9 +382,10 @@ fn hashes(file: &StudyFile, _workshop: &Workshop) -> (String, String) {
         MotionSource::Record { name, base, .. } => Some(base.join(name)),
         _ => None,
     });
-    let varied = file.factors.iter().filter(|factor| {
-        factor.paths.iter().any(|path| path.ends_with("record"))
-    });
+    let varied = file
+        .factors
+        .iter()
+        .filter(|factor| factor.paths.iter().any(|path| path.ends_with("record")));
     let varied = varied.flat_map(|factor| match &factor.values {
         FactorValues::Listed(levels) => levels
             .iter()

@@ -38,7 +38,8 @@ impl Bar {
                 return;
             }
             if !self.shown.swap(true, Ordering::Relaxed) {
-                self.bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(4));
+                self.bar
+                    .set_draw_target(ProgressDrawTarget::stderr_with_hz(4));
             }
         }
         // What earlier runs finished says nothing about the rate.

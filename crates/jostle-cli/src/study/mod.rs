@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use jostle_io::StudyFile;
+use jostle_io::{ModelTree, StudyFile};
 use jostle_study::{Done, RunSettings, Study, StudyError, run, run_case, run_folder};
 
 use crate::failure::Failure;
@@ -18,9 +18,11 @@ use crate::terminal;
 const RESULTS: &str = "jostle-out";
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = "The same command goes on where an earlier one stopped, whatever stopped it.\n\
+#[command(
+    after_help = "The same command goes on where an earlier one stopped, whatever stopped it.\n\
                   Ready-made studies: table2, gap-sweep, ida, fragility, sensitivity, tornado;\n  \
-                  jostle study gap-sweep --base model.toml")]
+                  jostle study gap-sweep --base model.toml"
+)]
 pub(crate) struct StudyArgs {
     /// Study file (TOML or JSON), or the name of a ready-made study
     study: PathBuf,
@@ -92,10 +94,17 @@ pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
     };
     let started = Instant::now();
     let bar = bar::Bar::new();
-    let done = run(&study, &out, &settings, &stop, &|progress| bar.show(progress));
+    let done = run(&study, &out, &settings, &stop, &|progress| {
+        bar.show(progress)
+    });
     bar.finish();
     let done = done?;
-    terminal::print(&outcome(&study, &done, &out, started.elapsed().as_secs_f64()))?;
+    terminal::print(&outcome(
+        &study,
+        &done,
+        &out,
+        started.elapsed().as_secs_f64(),
+    ))?;
     if done.stopped {
         return Err(Failure::Stopped);
     }
@@ -113,7 +122,7 @@ fn open(args: &StudyArgs) -> Result<(StudyFile, String), Failure> {
         .to_str()
         .filter(|_| !path.exists())
         .and_then(|name| Some((name, jostle_study::ready_made(name)?)));
-    let base = args.base.as_deref();
+    let base = args.base.as_deref().map(ModelTree::find).transpose()?;
     if let Some((name, text)) = ready {
         let file = StudyFile::parse(name, text, jostle_io::Format::Toml, Path::new(""), base)?;
         return Ok((file, name.to_owned()));
@@ -208,7 +217,10 @@ fn outcome(study: &Study, done: &Done, out: &Path, wall: f64) -> String {
             counted_grouped(missing as u64, "part")
         ));
     }
-    lines.push(format!("table: {}", out.join("cases").join("*.parquet").display()));
+    lines.push(format!(
+        "table: {}",
+        out.join("cases").join("*.parquet").display()
+    ));
     lines.join("\n")
 }
 

@@ -79,7 +79,17 @@ pub(super) fn read(
         "normal" => &["kind", "mean", "deviation", "cov", "low", "high"],
         _ => &["kind", "median", "mean", "dispersion", "cov", "low", "high"],
     };
-    for key in ["from", "to", "mean", "deviation", "cov", "median", "dispersion", "low", "high"] {
+    for key in [
+        "from",
+        "to",
+        "mean",
+        "deviation",
+        "cov",
+        "median",
+        "dispersion",
+        "low",
+        "high",
+    ] {
         if let Some(field) = reader.get(&view, key).filter(|_| !allowed.contains(&key)) {
             *reader.bad(&field, format!("does not go with a {kind} distribution")) =
                 Some(format!("known here: {}", allowed.join(", ")));
@@ -195,7 +205,8 @@ impl Units {
         let Measured { number, unit, size } = measure(reader, &field, self.dimension)?;
         match &self.unit {
             Some((known, _)) if *known != unit => {
-                let problem = format!("has the unit \"{unit}\" where another value has \"{known}\"");
+                let problem =
+                    format!("has the unit \"{unit}\" where another value has \"{known}\"");
                 *reader.bad(&field, problem) = Some("write all values with one unit".into());
                 None
             }

@@ -114,8 +114,12 @@ fn fragility(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<FragilityWant
     };
     let (threshold, method) = (threshold?, method);
     if method == FragilityMethod::Cloud && threshold <= 0.0 {
-        *reader.bad(field, "the cloud method needs a threshold greater than zero") = Some(
-            "add demand = \"closing_peak_m\" and threshold = \"50 mm\", or method = \"stripes\"".into(),
+        *reader.bad(
+            field,
+            "the cloud method needs a threshold greater than zero",
+        ) = Some(
+            "add demand = \"closing_peak_m\" and threshold = \"50 mm\", or method = \"stripes\""
+                .into(),
         );
         return None;
     }
@@ -158,7 +162,11 @@ fn column(
     match reader.get(view, key) {
         Some(field) => reader.text(&field),
         None => {
-            reader.missing(view, key, format!("name a column of the results: {example}"));
+            reader.missing(
+                view,
+                key,
+                format!("name a column of the results: {example}"),
+            );
             None
         }
     }

@@ -81,7 +81,10 @@ fn ticks(reach: f64) -> Vec<f64> {
     let rough = reach / 4.5;
     let power = 10f64.powf(rough.log10().floor());
     let steps = [1.0, 2.0, 2.5, 5.0, 10.0].map(|step| step * power);
-    let step = steps.into_iter().find(|step| *step >= rough).unwrap_or(rough);
+    let step = steps
+        .into_iter()
+        .find(|step| *step >= rough)
+        .unwrap_or(rough);
     let count = (reach / step - 1e-9).ceil() as usize;
     (0..=count).map(|index| step * index as f64).collect()
 }

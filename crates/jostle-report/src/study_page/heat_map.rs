@@ -54,7 +54,11 @@ pub(super) fn figure(map: &HeatMap) -> Markup {
         present().fold(0.0, f64::max),
     );
     let share = |value: f64| {
-        if high > low { (value - low) / (high - low) } else { 0.0 }
+        if high > low {
+            (value - low) / (high - low)
+        } else {
+            0.0
+        }
     };
     let every = |count: usize| count.div_ceil(LABELS).max(1);
     let label = format!("{} over {} and {}", map.value.name, map.x.name, map.y.name);

@@ -137,7 +137,19 @@ fn charts(section: &Section) -> Markup {
                 div.scroll {
                     table {
                         thead { tr { @for head in heads { th { (head) } } } }
-                        tbody { @for row in rows { tr { @for cell in row { td { (cell) } } } } }
+                        tbody {
+                            @for row in rows {
+                                tr {
+                                    @for (index, cell) in row.iter().enumerate() {
+                                        @if index + 1 == row.len() && row.len() < heads.len() {
+                                            td.study-wrap colspan=(heads.len() + 1 - row.len()) { (cell) }
+                                        } @else {
+                                            td { (cell) }
+                                        }
+                                    }
+                                }
+                            }
+                        }
                     }
                 }
             }

@@ -136,7 +136,9 @@ mod tests {
         let (mut journal, rows) = ours(&path);
         assert!(rows.is_empty());
         for case in 0..3 {
-            journal.append(&row(case)).unwrap_or_else(|error| panic!("{error}"));
+            journal
+                .append(&row(case))
+                .unwrap_or_else(|error| panic!("{error}"));
         }
         drop(journal);
         let whole = std::fs::read(&path).unwrap_or_else(|error| panic!("{error}"));
@@ -148,7 +150,9 @@ mod tests {
             let expected: Vec<Row> = (0..expected as u64).map(row).collect();
             assert_eq!(rows, expected, "cut after {length} bytes");
             // And it goes on from there.
-            journal.append(&row(9)).unwrap_or_else(|error| panic!("{error}"));
+            journal
+                .append(&row(9))
+                .unwrap_or_else(|error| panic!("{error}"));
             drop(journal);
             let (_, rows) = ours(&path);
             assert_eq!(rows.len(), expected.len() + 1, "cut after {length} bytes");
@@ -165,7 +169,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
         let path = folder.path().join("j");
         let (mut journal, _) = ours(&path);
-        journal.append(&row(0)).unwrap_or_else(|error| panic!("{error}"));
+        journal
+            .append(&row(0))
+            .unwrap_or_else(|error| panic!("{error}"));
         let second = Journal::claim(&path, &"a".repeat(64));
         assert!(matches!(second, Ok(Claim::Taken)), "claimed twice");
         drop(journal);

@@ -63,7 +63,12 @@ impl Manifest {
             cases: study.design.cases,
             part_cases: study.part_cases,
             factors: factors.collect(),
-            columns: study.layout.names().into_iter().map(str::to_owned).collect(),
+            columns: study
+                .layout
+                .names()
+                .into_iter()
+                .map(str::to_owned)
+                .collect(),
             study: file.text().to_owned(),
             model: file.base.text().to_owned(),
         }
@@ -94,7 +99,11 @@ impl Manifest {
                 Err(StudyError::Folder(format!(
                     "{} holds {}: {}; choose another folder with --out, or remove this one",
                     folder.display(),
-                    if known.study_sha256 == own.study_sha256 { "results of another kind" } else { "another study" },
+                    if known.study_sha256 == own.study_sha256 {
+                        "results of another kind"
+                    } else {
+                        "another study"
+                    },
                     known.difference(&own)
                 )))
             }

@@ -79,9 +79,11 @@ pub(crate) fn read_part(
                     let mut values = Vec::new();
                     reader.read_records(rows, None, None, &mut values)?;
                     let texts = table.texts.entry(name).or_default();
-                    texts.extend(values.iter().map(|value| {
-                        String::from_utf8_lossy(value.data()).into_owned()
-                    }));
+                    texts.extend(
+                        values
+                            .iter()
+                            .map(|value| String::from_utf8_lossy(value.data()).into_owned()),
+                    );
                 }
                 _ => {}
             }

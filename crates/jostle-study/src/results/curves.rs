@@ -38,7 +38,9 @@ impl Results<'_> {
                         .collect();
                     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
                     Series {
-                        name: format!("{:.4} {}", y_size * level, y_axis.unit).trim().to_owned(),
+                        name: format!("{:.4} {}", y_size * level, y_axis.unit)
+                            .trim()
+                            .to_owned(),
                         points: means(&points),
                         band: Vec::new(),
                         stroke: Stroke::Dotted,
@@ -46,7 +48,11 @@ impl Results<'_> {
                     }
                 });
                 charts.push(Chart {
-                    title: if name.is_empty() { axis.name.clone() } else { format!("{}, {name}", axis.name) },
+                    title: if name.is_empty() {
+                        axis.name.clone()
+                    } else {
+                        format!("{}, {name}", axis.name)
+                    },
                     x: x_axis.clone(),
                     y: axis,
                     series: series.take(14).map(short_name).collect(),
@@ -97,13 +103,22 @@ impl Results<'_> {
             let fractiles = fractiles(&curves);
             let enough = !fractiles.is_empty();
             let draw = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
-                points.iter().map(|[i, d]| [x_size * d, y_size * i]).collect()
+                points
+                    .iter()
+                    .map(|[i, d]| [x_size * d, y_size * i])
+                    .collect()
             };
             let mut series: Vec<Series> = curves
                 .iter()
                 .enumerate()
                 .map(|(index, (name, points))| Series {
-                    name: if enough && index > 0 { String::new() } else if enough { "each".into() } else { name.clone() },
+                    name: if enough && index > 0 {
+                        String::new()
+                    } else if enough {
+                        "each".into()
+                    } else {
+                        name.clone()
+                    },
                     points: draw(points),
                     band: Vec::new(),
                     stroke: if enough { Stroke::Thin } else { Stroke::Dotted },
@@ -115,13 +130,25 @@ impl Results<'_> {
                     name: format!("{:.0} %", 100.0 * share),
                     points: draw(points),
                     band: Vec::new(),
-                    stroke: if *share == 0.5 { Stroke::Heavy } else { Stroke::Dashed },
+                    stroke: if *share == 0.5 {
+                        Stroke::Heavy
+                    } else {
+                        Stroke::Dashed
+                    },
                     colour: 1,
                 });
             }
             let columns = ida_table(&wanted.intensity, &wanted.demand, &curves, &fractiles);
-            let name = if number == 0 { "ida".to_owned() } else { format!("ida-{}", number + 1) };
-            self.write(&name, "demand over intensity, curve by curve, with fractiles", columns)?;
+            let name = if number == 0 {
+                "ida".to_owned()
+            } else {
+                format!("ida-{}", number + 1)
+            };
+            self.write(
+                &name,
+                "demand over intensity, curve by curve, with fractiles",
+                columns,
+            )?;
             sections.push(Section {
                 title: "Incremental dynamic analysis".into(),
                 remark: if enough {
@@ -170,7 +197,10 @@ fn means(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 /// The 16th, 50th and 84th percentile of the demand at every intensity that enough curves have.
 fn fractiles(curves: &[(String, Vec<[f64; 2]>)]) -> Vec<(f64, Vec<[f64; 2]>)> {
-    let mut places: Vec<f64> = curves.iter().flat_map(|(_, c)| c.iter().map(|p| p[0])).collect();
+    let mut places: Vec<f64> = curves
+        .iter()
+        .flat_map(|(_, c)| c.iter().map(|p| p[0]))
+        .collect();
     places.sort_by(f64::total_cmp);
     // Scaled peaks agree but for rounding.
     places.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * b.abs());
@@ -191,7 +221,9 @@ fn fractiles(curves: &[(String, Vec<[f64; 2]>)]) -> Vec<(f64, Vec<[f64; 2]>)> {
     }
     [0.16, 0.5, 0.84]
         .map(|share| {
-            let points = at_places.iter().map(|(place, d)| [*place, percentile(d, share)]);
+            let points = at_places
+                .iter()
+                .map(|(place, d)| [*place, percentile(d, share)]);
             (share, points.collect())
         })
         .to_vec()

@@ -6,9 +6,7 @@ use jostle_io::{FragilityMethod, FragilityWanted, Values};
 use jostle_report::{Axis, Chart, Section, Series, Stroke};
 
 use super::{Results, words};
-use crate::statistics::{
-    Band, FitError, Lognormal, bootstrap_band, fit_cloud, fit_lognormal,
-};
+use crate::statistics::{Band, FitError, Lognormal, bootstrap_band, fit_cloud, fit_lognormal};
 use crate::study::StudyError;
 
 /// Points at which curves are drawn.
@@ -39,7 +37,11 @@ impl Results<'_> {
                 .into_iter()
                 .map(|(name, cases)| self.fit(wanted, name, &cases))
                 .collect();
-            let name = if number == 0 { "fragility".to_owned() } else { format!("fragility-{}", number + 1) };
+            let name = if number == 0 {
+                "fragility".to_owned()
+            } else {
+                format!("fragility-{}", number + 1)
+            };
             self.write(
                 &name,
                 "medians and dispersions of the fragility curves, with their limits",
@@ -90,7 +92,9 @@ impl Results<'_> {
         };
         let curve = fit(&all);
         let most = all.iter().map(|(x, _)| *x).fold(0.0, f64::max);
-        let grid: Vec<f64> = (0..=POINTS).map(|i| most * i as f64 / POINTS as f64).collect();
+        let grid: Vec<f64> = (0..=POINTS)
+            .map(|i| most * i as f64 / POINTS as f64)
+            .collect();
         // With one record, or too few, single cases are drawn.
         let groups: Vec<Vec<(f64, f64)>> = if records.len() >= 5 {
             records.values().cloned().collect()
@@ -140,11 +144,15 @@ fn stripes(all: &[(f64, f64)], threshold: f64) -> Vec<[f64; 2]> {
 }
 
 fn parameters(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Values)> {
-    let real = |of: &dyn Fn(&Fitted) -> Option<f64>| {
-        Values::Instant(fitted.iter().map(of).collect())
-    };
+    let real =
+        |of: &dyn Fn(&Fitted) -> Option<f64>| Values::Instant(fitted.iter().map(of).collect());
     let whole = |of: &dyn Fn(&Fitted) -> usize| {
-        Values::Whole(fitted.iter().map(|one| i32::try_from(of(one)).ok()).collect())
+        Values::Whole(
+            fitted
+                .iter()
+                .map(|one| i32::try_from(of(one)).ok())
+                .collect(),
+        )
     };
     let limit = |which: usize, end: usize| {
         move |one: &Fitted| {
@@ -154,15 +162,30 @@ fn parameters(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Value
     };
     let unit = &wanted.intensity;
     vec![
-        ("curve".into(), Values::Text(fitted.iter().map(|one| one.name.clone()).collect())),
-        ("demand".into(), Values::Text(fitted.iter().map(|_| wanted.demand.clone()).collect())),
-        ("threshold".into(), Values::Real(fitted.iter().map(|_| wanted.threshold).collect())),
+        (
+            "curve".into(),
+            Values::Text(fitted.iter().map(|one| one.name.clone()).collect()),
+        ),
+        (
+            "demand".into(),
+            Values::Text(fitted.iter().map(|_| wanted.demand.clone()).collect()),
+        ),
+        (
+            "threshold".into(),
+            Values::Real(fitted.iter().map(|_| wanted.threshold).collect()),
+        ),
         ("cases".into(), whole(&|one| one.cases)),
         ("events".into(), whole(&|one| one.events)),
-        (format!("median_{unit}"), real(&|one| one.curve.ok().map(|c| c.median))),
+        (
+            format!("median_{unit}"),
+            real(&|one| one.curve.ok().map(|c| c.median)),
+        ),
         (format!("median_low_{unit}"), real(&limit(0, 0))),
         (format!("median_high_{unit}"), real(&limit(0, 1))),
-        ("dispersion".into(), real(&|one| one.curve.ok().map(|c| c.dispersion))),
+        (
+            "dispersion".into(),
+            real(&|one| one.curve.ok().map(|c| c.dispersion)),
+        ),
         ("dispersion_low".into(), real(&limit(1, 0))),
         ("dispersion_high".into(), real(&limit(1, 1))),
         (
@@ -170,7 +193,11 @@ fn parameters(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Value
             Values::Text(
                 fitted
                     .iter()
-                    .map(|one| one.curve.err().map_or(String::new(), |error| error.to_string()))
+                    .map(|one| {
+                        one.curve
+                            .err()
+                            .map_or(String::new(), |error| error.to_string())
+                    })
                     .collect(),
             ),
         ),
@@ -205,19 +232,35 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted]) -> Section {
     let event = if wanted.demand == "impact_count" && wanted.threshold == 0.0 {
         "pounding".to_owned()
     } else {
-        format!("{} above {} {}", demand.name, demand_size * wanted.threshold, demand.unit)
-            .trim()
-            .to_owned()
+        format!(
+            "{} above {} {}",
+            demand.name,
+            demand_size * wanted.threshold,
+            demand.unit
+        )
+        .trim()
+        .to_owned()
     };
     let mut series = Vec::new();
     for (colour, one) in fitted.iter().enumerate() {
         let Ok(curve) = one.curve else { continue };
-        let points = one.grid.iter().map(|at| [size * at, curve.probability(*at)]);
+        let points = one
+            .grid
+            .iter()
+            .map(|at| [size * at, curve.probability(*at)]);
         let band = one.band.as_ref().map_or(Vec::new(), |band| {
-            band.low.iter().zip(&band.high).map(|(low, high)| [*low, *high]).collect()
+            band.low
+                .iter()
+                .zip(&band.high)
+                .map(|(low, high)| [*low, *high])
+                .collect()
         });
         series.push(Series {
-            name: if one.name.is_empty() { event.clone() } else { one.name.clone() },
+            name: if one.name.is_empty() {
+                event.clone()
+            } else {
+                one.name.clone()
+            },
             points: points.collect(),
             band,
             stroke: Stroke::Line,
@@ -225,20 +268,32 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted]) -> Section {
         });
         series.push(Series {
             name: String::new(),
-            points: one.stripes.iter().map(|[at, share]| [size * at, *share]).collect(),
+            points: one
+                .stripes
+                .iter()
+                .map(|[at, share]| [size * at, *share])
+                .collect(),
             band: Vec::new(),
             stroke: Stroke::Dots,
             colour,
         });
     }
     let method = match wanted.method {
-        FragilityMethod::MultipleStripe => "Lognormal curves of greatest likelihood (multiple stripes); dots are observed shares.",
-        FragilityMethod::Cloud => "Lognormal curves from a straight line through the logarithms of demand and intensity (cloud); dots are observed shares.",
+        FragilityMethod::MultipleStripe => {
+            "Lognormal curves of greatest likelihood (multiple stripes); dots are observed shares."
+        }
+        FragilityMethod::Cloud => {
+            "Lognormal curves from a straight line through the logarithms of demand and intensity (cloud); dots are observed shares."
+        }
     };
     let heads = ["", "cases", "events", "median", "limits", "β", "limits"].map(str::to_owned);
     let rows = fitted.iter().map(|one| {
         let mut row = vec![
-            if one.name.is_empty() { event.clone() } else { one.name.clone() },
+            if one.name.is_empty() {
+                event.clone()
+            } else {
+                one.name.clone()
+            },
             one.cases.to_string(),
             one.events.to_string(),
         ];
@@ -246,7 +301,11 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted]) -> Section {
             (Ok(curve), band) => {
                 row.push(format!("{:.4} {}", size * curve.median, x.unit));
                 row.push(band.as_ref().map_or("–".into(), |band| {
-                    format!("{:.4} … {:.4}", size * band.median[0], size * band.median[1])
+                    format!(
+                        "{:.4} … {:.4}",
+                        size * band.median[0],
+                        size * band.median[1]
+                    )
                 }));
                 row.push(format!("{:.3}", curve.dispersion));
                 row.push(band.as_ref().map_or("–".into(), |band| {

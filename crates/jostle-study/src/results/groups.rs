@@ -65,10 +65,15 @@ impl Results<'_> {
             .collect();
         let ends = |factor: &usize, endings: &[&str]| {
             let paths = &self.study.file.factors[*factor].paths;
-            paths.iter().any(|path| endings.iter().any(|end| path.ends_with(end)))
+            paths
+                .iter()
+                .any(|path| endings.iter().any(|end| path.ends_with(end)))
         };
         let shaking = ["motion.pga", "motion.scale", "motion.match.value"];
-        let up = numeric.iter().copied().find(|factor| ends(factor, &shaking));
+        let up = numeric
+            .iter()
+            .copied()
+            .find(|factor| ends(factor, &shaking));
         let right = numeric
             .iter()
             .copied()

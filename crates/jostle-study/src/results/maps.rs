@@ -45,8 +45,7 @@ impl Results<'_> {
             let (x, x_size) = words::axis(&self.study.layout.inputs[right].name);
             let (y, y_size) = words::axis(&self.study.layout.inputs[up].name);
             let cell = |cases: &Vec<usize>| {
-                let present: Vec<f64> =
-                    cases.iter().filter_map(|case| values[*case]).collect();
+                let present: Vec<f64> = cases.iter().filter_map(|case| values[*case]).collect();
                 let mean = present.iter().sum::<f64>() / present.len() as f64;
                 Cell {
                     value: (!present.is_empty()).then_some(size * mean),

@@ -115,7 +115,9 @@ impl Results<'_> {
 
     fn completed(&self, case: usize) -> bool {
         let status = self.table.texts.get("status");
-        status.and_then(|status| status.get(case)).is_some_and(|status| status != "failed")
+        status
+            .and_then(|status| status.get(case))
+            .is_some_and(|status| status != "failed")
     }
 
     /// The link to the report of a case whose histories are kept.
@@ -136,11 +138,16 @@ impl Results<'_> {
         write_atomically(&path, text.as_bytes())?;
         let path = self.folder.join(format!("{name}.parquet"));
         write_values_parquet(&path, &self.study.file.title, &[], columns)?;
-        self.files.push((format!("{name}.csv, {name}.parquet"), what.to_owned()));
+        self.files
+            .push((format!("{name}.csv, {name}.parquet"), what.to_owned()));
         Ok(())
     }
 
-    fn page(self, maps: Vec<(String, Vec<jostle_report::HeatMap>)>, sections: Vec<Section>) -> StudyPage {
+    fn page(
+        self,
+        maps: Vec<(String, Vec<jostle_report::HeatMap>)>,
+        sections: Vec<Section>,
+    ) -> StudyPage {
         let study = self.study;
         let status = self.table.texts.get("status").cloned().unwrap_or_default();
         let reasons = self.table.texts.get("reason").cloned().unwrap_or_default();
@@ -151,7 +158,11 @@ impl Results<'_> {
             .take(NAMED_FAILURES)
             .map(|(case, (_, reason))| (case as u64, reason.clone()));
         let pounding = self.table.column("impact_count");
-        let touched = pounding.iter().flatten().filter(|count| **count > 0.0).count();
+        let touched = pounding
+            .iter()
+            .flatten()
+            .filter(|count| **count > 0.0)
+            .count();
         let mut headline = Vec::new();
         let known = pounding.iter().flatten().count();
         if known > 0 {
@@ -168,7 +179,10 @@ impl Results<'_> {
         }
         let mut facts = vec![
             ("cases".to_owned(), study.design.cases.to_string()),
-            ("design".into(), words::design(study.file.design.kind).into()),
+            (
+                "design".into(),
+                words::design(study.file.design.kind).into(),
+            ),
         ];
         if study.file.design.samples.is_some() {
             facts.push(("seed".into(), study.file.design.seed.to_string()));
@@ -182,7 +196,11 @@ impl Results<'_> {
                 .iter()
                 .zip(&choices)
                 .map(|(factor, choice)| {
-                    format!("{} {}", factor.name, crate::design::value_of(factor, choice).2)
+                    format!(
+                        "{} {}",
+                        factor.name,
+                        crate::design::value_of(factor, choice).2
+                    )
                 })
                 .collect();
             Some((*case, what.join(", "), self.link(*case)?))
@@ -227,7 +245,11 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
                     .map_or(String::new(), |value| value.to_string()),
                 None => {
                     let texts = table.texts.get(*name);
-                    quote(texts.and_then(|texts| texts.get(row)).map_or("", |text| text))
+                    quote(
+                        texts
+                            .and_then(|texts| texts.get(row))
+                            .map_or("", |text| text),
+                    )
                 }
             });
             let line: Vec<String> = cells.collect();
@@ -264,7 +286,10 @@ fn csv(columns: &[(String, Values)]) -> String {
     let heads: Vec<String> = columns.iter().map(|(name, _)| quote(name)).collect();
     let mut text = heads.join(",") + "\n";
     for row in 0..columns.first().map_or(0, |(_, values)| length(values)) {
-        let cells: Vec<String> = columns.iter().map(|(_, values)| cell(values, row)).collect();
+        let cells: Vec<String> = columns
+            .iter()
+            .map(|(_, values)| cell(values, row))
+            .collect();
         text += &(cells.join(",") + "\n");
     }
     text

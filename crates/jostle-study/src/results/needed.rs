@@ -58,7 +58,11 @@ fn places(study: &Study) -> Option<Places> {
     Some(Places {
         names: pair.map(|building| building.name.clone()),
         roofs: [0, 1].map(|side| format!("{}.floor{}", pair[side].name, top[side] + 1)),
-        height: if frames { height.fold(f64::INFINITY, f64::min) } else { f64::NAN },
+        height: if frames {
+            height.fold(f64::INFINITY, f64::min)
+        } else {
+            f64::NAN
+        },
         damping: (ratio(pair[0]) * ratio(pair[1])).sqrt(),
     })
 }
@@ -106,7 +110,11 @@ impl Results<'_> {
                 }
             }
             let label = |what: &str| {
-                if name.is_empty() { what.to_owned() } else { format!("{what}, {name}") }
+                if name.is_empty() {
+                    what.to_owned()
+                } else {
+                    format!("{what}, {name}")
+                }
             };
             series.push(Series {
                 name: label("needed"),
@@ -131,7 +139,8 @@ impl Results<'_> {
         let codes = [7, 8, 9].into_iter().filter_map(|intensity| {
             Some(Level {
                 name: format!("GB 50011, intensity {intensity}"),
-                value: gap_size * gb50011_frame_joint(height, intensity).filter(|_| height.is_finite())?,
+                value: gap_size
+                    * gb50011_frame_joint(height, intensity).filter(|_| height.is_finite())?,
             })
         });
         let mut codes: Vec<Level> = codes.collect();
@@ -140,7 +149,10 @@ impl Results<'_> {
             && last.value - first.value < 0.08 * gap_size * widest
         {
             let joined = Level {
-                name: format!("GB 50011, intensities 7 to 9: {:.0} to {:.0} mm", first.value, last.value),
+                name: format!(
+                    "GB 50011, intensities 7 to 9: {:.0} to {:.0} mm",
+                    first.value, last.value
+                ),
                 value: first.value,
             };
             codes = vec![joined];
@@ -178,7 +190,10 @@ impl Results<'_> {
         };
         into[0].push([x, size * (left + right)]);
         into[1].push([x, size * srss(left, right)]);
-        let periods = places.names.each_ref().map(|name| value(format!("{name}.period_s")));
+        let periods = places
+            .names
+            .each_ref()
+            .map(|name| value(format!("{name}.period_s")));
         if let [Some(a), Some(b)] = periods
             && places.damping > 0.0
         {

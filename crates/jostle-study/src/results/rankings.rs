@@ -66,8 +66,10 @@ impl Results<'_> {
             };
             match kind {
                 DesignKind::Saltelli => {
-                    for (factor, index) in
-                        sobol_indices(&values, k, seed).unwrap_or_default().iter().enumerate()
+                    for (factor, index) in sobol_indices(&values, k, seed)
+                        .unwrap_or_default()
+                        .iter()
+                        .enumerate()
                     {
                         push(
                             factor,
@@ -104,7 +106,11 @@ impl Results<'_> {
                 _ => line.numbers[0],
             };
             own.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
-            let size = if kind == DesignKind::Saltelli { 1.0 } else { size };
+            let size = if kind == DesignKind::Saltelli {
+                1.0
+            } else {
+                size
+            };
             bars.push(Bars {
                 title: axis.name.clone(),
                 value: if kind == DesignKind::Saltelli {
@@ -165,7 +171,10 @@ impl Results<'_> {
             ),
         };
         if !silent.is_empty() {
-            remark += &format!(" Nothing to rank in {}: it does not vary, or is absent.", silent.join(", "));
+            remark += &format!(
+                " Nothing to rank in {}: it does not vary, or is absent.",
+                silent.join(", ")
+            );
         }
         Ok(Some(Section {
             title: "Sensitivity".into(),

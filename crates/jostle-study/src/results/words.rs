@@ -17,6 +17,7 @@ const UNITS: [(&str, f64, &str); 8] = [
 
 /// The axis of a column, and by what its numbers are multiplied there.
 pub(super) fn axis(column: &str) -> (Axis, f64) {
+    let column = column.trim_start_matches("input.");
     let unit = UNITS.iter().find(|(ending, ..)| column.ends_with(ending));
     let (plain, size, unit) = match unit {
         Some((ending, size, unit)) => (column.trim_end_matches(ending), *size, *unit),
@@ -80,6 +81,7 @@ pub(super) fn factor(factor: &Factor) -> (String, String) {
             text.trim_end().to_owned()
         }
     };
+    let values = values.replace(" ,", ",");
     let values = if factor.multiplies {
         format!("× {values}")
     } else {

@@ -66,7 +66,12 @@ mod tests {
     /// Tabulated values of Φ⁻¹ (Abramowitz and Stegun 1964, table 26.5).
     #[test]
     fn normal_quantiles_are_those_of_the_tables() {
-        for (p, z) in [(0.5, 0.0), (0.975, 1.95996), (0.9, 1.28155), (0.01, -2.32635)] {
+        for (p, z) in [
+            (0.5, 0.0),
+            (0.975, 1.95996),
+            (0.9, 1.28155),
+            (0.01, -2.32635),
+        ] {
             assert!((normal_quantile(p) - z).abs() < 1e-5, "{p}");
             assert!((normal_cdf(z) - p).abs() < 1e-5, "{z}");
         }
@@ -99,8 +104,7 @@ mod tests {
             / f64::from(n);
         let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * std::f64::consts::PI).sqrt();
         let (a, b) = (-0.5, 1.5);
-        let expected =
-            1.0 + 2.0 * (density(a) - density(b)) / (normal_cdf(b) - normal_cdf(a));
+        let expected = 1.0 + 2.0 * (density(a) - density(b)) / (normal_cdf(b) - normal_cdf(a));
         assert!((mean - expected).abs() < 1e-6, "{mean} {expected}");
         assert!(quantile(&d, 1e-12) >= 0.0 && quantile(&d, 1.0 - 1e-12) <= 4.0);
     }

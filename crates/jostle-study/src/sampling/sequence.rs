@@ -23,10 +23,13 @@ impl SobolSequence {
     pub fn new(dimensions: usize, seed: u64) -> Self {
         let count = dimensions.min(MOST_DIMENSIONS);
         let directions = Sobol::<f64>::init_direction_vals(count, BITS, &JoeKuoD6::minimal());
-        let with_shift = directions.into_iter().enumerate().map(|(dimension, numbers)| {
-            let shift = Stream::new(seed, SHIFT, dimension as u64).bits();
-            (numbers, shift)
-        });
+        let with_shift = directions
+            .into_iter()
+            .enumerate()
+            .map(|(dimension, numbers)| {
+                let shift = Stream::new(seed, SHIFT, dimension as u64).bits();
+                (numbers, shift)
+            });
         Self {
             dimensions: with_shift.collect(),
         }

@@ -74,7 +74,7 @@ impl CloudFit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sampling::{normal_quantile, Stream};
+    use crate::sampling::{Stream, normal_quantile};
 
     #[test]
     fn a_known_cloud_is_found_again() {
@@ -88,8 +88,14 @@ mod tests {
             .collect();
         let fit = fit_cloud(&cloud).unwrap_or_else(|error| panic!("{error}"));
         // Four standard errors of 5000 cases.
-        assert!((fit.slope - 1.2).abs() < 4.0 * 0.3 / (0.866 * 5000f64.sqrt()), "{fit:?}");
-        assert!((fit.scatter - 0.3).abs() < 4.0 * 0.3 / 10_000f64.sqrt(), "{fit:?}");
+        assert!(
+            (fit.slope - 1.2).abs() < 4.0 * 0.3 / (0.866 * 5000f64.sqrt()),
+            "{fit:?}"
+        );
+        assert!(
+            (fit.scatter - 0.3).abs() < 4.0 * 0.3 / 10_000f64.sqrt(),
+            "{fit:?}"
+        );
         let curve = fit.fragility(0.7).unwrap_or_else(|error| panic!("{error}"));
         let median = (0.7_f64 / 2.0).powf(1.0 / 1.2);
         assert!((curve.median / median).ln().abs() < 0.02, "{curve:?}");
@@ -103,6 +109,9 @@ mod tests {
         let fit = fit_cloud(&[(1.0, 1.0), (e, e), (e * e, e.powi(3))]);
         let fit = fit.unwrap_or_else(|error| panic!("{error}"));
         assert!((fit.slope - 1.5).abs() < 1e-12 && (fit.intercept + 1.0 / 6.0).abs() < 1e-12);
-        assert!((fit.scatter - (1.0_f64 / 6.0).sqrt()).abs() < 1e-12, "{fit:?}");
+        assert!(
+            (fit.scatter - (1.0_f64 / 6.0).sqrt()).abs() < 1e-12,
+            "{fit:?}"
+        );
     }
 }

@@ -46,7 +46,9 @@ pub enum FitError {
         cases: usize,
     },
     /// Every intensity without the event lies below every one with it: β tends to zero.
-    #[error("the event never happens up to {below:.6} and always from {above:.6} on: there is no scatter to fit; the median lies between")]
+    #[error(
+        "the event never happens up to {below:.6} and always from {above:.6} on: there is no scatter to fit; the median lies between"
+    )]
     Separated {
         /// Greatest intensity without the event.
         below: f64,
@@ -241,7 +243,10 @@ mod tests {
                 median: fit.median * dm,
                 dispersion: fit.dispersion * db,
             };
-            assert!(score(other) < score(fit), "{other:?} is likelier than {fit:?}");
+            assert!(
+                score(other) < score(fit),
+                "{other:?} is likelier than {fit:?}"
+            );
         }
     }
 
@@ -256,7 +261,10 @@ mod tests {
             })
         );
         let separated = fit_lognormal(&[(1.0, false), (2.0, false), (3.0, true)]);
-        assert!(matches!(separated, Err(FitError::Separated { .. })), "{separated:?}");
+        assert!(
+            matches!(separated, Err(FitError::Separated { .. })),
+            "{separated:?}"
+        );
         let falling: Vec<(f64, bool)> = (0..40)
             .map(|i| (f64::from(1 + i % 4), i % 4 < 2 || i > 36))
             .collect();

@@ -30,7 +30,11 @@ const BOOTSTRAP: u64 = 7;
 /// 1999). The mean of all f_A and f_B is taken off first, which changes nothing but the scatter. Base samples with an
 /// absent response are left out. `None` when fewer than two are complete or nothing varies.
 #[must_use]
-pub fn sobol_indices(responses: &[Option<f64>], factors: usize, seed: u64) -> Option<Vec<SobolIndex>> {
+pub fn sobol_indices(
+    responses: &[Option<f64>],
+    factors: usize,
+    seed: u64,
+) -> Option<Vec<SobolIndex>> {
     let blocks: Vec<Vec<f64>> = responses
         .chunks_exact(factors + 2)
         .filter_map(|block| block.iter().copied().collect::<Option<Vec<f64>>>())
@@ -166,8 +170,14 @@ mod tests {
         let found = sobol_indices(&responses, 3, 1).unwrap_or_else(|| panic!("no indices"));
         for factor in 0..3 {
             let index = found[factor];
-            assert!((index.first - first[factor]).abs() < 0.005, "S{factor}: {index:?}");
-            assert!((index.total - total[factor]).abs() < 0.005, "ST{factor}: {index:?}");
+            assert!(
+                (index.first - first[factor]).abs() < 0.005,
+                "S{factor}: {index:?}"
+            );
+            assert!(
+                (index.total - total[factor]).abs() < 0.005,
+                "ST{factor}: {index:?}"
+            );
             assert!(
                 index.total_limits[0] <= total[factor] && total[factor] <= index.total_limits[1],
                 "{index:?} does not hold {}",
@@ -201,8 +211,14 @@ mod tests {
         // The other coordinate lies on 0, 1/3, 2/3, 1 with equal weight: mean 2.5, standard deviation 5·√(5/36).
         let scatter = 5.0 * (5.0_f64 / 36.0).sqrt();
         for factor in [2, 3] {
-            assert!((effects[factor].mean - 2.5).abs() < 4.0 * scatter / 20.0, "{effects:?}");
-            assert!((effects[factor].deviation - scatter).abs() < 0.2, "{effects:?}");
+            assert!(
+                (effects[factor].mean - 2.5).abs() < 4.0 * scatter / 20.0,
+                "{effects:?}"
+            );
+            assert!(
+                (effects[factor].deviation - scatter).abs() < 0.2,
+                "{effects:?}"
+            );
         }
     }
 }

@@ -1,0 +1,385 @@
+//! `jostle study` and `jostle gap`: killed, stopped and out of disk, nothing is lost; wrong input is told.
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use common::{folder as temporary, jostle};
+
+const TOWERS: &str = r#"
+[motion]
+record = "el-centro-1940-ns"
+duration = "4 s"
+[[building]]
+name = "A"
+kind = "shear"
+mass = ["40 t", "40 t"]
+stiffness = ["20 MN/m", "20 MN/m"]
+storey_height = "3 m"
+[[building]]
+name = "B"
+kind = "shear"
+mass = ["60 t", "60 t"]
+stiffness = ["90 MN/m", "90 MN/m"]
+storey_height = "3 m"
+[[gap]]
+between = ["A", "B"]
+width = "20 mm"
+[analysis]
+tolerance = 0.01
+"#;
+
+fn study(count: usize) -> String {
+    format!(
+        r#"
+title = "Towers"
+base = "towers.toml"
+[[vary]]
+name = "gap"
+path = "gap[0].width"
+range = {{ from = "1 mm", to = "40 mm", count = {count} }}
+[[vary]]
+path = "motion.pga"
+values = ["1 m/s2", "2 m/s2", "3 m/s2", "4 m/s2"]
+"#
+    )
+}
+
+/// A folder with a study of four times `count` cases.
+fn workplace(count: usize) -> tempfile::TempDir {
+    let folder = temporary();
+    for (name, text) in [
+        ("towers.toml", TOWERS.to_owned()),
+        ("study.toml", study(count)),
+    ] {
+        std::fs::write(folder.path().join(name), text).unwrap_or_else(|error| panic!("{error}"));
+    }
+    folder
+}
+
+fn to_folder(folder: &Path, out: &str) -> Command {
+    let arguments = [
+        "study",
+        "study.toml",
+        "--jobs",
+        "2",
+        "--no-report",
+        "--out",
+        out,
+    ];
+    let mut command = common::command(folder, &arguments);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command
+}
+
+fn start(folder: &Path, out: &str) -> Child {
+    to_folder(folder, out)
+        .spawn()
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Every file of a finished table, byte for byte, and nothing else under way.
+fn table(out: PathBuf) -> BTreeMap<String, Vec<u8>> {
+    let files = |inner: &str| -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(out.join(inner)).unwrap_or_else(|error| panic!("{error}"));
+        entries
+            .map(|entry| entry.unwrap_or_else(|error| panic!("{error}")).path())
+            .collect()
+    };
+    let left = files("under-way");
+    assert!(left.is_empty(), "{left:?}");
+    let all = files("cases").into_iter().filter(|path| {
+        // What a killed process was writing stays under a name of its own, which no reader takes for a part.
+        path.extension()
+            .is_some_and(|extension| extension == "parquet")
+    });
+    all.map(|path| {
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        (
+            name,
+            std::fs::read(path).unwrap_or_else(|error| panic!("{error}")),
+        )
+    })
+    .collect()
+}
+
+#[test]
+fn fifty_kills_at_random_moments_lose_nothing_and_double_nothing() {
+    let folder = workplace(100);
+    assert!(
+        to_folder(folder.path(), "whole")
+            .status()
+            .is_ok_and(|status| status.success())
+    );
+    let expected = table(folder.path().join("whole"));
+    assert_eq!(expected.len(), 25, "400 cases in parts of 16");
+    // A fixed sequence of waits, different from kill to kill.
+    let mut random = 12_345_u64;
+    let (mut kills, mut round, mut finished) = (0, 0, 0);
+    while kills < 50 {
+        let out = format!("killed-{round}");
+        let mut child = start(folder.path(), &out);
+        random = random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        std::thread::sleep(Duration::from_micros(20_000 + (random >> 33) % 250_000));
+        let ended = child.try_wait().unwrap_or_else(|error| panic!("{error}"));
+        if ended.is_none() {
+            // SIGKILL on Unix.
+            child.kill().unwrap_or_else(|error| panic!("{error}"));
+            child.wait().unwrap_or_else(|error| panic!("{error}"));
+            kills += 1;
+            continue;
+        }
+        assert!(
+            ended.is_some_and(|status| status.success()),
+            "a resumed run fails"
+        );
+        assert!(
+            table(folder.path().join(&out)) == expected,
+            "after {kills} kills"
+        );
+        finished += 1;
+        round += 1;
+    }
+    let last = format!("killed-{round}");
+    assert!(
+        to_folder(folder.path(), &last)
+            .status()
+            .is_ok_and(|status| status.success())
+    );
+    assert!(
+        table(folder.path().join(&last)) == expected,
+        "after {finished} finished rounds"
+    );
+}
+
+#[test]
+fn two_processes_one_of_which_is_killed_leave_one_whole_table() {
+    let folder = workplace(60);
+    assert!(
+        to_folder(folder.path(), "whole")
+            .status()
+            .is_ok_and(|status| status.success())
+    );
+    let mut first = start(folder.path(), "shared");
+    let mut second = start(folder.path(), "shared");
+    std::thread::sleep(Duration::from_millis(150));
+    first.kill().unwrap_or_else(|error| panic!("{error}"));
+    first.wait().unwrap_or_else(|error| panic!("{error}"));
+    assert!(second.wait().is_ok_and(|status| status.success()));
+    let shared = table(folder.path().join("shared"));
+    assert!(shared == table(folder.path().join("whole")));
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_stops_within_a_second_and_the_rest_goes_on() {
+    let folder = workplace(400);
+    let mut child = start(folder.path(), "out");
+    std::thread::sleep(Duration::from_millis(400));
+    let signalled = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(signalled.is_ok_and(|status| status.success()));
+    let asked = Instant::now();
+    let status = child.wait().unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(status.code(), Some(130));
+    // Generous for a busy machine; a case takes milliseconds here.
+    assert!(
+        asked.elapsed() < Duration::from_secs(5),
+        "{:?}",
+        asked.elapsed()
+    );
+    assert!(
+        to_folder(folder.path(), "out")
+            .status()
+            .is_ok_and(|status| status.success())
+    );
+    assert_eq!(table(folder.path().join("out")).len(), 100);
+}
+
+/// A limit on the size of files stands for a full disk: writing fails in the same way.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_is_told_and_what_is_finished_stays() {
+    let folder = workplace(20);
+    assert!(
+        to_folder(folder.path(), "whole")
+            .status()
+            .is_ok_and(|status| status.success())
+    );
+    let binary = env!("CARGO_BIN_EXE_jostle");
+    let script = format!(
+        "trap '' XFSZ; ulimit -f 16; exec '{binary}' study study.toml --jobs 2 --no-report --out full"
+    );
+    let output = Command::new("bash")
+        .current_dir(folder.path())
+        .args(["-c", &script])
+        .output();
+    let output = output.unwrap_or_else(|error| panic!("{error}"));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("part-") && said.contains("what is finished stays"),
+        "{said}"
+    );
+    assert!(!said.contains("panicked"), "{said}");
+    assert!(
+        to_folder(folder.path(), "full")
+            .status()
+            .is_ok_and(|status| status.success())
+    );
+    assert!(table(folder.path().join("full")) == table(folder.path().join("whole")));
+}
+
+#[test]
+fn a_study_leaves_table_report_and_text() {
+    let folder = workplace(5);
+    let run = |arguments: &[&str]| {
+        let output = jostle(folder.path(), arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{arguments:?}: {said}");
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let said = run(&["study", "study.toml"]);
+    assert!(said.contains("20 of 20 cases finished"), "{said}");
+    let out = folder.path().join("jostle-out/study");
+    for name in [
+        "manifest.json",
+        "report.html",
+        "cases.csv",
+        "cases/part-0000000000.parquet",
+    ] {
+        assert!(out.join(name).is_file(), "{name}");
+    }
+    let rows = std::fs::read_to_string(out.join("cases.csv")).unwrap_or_default();
+    assert_eq!(rows.lines().count(), 21);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap_or_default();
+    assert!(
+        page.contains("Required gap") && !page.contains("http://") && !page.contains("https://")
+    );
+    // The second time there is nothing to compute.
+    let again = run(&["study", "study.toml"]);
+    assert!(again.contains("20 of 20 cases finished\n"), "{again}");
+    let case = run(&["study", "study.toml", "--case", "7"]);
+    assert!(case.contains("report.html"), "{case}");
+    assert!(out.join("runs/case-0000000007/history.parquet").is_file());
+    let check = run(&["study", "study.toml", "--check"]);
+    assert!(check.contains("peak_force_n"), "{check}");
+}
+
+#[test]
+fn wrong_studies_are_refused_with_their_line() {
+    let folder = workplace(5);
+    let text = study(5).replace("gap[0].width", "gap[0].widht");
+    std::fs::write(folder.path().join("wrong.toml"), text)
+        .unwrap_or_else(|error| panic!("{error}"));
+    for (arguments, expected) in [
+        (&["study", "wrong.toml"][..], "wrong.toml:7:"),
+        (&["study", "absent.toml"], "cannot be read"),
+        (&["study", "study.toml", "--shard", "4/3"], "expected I/N"),
+        (
+            &["study", "study.toml", "--case", "20"],
+            "there is no case 20",
+        ),
+        (
+            &["gap", "towers.toml", "--tolerance", "1 kg"],
+            "--tolerance",
+        ),
+        (
+            &["gap", "towers.toml", "--record", "nowhere.at2"],
+            "--record",
+        ),
+    ] {
+        let output = jostle(folder.path(), arguments);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(said.contains(expected), "{arguments:?}: {said}");
+    }
+}
+
+/// The gap that the command finds is one where the towers miss each other, and a tenth of a millimetre less is not.
+#[test]
+fn the_smallest_gap_is_free_and_a_narrower_one_is_not() {
+    let folder = workplace(5);
+    let json = |arguments: &[&str]| -> serde_json::Value {
+        let output = jostle(folder.path(), arguments);
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let found = json(&["gap", "towers.toml", "--json"]);
+    let gap = &found["gaps"][0];
+    let number = |key: &str| gap[key].as_f64().unwrap_or(f64::NAN);
+    let (free, hit) = (number("gap_m"), number("pounding_at_m"));
+    assert!(hit < free && free - hit <= 1.001e-4, "{hit} {free}");
+    assert!(
+        (free - number("closing_without_contact_m")).abs() < 2e-4,
+        "{gap}"
+    );
+    let impacts = |width: f64| {
+        let width = format!("{width:?} m");
+        let run = json(&[
+            "run",
+            "towers.toml",
+            "--json",
+            "--no-report",
+            "--gap",
+            &width,
+        ]);
+        run["gaps"][0]["impact_count"].as_u64()
+    };
+    assert_eq!(impacts(free), Some(0));
+    assert!(impacts(hit).is_some_and(|count| count > 0));
+    // The rules in their order, and what they would have led to.
+    let rules = gap["rules"].as_array().cloned().unwrap_or_default();
+    let width = |name: &str| {
+        let rule = rules.iter().find(|rule| rule["rule"] == name);
+        rule.and_then(|rule| rule["gap_m"].as_f64())
+            .unwrap_or(f64::NAN)
+    };
+    assert!(
+        width("DDC") <= width("SRSS") && width("SRSS") <= width("ABS"),
+        "{rules:?}"
+    );
+    assert!((width("0.7 SRSS") - 0.7 * width("SRSS")).abs() < 1e-12);
+    assert_eq!(width("GB 50011, 8"), 0.1);
+    assert!(width("ABS") >= free, "the sum of peaks is never too narrow");
+    for rule in &rules {
+        let safe = rule["gap_m"].as_f64() >= Some(free);
+        assert_eq!(rule["impact_count"] == 0, safe, "{rule}");
+    }
+    // Over a set: the greatest of its members.
+    let set = json(&[
+        "gap",
+        "towers.toml",
+        "--json",
+        "--no-outcomes",
+        "--record",
+        "el-centro",
+        "--record",
+        "nanjing-artificial",
+    ]);
+    let each: Vec<f64> = set["gaps"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(|gap| gap["gap_m"].as_f64())
+        .collect();
+    assert_eq!(each.len(), 2);
+    assert_eq!(
+        set["sets"][0]["gap_max_m"].as_f64(),
+        Some(each[0].max(each[1]))
+    );
+}

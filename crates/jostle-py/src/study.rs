@@ -1,0 +1,283 @@
+//! Studies of many cases, and the smallest gap, with the interpreter free for others.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use jostle::separation::JointSystem;
+use jostle_io::{Format, InputError, ModelTree, StudyFile};
+use jostle_study::dataset::{part_path, read_columns};
+use jostle_study::{GapError, GapSettings, Progress, RunSettings, StudyError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
+use pyo3::prelude::*;
+
+use crate::error::{AnalysisError, argument_error, input_error};
+use crate::model::Model;
+
+/// How often a study looks for Ctrl-C and reports its progress.
+const LOOK_UP: Duration = Duration::from_millis(50);
+
+/// A study, checked against its models.
+#[pyclass(frozen, module = "jostle._jostle")]
+#[derive(Clone)]
+pub(crate) struct Study(Arc<jostle_study::Study>);
+
+fn study_error(error: &StudyError) -> PyErr {
+    match error {
+        StudyError::Input(errors) => match &errors[..] {
+            [only] => input_error(only),
+            _ => argument_error(error.to_string()),
+        },
+        StudyError::Output(_) => PyOSError::new_err(error.to_string()),
+        _ => argument_error(error.to_string()),
+    }
+}
+
+/// Numbers and texts of columns.
+type Columns = (
+    HashMap<String, Vec<Option<f64>>>,
+    HashMap<String, Vec<String>>,
+);
+
+#[pymethods]
+impl Study {
+    /// Reads the text of a study file; `base` is name, text, whether it is JSON, and folder of another base model.
+    #[staticmethod]
+    #[pyo3(signature = (name, text, json, folder, base=None))]
+    fn read(
+        py: Python<'_>,
+        name: &str,
+        text: &str,
+        json: bool,
+        folder: PathBuf,
+        base: Option<(String, String, bool, PathBuf)>,
+    ) -> PyResult<Self> {
+        let format = |json| if json { Format::Json } else { Format::Toml };
+        py.detach(|| {
+            let tree = |(name, text, json, folder): (String, String, bool, PathBuf)| {
+                ModelTree::parse(&name, &text, format(json), &folder)
+            };
+            let file = base
+                .map(tree)
+                .transpose()
+                .and_then(|base| StudyFile::parse(name, text, format(json), &folder, base));
+            let study = file
+                .map_err(|error: InputError| StudyError::from(error))
+                .and_then(jostle_study::Study::new);
+            study.map(|study| Self(Arc::new(study)))
+        })
+        .map_err(|error| study_error(&error))
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.0.file.title
+    }
+
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings.clone()
+    }
+
+    #[getter]
+    fn cases(&self) -> u64 {
+        self.0.design.cases
+    }
+
+    #[getter]
+    fn parts(&self) -> u64 {
+        self.0.parts()
+    }
+
+    #[getter]
+    fn columns(&self) -> Vec<String> {
+        self.0
+            .layout
+            .names()
+            .into_iter()
+            .map(str::to_owned)
+            .collect()
+    }
+
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.0.file.design.seed
+    }
+
+    /// Numbers of the parts that are not finished in a folder.
+    fn missing(&self, folder: PathBuf) -> Vec<u64> {
+        (0..self.0.parts())
+            .filter(|part| !part_path(&folder, self.0.part(*part).start).exists())
+            .collect()
+    }
+
+    /// Runs what is not finished; returns cases finished, cases computed, cases to finish, failed cases, and whether
+    /// every part of the whole study is there.
+    #[pyo3(signature = (folder, jobs=None, shard=0, shards=1, observer=None))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        jobs: Option<usize>,
+        shard: u64,
+        shards: u64,
+        observer: Option<Py<PyAny>>,
+    ) -> PyResult<(u64, u64, u64, u64, bool)> {
+        let study = Arc::clone(&self.0);
+        let settings = RunSettings {
+            jobs,
+            shard,
+            shards,
+        };
+        let halt = AtomicBool::new(false);
+        let latest: Mutex<Option<Progress>> = Mutex::new(None);
+        let mut stopped: Option<PyErr> = None;
+        let done = py.detach(|| {
+            std::thread::scope(|scope| {
+                let work = scope.spawn(|| {
+                    let stop = || halt.load(Ordering::Relaxed);
+                    let note = |progress: Progress| {
+                        *latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress);
+                    };
+                    jostle_study::run(&study, &folder, &settings, &stop, &note)
+                });
+                // Signals reach Python in its own thread only.
+                while !work.is_finished() {
+                    std::thread::sleep(if stopped.is_some() {
+                        LOOK_UP / 10
+                    } else {
+                        LOOK_UP
+                    });
+                    if stopped.is_some() {
+                        continue;
+                    }
+                    let progress = *latest.lock().unwrap_or_else(PoisonError::into_inner);
+                    if let Err(error) = Python::attach(|py| heed(py, observer.as_ref(), progress)) {
+                        stopped = Some(error);
+                        halt.store(true, Ordering::Relaxed);
+                    }
+                }
+                work.join()
+            })
+        });
+        if let Some(error) = stopped {
+            return Err(error);
+        }
+        let done = done.map_err(|_| AnalysisError::new_err("the study failed inside"))?;
+        let done = done.map_err(|error| study_error(&error))?;
+        let Progress {
+            finished,
+            computed,
+            cases,
+        } = done.progress;
+        Ok((finished, computed, cases, done.failed, done.complete))
+    }
+
+    /// Writes the report and the tables behind it.
+    fn finish(&self, py: Python<'_>, folder: PathBuf) -> PyResult<String> {
+        py.detach(|| jostle_study::finish(&self.0, &folder))
+            .map_err(|error| study_error(&error))
+    }
+
+    /// Columns of the finished table.
+    fn read_columns(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        names: Vec<String>,
+    ) -> PyResult<Columns> {
+        let names: Vec<&str> = names.iter().map(|name| &name[..]).collect();
+        let table = py
+            .detach(|| read_columns(&self.0, &folder, &names))
+            .map_err(|error| study_error(&error))?;
+        Ok((
+            table.numbers.into_iter().collect(),
+            table.texts.into_iter().collect(),
+        ))
+    }
+
+    /// Runs one case with its histories into a folder.
+    fn run_case(&self, py: Python<'_>, case: u64, folder: PathBuf) -> PyResult<()> {
+        if case >= self.0.design.cases {
+            return Err(argument_error(format!(
+                "case: there is no case {case}; there are {}, counted from 0",
+                self.0.design.cases
+            )));
+        }
+        py.detach(|| jostle_study::run_case(&self.0, case, &folder, &|| false))
+            .map_err(|error| study_error(&error))?;
+        Ok(())
+    }
+}
+
+/// Lets Ctrl-C and the observer stop a study.
+fn heed(py: Python<'_>, observer: Option<&Py<PyAny>>, progress: Option<Progress>) -> PyResult<()> {
+    py.check_signals()?;
+    if let (Some(observer), Some(progress)) = (observer, progress) {
+        observer.call1(py, (progress.finished as f64, progress.cases as f64))?;
+    }
+    Ok(())
+}
+
+/// The smallest gaps without pounding, as the JSON of `jostle gap`.
+#[pyfunction]
+pub(crate) fn critical_gaps(
+    py: Python<'_>,
+    model: &Model,
+    tolerance: f64,
+    system: &str,
+    outcomes: bool,
+) -> PyResult<String> {
+    let system = match system {
+        "frame" => JointSystem::Frame,
+        "frame-wall" => JointSystem::FrameWall,
+        "wall" => JointSystem::Wall,
+        "steel-frame" => JointSystem::SteelFrame,
+        other => {
+            return Err(argument_error(format!(
+                "system: expected frame, frame-wall, wall or steel-frame, found {other:?}"
+            )));
+        }
+    };
+    if !(tolerance.is_finite() && tolerance >= 1e-9) {
+        return Err(argument_error("tolerance: must be at least 1e-9 m"));
+    }
+    let (motion, _, _) = model.plan(false)?;
+    let settings = GapSettings {
+        tolerance,
+        system,
+        outcomes,
+    };
+    let halt = AtomicBool::new(false);
+    let mut stopped: Option<PyErr> = None;
+    let found = py.detach(|| {
+        std::thread::scope(|scope| {
+            let work = scope.spawn(|| {
+                let stop = || halt.load(Ordering::Relaxed);
+                jostle_study::critical_gaps(&model.input.model, &motion, &settings, &stop)
+            });
+            while !work.is_finished() {
+                std::thread::sleep(LOOK_UP / 10);
+                if stopped.is_none()
+                    && let Err(error) = Python::attach(|py| py.check_signals())
+                {
+                    stopped = Some(error);
+                    halt.store(true, Ordering::Relaxed);
+                }
+            }
+            work.join()
+        })
+    });
+    if let Some(error) = stopped {
+        return Err(error);
+    }
+    let found = found.map_err(|_| AnalysisError::new_err("the search failed inside"))?;
+    let gaps = found.map_err(|error| match error {
+        GapError::Stopped => PyKeyboardInterrupt::new_err(()),
+        GapError::Run(_) => AnalysisError::new_err(error.to_string()),
+        _ => input_error(&model.input.fault("gap", error.to_string())),
+    })?;
+    serde_json::to_string(&gaps).map_err(|error| AnalysisError::new_err(error.to_string()))
+}

@@ -1,0 +1,515 @@
+//! A study gives the same table however it is run, and the numbers of single runs.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use jostle::{Plan, Run, Settings, Summary, System, simulate};
+use jostle_io::{Format, Overrides, StudyFile, builtin_model, read_model_text};
+use jostle_study::dataset::read_columns;
+use jostle_study::{Done, RunSettings, Study, StudyError, run};
+
+/// Two small towers that are hit within a few seconds.
+const TOWERS: &str = r#"
+[motion]
+record = "el-centro-1940-ns"
+duration = "6 s"
+[[building]]
+name = "A"
+kind = "shear"
+mass = ["40 t", "40 t"]
+stiffness = ["20 MN/m", "20 MN/m"]
+storey_height = "3 m"
+[[building]]
+name = "B"
+kind = "shear"
+mass = ["60 t", "60 t"]
+stiffness = ["90 MN/m", "90 MN/m"]
+storey_height = "3 m"
+[[gap]]
+between = ["A", "B"]
+width = "20 mm"
+[analysis]
+tolerance = 0.01
+"#;
+
+fn file(study: &str) -> Result<StudyFile, jostle_io::InputError> {
+    let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+    std::fs::write(folder.path().join("towers.toml"), TOWERS)
+        .unwrap_or_else(|error| panic!("{error}"));
+    StudyFile::parse("study.toml", study, Format::Toml, folder.path(), None)
+}
+
+fn study(text: &str) -> Study {
+    let file = file(text).unwrap_or_else(|error| panic!("{error}"));
+    Study::new(file).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const GRID: &str = r#"
+base = "towers.toml"
+[[vary]]
+name = "gap"
+path = "gap[0].width"
+range = { from = "2 mm", to = "40 mm", count = 10 }
+[[vary]]
+path = "motion.pga"
+values = ["100 cm/s2", "0.2 g", 3.0, "400 gal", 4.5]
+"#;
+
+fn go(study: &Study, folder: &Path, settings: &RunSettings) -> Done {
+    run(study, folder, settings, &|| false, &|_| {}).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn jobs(jobs: usize) -> RunSettings {
+    RunSettings {
+        jobs: Some(jobs),
+        ..RunSettings::default()
+    }
+}
+
+/// Every file of the table, byte for byte.
+fn parts(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = std::fs::read_dir(folder.join("cases")).unwrap_or_else(|error| panic!("{error}"));
+    entries
+        .map(|entry| {
+            let path = entry.unwrap_or_else(|error| panic!("{error}")).path();
+            let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{error}"));
+            let name = path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            (name, bytes)
+        })
+        .collect()
+}
+
+fn temporary() -> tempfile::TempDir {
+    tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn threads_shards_and_interruptions_leave_no_trace() {
+    let study = study(GRID);
+    assert_eq!((study.design.cases, study.parts()), (50, 4));
+    let whole = temporary();
+    let done = go(&study, whole.path(), &jobs(1));
+    assert!(done.complete && done.failed == 0);
+    let expected = parts(whole.path());
+    assert_eq!(expected.len(), 4);
+
+    for threads in [2, 7] {
+        let folder = temporary();
+        go(&study, folder.path(), &jobs(threads));
+        assert!(parts(folder.path()) == expected, "{threads} threads");
+    }
+
+    let folder = temporary();
+    for shard in [2, 0, 1] {
+        let settings = RunSettings {
+            jobs: Some(2),
+            shard,
+            shards: 3,
+        };
+        let done = go(&study, folder.path(), &settings);
+        assert_eq!(done.complete, shard == 1, "shard {shard} of 3");
+    }
+    assert!(parts(folder.path()) == expected, "three shards");
+
+    let folder = temporary();
+    let mut computed = 0;
+    for limit in [3, 9, 1, 20, u64::MAX] {
+        let begun = AtomicU64::new(0);
+        let stop = || begun.load(Ordering::Relaxed) >= limit;
+        let count = |progress: jostle_study::Progress| {
+            begun.store(progress.computed, Ordering::Relaxed);
+        };
+        let done = run(&study, folder.path(), &jobs(3), &stop, &count);
+        let done = done.unwrap_or_else(|error| panic!("{error}"));
+        computed += done.progress.computed;
+        assert_eq!(done.complete, limit == u64::MAX);
+    }
+    assert_eq!(computed, 50, "no case was lost, none computed twice");
+    assert!(parts(folder.path()) == expected, "five interruptions");
+    assert_eq!(
+        std::fs::read_dir(folder.path().join("under-way"))
+            .map(Iterator::count)
+            .ok(),
+        Some(0),
+        "journals are cleared away"
+    );
+}
+
+#[test]
+fn two_runs_on_one_folder_share_the_work() {
+    let study = study(GRID);
+    let alone = temporary();
+    go(&study, alone.path(), &jobs(1));
+    let folder = temporary();
+    let (first, second) = std::thread::scope(|scope| {
+        let other = scope.spawn(|| go(&study, folder.path(), &jobs(1)));
+        let own = go(&study, folder.path(), &jobs(1));
+        (
+            own,
+            other
+                .join()
+                .unwrap_or_else(|_| panic!("the other run failed")),
+        )
+    });
+    assert!(first.complete && second.complete);
+    assert_eq!(
+        first.progress.computed + second.progress.computed,
+        50,
+        "every case once: {first:?} {second:?}"
+    );
+    assert!(parts(folder.path()) == parts(alone.path()));
+}
+
+/// The numbers of a row are those of a run that was asked for by hand.
+#[test]
+fn rows_hold_the_numbers_of_single_runs() {
+    let study = study(GRID);
+    let folder = temporary();
+    go(&study, folder.path(), &jobs(2));
+    let wanted = [
+        "gap_m",
+        "motion.pga_m_s2",
+        "peak_force_n",
+        "impact_count",
+        "first_impact_s",
+        "A.floor2.displacement_max_m",
+        "energy_input_j",
+        "steps",
+    ];
+    let table = read_columns(&study, folder.path(), &wanted).unwrap_or_else(|e| panic!("{e}"));
+    for (case, gap, pga) in [
+        (0, 0.002, 1.0),
+        (6, 0.002 + 0.038 / 9.0, 0.2 * 9.80665),
+        (24, 0.002 + 0.038 * 4.0 / 9.0, 4.5),
+    ] {
+        let input = read_model_text("towers", TOWERS, Format::Toml, Path::new(""));
+        let mut input = input.unwrap_or_else(|error| panic!("{error}"));
+        let overrides = Overrides {
+            pga: Some(pga),
+            gap: Some(gap),
+            record: None,
+        };
+        input
+            .apply(&overrides)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let system = System::assemble(&input.model).unwrap_or_else(|faults| panic!("{faults:?}"));
+        let motion = input
+            .ground_motion()
+            .unwrap_or_else(|error| panic!("{error}"));
+        let plan = Plan::choose(&system, &motion, &input.model.analysis);
+        let plan = plan.unwrap_or_else(|faults| panic!("{faults:?}"));
+        let settings = Settings {
+            record_interval: None,
+            ..Settings::default()
+        };
+        let outcome = simulate(&system, &motion, &plan, settings, |_| {
+            ControlFlow::Continue(())
+        });
+        let summary = Summary::of(&Run {
+            model: &input.model,
+            system: &system,
+            motion: &motion,
+            plan: &plan,
+            outcome: &outcome,
+            without_contact: None,
+            wall: 0.0,
+        });
+        let number = |name: &str| table.numbers[name][case];
+        let near = |name: &str, expected: f64| {
+            let found = number(name).unwrap_or(f64::NAN);
+            assert!(
+                (found - expected).abs() <= 1e-12 * expected.abs().max(1e-9),
+                "case {case}: {name} {found} instead of {expected}"
+            );
+        };
+        near("gap_m", gap);
+        near("motion.pga_m_s2", pga);
+        // The gap of the file is a decimal text, that of the option a product: the last digit may differ.
+        let close = |name: &str, expected: f64| {
+            let found = number(name).unwrap_or(f64::NAN);
+            assert!(
+                (found - expected).abs() <= 1e-6 * expected.abs(),
+                "case {case}: {name} {found} instead of {expected}"
+            );
+        };
+        assert!(summary.gaps[0].impact_count > 0, "case {case} has impacts");
+        close("peak_force_n", summary.gaps[0].peak_force_n);
+        close(
+            "first_impact_s",
+            summary.gaps[0].first_impact_s.unwrap_or(f64::NAN),
+        );
+        close(
+            "A.floor2.displacement_max_m",
+            summary.buildings[0].floors[1].displacement_max_m,
+        );
+        close("energy_input_j", summary.energy.input_j);
+        assert_eq!(
+            number("impact_count"),
+            Some(summary.gaps[0].impact_count as f64)
+        );
+        assert_eq!(number("steps"), Some(summary.work.steps as f64));
+    }
+}
+
+#[test]
+fn a_case_that_cannot_be_computed_is_a_row_with_its_reason() {
+    let text = r#"
+base = "towers.toml"
+[design]
+kind = "random"
+samples = 40
+seed = 3
+[[vary]]
+name = "gap"
+path = "gap[0].width"
+distribution = { kind = "normal", mean = "20 mm", deviation = "9 mm" }
+"#;
+    let study = study(text);
+    let folder = temporary();
+    let done = go(&study, folder.path(), &jobs(2));
+    let table = read_columns(
+        &study,
+        folder.path(),
+        &["status", "reason", "gap_m", "impact_count"],
+    );
+    let table = table.unwrap_or_else(|error| panic!("{error}"));
+    let mut failed = 0;
+    for case in 0..40 {
+        let gap = table.numbers["gap_m"][case].unwrap_or(f64::NAN);
+        let (status, reason) = (&table.texts["status"][case], &table.texts["reason"][case]);
+        if gap < 0.0 {
+            failed += 1;
+            assert_eq!(status, "failed", "gap {gap}");
+            assert!(reason.contains("gap[0].width"), "{reason}");
+            assert_eq!(table.numbers["impact_count"][case], None);
+        } else {
+            assert_eq!((&status[..], &reason[..]), ("completed", ""), "gap {gap}");
+        }
+    }
+    assert!(failed > 0, "this seed draws a negative gap");
+    assert_eq!(done.failed, failed);
+}
+
+#[test]
+fn a_folder_belongs_to_one_study() {
+    let folder = temporary();
+    go(&study(GRID), folder.path(), &jobs(1));
+    let other = study(&GRID.replace("count = 10", "count = 9"));
+    match run(&other, folder.path(), &jobs(1), &|| false, &|_| {}) {
+        Err(StudyError::Folder(text)) => {
+            assert!(text.contains("the study file has changed"), "{text}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn mistakes_point_at_the_line_of_the_study() {
+    let refused = |text: &str| match file(text).map(Study::new) {
+        Err(error) => error.to_string(),
+        Ok(Err(error)) => error.to_string(),
+        Ok(Ok(_)) => panic!("accepted: {text}"),
+    };
+    let vary = |rest: &str| format!("base = \"towers.toml\"\n[[vary]]\n{rest}\n");
+    for (text, expected) in [
+        (
+            vary("path = \"gap[0].widht\"\nvalues = [0.01]"),
+            &["study.toml:4:", "did you mean \"width\""][..],
+        ),
+        (
+            vary("path = \"gap[1].width\"\nvalues = [0.01]"),
+            &["study.toml:4:", "there is no [1]"],
+        ),
+        (
+            vary("path = \"gap[0].width\"\nvalues = [\"20 kg\"]"),
+            &["study.toml:4:", "expected a length"],
+        ),
+        (
+            vary("path = \"gap[0].width\"\nvalues = [\"-20 mm\"]"),
+            &["study.toml:4:", "gap[0].width"],
+        ),
+        (
+            vary("path = \"motion.record\"\nvalues = [\"el-centra\"]"),
+            &["study.toml:4:", "did you mean \"el-centro\""],
+        ),
+        (
+            vary("path = \"gap[0].width\""),
+            &["study.toml:2:", "is missing", "values"],
+        ),
+        (
+            vary("path = \"gap[0].width\"\nvalue = [1]"),
+            &["unknown key \"value\"", "did you mean \"values\""],
+        ),
+        (
+            vary(
+                "path = \"gap[0].width\"\ndistribution = { kind = \"normal\", mean = \"1 mm\", deviation = 1 }",
+            ),
+            &["one unit"],
+        ),
+        (
+            vary(
+                "path = \"gap[0].width\"\ndistribution = { kind = \"uniform\", from = \"1 mm\", to = \"2 mm\" }",
+            ),
+            &["design", "samples = "],
+        ),
+        (
+            "base = \"papr\"\n[[vary]]\npath = \"title\"\nvalues = [\"x\"]".to_owned(),
+            &["did you mean the built-in \"paper\""],
+        ),
+        (
+            format!("{GRID}[[fragility]]\nintensity = \"pga\"\n"),
+            &["there is no column \"pga\"", "pga_m_s2"],
+        ),
+        (
+            format!("histories = [50]\n{GRID}"),
+            &["there is no case 50"],
+        ),
+        (
+            format!("{GRID}[design]\nkind = \"zipped\"\n"),
+            &["5 values", "10"],
+        ),
+    ] {
+        let said = refused(&text);
+        for part in expected {
+            assert!(
+                said.contains(part),
+                "{part:?} is missing in:\n{said}\nof\n{text}"
+            );
+        }
+    }
+}
+
+/// A factor that changes the number of floors gives the columns of the tallest building.
+#[test]
+fn storeys_may_vary() {
+    let text = r#"
+base = "towers.toml"
+[[vary]]
+name = "A"
+path = ["building.A.mass", "building.A.stiffness"]
+values = [[2e7], [2e7, 2e7, 2e7]]
+[[vary]]
+name = "B"
+path = ["building.B.mass", "building.B.stiffness"]
+values = [[9e7], [9e7, 9e7, 9e7]]
+"#;
+    let study = study(text);
+    let names = study.layout.names();
+    // Three floors face each other only when both are tall.
+    for wanted in [
+        "A.floor3.storey_drift_peak",
+        "A-B.floor3-3.peak_force_n",
+        "A-B.floor1-1.peak_force_n",
+    ] {
+        assert!(names.contains(&wanted), "{wanted} is missing in {names:?}");
+    }
+    let folder = temporary();
+    assert_eq!(go(&study, folder.path(), &jobs(2)).failed, 0);
+    let table = read_columns(
+        &study,
+        folder.path(),
+        &["A.floor3.storey_drift_peak", "reason"],
+    );
+    let table = table.unwrap_or_else(|error| panic!("{error}"));
+    let present: Vec<bool> = table
+        .column("A.floor3.storey_drift_peak")
+        .iter()
+        .map(Option::is_some)
+        .collect();
+    assert_eq!(present, [false, false, true, true]);
+    assert_eq!(table.texts["reason"], [""; 4]);
+}
+
+#[test]
+fn ready_made_studies_are_valid() {
+    for name in jostle_study::ready_made_names() {
+        let text = jostle_study::ready_made(name).unwrap_or_default();
+        let file = StudyFile::parse(name, text, Format::Toml, Path::new(""), None);
+        let study = Study::new(file.unwrap_or_else(|error| panic!("{error}")));
+        let study = study.unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(study.design.cases > 1, "{name}");
+    }
+    assert!(builtin_model("paper").is_ok());
+}
+
+/// Designs: every combination once; samples reproduce their distributions.
+#[test]
+fn designs_make_the_cases_they_should() {
+    let grid = study(GRID);
+    let mut seen = BTreeMap::new();
+    for case in 0..50 {
+        let key = format!("{:?}", grid.design.choices(case, &grid.file.factors));
+        *seen.entry(key).or_insert(0) += 1;
+    }
+    assert_eq!(seen.len(), 50);
+
+    for kind in ["latin-hypercube", "sobol", "random"] {
+        let text = format!(
+            r#"
+base = "towers.toml"
+[design]
+kind = "{kind}"
+samples = 4096
+seed = 12
+correlation = [{{ between = ["k", "m"], value = -0.6 }}]
+[[vary]]
+name = "k"
+path = "building.A.stiffness"
+multiply = true
+distribution = {{ kind = "lognormal", median = 1, dispersion = 0.25 }}
+[[vary]]
+name = "m"
+path = "building.A.mass"
+multiply = true
+distribution = {{ kind = "normal", mean = 1, deviation = 0.1 }}
+[[vary]]
+name = "gap"
+path = "gap[0].width"
+values = ["5 mm", "10 mm", "20 mm", "40 mm"]
+"#
+        );
+        let study = study(&text);
+        let (mut logs, mut masses, mut levels) = (Vec::new(), Vec::new(), [0; 4]);
+        for case in 0..4096 {
+            match &study.design.choices(case, &study.file.factors)[..] {
+                [
+                    jostle_study::Choice::Drawn(k),
+                    jostle_study::Choice::Drawn(m),
+                    jostle_study::Choice::Listed(level),
+                ] => {
+                    logs.push(k.ln() / 0.25);
+                    masses.push((m - 1.0) / 0.1);
+                    levels[*level] += 1;
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+        let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
+        let product: Vec<f64> = logs.iter().zip(&masses).map(|(a, b)| a * b).collect();
+        // Four standard errors of 4096 independent draws: √((1 + ρ²)/n) for the correlation, √(2/n) for the variance.
+        let n = 4096f64;
+        assert!(mean(&logs).abs() < 4.0 / n.sqrt(), "{kind}");
+        assert!(
+            (mean(&product) + 0.6).abs() < 4.0 * (1.36 / n).sqrt(),
+            "{kind}: {}",
+            mean(&product)
+        );
+        let square: Vec<f64> = masses.iter().map(|x| x * x).collect();
+        assert!(
+            (mean(&square) - 1.0).abs() < 4.0 * (2.0 / n).sqrt(),
+            "{kind}"
+        );
+        for count in levels {
+            assert!(
+                (f64::from(count) - 1024.0).abs() < 4.0 * 768f64.sqrt(),
+                "{kind}: {levels:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,381 @@
+"""Studies: many cases of one model, on all cores or on a cluster."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import time as clock
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+from . import _jostle
+from ._errors import AnalysisError, ModelError, ModelWarning
+from ._model import Model
+from ._progress import Observer, ProgressLine
+from ._tree import text_of
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+class _CaseLine(ProgressLine):
+    """Shows how many cases are finished."""
+
+    def __call__(self, time: float, duration: float) -> None:
+        now = clock.monotonic()
+        hasty = now - self._started < self.PATIENCE or now - self._written < self.APART
+        if hasty or not self._watched:
+            return
+        self._written = now
+        part = min(max(time / max(duration, 1.0), 0.0), 1.0)
+        bar = "█" * round(24 * part)
+        self._show(f"{bar:░<24} {time:.0f} of {duration:.0f} cases")
+
+
+#: Name, text, whether it is JSON, folder.
+_Base = tuple[str, str, bool, str]
+
+
+class Study:
+    """Many cases of one model: lists, ranges and distributions of whatever stands in a model file.
+
+    The table has one row a case and is the same, bit for bit, for any number of threads, processes, workers and
+    interruptions. ``docs/studies.md`` describes what a study can hold.
+
+    Args:
+        model: the base model: a :class:`Model`, a model file, the name of a built-in model, or a tree.
+        vary: what varies, as in ``[{"name": "gap", "path": "gap[0].width", "values": ["20 mm", "40 mm"]}]``.
+        design: how cases are made of it, as in ``{"kind": "latin-hypercube", "samples": 200, "seed": 1}``; every
+            combination without it.
+        title: title of its report.
+        **wishes: ``histories``, ``fragility``, ``ida`` and ``sensitivity`` as in a study file.
+
+    Raises:
+        ModelError: every fault at once, each with its place.
+    """
+
+    _core: _jostle.Study
+    _recipe: tuple[str, str, bool, str, _Base | None]
+
+    def __init__(
+        self,
+        model: Model | str | os.PathLike[str] | Mapping[str, Any],
+        vary: Iterable[Mapping[str, Any]],
+        *,
+        design: Mapping[str, Any] | None = None,
+        title: str = "Untitled study",
+        **wishes: Any,
+    ) -> None:
+        tree: dict[str, Any] = {"title": title, "vary": [dict(entry) for entry in vary], **wishes}
+        if design is not None:
+            tree["design"] = dict(design)
+        base: _Base | None = None
+        if isinstance(model, Model):
+            base = _base_of(model)
+        elif isinstance(model, Mapping):
+            tree["model"] = dict(model)
+        else:
+            tree["base"] = os.fspath(model)
+        self._build("study", text_of(tree, "study"), True, os.getcwd(), base)
+
+    def _build(self, name: str, text: str, is_json: bool, folder: str, base: _Base | None) -> None:
+        import warnings
+
+        self._recipe = (name, text, is_json, folder, base)
+        self._core = _jostle.Study.read(name, text, is_json, folder, base)
+        for warning in self._core.warnings:
+            warnings.warn(warning, ModelWarning, stacklevel=3)
+
+    @classmethod
+    def load(
+        cls, path: str | os.PathLike[str], *, model: Model | None = None
+    ) -> Study:
+        """Reads a study file, JSON if its name ends in ``.json``, else TOML; ``model`` replaces its base model."""
+        name = os.fspath(path)
+        try:
+            text = Path(name).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise ModelError(f"{name}: cannot be read: {error}") from None
+        study = cls.__new__(cls)
+        folder = os.path.dirname(os.path.abspath(name))
+        base = None if model is None else _base_of(model)
+        study._build(name, text, name.lower().endswith(".json"), folder, base)
+        return study
+
+    @property
+    def title(self) -> str:
+        """Title."""
+        return self._core.title
+
+    @property
+    def cases(self) -> int:
+        """Number of cases."""
+        return self._core.cases
+
+    @property
+    def seed(self) -> int:
+        """Seed of everything drawn."""
+        return self._core.seed
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of the columns of its table; they carry units."""
+        return self._core.columns
+
+    def run(
+        self,
+        out: str | os.PathLike[str],
+        *,
+        jobs: int | None = None,
+        shard: tuple[int, int] | None = None,
+        client: Any = None,
+        progress: bool | Observer = False,
+        report: bool = True,
+    ) -> StudyResult:
+        """Runs what is not finished in a folder. The same call goes on where an earlier one stopped, whatever
+        stopped it. Ctrl-C raises ``KeyboardInterrupt`` within a second; finished cases stay.
+
+        Args:
+            out: folder of the results; with a client, one that all workers see.
+            jobs: threads; one for every core by default. Without effect with a client, whose workers each bring theirs.
+            shard: ``(i, n)`` computes the i-th of n equal shares, i from 1; all may use one folder.
+            client: a ``dask.distributed.Client``: its workers compute the parts of the table. A part whose worker
+                dies is taken over by another, from the last finished case on.
+            progress: true shows a progress line; or a function called with cases finished and cases to finish.
+            report: writes the report and the tables behind it once all cases are finished.
+
+        Raises:
+            ModelError: the folder holds another study, or an argument is wrong.
+            OSError: nothing more can be written; what is finished stays.
+        """
+        folder = os.path.abspath(os.fspath(out))
+        observer = None if isinstance(progress, bool) else progress
+        with _CaseLine() if progress is True else contextlib.nullcontext() as line:
+            observer = observer if line is None else line
+            if client is not None:
+                if shard is not None:
+                    raise ModelError("shard: does not go with a client, which shares the work by itself")
+                self._run_on(client, folder, observer)
+            else:
+                index, of = (1, 1) if shard is None else shard
+                if not 1 <= index <= of:
+                    raise ModelError(f"shard: expected (i, n) with i from 1 to n, found {shard}")
+                if jobs is not None and jobs < 1:
+                    raise ModelError(f"jobs: must be at least 1, found {jobs}")
+                self._core.run(folder, jobs, index - 1, of, observer)
+        result = StudyResult(self, Path(folder))
+        if report and result.complete:
+            self._core.finish(folder)
+        return result
+
+    def _run_on(self, client: Any, folder: str, observer: Observer | None) -> None:
+        """Gives every part that is missing to the workers of a client."""
+        distributed: Any = import_module("distributed")
+        parts = self._core.parts
+        missing = self._core.missing(folder)
+        share = client.scatter(self, broadcast=True, hash=False) if missing else None
+        futures = [
+            client.submit(_compute, share, folder, part, parts, pure=False, retries=10, key=f"jostle-{part}-{id(self)}")
+            for part in missing
+        ]
+        try:
+            done = parts - len(missing)
+            for future in distributed.as_completed(futures):
+                future.result()
+                done += 1
+                if observer is not None:
+                    observer(self.cases * done / parts, float(self.cases))
+        except BaseException:
+            client.cancel(futures)
+            raise
+        left = self._core.missing(folder)
+        if left:
+            raise AnalysisError(
+                f"{len(left)} of {parts} parts did not arrive in {folder}: the workers must share this folder"
+            )
+
+    def run_case(self, case: int, out: str | os.PathLike[str]) -> Path:
+        """Runs one case with its histories and report into a folder, and returns the path of the report."""
+        self._core.run_case(case, os.fspath(out))
+        return Path(out) / "report.html"
+
+    def __repr__(self) -> str:
+        return f"<Study {self.title!r}: {self.cases} cases>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_rebuild, self._recipe)
+
+
+@dataclass(frozen=True)
+class StudyResult:
+    """The folder of a study.
+
+    ``polars.read_parquet(result.parts)``, ``pandas.read_parquet(result.folder / "cases")`` and DuckDB's
+    ``FROM 'folder/cases/*.parquet'`` read the whole table.
+
+    Attributes:
+        study: the study.
+        folder: its folder.
+    """
+
+    study: Study
+    folder: Path
+
+    @property
+    def complete(self) -> bool:
+        """Whether every case is finished."""
+        return not self.study._core.missing(os.fspath(self.folder))
+
+    @property
+    def parts(self) -> str:
+        """The files of the table as a pattern."""
+        return os.fspath(self.folder / "cases" / "*.parquet")
+
+    @property
+    def report(self) -> Path:
+        """The page."""
+        return self.folder / "report.html"
+
+    def __getitem__(self, name: str) -> npt.NDArray[Any]:
+        """A column case by case: floats in SI, NaN where absent, or texts as objects."""
+        import numpy as np
+
+        if name not in self.study.columns:
+            raise KeyError(f"{name!r}; the columns are {', '.join(self.study.columns)}")
+        numbers, texts = self.study._core.read_columns(os.fspath(self.folder), [name])
+        if name in texts:
+            return np.array(texts[name], dtype=object)
+        return np.array(numbers[name], dtype=float)
+
+    def to_pandas(self) -> Any:
+        """The table as a ``pandas.DataFrame``."""
+        pandas: Any = import_module("pandas")
+        return pandas.read_parquet(self.folder / "cases")
+
+    def to_polars(self) -> Any:
+        """The table as a ``polars.DataFrame``."""
+        polars: Any = import_module("polars")
+        return polars.read_parquet(self.parts)
+
+
+@dataclass(frozen=True)
+class RuleGap:
+    """The gap that a rule asks for, and what it would have led to.
+
+    Attributes:
+        rule: short name.
+        source: where the rule stands.
+        gap: width [m].
+        impact_count: impacts at this gap; ``None`` when it was not run.
+        peak_force: greatest force at this gap [N].
+    """
+
+    rule: str
+    source: str
+    gap: float
+    impact_count: int | None
+    peak_force: float | None
+
+
+@dataclass(frozen=True)
+class CriticalGap:
+    """The smallest gap without pounding between two neighbours under one motion.
+
+    Attributes:
+        between: names of the neighbours.
+        motion: name of the motion.
+        pga: its peak [m/s²].
+        gap: smallest gap found without an impact [m].
+        pounding_at: widest gap tried with an impact; ``None`` when not even a gap of zero is hit [m].
+        closing_without_contact: greatest closing of the buildings passing through each other [m].
+        rules: what rules and codes ask for.
+    """
+
+    between: tuple[str, str]
+    motion: str
+    pga: float
+    gap: float
+    pounding_at: float | None
+    closing_without_contact: float
+    rules: tuple[RuleGap, ...]
+
+
+def critical_gap(
+    model: Model | str | os.PathLike[str],
+    *,
+    motions: Sequence[Any] | None = None,
+    pga: float | str | None = None,
+    tolerance: float = 1e-4,
+    system: str = "frame",
+    outcomes: bool = True,
+) -> list[CriticalGap]:
+    """The smallest gap without pounding, by bracketing on the response, beside ABS, SRSS, DDC and codes.
+
+    Args:
+        model: the model, or a model file.
+        motions: ground motions, or names or paths of records; that of the model by default.
+        pga: scales every motion to this peak [m/s², or a text with a unit].
+        tolerance: width of the last bracket, ≥ 1e-9 [m].
+        system: structural system for GB 50011: ``frame``, ``frame-wall``, ``wall`` or ``steel-frame``.
+        outcomes: runs the gap of every rule too.
+
+    Returns:
+        One entry for every gap of the model and every motion.
+
+    Raises:
+        ModelError: model, motion or an argument is wrong.
+        AnalysisError: a run failed.
+    """
+    if not isinstance(model, Model):
+        model = Model.load(model)
+    found: list[CriticalGap] = []
+    for motion in [None] if motions is None else motions:
+        one = model
+        if motion is not None or pga is not None:
+            one = model.changed(motion=motion, pga=pga)
+        for gap in json.loads(_jostle.critical_gaps(one._core, tolerance, system, outcomes)):
+            rules = tuple(
+                RuleGap(
+                    rule["rule"], rule["source"], rule["gap_m"], rule["impact_count"], rule["peak_force_n"]
+                )
+                for rule in gap["rules"]
+            )
+            found.append(
+                CriticalGap(
+                    cast("tuple[str, str]", tuple(gap["between"])),
+                    gap["motion"],
+                    gap["pga_m_s2"],
+                    gap["gap_m"],
+                    gap["pounding_at_m"],
+                    gap["closing_without_contact_m"],
+                    rules,
+                )
+            )
+    return found
+
+
+def _base_of(model: Model) -> _Base:
+    """The text of a model, to vary it."""
+    how, arguments, motion, gap, pga, record = model._recipe
+    if not isinstance(how, str) or not (motion is gap is pga is record is None):
+        raise ModelError("model: a changed model cannot vary; give the original, and the changes as lists of one value")
+    if how == "builtin":
+        return (arguments[0], model._core.text, False, "")
+    name, text, is_json, folder, *_ = arguments
+    return (str(name), str(text), bool(is_json), str(folder))
+
+
+def _compute(study: Study, folder: str, part: int, parts: int) -> int:
+    """One part, on a worker: as many shares as parts."""
+    return study._core.run(folder, 1, part, parts, None)[1]
+
+
+def _rebuild(name: str, text: str, is_json: bool, folder: str, base: _Base | None) -> Study:
+    study = Study.__new__(Study)
+    study._recipe = (name, text, is_json, folder, base)
+    study._core = _jostle.Study.read(name, text, is_json, folder, base)
+    return study

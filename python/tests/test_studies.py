@@ -1,0 +1,170 @@
+"""Studies from Python: the table of the command line, resumed, pickled, shared and spread over workers."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import TOWERS
+
+import jostle
+
+VARY: list[dict[str, Any]] = [
+    {"name": "gap", "path": "gap[0].width", "range": {"from": "2 mm", "to": "60 mm", "count": 10}},
+    {"name": "pga", "path": "motion.pga", "values": ["1 m/s2", "0.2 g", 3.0, "4 m/s2"]},
+    {"path": "motion.duration", "values": ["5 s"]},
+]
+
+
+def towers() -> jostle.Model:
+    return jostle.Model.loads(TOWERS)
+
+
+def study(**more: Any) -> jostle.Study:
+    return jostle.Study(towers(), VARY, title="Towers", **more)
+
+
+def table(folder: Path) -> dict[str, bytes]:
+    assert list((folder / "under-way").iterdir()) == []
+    return {path.name: path.read_bytes() for path in (folder / "cases").glob("*.parquet")}
+
+
+def test_rows_are_the_numbers_of_runs(tmp_path: Path) -> None:
+    result = study().run(tmp_path / "out", jobs=2)
+    assert result.complete and result.study.cases == 40
+    assert result.report.is_file()
+    gap, pga, force = result["gap_m"], result["input.pga_m_s2"], result["peak_force_n"]
+    assert set(result["status"]) == {"completed"}
+    for case in (0, 7, 22):
+        # The duration of the study is part of the model; a run by hand needs the same.
+        text = TOWERS.replace('duration = "12 s"', 'duration = "5 s"')
+        one = jostle.run(jostle.Model.loads(text), gap=float(gap[case]), pga=float(pga[case]))
+        assert one.summary["gaps"][0]["peak_force_n"] == pytest.approx(force[case], rel=1e-6)
+        assert one.summary["gaps"][0]["impact_count"] == result["impact_count"][case]
+    with pytest.raises(KeyError, match="peak_force_n"):
+        result["force"]
+
+
+def test_one_line_reads_the_table(tmp_path: Path) -> None:
+    import pandas
+    import polars
+
+    result = study().run(tmp_path / "out")
+    frame = polars.read_parquet(result.parts)
+    assert frame.shape[0] == 40 and frame["case"].to_list() == list(range(40))
+    assert result.to_polars().equals(frame)
+    other = pandas.read_parquet(result.folder / "cases")
+    np.testing.assert_array_equal(other["peak_force_n"], result["peak_force_n"])
+    assert list(other.columns) == result.study.columns == list(result.to_pandas().columns)
+
+
+def test_shares_of_a_study_make_the_whole_table(tmp_path: Path) -> None:
+    whole = study()
+    whole.run(tmp_path / "whole", jobs=1)
+    shared = tmp_path / "shared"
+    first = whole.run(shared, shard=(1, 3), report=False)
+    assert not first.complete
+    again = pickle.loads(pickle.dumps(whole))
+    assert again.run(shared, shard=(3, 3), report=False).complete is False
+    assert again.run(shared).complete
+    assert table(shared) == table(tmp_path / "whole")
+
+
+def test_studies_from_files_and_trees(tmp_path: Path) -> None:
+    (tmp_path / "towers.toml").write_text(TOWERS, encoding="utf-8")
+    path = tmp_path / "study.toml"
+    path.write_text(
+        'base = "towers.toml"\n[[vary]]\npath = "gap[0].width"\nvalues = ["20 mm", "40 mm"]\n',
+        encoding="utf-8",
+    )
+    assert jostle.Study.load(path).cases == 2
+    assert jostle.Study.load(path, model=jostle.Model.paper_example()).cases == 2
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text(path.read_text().replace("width", "widht"), encoding="utf-8")
+    with pytest.raises(jostle.ModelError, match=r"did you mean \"width\"") as caught:
+        jostle.Study.load(wrong)
+    assert caught.value.faults[0].line == 4
+    with pytest.raises(jostle.ModelError, match="changed model"):
+        jostle.Study(towers().changed(gap="3 mm"), VARY)
+    drawn = jostle.Study(
+        "paper",
+        [{"name": "k", "path": "building[0].stiffness_factor", "distribution": {"kind": "uniform", "from": 0.3, "to": 0.7}}],
+        design={"kind": "sobol", "samples": 8, "seed": 3},
+    )
+    assert (drawn.cases, drawn.seed) == (8, 3)
+
+
+def test_the_smallest_gap(tmp_path: Path) -> None:
+    (gap,) = jostle.critical_gap(towers())
+    assert gap.pounding_at is not None and gap.gap - gap.pounding_at <= 1.001e-4
+    assert gap.between == ("soft", "stiff")
+    assert jostle.run(towers(), gap=gap.gap).summary["gaps"][0]["impact_count"] == 0
+    assert jostle.run(towers(), gap=gap.pounding_at).summary["gaps"][0]["impact_count"] > 0
+    widths = {rule.rule: rule.gap for rule in gap.rules}
+    assert widths["SRSS"] <= widths["ABS"] and widths["ABS"] >= gap.gap
+    stronger = jostle.critical_gap(
+        towers(), motions=["el-centro-1940-ns", "nanjing-artificial"], pga="0.6 g", outcomes=False
+    )
+    assert [one.motion for one in stronger] == ["el-centro-1940-ns", "nanjing-artificial"]
+    # Elastic towers: twice the motion closes twice the gap.
+    assert stronger[0].gap == pytest.approx(2 * gap.gap, abs=2e-4)
+    with pytest.raises(jostle.ModelError, match="tolerance"):
+        jostle.critical_gap(towers(), tolerance=0.0)
+    with pytest.raises(jostle.ModelError, match="system"):
+        jostle.critical_gap(towers(), system="timber")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs signals")
+def test_ctrl_c_stops_a_study_and_the_rest_goes_on(tmp_path: Path) -> None:
+    vary = [{**VARY[0], "range": {"from": "2 mm", "to": "60 mm", "count": 4000}}]
+    long = jostle.Study(towers(), vary)
+    timer = threading.Timer(0.5, lambda: signal.raise_signal(signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        long.run(tmp_path / "out")
+    timer.join()
+    left = list((tmp_path / "out").rglob("part-*"))
+    assert left, "finished cases stay"
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_workers_of_a_cluster_one_of_which_is_killed(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    vary = [{**VARY[0], "range": {"from": "2 mm", "to": "60 mm", "count": 60}}, VARY[1]]
+    big = jostle.Study(towers(), vary)
+    big.run(tmp_path / "alone", report=False)
+    folder = tmp_path / "cluster"
+    settings = {"distributed.scheduler.allowed-failures": 10}
+    import dask
+
+    with (
+        dask.config.set(settings),
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        killed: list[int] = []
+
+        def kill() -> None:
+            # Midway: when some parts are there and others are not.
+            while len(list(folder.glob("cases/*.parquet"))) < 3:
+                time.sleep(0.01)
+            victim = next(iter(client.run(os.getpid).values()))
+            os.kill(victim, signal.SIGKILL)
+            killed.append(victim)
+
+        thread = threading.Thread(target=kill)
+        thread.start()
+        result = big.run(folder, client=client)
+        thread.join()
+    assert len(killed) == 1
+    assert result.complete and result.report.is_file()
+    assert table(folder) == table(tmp_path / "alone")
