@@ -66,6 +66,19 @@ const TABLES: &[(Section, &str, &str)] = &[
     ),
     (Section::Analysis, "`[analysis]`", ""),
     (Section::Integrator, "`analysis.integrator`", ""),
+    (
+        Section::Study,
+        "Study file: top",
+        "A file of its own, for `jostle study`; see [studies.md](studies.md).",
+    ),
+    (Section::Vary, "Study file: `[[vary]]`", ""),
+    (Section::Range, "Study file: `vary.range`", ""),
+    (Section::Distribution, "Study file: `vary.distribution`", ""),
+    (Section::Design, "Study file: `[design]`", ""),
+    (Section::Correlation, "Study file: `design.correlation`", ""),
+    (Section::Fragility, "Study file: `[[fragility]]`", ""),
+    (Section::Ida, "Study file: `[[ida]]`", ""),
+    (Section::Sensitivity, "Study file: `[sensitivity]`", ""),
 ];
 
 /// The page of all keys, with a final line break.
@@ -115,6 +128,7 @@ fn value(key: &Key) -> String {
         Kind::Text => "text".into(),
         Kind::Component => "text or number".into(),
         Kind::Count => "whole number".into(),
+        Kind::Any => "value or list".into(),
         Kind::Flag => "`true` or `false`".into(),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) => {

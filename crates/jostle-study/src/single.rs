@@ -47,6 +47,7 @@ pub(crate) fn write_run(ran: &Ran, folder: &Path) -> Result<(), StudyError> {
             without_contact: None,
             springs: ran.outcome.spring_history.as_ref(),
             sections: &[],
+            methods: &[],
         };
         write_atomically(
             &folder.join("report.html"),
