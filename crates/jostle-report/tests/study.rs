@@ -1,0 +1,113 @@
+//! The page of a study is one file with every number on it.
+
+use jostle_report::{
+    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, render_study,
+};
+
+fn axis(name: &str, unit: &str) -> Axis {
+    Axis {
+        name: name.into(),
+        unit: unit.into(),
+    }
+}
+
+fn page() -> StudyPage {
+    let cells = (0..6).map(|index| Cell {
+        value: (index != 4).then(|| f64::from(index) * 111.0),
+        cases: format!("case {index}"),
+        link: (index == 2).then(|| "runs/case-2/report.html".into()),
+    });
+    StudyPage {
+        title: "A <study> & more".into(),
+        headline: vec!["The buildings pound in 5 of 6 cases.".into()],
+        facts: vec![("cases".into(), "6".into())],
+        maps: vec![(
+            "El Centro".into(),
+            vec![HeatMap {
+                value: axis("greatest force", "kN"),
+                x: axis("gap", "mm"),
+                y: axis("peak ground acceleration", "cm/s²"),
+                columns: vec![10.0, 20.0, 30.0],
+                rows: vec![35.0, 70.0],
+                cells: cells.collect(),
+                nothing: "no impact".into(),
+            }],
+        )],
+        sections: vec![Section {
+            title: "Fragility".into(),
+            remark: String::new(),
+            charts: vec![Chart {
+                title: "Probability".into(),
+                x: axis("peak", "cm/s²"),
+                y: axis("probability", ""),
+                series: vec![Series {
+                    name: "pounding".into(),
+                    points: vec![[0.0, 0.0], [100.0, 0.5], [200.0, 1.0]],
+                    band: vec![[0.0, 0.0], [0.4, 0.6], [0.9, 1.0]],
+                    stroke: Stroke::Line,
+                    colour: 0,
+                }],
+                levels: vec![Level {
+                    name: "one half".into(),
+                    value: 0.5,
+                }],
+                reach: 1.0,
+            }],
+            bars: vec![Bars {
+                title: "Force".into(),
+                value: axis("force", "kN"),
+                centre: 100.0,
+                bars: vec![Bar {
+                    name: "mass".into(),
+                    ends: [80.0, 130.0],
+                    limits: None,
+                }],
+                legend: ["low".into(), "high".into()],
+            }],
+            table: Some((
+                vec!["curve".into(), "median".into(), "β".into()],
+                vec![vec!["gap 10 mm".into(), "cannot be fitted".into()]],
+            )),
+        }],
+        failures: vec![(3, "\"J1\" collapses".into())],
+        failed: 1,
+        runs: vec![(2, "gap 30 mm".into(), "runs/case-2/report.html".into())],
+        command: "jostle study study.toml".into(),
+        files: vec![("cases.csv".into(), "everything".into())],
+    }
+}
+
+#[test]
+fn the_page_is_whole_and_loads_nothing() {
+    let text = render_study(&page());
+    for part in [
+        "A &lt;study&gt; &amp; more",
+        "gap 10 mm, peak ground acceleration 70 cm/s²: 333 kN (case 3)",
+        "no impact (case 4)",
+        "href=\"runs/case-2/report.html\"",
+        "one half",
+        "cannot be fitted",
+        "&quot;J1&quot; collapses",
+        "jostle study study.toml --case NUMBER",
+    ] {
+        assert!(text.contains(part), "{part} is missing");
+    }
+    for outside in ["http:", "https:", "src=", "@import", "NaN", "inf"] {
+        assert!(!text.contains(outside), "{outside} is on the page");
+    }
+}
+
+#[test]
+fn heights_in_a_chart_are_those_of_the_numbers() {
+    let text = render_study(&page());
+    // The chart reaches from y = 260 (0) to y = 10 (1), and from x = 54 (0) to x = 508 (200).
+    assert!(text.contains("d=\"M54.0 260.0L281.0 135.0L508.0 10.0\""), "the line of the series");
+    // The level and the middle of the line lie at one height.
+    assert!(text.contains("y1=\"135\" y2=\"135\""), "the level line");
+}
+
+#[test]
+fn empty_studies_make_a_page_too() {
+    let text = render_study(&StudyPage::default());
+    assert!(text.ends_with("</html>") && !text.contains("Maps"));
+}
