@@ -101,7 +101,10 @@ fn the_page_is_whole_and_loads_nothing() {
 fn heights_in_a_chart_are_those_of_the_numbers() {
     let text = render_study(&page());
     // The chart reaches from y = 260 (0) to y = 10 (1), and from x = 54 (0) to x = 508 (200).
-    assert!(text.contains("d=\"M54.0 260.0L281.0 135.0L508.0 10.0\""), "the line of the series");
+    assert!(
+        text.contains("d=\"M54.0 260.0L281.0 135.0L508.0 10.0\""),
+        "the line of the series"
+    );
     // The level and the middle of the line lie at one height.
     assert!(text.contains("y1=\"135\" y2=\"135\""), "the level line");
 }

@@ -95,7 +95,7 @@ pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
     let started = Instant::now();
     let bar = bar::Bar::new();
     let done = run(&study, &out, &settings, &stop, &|progress| {
-        bar.show(progress)
+        bar.show(progress);
     });
     bar.finish();
     let done = done?;

@@ -164,7 +164,7 @@ fn probit(data: &[(f64, bool)]) -> Option<[f64; 2]> {
             information[2] += weight * x * x;
         }
         let determinant = information[0] * information[2] - information[1] * information[1];
-        if !(determinant > 0.0) {
+        if determinant.is_nan() || determinant <= 0.0 {
             return None;
         }
         let step = [
