@@ -310,6 +310,18 @@ fn a_folder_belongs_to_one_study() {
 }
 
 #[test]
+fn parts_without_a_manifest_are_not_taken_for_ours() {
+    let folder = temporary();
+    go(&study(GRID), folder.path(), &jobs(1));
+    std::fs::remove_file(folder.path().join("manifest.json"))
+        .unwrap_or_else(|error| panic!("{error}"));
+    match run(&study(GRID), folder.path(), &jobs(1), &|| false, &|_| {}) {
+        Err(StudyError::Folder(text)) => assert!(text.contains("no manifest.json"), "{text}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
 fn mistakes_point_at_the_line_of_the_study() {
     let refused = |text: &str| match file(text).map(Study::new) {
         Err(error) => error.to_string(),

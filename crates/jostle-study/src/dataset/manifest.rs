@@ -89,7 +89,18 @@ impl Manifest {
         }
         let path = Self::path(folder);
         let own = Self::of(study);
-        match std::fs::read(&path) {
+        let mut found = std::fs::read(&path);
+        if found.is_err() && has_parts(folder) {
+            // Another process may have begun in between.
+            found = std::fs::read(&path);
+            if found.is_err() {
+                return Err(StudyError::Folder(format!(
+                    "{} has parts of a table but no manifest.json that tells of what study; choose another folder with --out",
+                    folder.display()
+                )));
+            }
+        }
+        match found {
             Ok(bytes) => {
                 let known: Self = serde_json::from_slice(&bytes)
                     .map_err(|error| StudyError::Folder(format!("{}: {error}", path.display())))?;
@@ -127,4 +138,13 @@ impl Manifest {
             "a record has changed"
         }
     }
+}
+
+/// Whether a folder holds finished parts.
+fn has_parts(folder: &Path) -> bool {
+    std::fs::read_dir(folder.join("cases")).is_ok_and(|entries| {
+        entries
+            .flatten()
+            .any(|entry| entry.path().extension().is_some_and(|e| e == "parquet"))
+    })
 }

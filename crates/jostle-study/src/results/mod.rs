@@ -8,6 +8,7 @@ mod needed;
 mod rankings;
 mod words;
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::Path;
 
@@ -39,6 +40,8 @@ struct Results<'a> {
     study: &'a Study,
     folder: &'a Path,
     table: Table,
+    /// Cases whose histories are kept.
+    kept: BTreeSet<u64>,
     /// Tables written so far: name and what it holds.
     files: Vec<(String, String)>,
 }
@@ -66,6 +69,7 @@ pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
         study,
         folder,
         table,
+        kept: kept(folder),
         files: vec![(
             "cases/*.parquet".into(),
             "one row a case: inputs and everything that came out".into(),
@@ -122,7 +126,7 @@ impl Results<'_> {
 
     /// The link to the report of a case whose histories are kept.
     fn link(&self, case: u64) -> Option<String> {
-        let kept = run_folder(self.folder, case).join("report.html").is_file();
+        let kept = self.kept.contains(&case);
         kept.then(|| format!("runs/case-{case:010}/report.html"))
     }
 
@@ -218,6 +222,23 @@ impl Results<'_> {
             files: self.files,
         }
     }
+}
+
+/// The cases with a report of their own.
+fn kept(folder: &Path) -> BTreeSet<u64> {
+    let entries = std::fs::read_dir(folder.join("runs"));
+    let number = |entry: std::fs::DirEntry| {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let number: u64 = name.strip_prefix("case-")?.parse().ok()?;
+        let report = run_folder(folder, number).join("report.html");
+        report.is_file().then_some(number)
+    };
+    entries
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter_map(number)
+        .collect()
 }
 
 /// All cases as text, part by part.
