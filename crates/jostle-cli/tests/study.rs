@@ -222,11 +222,6 @@ fn ctrl_c_stops_a_study_and_the_rest_goes_on() {
         "it stops before the end: {finished:?} of 100 parts"
     );
     assert!(
-        asked.elapsed() < Duration::from_secs(5),
-        "{:?}",
-        asked.elapsed()
-    );
-    assert!(
         to_folder(folder.path(), "out")
             .status()
             .is_ok_and(|status| status.success())
