@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Table = Mapping[str, object]
 
 #: Where neighbours touch or are joined: a word, pairs of floors or heights, or heights.
-Floors = Union[str, Sequence[Sequence[Quantity]], Sequence[Quantity]]
+Floors = Union[str, Sequence[Union[Quantity, Sequence[Quantity]]]]
 
 
 class Part:

@@ -90,7 +90,7 @@ def experiment(model: Model, law: ContactLaw, *, step: Quantity = 1e-4) -> Exper
         stiffness += spring * np.outer(apart, apart)
         damping += dashpot * np.outer(apart, apart)
     if links:
-        compliance = np.linalg.inv(stiffness + 2.0 / h * damping + np.diag(4.0 / h**2 * mass))
+        compliance[:] = np.linalg.inv(stiffness + 2.0 / h * damping + np.diag(4.0 / h**2 * mass))
     contacts = model._core.contacts()
     widths = np.array([width for *_, width in contacts])
     # Column c: where a unit force of contact c pushes.

@@ -405,7 +405,8 @@ fn walls_and_links_are_drawn_where_they_are() {
         ))
     };
     // At rest the last link ends at the face of the wall on the right.
-    page.value("player.seek(0)");
+    page.value("{ const s = document.getElementById('scrub'); s.value = 0; s.dispatchEvent(new Event('input')); }");
+    std::thread::sleep(Duration::from_millis(200));
     let face =
         page.number("[...document.querySelectorAll('.wall')].at(-1).getBoundingClientRect().left");
     assert!((right("path.link") - face).abs() < 2.0);
@@ -416,7 +417,8 @@ fn walls_and_links_are_drawn_where_they_are() {
         !before.contains("NaN") && before.matches('M').count() > 8,
         "{before}"
     );
-    page.value("player.seek(5.0)");
+    page.value("{ const s = document.getElementById('scrub'); s.value = 5; s.dispatchEvent(new Event('input')); }");
+    std::thread::sleep(Duration::from_millis(200));
     assert_ne!(page.text(shapes), before, "links move with their floors");
     page.picture("walled");
     page.assert_fits(1280.0);
