@@ -62,13 +62,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
 
     let stop = stop_on_interrupt();
     let started = Instant::now();
-    // Nobody sees histories that are not written.
-    let settings = Settings {
-        record_interval: Settings::default()
-            .record_interval
-            .filter(|_| out.is_some()),
-        ..Settings::default()
-    };
+    // Energies are audited where histories are recorded, so that these are needed even where nobody writes them.
+    let settings = Settings::default();
     let outcome = watch(&opened, &motion, &plan, settings, &stop);
     let wall = started.elapsed().as_secs_f64();
     let twin =
