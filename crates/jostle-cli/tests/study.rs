@@ -406,3 +406,25 @@ fn the_smallest_gap_is_free_and_a_narrower_one_is_not() {
         Some(each[0].max(each[1]))
     );
 }
+
+#[test]
+fn the_studies_that_come_with_the_program_are_valid() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let folder = temporary();
+    let mut count = 0;
+    for entry in std::fs::read_dir(examples)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .flatten()
+    {
+        let path = entry.path().display().to_string();
+        if entry.file_name().to_string_lossy().starts_with("study_") {
+            let checked = common::command(folder.path(), &["study", &path, "--check"])
+                .output()
+                .unwrap_or_else(|error| panic!("{error}"));
+            let said = String::from_utf8_lossy(&checked.stderr);
+            assert!(checked.status.success(), "{path}: {said}");
+            count += 1;
+        }
+    }
+    assert!(count >= 3, "{count} studies");
+}

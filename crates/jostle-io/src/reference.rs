@@ -147,7 +147,7 @@ fn value(key: &Key) -> String {
         Kind::TablePerStorey(_) => "table; or a list from the ground up".into(),
         Kind::TextOrTable(_) => "text, or a table".into(),
         Kind::Tables(_) => "tables".into(),
-        Kind::Neighbours => "`[\"J1\", \"J2\"]`; `\"wall\"` for a wall".into(),
+        Kind::Neighbours => "`[\"J1\", \"J2\"]`".into(),
         Kind::FloorPairs => {
             "`common` `all`; pairs `[[5, 5], [4, \"12.8 m\"]]`; heights `[\"3 m\"]`".into()
         }

@@ -82,14 +82,20 @@ fn integrator(reader: &mut Reader<'_>, field: &Field<'_>) -> Integrator {
         if range.contains(&value) {
             return Some(value);
         }
-        reader.bad(
+        let remedy = reader.bad(
             &field,
             format!(
-                "must lie between {} and {}, found {value}",
+                "must lie between {} and {:.4}, found {value}",
                 range.start(),
                 range.end()
             ),
         );
+        if key == "alpha" && range.contains(&-value) {
+            *remedy = Some(format!(
+                "it counts as positive what Hilber, Hughes and Taylor count as negative: write {}",
+                -value
+            ));
+        }
         None
     };
     let (beta, gamma) = (number("beta", 0.0..=1.0), number("gamma", 0.5..=1.5));
