@@ -6,6 +6,7 @@ use crate::history::{
     SpringTotals, Work,
 };
 use crate::state::State;
+use crate::system::{BuildingSystem, System};
 
 /// What a run should leave behind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,6 +93,12 @@ pub enum RunEnd {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
+    /// The solver cannot do what the system or the initial state asks for; [`crate::Plan::choose`] says so beforehand.
+    #[error("this run cannot begin: {reason}")]
+    Unsuited {
+        /// What it cannot do.
+        reason: String,
+    },
     /// A building offers no resistance.
     #[error(
         "\"{building}\" cannot be stepped at t = {time:.6} s: {source}; check its supports and stiffnesses"
@@ -154,4 +161,27 @@ pub enum StepError {
         /// Time \[s\].
         time: f64,
     },
+}
+
+impl Outcome {
+    /// What is left behind by a run that could not begin.
+    pub(crate) fn not_begun(system: &System, error: StepError) -> Self {
+        let floors = |building: &BuildingSystem| vec![FloorPeaks::default(); building.floors.len()];
+        Self {
+            history: None,
+            impacts: Vec::new(),
+            floors: system.buildings.iter().map(floors).collect(),
+            closing: vec![Extreme::default(); system.contacts.len()],
+            base_shear: vec![0.0; system.buildings.len()],
+            spring_events: Vec::new(),
+            springs: Vec::new(),
+            links: vec![LinkTotals::default(); system.links.len()],
+            spring_history: None,
+            energy: Energy::default(),
+            work: Work::default(),
+            contact_step: None,
+            state: State::at_rest(system, 0.0),
+            end: RunEnd::Failed(error),
+        }
+    }
 }

@@ -13,6 +13,7 @@ use super::integrator::Integrator;
 use super::joints::Joints;
 use super::lanes;
 use super::links::Links;
+use super::modal;
 use super::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 use super::plan::Plan;
 use super::recorder::Recorder;
@@ -38,9 +39,6 @@ pub fn simulate(
     settings: Settings,
     observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
-    if plan.solver == Solver::Modal {
-        return super::modal::simulate(system, motion, plan, settings, observer);
-    }
     simulate_from(
         system,
         motion,
@@ -52,7 +50,7 @@ pub fn simulate(
 }
 
 /// Runs a system from a given state at time zero. Where that state is not in equilibrium, the missing load
-/// appears within the first step. [`Solver::Modal`] starts from rest only; Riccati's recursion takes its place.
+/// appears within the first step. [`Solver::Modal`] starts from rest only, and refuses every other state.
 pub fn simulate_from(
     system: &System,
     motion: &GroundMotion,
@@ -61,8 +59,18 @@ pub fn simulate_from(
     state: State,
     observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
+    if plan.solver != Solver::Modal
+        && let Some(building) = system.buildings.iter().find(|b| b.modal_damping.is_some())
+    {
+        let reason = format!(
+            "\"{}\" has damping in all modes, which only modal stepping knows",
+            building.name
+        );
+        return Outcome::not_begun(system, StepError::Unsuited { reason });
+    }
     match plan.solver {
-        Solver::Riccati | Solver::Modal => {
+        Solver::Modal => modal::simulate(system, motion, plan, settings, &state, observer),
+        Solver::Riccati => {
             Simulation::<RiccatiSweep>::new(system, motion, plan, settings, state).run(observer)
         }
         Solver::Stiffness => {

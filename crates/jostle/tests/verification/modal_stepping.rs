@@ -1,11 +1,16 @@
 //! Modal stepping against closed forms, against Riccati's recursion at fine steps, and against its own refusals.
 
+use std::ops::ControlFlow;
+
 use jostle::contact::ForceLaw;
-use jostle::{Analysis, Damping, GroundMotion, LawKind, Model, Outcome, Plan, Solver, System};
+use jostle::stepping::simulate_from;
+use jostle::{
+    Analysis, Damping, GroundMotion, LawKind, Model, Outcome, Plan, RunEnd, Solver, State, System,
+};
 
 use crate::support::{
-    LAWS, Random, assembled, frame, framed, law, random_frame, row, run, shaking, slider, sliders,
-    steps, still, tower, two_frames,
+    EVERYTHING, LAWS, Random, assembled, frame, framed, law, random_frame, row, run, shaking,
+    slider, sliders, steps, still, tower, two_frames,
 };
 
 fn modal(plan: &Plan) -> Plan {
@@ -314,6 +319,35 @@ fn what_modes_cannot_do_is_refused() {
         model.buildings[0].damping = Damping::AllModes { ratio: 0.05 };
     });
     assert_eq!(fault.path, "building[0].damping.modes");
+}
+
+/// A plan made by hand is held to the same, and to rest at the start.
+#[test]
+fn unsuited_runs_do_not_begin() {
+    let end = |system: &System, plan: &Plan, state: State| {
+        let motion = still(0.1);
+        let outcome = simulate_from(system, &motion, plan, EVERYTHING, state, |_| {
+            ControlFlow::Continue(())
+        });
+        assert_eq!(outcome.work.steps, 0);
+        match outcome.end {
+            RunEnd::Failed(error) => error.to_string(),
+            end => panic!("it should fail: {end:?}"),
+        }
+    };
+    let plan = steps(0.001, 1);
+    let mut system = assembled(&two_frames(0.03, law(LawKind::Hertz, 1.0)));
+    let mut state = State::at_rest(&system, 0.0);
+    state.velocity[0] = 1.0;
+    assert!(end(&system, &modal(&plan), state).contains("from rest"));
+    system.buildings[0].modal_damping = Some(0.05);
+    let rest = State::at_rest(&system, 0.0);
+    assert!(end(&system, &plan, rest).contains("all modes"));
+    let mut model = two_frames(0.03, law(LawKind::Hertz, 1.0));
+    model.buildings[1].gravity.p_delta = true;
+    let system = assembled(&model);
+    let rest = State::at_rest(&system, 0.0);
+    assert!(end(&system, &modal(&plan), rest).contains("P-Delta"));
 }
 
 /// Nothing moves, nothing is lost: a still ground leaves zero behind.

@@ -16,11 +16,11 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use super::integrator::Integrator;
-use super::outcome::{Outcome, Progress, RunEnd, Settings, StepError};
+use super::outcome::{Outcome, Progress, Settings, StepError};
 use super::plan::{ContactSteps, Plan};
-use crate::history::{Energy, Work};
+use crate::history::Work;
 use crate::motion::GroundMotion;
-use crate::state::State;
+use crate::state::{ContactPhase, State};
 use crate::system::{BuildingSystem, System};
 use reduced::{Rates, Reduced};
 use walk::Walk;
@@ -49,6 +49,26 @@ pub fn refusals(building: &BuildingSystem, integrator: Integrator) -> Vec<String
     reasons
 }
 
+/// What keeps a run from being made.
+fn unsuited(system: &System, plan: &Plan, state: &State) -> Option<String> {
+    let buildings = system.buildings.iter();
+    let mut reasons = buildings.flat_map(|building| refusals(building, plan.integrator));
+    let moving = || {
+        let mut values = state.displacement.iter().chain(&state.velocity);
+        values.any(|value| *value != 0.0)
+    };
+    let closed = |phase: &ContactPhase| matches!(phase, ContactPhase::Closed(_));
+    reasons.next().or_else(|| {
+        if !system.links.is_empty() {
+            Some("links join the buildings, so that none has modes of its own".to_owned())
+        } else if moving() || state.contacts.iter().any(closed) {
+            Some("modal stepping starts from rest".to_owned())
+        } else {
+            None
+        }
+    })
+}
+
 /// Impact speed at which a contact is judged \[m/s\].
 const TYPICAL_SPEED: f64 = 0.5;
 /// Share of the tolerance that flexibilities may be off.
@@ -56,14 +76,18 @@ const FLEXIBILITY_SHARE: f64 = 0.1;
 /// Tolerance that fixed steps stand for \[–\].
 const USUAL_TOLERANCE: f64 = 1e-3;
 
-/// Runs a system from rest in modal coordinates.
+/// Runs a system in modal coordinates from a state, which must be rest.
 pub(super) fn simulate(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
     settings: Settings,
+    state: &State,
     observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
+    if let Some(reason) = unsuited(system, plan, state) {
+        return Outcome::not_begun(system, StepError::Unsuited { reason });
+    }
     let mut work = Work::default();
     // Half of what a run may be off is for contacts.
     let tolerance = match plan.contact_steps {
@@ -74,7 +98,7 @@ pub(super) fn simulate(
     let rates: Vec<Rates> = buildings.map(|index| rates(system, index)).collect();
     match Reduced::of(system, &rates, FLEXIBILITY_SHARE * tolerance, &mut work) {
         Ok(reduced) => Walk::new(system, motion, plan, settings, reduced, work).run(observer),
-        Err((building, source)) => not_begun(
+        Err((building, source)) => Outcome::not_begun(
             system,
             StepError::NotPositive {
                 building: system.buildings[building].name.clone(),
@@ -106,29 +130,5 @@ fn rates(system: &System, building: usize) -> Rates {
     Rates {
         pushed: (PI / shortest).max(swaying),
         swaying,
-    }
-}
-
-/// What is left behind by a run that could not begin.
-fn not_begun(system: &System, error: StepError) -> Outcome {
-    Outcome {
-        history: None,
-        impacts: Vec::new(),
-        floors: system
-            .buildings
-            .iter()
-            .map(|b| vec![Default::default(); b.floors.len()])
-            .collect(),
-        closing: vec![Default::default(); system.contacts.len()],
-        base_shear: vec![0.0; system.buildings.len()],
-        spring_events: Vec::new(),
-        springs: Vec::new(),
-        links: Vec::new(),
-        spring_history: None,
-        energy: Energy::default(),
-        work: Work::default(),
-        contact_step: None,
-        state: State::at_rest(system, 0.0),
-        end: RunEnd::Failed(error),
     }
 }
