@@ -18,7 +18,7 @@ const ILL_CONDITIONED: &str = "\
   graze of 10 kN beside impacts of 190 kN.
 - **Small steps gain nothing for ever.** In double precision the step equations carry a relative error of about
   10⁻¹⁵/(ωh)², so that below some 10 µs rounding outgrows the error of the method for slow structures.
-- **Not compared**: plastic hinges and contact laws that the program does not have; the tables of Zhang et al. (2019),
+- **Not compared**: contact laws that OpenSees has otherwise or not at all; the tables of Zhang et al. (2019),
   whose inputs are not available; structures measured in laboratories.
 ";
 
