@@ -2,11 +2,11 @@
 
 use super::StepEquations;
 use super::clock::Stride;
-use super::events::{Crossing, Cubic, bisect};
+use super::events::Crossing;
 use super::outcome::StepError;
 use super::simulation::Simulation;
 use super::trial::ContactTrial;
-use crate::history::{Extreme, Impact};
+use crate::history::Impact;
 use crate::state::{ContactPhase, Episode};
 
 /// A contact closes or opens within a step.
@@ -254,19 +254,8 @@ impl<E: StepEquations> Simulation<'_, E> {
             let work = mean * (curve.end - curve.start);
             episode.work += work;
             self.audit.contact += work;
-            let turn = curve.peak(start, step);
-            self.coupling.closed[closed].turn = turn;
-            let deepest = turn.map_or(curve.end, |peak| peak.value);
-            episode.peak_indentation = episode.peak_indentation.max(deepest);
-            if force[0] > 0.0 && force[1] <= 0.0 {
-                let (memory, rate) = (episode.memory, |at: f64| curve.rise(at) / step);
-                let at = bisect(0.0, 1.0, |at| {
-                    law.follow(curve.value(at), rate(at), &memory).force <= 0.0
-                });
-                (episode.end, episode.separation_speed) = (start + at * step, -rate(at));
-            } else if force[1] > 0.0 {
-                (episode.end, episode.separation_speed) = (start + step, -trial.rate);
-            }
+            self.coupling.closed[closed].turn =
+                episode.follow_indentation(&law, &curve, &trial, start, step);
             self.state.contacts[index] = ContactPhase::Closed(episode);
             self.coupling.closed[closed].start_acceleration = self.relative_acceleration(index);
             self.coupling.closed[closed].start_slope =
@@ -290,47 +279,22 @@ impl<E: StepEquations> Simulation<'_, E> {
                 continue;
             };
             let trial = self.trials[index];
-            let start_slope = self.coupling.closed[closed].start_slope;
-            let end_slope = self.force_slope(index, trial.indentation, trial.rate, &episode);
-            let mut peak = Extreme {
-                value: trial.force,
-                at: start + step,
-            };
-            if episode.force > 0.0 && trial.force > 0.0 {
-                let law = &self.system.contacts[index].law;
-                let turn = self.coupling.closed[closed]
-                    .turn
-                    .filter(|_| law.has_corner_at_turn());
-                if let Some(turn) = turn {
-                    // A cubic would cut the corner or overshoot it.
-                    peak = Extreme {
-                        value: law.follow(turn.value, 0.0, &episode.memory).force,
-                        at: turn.at,
-                    };
-                } else {
-                    let curve =
-                        Cubic::new(episode.force, start_slope, trial.force, end_slope, step);
-                    peak = curve.peak(start, step).unwrap_or(peak);
-                }
-            }
-            if peak.value > episode.peak_force {
-                (episode.peak_force, episode.peak_force_at) = (peak.value, peak.at);
-            }
+            let (law, turn) = (
+                self.system.contacts[index].law,
+                self.coupling.closed[closed].turn,
+            );
+            let slopes = [
+                self.coupling.closed[closed].start_slope,
+                self.force_slope(index, trial.indentation, trial.rate, &episode),
+            ];
+            episode.follow_force(&law, &trial, slopes, turn, start, step);
             self.control_division(closed, step, &episode);
-            episode.force = trial.force;
-            let law = &self.system.contacts[index].law;
-            if let Some(turn) = self.coupling.closed[closed].turn {
-                law.remember(turn.value, 0.0, &mut episode.memory);
-            }
-            law.remember(trial.indentation, trial.rate, &mut episode.memory);
-            let leaving = trial.indentation <= 0.0 && trial.rate <= 0.0;
-            self.state.contacts[index] =
-                if leaving && !self.system.contacts[index].law.jumps_at_release() {
-                    self.report_impact(index, &episode, true);
-                    ContactPhase::Open
-                } else {
-                    ContactPhase::Closed(episode)
-                };
+            self.state.contacts[index] = if episode.advance(&law, &trial, turn) {
+                self.report_impact(index, &episode, true);
+                ContactPhase::Open
+            } else {
+                ContactPhase::Closed(episode)
+            };
         }
     }
 

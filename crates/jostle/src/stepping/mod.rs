@@ -9,6 +9,7 @@ mod clock;
 mod control;
 mod coupling;
 mod energy;
+mod episode;
 mod events;
 mod factors;
 mod impacts;

@@ -1,0 +1,80 @@
+//! What a closed contact goes through in one step, however the buildings are stepped.
+
+use super::events::{Cubic, bisect};
+use super::trial::ContactTrial;
+use crate::contact::ForceLaw;
+use crate::history::Extreme;
+use crate::state::Episode;
+
+impl Episode {
+    /// Takes in the indentation over a step \[s\] that begins at `start` \[s\]: how deep it went, and when and how fast
+    /// the faces part if the force ends. Returns the turn of the indentation \[m\], if there is one.
+    pub(super) fn follow_indentation(
+        &mut self,
+        law: &ForceLaw,
+        curve: &Cubic,
+        trial: &ContactTrial,
+        start: f64,
+        step: f64,
+    ) -> Option<Extreme> {
+        let turn = curve.peak(start, step);
+        let deepest = turn.map_or(curve.end, |peak| peak.value);
+        self.peak_indentation = self.peak_indentation.max(deepest);
+        if self.force > 0.0 && trial.force <= 0.0 {
+            let rate = |at: f64| curve.rise(at) / step;
+            let at = bisect(0.0, 1.0, |at| {
+                law.follow(curve.value(at), rate(at), &self.memory).force <= 0.0
+            });
+            (self.end, self.separation_speed) = (start + at * step, -rate(at));
+        } else if trial.force > 0.0 {
+            (self.end, self.separation_speed) = (start + step, -trial.rate);
+        }
+        turn
+    }
+
+    /// Takes in the force over the same step, of these `slopes` at its ends \[N/s\]: the greatest may lie within.
+    pub(super) fn follow_force(
+        &mut self,
+        law: &ForceLaw,
+        trial: &ContactTrial,
+        slopes: [f64; 2],
+        turn: Option<Extreme>,
+        start: f64,
+        step: f64,
+    ) {
+        let mut peak = Extreme {
+            value: trial.force,
+            at: start + step,
+        };
+        if self.force > 0.0 && trial.force > 0.0 {
+            if let Some(turn) = turn.filter(|_| law.has_corner_at_turn()) {
+                // A cubic would cut the corner or overshoot it.
+                peak = Extreme {
+                    value: law.follow(turn.value, 0.0, &self.memory).force,
+                    at: turn.at,
+                };
+            } else {
+                let curve = Cubic::new(self.force, slopes[0], trial.force, slopes[1], step);
+                peak = curve.peak(start, step).unwrap_or(peak);
+            }
+        }
+        if peak.value > self.peak_force {
+            (self.peak_force, self.peak_force_at) = (peak.value, peak.at);
+        }
+    }
+
+    /// Stands at the end of the step; returns whether the faces have parted for good.
+    pub(super) fn advance(
+        &mut self,
+        law: &ForceLaw,
+        trial: &ContactTrial,
+        turn: Option<Extreme>,
+    ) -> bool {
+        self.force = trial.force;
+        if let Some(turn) = turn {
+            law.remember(turn.value, 0.0, &mut self.memory);
+        }
+        law.remember(trial.indentation, trial.rate, &mut self.memory);
+        trial.indentation <= 0.0 && trial.rate <= 0.0 && !law.jumps_at_release()
+    }
+}
