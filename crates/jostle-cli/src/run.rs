@@ -63,7 +63,12 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let stop = stop_on_interrupt();
     let started = Instant::now();
     // Energies are audited where histories are recorded, so that these are needed even where nobody writes them.
-    let settings = Settings::default();
+    // Modal stepping audits in every step.
+    let seen = out.is_some() || opened.input.model.analysis.solver != Solver::Modal;
+    let settings = Settings {
+        record_interval: Settings::default().record_interval.filter(|_| seen),
+        ..Settings::default()
+    };
     let outcome = watch(&opened, &motion, &plan, settings, &stop);
     let wall = started.elapsed().as_secs_f64();
     let twin =

@@ -41,7 +41,12 @@ pub(super) struct Moment<'a> {
 }
 
 impl Peaks {
-    pub(super) fn new(system: &System, reduced: &Reduced, interval: Option<f64>) -> Self {
+    pub(super) fn new(
+        system: &System,
+        reduced: &Reduced,
+        interval: Option<f64>,
+        ground: f64,
+    ) -> Self {
         let watched = reduced.watched();
         let (mut driven, mut spare) = (vec![0.0; watched], vec![0.0; watched]);
         let participation = &reduced.participation[..];
@@ -58,7 +63,11 @@ impl Peaks {
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
             shear: vec![[0.0; 2]; system.buildings.len()],
-            acceleration: [vec![0.0; watched], vec![0.0; watched]],
+            // At rest on moving ground buildings stay behind.
+            acceleration: [
+                driven.iter().map(|share| -share * ground).collect(),
+                vec![0.0; watched],
+            ],
             loose: [vec![0.0; watched], vec![0.0; watched]],
             jerk: vec![0.0; reduced.modes()],
             driven,
@@ -152,13 +161,13 @@ impl Peaks {
         self.history.is_some() && (wanted || time >= self.due)
     }
 
-    /// Adds a row: time and ground, then displacements, velocities and accelerations of watched places.
+    /// Adds a row: time and ground, displacements and velocities of watched places; accelerations are known.
     pub(super) fn record(
         &mut self,
         system: &System,
         reduced: &Reduced,
         (time, ground): (f64, f64),
-        [u, rate, acceleration]: [&[f64]; 3],
+        [u, rate]: [&[f64]; 2],
         phases: &[ContactPhase],
         energy: &Energy,
     ) {
@@ -179,7 +188,7 @@ impl Peaks {
                 let at = own.watched.start + floor;
                 put(u[at]);
                 put(rate[at]);
-                put(acceleration[at] + ground);
+                put(self.acceleration[0][at] + ground);
             }
         }
         phases.iter().for_each(|phase| put(phase.force()));

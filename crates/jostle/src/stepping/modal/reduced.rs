@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
+use pulp::Arch;
+
 use super::basis::{Basis, Demand};
+use super::kernels::{Combine, Quadratic, ROWS, Show};
 use super::response::{Response, Rules, damped};
 use crate::contact::ForceLaw;
 use crate::equations::Equations;
@@ -19,6 +22,8 @@ pub(super) struct Reduced {
     /// Γ = φᵀM r \[kg^½\].
     pub(super) participation: Vec<f64>,
     pub(super) buildings: Vec<ReducedBuilding>,
+    /// The registers at hand.
+    arch: Arch,
     /// Where the two faces of every contact show; `None` is a wall.
     pub(super) faces: Vec<[Option<Shown>; 2]>,
 }
@@ -60,6 +65,7 @@ impl Reduced {
             stiffness: Vec::new(),
             participation: Vec::new(),
             buildings: Vec::new(),
+            arch: Arch::new(),
             faces: vec![[None; 2]; system.contacts.len()],
         };
         let mut watching = 0;
@@ -153,6 +159,11 @@ impl Reduced {
         Ok(reduced)
     }
 
+    /// The registers at hand.
+    pub(super) fn arch(&self) -> Arch {
+        self.arch
+    }
+
     /// Number of modes of all buildings.
     pub(super) fn modes(&self) -> usize {
         self.stiffness.len()
@@ -165,28 +176,16 @@ impl Reduced {
             .map_or(0, |building| building.watched.end)
     }
 
-    /// What two lists of modal coordinates show at every watched displacement.
+    /// What two lists of modal values show at every watched displacement.
     pub(super) fn show(&self, modal: [&[f64]; 2], watched: [&mut [f64]; 2]) {
         let [first, second] = watched;
         for building in &self.buildings {
-            let range = building.modes.clone();
-            let (a, b) = (&modal[0][range.clone()], &modal[1][range]);
-            let blocks = building.blocks.chunks_exact(a.len().max(1));
-            let own = building.watched.clone();
-            let places = first[own.clone()]
-                .chunks_mut(ROWS)
-                .zip(second[own].chunks_mut(ROWS));
-            for (block, (first, second)) in blocks.zip(places) {
-                let mut sums = [[0.0; ROWS]; 2];
-                for (shape, (a, b)) in block.iter().zip(a.iter().zip(b)) {
-                    for row in 0..ROWS {
-                        sums[0][row] += shape[row] * a;
-                        sums[1][row] += shape[row] * b;
-                    }
-                }
-                first.copy_from_slice(&sums[0][..first.len()]);
-                second.copy_from_slice(&sums[1][..second.len()]);
-            }
+            let (modes, own) = (building.modes.clone(), building.watched.clone());
+            self.arch.dispatch(Show {
+                blocks: &building.blocks,
+                modal: modal.map(|list| &list[modes.clone()]),
+                watched: [&mut first[own.clone()], &mut second[own]],
+            });
         }
     }
 
@@ -295,7 +294,7 @@ pub(super) struct StepEnergy {
 }
 
 impl Table {
-    pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rules: &Rules) {
+    pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rules: Option<&Rules>) {
         self.step = step;
         self.compliance.clear();
         let contacts = reduced.faces.len();
@@ -327,39 +326,24 @@ impl Table {
     }
 
     /// q₁ and q̇₁ of all modes.
-    pub(super) fn advance(&self, start: [&[f64]; 2], loads: [&[f64]; 2], end: [&mut [f64]; 2]) {
+    pub(super) fn advance(&self, arch: Arch, of: [&[f64]; 4], end: [&mut [f64]; 2]) {
         let [q1, v1] = end;
-        combine(&self.displacement, start, loads, q1);
-        combine(&self.velocity, start, loads, v1);
+        for (factors, out) in [(&self.displacement, q1), (&self.velocity, v1)] {
+            let factors = factors.each_ref().map(|list| &list[..]);
+            arch.dispatch(Combine { factors, of, out });
+        }
     }
 
     /// ∫q dt of all modes.
-    pub(super) fn area(&self, start: [&[f64]; 2], loads: [&[f64]; 2], area: &mut [f64]) {
-        combine(&self.area, start, loads, area);
+    pub(super) fn area(&self, arch: Arch, of: [&[f64]; 4], out: &mut [f64]) {
+        let factors = self.area.each_ref().map(|list| &list[..]);
+        arch.dispatch(Combine { factors, of, out });
     }
 
     /// Energy that damping takes over the step \[J\].
-    pub(super) fn damped(&self, start: [&[f64]; 2], loads: [&[f64]; 2]) -> f64 {
-        let [a, b, c, d] = [start[0], start[1], loads[0], loads[1]];
-        let n = a.len();
-        let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] =
-            std::array::from_fn(|i| &self.damped[i][..n]);
-        let (b, c, d) = (&b[..n], &c[..n], &d[..n]);
-        let term = |i: usize| {
-            a[i] * (aa[i] * a[i] + ab[i] * b[i] + ac[i] * c[i] + ad[i] * d[i])
-                + b[i] * (bb[i] * b[i] + bc[i] * c[i] + bd[i] * d[i])
-                + c[i] * (cc[i] * c[i] + cd[i] * d[i])
-                + dd[i] * d[i] * d[i]
-        };
-        let mut sums = [0.0; LANES];
-        let whole = n - n % LANES;
-        for start in (0..whole).step_by(LANES) {
-            for (lane, sum) in sums.iter_mut().enumerate() {
-                *sum += term(start + lane);
-            }
-        }
-        let rest: f64 = (whole..n).map(term).sum();
-        sums.iter().sum::<f64>() + rest
+    pub(super) fn damped(&self, arch: Arch, of: [&[f64]; 4]) -> f64 {
+        let form = self.damped.each_ref().map(|list| &list[..]);
+        arch.dispatch(Quadratic { form, of })
     }
 
     /// Displacement and velocity of contact c at the end of the step under a unit end force of contact d, both
@@ -396,21 +380,3 @@ impl Table {
 /// push \[–\].
 const MET: [f64; 2] = [1.0, 4.0];
 const COMPARED: [f64; 2] = [0.5, 2.0];
-/// Modes taken at once, and watched displacements.
-const LANES: usize = 8;
-const ROWS: usize = 4;
-
-#[inline]
-fn combine(factors: &[Vec<f64>; 4], start: [&[f64]; 2], loads: [&[f64]; 2], out: &mut [f64]) {
-    let n = out.len();
-    let [a, b, c, d] = std::array::from_fn(|i| &factors[i][..n]);
-    let (q, v, p0, p1) = (
-        &start[0][..n],
-        &start[1][..n],
-        &loads[0][..n],
-        &loads[1][..n],
-    );
-    for i in 0..n {
-        out[i] = a[i] * q[i] + b[i] * v[i] + c[i] * p0[i] + d[i] * p1[i];
-    }
-}

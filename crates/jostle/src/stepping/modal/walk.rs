@@ -18,6 +18,8 @@ use crate::system::System;
 
 /// Steps between calls of the observer.
 const OBSERVED_EVERY: u64 = 256;
+/// Most rows of a history in a step of free flight.
+const MOST_ROWS: f64 = 64.0;
 /// Events without progress before a run gives up.
 const MOST_EVENTS_AT_ONCE: usize = 1000;
 
@@ -31,6 +33,8 @@ pub(super) struct Walk<'a> {
     /// The first serves steps off the grid, the others one division of the free-flight step each.
     pub(super) tables: Vec<Table>,
     divisions: Vec<u32>,
+    /// Division of free flight, so that histories have their rows.
+    least_division: u32,
     rules: Rules,
     pub(super) clock: Clock,
     pub(super) time: f64,
@@ -91,11 +95,18 @@ impl<'a> Walk<'a> {
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
-        let mut peaks = Peaks::new(system, &reduced, settings.record_interval);
+        let mut peaks = Peaks::new(system, &reduced, settings.record_interval, ground);
         peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
         Self {
             tables: vec![Table::default()],
             divisions: vec![0],
+            least_division: settings.record_interval.map_or(1, |interval| {
+                if interval == 0.0 {
+                    return 1;
+                }
+                let rows = (plan.step / interval * (1.0 - 1e-9)).clamp(1.0, MOST_ROWS);
+                (rows.ceil() as u32).next_power_of_two()
+            }),
             rules: Rules::new(),
             clock: Clock::new(plan.step),
             time: 0.0,
@@ -129,7 +140,8 @@ impl<'a> Walk<'a> {
 
     pub(super) fn run(mut self, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Outcome {
         let duration = self.motion.duration;
-        self.take_row(true);
+        let energy = self.balance();
+        self.take_row(true, &energy);
         let mut end = RunEnd::Completed;
         while duration - self.time > 1e-9 * self.plan.step {
             let progress = Progress {
@@ -238,13 +250,13 @@ impl<'a> Walk<'a> {
 
     /// Into how many parts the free-flight step is divided now.
     pub(super) fn division(&self) -> u32 {
-        self.contact_division.iter().copied().max().unwrap_or(1)
+        let divisions = self.contact_division.iter().copied();
+        divisions.fold(self.least_division, u32::max)
     }
 
     fn table_for(&mut self, stride: &Stride) -> usize {
         if !stride.regular {
-            self.tables[0].set(&self.reduced, stride.length, &self.rules);
-            self.work.factorizations += 1;
+            self.set_odd(stride.length);
             return 0;
         }
         let division = self.division();
@@ -252,7 +264,7 @@ impl<'a> Walk<'a> {
             return slot;
         }
         let mut table = Table::default();
-        table.set(&self.reduced, stride.length, &self.rules);
+        table.set(&self.reduced, stride.length, Some(&self.rules));
         self.work.factorizations += 1;
         self.tables.push(table);
         self.divisions.push(division);
@@ -261,7 +273,8 @@ impl<'a> Walk<'a> {
 
     /// Sets the odd table to a length.
     pub(super) fn set_odd(&mut self, length: f64) {
-        self.tables[0].set(&self.reduced, length, &self.rules);
+        // Seldom enough that what damping takes may come from the balance of every mode.
+        self.tables[0].set(&self.reduced, length, None);
         self.work.factorizations += 1;
     }
 
@@ -290,7 +303,7 @@ impl<'a> Walk<'a> {
     pub(super) fn advance(&mut self, slot: usize) {
         let ([q0, q1], [v0, v1]) = (&mut self.q, &mut self.v);
         let [p0, p1] = &self.p;
-        self.tables[slot].advance([q0, v0], [p0, p1], [q1, v1]);
+        self.tables[slot].advance(self.reduced.arch(), [q0, v0, p0, p1], [q1, v1]);
     }
 
     /// Watched displacements, indentations and rates at the end of the tried step.
@@ -362,18 +375,17 @@ impl<'a> Walk<'a> {
                 step,
             },
         );
-        self.take_row(was_closed);
+        let energy = self.balance();
+        self.take_row(was_closed, &energy);
     }
 
     /// What the ground put in and damping took; with closed contacts their work as well.
     fn step_energy(&mut self, slot: usize, was_closed: bool) -> StepEnergy {
         let table = &self.tables[slot];
-        let (start, loads) = (
-            [&self.q[0][..], &self.v[0][..]],
-            [&self.p[0][..], &self.p[1][..]],
-        );
-        let damped = table.damped(start, loads);
-        table.area(start, loads, &mut self.scratch);
+        let of = [&self.q[0][..], &self.v[0], &self.p[0], &self.p[1]];
+        let arch = self.reduced.arch();
+        let damped = table.damped(arch, of);
+        table.area(arch, of, &mut self.scratch);
         let step = table.step;
         let slope = (self.ground[1] - self.ground[0]) / step;
         let mut input = 0.0;
@@ -453,31 +465,20 @@ impl<'a> Walk<'a> {
     }
 
     /// Adds a row to the history where one is due.
-    fn take_row(&mut self, wanted: bool) {
-        if !self.peaks.is_due(self.time, wanted) {
-            return;
+    fn take_row(&mut self, wanted: bool, energy: &Energy) {
+        if self.peaks.is_due(self.time, wanted) {
+            self.peaks.record(
+                self.system,
+                &self.reduced,
+                (self.time, self.ground[0]),
+                [&self.u[0], &self.rate[0]],
+                &self.phases,
+                energy,
+            );
         }
-        self.accelerations();
-        let energy = self.balance();
-        // The places of the last step are free.
-        let (mut a, mut spare) = (
-            std::mem::take(&mut self.u[1]),
-            std::mem::take(&mut self.rate[1]),
-        );
-        self.reduced
-            .show([&self.scratch, &self.scratch], [&mut a, &mut spare]);
-        self.peaks.record(
-            self.system,
-            &self.reduced,
-            (self.time, self.ground[0]),
-            [&self.u[0], &self.rate[0], &a],
-            &self.phases,
-            &energy,
-        );
-        (self.u[1], self.rate[1]) = (a, spare);
     }
 
-    /// Whether steps may end on contacts of this kind of crossing.
+    /// Whether a contact is open.
     pub(super) fn is_open(&self, index: usize) -> bool {
         self.phases[index] == ContactPhase::Open
     }
