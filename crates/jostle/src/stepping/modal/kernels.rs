@@ -1,7 +1,7 @@
 //! The loops over modes, compiled for the widest registers at hand and chosen at run time. Nothing is fused or
 //! reordered between register widths, so that the bits are the same on every processor.
 
-use pulp::NullaryFnOnce;
+use pulp::{NullaryFnOnce, Simd, WithSimd};
 
 /// Watched displacements taken at once.
 pub(super) const ROWS: usize = 4;
@@ -37,25 +37,37 @@ pub(super) struct Show<'a> {
     pub(super) watched: [&'a mut [f64]; 2],
 }
 
-impl NullaryFnOnce for Show<'_> {
+impl WithSimd for Show<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let [a, b] = self.modal;
         let [first, second] = self.watched;
         let blocks = self.blocks.chunks_exact(a.len().max(1));
         let places = first.chunks_mut(ROWS).zip(second.chunks_mut(ROWS));
         for (block, (first, second)) in blocks.zip(places) {
-            let (mut u, mut v) = ([0.0; ROWS], [0.0; ROWS]);
+            // As many registers as a block needs, however wide they are.
+            let mut sums = [[simd.splat_f64s(0.0); ROWS]; 2];
             for ((shape, a), b) in block.iter().zip(a).zip(b) {
-                for row in 0..ROWS {
-                    u[row] += shape[row] * a;
-                    v[row] += shape[row] * b;
+                let (shape, _) = S::as_simd_f64s(shape);
+                let (a, b) = (simd.splat_f64s(*a), simd.splat_f64s(*b));
+                for (register, shape) in shape.iter().enumerate() {
+                    let [u, v] = [&sums[0][register], &sums[1][register]];
+                    let (u, v) = (
+                        simd.add_f64s(*u, simd.mul_f64s(*shape, a)),
+                        simd.add_f64s(*v, simd.mul_f64s(*shape, b)),
+                    );
+                    (sums[0][register], sums[1][register]) = (u, v);
                 }
             }
-            first.copy_from_slice(&u[..first.len()]);
-            second.copy_from_slice(&v[..second.len()]);
+            for (sums, out) in sums.iter().zip([first, second]) {
+                let mut values = [0.0; ROWS];
+                let (registers, _) = S::as_mut_simd_f64s(&mut values);
+                let count = registers.len();
+                registers.copy_from_slice(&sums[..count]);
+                out.copy_from_slice(&values[..out.len()]);
+            }
         }
     }
 }
@@ -66,27 +78,111 @@ pub(super) struct Quadratic<'a> {
     pub(super) of: [&'a [f64]; 4],
 }
 
-impl NullaryFnOnce for Quadratic<'_> {
+impl WithSimd for Quadratic<'_> {
     type Output = f64;
 
     #[inline(always)]
-    fn call(self) -> f64 {
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let n = self.of[0].len();
-        let [a, b, c, d] = self.of.map(|list| &list[..n]);
-        let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = self.form.map(|list| &list[..n]);
-        let term = |i: usize| {
-            a[i] * ((aa[i] * a[i] + ab[i] * b[i]) + (ac[i] * c[i] + ad[i] * d[i]))
-                + b[i] * (bb[i] * b[i] + (bc[i] * c[i] + bd[i] * d[i]))
-                + (c[i] * (cc[i] * c[i] + cd[i] * d[i]) + dd[i] * d[i] * d[i])
-        };
-        let mut sums = [0.0; LANES];
         let whole = n - n % LANES;
-        for start in (0..whole).step_by(LANES) {
-            for (lane, sum) in sums.iter_mut().enumerate() {
-                *sum += term(start + lane);
+        let mut lanes = [0.0; LANES];
+        let (sums, _) = S::as_mut_simd_f64s(&mut lanes);
+        let registers = sums.len();
+        // Lists cut into registers: so many of them are one group of lanes.
+        let of = self.of.map(|list| S::as_simd_f64s(&list[..whole]).0);
+        let form = self.form.map(|list| S::as_simd_f64s(&list[..whole]).0);
+        for at in 0..of[0].len() {
+            let [a, b, c, d] = of.map(|list| list[at]);
+            let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = form.map(|list| list[at]);
+            let (times, plus) = (|x, y| simd.mul_f64s(x, y), |x, y| simd.add_f64s(x, y));
+            let by_a = plus(
+                plus(times(aa, a), times(ab, b)),
+                plus(times(ac, c), times(ad, d)),
+            );
+            let by_b = plus(times(bb, b), plus(times(bc, c), times(bd, d)));
+            let by_c = plus(times(cc, c), times(cd, d));
+            let sum = plus(
+                plus(times(a, by_a), times(b, by_b)),
+                plus(times(c, by_c), times(times(dd, d), d)),
+            );
+            sums[at % registers] = simd.add_f64s(sums[at % registers], sum);
+        }
+        let term = |i: usize| {
+            let [a, b, c, d] = self.of.map(|list| list[i]);
+            let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = self.form.map(|list| list[i]);
+            a * ((aa * a + ab * b) + (ac * c + ad * d))
+                + b * (bb * b + (bc * c + bd * d))
+                + (c * (cc * c + cd * d) + dd * d * d)
+        };
+        let rest: f64 = (whole..n).map(term).sum();
+        lanes.iter().sum::<f64>() + rest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use pulp::{Arch, Scalar};
+
+    use super::*;
+
+    fn list(n: usize, seed: f64) -> Vec<f64> {
+        (0..n).map(|i| (seed + 1.7 * i as f64).sin()).collect()
+    }
+
+    /// The same bits in wide registers as in narrow ones, and the right sums.
+    #[test]
+    fn register_width_does_not_show() {
+        for n in [1, 3, 8, 23, 42] {
+            let of: Vec<Vec<f64>> = (0..4).map(|k| list(n, f64::from(k))).collect();
+            let of: [&[f64]; 4] = std::array::from_fn(|k| &of[k][..]);
+            let form: Vec<Vec<f64>> = (0..10).map(|k| list(n, 9.0 + f64::from(k))).collect();
+            let form: [&[f64]; 10] = std::array::from_fn(|k| &form[k][..]);
+            let wide = Arch::new().dispatch(Quadratic { form, of });
+            let narrow = Quadratic { form, of }.with_simd(Scalar::new());
+            assert_eq!(wide.to_bits(), narrow.to_bits(), "{n} modes");
+            let mut plain = 0.0;
+            for i in 0..n {
+                let mut entry = 0;
+                for row in 0..4 {
+                    for column in row..4 {
+                        plain += form[entry][i] * of[row][i] * of[column][i];
+                        entry += 1;
+                    }
+                }
+            }
+            assert!((wide - plain).abs() < 1e-12 * n as f64);
+            for watched in [1, 4, 5, 10] {
+                let rows: Vec<Vec<f64>> = (0..watched).map(|w| list(n, 30.0 + w as f64)).collect();
+                let blocks: Vec<[f64; ROWS]> = (0..watched)
+                    .step_by(ROWS)
+                    .flat_map(|start| {
+                        let rows = &rows;
+                        (0..n).map(move |m| {
+                            std::array::from_fn(|r| rows.get(start + r).map_or(0.0, |row| row[m]))
+                        })
+                    })
+                    .collect();
+                let show = |wide: bool| {
+                    let mut out = [vec![0.0; watched], vec![0.0; watched]];
+                    let [first, second] = &mut out;
+                    let show = Show {
+                        blocks: &blocks,
+                        modal: [of[0], of[1]],
+                        watched: [first, second],
+                    };
+                    if wide {
+                        Arch::new().dispatch(show);
+                    } else {
+                        show.with_simd(Scalar::new());
+                    }
+                    out
+                };
+                assert_eq!(show(true), show(false));
+                for (row, got) in rows.iter().zip(&show(true)[1]) {
+                    let plain: f64 = row.iter().zip(of[1]).map(|(a, b)| a * b).sum();
+                    assert!((got - plain).abs() < 1e-13 * n as f64);
+                }
             }
         }
-        let rest: f64 = (whole..n).map(term).sum();
-        sums.iter().sum::<f64>() + rest
     }
 }
