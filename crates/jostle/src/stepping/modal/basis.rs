@@ -11,8 +11,10 @@ use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 pub(super) struct Basis {
     /// ω², rising \[1/s²\].
     pub(super) stiffness: Vec<f64>,
-    /// Shapes φ with φᵀMφ = 1 over all degrees of freedom, massless ones included \[kg^−½\].
-    pub(super) shapes: Vec<Vec<f64>>,
+    /// Vectors over all degrees of freedom, massless ones included, and what part every shape φ, φᵀMφ = 1, has of each
+    /// \[kg^−½\].
+    vectors: Vec<Vec<f64>>,
+    parts: Vec<Vec<f64>>,
     /// φᵀM r \[kg^½\].
     pub(super) participation: Vec<f64>,
     /// Factorisations and solutions it took.
@@ -53,6 +55,29 @@ impl Basis {
             let basis = growing.ritz()?;
             if growing.is_close(&basis) || !growing.extend() {
                 return Ok(growing.finished(basis));
+            }
+        }
+    }
+
+    /// Number of shapes.
+    pub(super) fn len(&self) -> usize {
+        self.stiffness.len()
+    }
+
+    /// A linear form of every shape.
+    pub(super) fn of_shapes(&self, form: impl Fn(&[f64]) -> f64) -> Vec<f64> {
+        let of_vectors: Vec<f64> = self.vectors.iter().map(|vector| form(vector)).collect();
+        let shapes = self.parts.iter();
+        shapes.map(|parts| lanes::dot(parts, &of_vectors)).collect()
+    }
+
+    /// Adds Σ φ q to a displacement of all degrees of freedom.
+    pub(super) fn expand(&self, modal: &[f64], full: &mut [f64]) {
+        for (index, vector) in self.vectors.iter().enumerate() {
+            let terms = self.parts.iter().zip(modal);
+            let share: f64 = terms.map(|(parts, q)| parts[index] * q).sum();
+            for (value, vector) in full.iter_mut().zip(vector) {
+                *value += share * vector;
             }
         }
     }
@@ -291,25 +316,15 @@ impl<'a> Growing<'a> {
         })
     }
 
-    fn finished(&self, ritz: Ritz) -> Basis {
-        let equations = &self.building.equations;
-        let shape = |parts: &Vec<f64>| {
-            let mut shape = vec![0.0; equations.len()];
-            for (vector, part) in self.vectors.iter().zip(parts) {
-                for (value, known) in shape.iter_mut().zip(vector) {
-                    *value += part * known;
-                }
-            }
-            shape
-        };
-        let shapes: Vec<Vec<f64>> = ritz.parts.iter().map(shape).collect();
+    fn finished(self, ritz: Ritz) -> Basis {
+        let driven = &self.building.equations.driven_mass;
+        let by_ground: Vec<f64> = self.vectors.iter().map(|v| lanes::dot(driven, v)).collect();
+        let participation = ritz.parts.iter().map(|parts| lanes::dot(&by_ground, parts));
         Basis {
-            participation: shapes
-                .iter()
-                .map(|shape| lanes::dot(&equations.driven_mass, shape))
-                .collect(),
+            participation: participation.collect(),
             stiffness: ritz.values,
-            shapes,
+            parts: ritz.parts,
+            vectors: self.vectors,
             factorizations: self.factorizations,
             solves: self.solves,
         }

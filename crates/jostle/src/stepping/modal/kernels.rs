@@ -91,7 +91,13 @@ impl WithSimd for Quadratic<'_> {
         // Lists cut into registers: so many of them are one group of lanes.
         let of = self.of.map(|list| S::as_simd_f64s(&list[..whole]).0);
         let form = self.form.map(|list| S::as_simd_f64s(&list[..whole]).0);
-        for at in 0..of[0].len() {
+        // Of one length as the compiler sees it, so that it need not look again and again.
+        let count = of[0].len();
+        let (of, form) = (
+            of.map(|list| &list[..count]),
+            form.map(|list| &list[..count]),
+        );
+        for at in 0..count {
             let [a, b, c, d] = of.map(|list| list[at]);
             let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = form.map(|list| list[at]);
             let (times, plus) = (|x, y| simd.mul_f64s(x, y), |x, y| simd.add_f64s(x, y));

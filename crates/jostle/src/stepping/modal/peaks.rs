@@ -4,6 +4,7 @@ use super::reduced::Reduced;
 use crate::history::{Energy, Extreme, FloorPeaks, History};
 use crate::state::ContactPhase;
 use crate::stepping::events::Cubic;
+use crate::stepping::lanes;
 use crate::stepping::recorder::{columns, greatest_in_step};
 use crate::system::System;
 
@@ -113,37 +114,46 @@ impl Peaks {
         let ground_rate = (ground[1] - ground[0]) / step;
         for (index, building) in system.buildings.iter().enumerate() {
             let own = &reduced.buildings[index];
-            let watched = own.watched.start;
-            let mut below = [[0.0; 2]; 2];
-            for (number, (peaks, floor)) in self.floors[index]
-                .iter_mut()
-                .zip(&building.floors)
-                .enumerate()
-            {
-                let at = watched + number;
-                let pair = |time: usize| [u[time][at], rate[time][at]];
-                let (now, then) = (pair(0), pair(1));
-                take(&mut peaks.displacement_max, 1.0, then, now, start, step);
-                take(&mut peaks.displacement_min, -1.0, then, now, start, step);
-                let drift = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
-                let drifts = (drift(then, below[1]), drift(now, below[0]));
-                let known = peaks.storey_drift * floor.storey_height;
-                peaks.storey_drift = largest(drifts.0, drifts.1, step, known) / floor.storey_height;
-                below = [now, then];
-                let total = |time: usize| {
-                    let slope = self.loose[time][at] + ground_rate * (1.0 - self.driven[at]);
-                    [self.acceleration[time][at] + ground[1 - time], slope]
-                };
-                peaks.total_acceleration =
-                    largest(total(1), total(0), step, peaks.total_acceleration);
-            }
-            let sum = |modal: &[f64]| -> f64 {
-                let own_modes = &modal[own.modes.clone()];
-                own.shear.iter().zip(own_modes).map(|(s, q)| s * q).sum()
+            let floors = own.watched.start..own.watched.start + own.floors;
+            let [[u1, u0], [v1, v0], [a1, a0], [l1, l0]] =
+                [u, rate, &self.acceleration, &self.loose]
+                    .map(|pair| pair.each_ref().map(|list| &list[floors.clone()]));
+            let driven = &self.driven[floors];
+            let mut below = Ends {
+                then: [0.0; 2],
+                now: [0.0; 2],
             };
-            let now = [sum(q), sum(v)];
-            self.base_shear[index] = largest(self.shear[index], now, step, self.base_shear[index]);
-            self.shear[index] = now;
+            let floors = self.floors[index].iter_mut().zip(&building.floors);
+            for (at, (peaks, floor)) in floors.enumerate() {
+                let ends = Ends {
+                    then: [u0[at], v0[at]],
+                    now: [u1[at], v1[at]],
+                };
+                ends.raise(&mut peaks.displacement_max, start, step);
+                ends.lower(&mut peaks.displacement_min, start, step);
+                // Per storey height, as it is kept.
+                let slenderness = 1.0 / floor.storey_height;
+                let drift = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| (a[k] - b[k]) * slenderness);
+                let drifts = Ends {
+                    then: drift(ends.then, below.then),
+                    now: drift(ends.now, below.now),
+                };
+                drifts.widen(&mut peaks.storey_drift, step);
+                below = ends;
+                let slope = ground_rate * (1.0 - driven[at]);
+                let total = Ends {
+                    then: [a0[at] + ground[0], l0[at] + slope],
+                    now: [a1[at] + ground[1], l1[at] + slope],
+                };
+                total.widen(&mut peaks.total_acceleration, step);
+            }
+            let sum = |modal: &[f64]| lanes::dot(&own.shear, &modal[own.modes.clone()]);
+            let shear = Ends {
+                then: self.shear[index],
+                now: [sum(q), sum(v)],
+            };
+            shear.widen(&mut self.base_shear[index], step);
+            self.shear[index] = shear.now;
         }
         for (contact, closing) in self.closing.iter_mut().enumerate() {
             let pair = |time: usize| {
@@ -152,7 +162,11 @@ impl Peaks {
                     reduced.closing(contact, &rate[time]),
                 ]
             };
-            take(closing, 1.0, pair(1), pair(0), start, step);
+            let ends = Ends {
+                then: pair(1),
+                now: pair(0),
+            };
+            ends.raise(closing, start, step);
         }
     }
 
@@ -205,48 +219,62 @@ impl Peaks {
     }
 }
 
-/// Keeps the greatest value, or with a sign of −1 the least one, of a step between (value, slope) at its ends.
-fn take(extreme: &mut Extreme, sign: f64, then: [f64; 2], now: [f64; 2], start: f64, step: f64) {
-    if !may_exceed(
-        [sign * then[0], then[1]],
-        [sign * now[0], now[1]],
-        step,
-        sign * extreme.value,
-    ) {
-        return;
-    }
-    let greatest = greatest_in_step(
-        (sign * then[0], sign * then[1]),
-        (sign * now[0], sign * now[1]),
-        start,
-        step,
-    );
-    if greatest.value > sign * extreme.value {
-        *extreme = Extreme {
-            value: sign * greatest.value,
-            at: greatest.at,
-        };
-    }
+/// (value, slope) at the start and at the end of a step.
+#[derive(Clone, Copy)]
+struct Ends {
+    then: [f64; 2],
+    now: [f64; 2],
 }
 
-/// Greatest magnitude in a step between (value, slope) at its ends, or that known so far.
-fn largest(then: [f64; 2], now: [f64; 2], step: f64, known: f64) -> f64 {
-    if !may_exceed(
-        [then[0].abs(), then[1]],
-        [now[0].abs(), now[1]],
-        step,
-        known,
-    ) {
-        return known;
+impl Ends {
+    /// By how much a cubic may leave the range of its ends: no more than 4/27 of the step times the sum of its end
+    /// slopes.
+    #[inline(always)]
+    fn beyond(&self, step: f64) -> f64 {
+        0.15 * step * (self.then[1].abs() + self.now[1].abs())
     }
-    let curve = Cubic::new(then[0], then[1], now[0], now[1], step);
-    let inside = curve.turning_points().map(|at| curve.value(at).abs());
-    inside.fold(known.max(then[0].abs()).max(now[0].abs()), f64::max)
-}
 
-/// Whether a cubic may rise above a limit: it lies above its ends by no more than 4/27 of the step times the sum of its
-/// end slopes.
-#[inline]
-fn may_exceed(then: [f64; 2], now: [f64; 2], step: f64, limit: f64) -> bool {
-    then[0].max(now[0]) + 0.15 * step * (then[1].abs() + now[1].abs()) > limit
+    /// Keeps the greatest value so far.
+    #[inline(always)]
+    fn raise(self, extreme: &mut Extreme, start: f64, step: f64) {
+        if self.then[0].max(self.now[0]) + self.beyond(step) > extreme.value {
+            self.look_for(extreme, 1.0, start, step);
+        }
+    }
+
+    /// Keeps the least value so far.
+    #[inline(always)]
+    fn lower(self, extreme: &mut Extreme, start: f64, step: f64) {
+        if self.then[0].min(self.now[0]) - self.beyond(step) < extreme.value {
+            self.look_for(extreme, -1.0, start, step);
+        }
+    }
+
+    /// Keeps the greatest magnitude so far.
+    #[inline(always)]
+    fn widen(self, largest: &mut f64, step: f64) {
+        if self.then[0].abs().max(self.now[0].abs()) + self.beyond(step) > *largest {
+            *largest = self.largest(*largest, step);
+        }
+    }
+
+    #[cold]
+    fn look_for(self, extreme: &mut Extreme, sign: f64, start: f64, step: f64) {
+        let [then, now] = [self.then, self.now].map(|[a, b]| (sign * a, sign * b));
+        let greatest = greatest_in_step(then, now, start, step);
+        if greatest.value > sign * extreme.value {
+            *extreme = Extreme {
+                value: sign * greatest.value,
+                at: greatest.at,
+            };
+        }
+    }
+
+    #[cold]
+    fn largest(self, known: f64, step: f64) -> f64 {
+        let Self { then, now } = self;
+        let curve = Cubic::new(then[0], then[1], now[0], now[1], step);
+        let inside = curve.turning_points().map(|at| curve.value(at).abs());
+        inside.fold(known.max(then[0].abs()).max(now[0].abs()), f64::max)
+    }
 }

@@ -49,7 +49,9 @@ pub(super) struct ReducedBuilding {
     blocks: Vec<[f64; ROWS]>,
     /// Base shear of every mode \[N/(m·kg^½)\].
     pub(super) shear: Vec<f64>,
-    shapes: Vec<Vec<f64>>,
+    /// Number of degrees of freedom, and the shapes over all of them.
+    size: usize,
+    basis: Basis,
 }
 
 impl Reduced {
@@ -129,30 +131,25 @@ impl Reduced {
             }
             reduced.stiffness.extend(&basis.stiffness);
             reduced.participation.extend(&basis.participation);
-            let mut rows = Vec::with_capacity(watched.len() * basis.shapes.len());
-            for dof in &watched {
-                rows.extend(basis.shapes.iter().map(|shape| shape[*dof]));
-            }
-            let modes = basis.shapes.len();
-            let mut blocks = Vec::new();
-            for block in watched.chunks(ROWS) {
-                blocks.extend(basis.shapes.iter().map(|shape| {
-                    std::array::from_fn(|row| block.get(row).map_or(0.0, |dof| shape[*dof]))
+            let shown: Vec<Vec<f64>> = watched
+                .iter()
+                .map(|&dof| basis.of_shapes(|vector| vector[dof]))
+                .collect();
+            let mut blocks = Vec::with_capacity(basis.len() * shown.len().div_ceil(ROWS));
+            for block in shown.chunks(ROWS) {
+                blocks.extend((0..basis.len()).map(|mode| {
+                    std::array::from_fn(|row| block.get(row).map_or(0.0, |shape| shape[mode]))
                 }));
             }
-            debug_assert_eq!(blocks.len(), modes * watched.len().div_ceil(ROWS));
             reduced.buildings.push(ReducedBuilding {
                 modes: start..reduced.stiffness.len(),
                 watched: watching..watching + watched.len(),
                 floors,
-                rows,
+                rows: shown.concat(),
                 blocks,
-                shear: basis
-                    .shapes
-                    .iter()
-                    .map(|shape| equations.base_shear(shape))
-                    .collect(),
-                shapes: basis.shapes,
+                shear: basis.of_shapes(|vector| equations.base_shear(vector)),
+                size: equations.len(),
+                basis,
             });
             watching += watched.len();
         }
@@ -240,12 +237,9 @@ impl Reduced {
         full.fill(0.0);
         let mut offset = 0;
         for building in &self.buildings {
-            for (shape, coordinate) in building.shapes.iter().zip(&modal[building.modes.clone()]) {
-                for (value, shape) in full[offset..].iter_mut().zip(shape) {
-                    *value += shape * coordinate;
-                }
-            }
-            offset += building.shapes.first().map_or(0, Vec::len);
+            let own = &mut full[offset..offset + building.size];
+            building.basis.expand(&modal[building.modes.clone()], own);
+            offset += building.size;
         }
     }
 }
