@@ -22,9 +22,9 @@ class Case:
 CASES = [
     Case("few", "J1 and J2, 220 cm/s², 100 mm: one impact", "paper", ("--pga", "220cm/s2", "--gap", "100mm")),
     Case("many", "J1 and J2, 70 cm/s², 10 mm: 21 impacts", "paper", ("--pga", "70cm/s2", "--gap", "10mm")),
-    Case("inelastic", "J1 and J2 yielding, 400 cm/s², 100 mm, 15 s", "inelastic.toml", linear=False),
+    Case("inelastic", "J1 and J2 yielding, 400 cm/s², 100 mm, 15 s", "inelastic.toml", linear=False, free_steps=(2e-3, 1e-3), parts=(5, 10)),
     Case("towers", "two towers, one mass each", "two-towers.toml", quick=True),
-    Case("high-rise", "twenty beside forty storeys", "high-rise.toml"),
-    Case("row", "ten frames in a row, 15 s", "row-of-ten.toml"),
+    Case("high-rise", "twenty beside forty storeys", "high-rise.toml", free_steps=(4e-3, 2e-3), parts=(5, 10)),
+    Case("row", "ten frames in a row, 15 s", "row-of-ten.toml", free_steps=(4e-3, 2e-3), parts=(5, 10)),
     Case("piece", "J1 and J2, 70 cm/s², 10 mm, the first 5 s", "piece.toml", quick=True),
 ]

@@ -1,8 +1,12 @@
 //! Mass and stiffness of one building in the order of its transfer path.
 
+use pulp::Arch;
+
 use crate::element::{self, Part, X, Y};
 use crate::hysteresis::Hysteresis;
+use crate::lanes;
 use crate::skeleton::{Skeleton, Support};
+use crate::stretches::Stretches;
 use crate::transfer::path::Path;
 
 /// M ü + (α M + β K + C′) u̇ + (K + K′) u = −M r a_g + contact forces, for one building.
@@ -79,6 +83,9 @@ pub struct SparseSymmetric {
     pub rows: Vec<u32>,
     /// Value of every entry below the diagonal.
     pub values: Vec<f64>,
+    /// The same entries as long loops want them.
+    stretches: Stretches,
+    laid: Vec<f64>,
 }
 
 impl Equations {
@@ -249,8 +256,7 @@ impl SparseSymmetric {
         let mut matrix = Self {
             diagonal: vec![0.0; n],
             starts: vec![0; n + 1],
-            rows: Vec::new(),
-            values: Vec::new(),
+            ..Self::default()
         };
         let mut previous = None;
         for (row, column, value) in triplets {
@@ -270,23 +276,23 @@ impl SparseSymmetric {
         for column in 0..n {
             matrix.starts[column + 1] += matrix.starts[column];
         }
+        let entries = (0..n).flat_map(|column| {
+            let rows = &matrix.rows;
+            let places = matrix.starts[column]..matrix.starts[column + 1];
+            places.map(move |place| (rows[place], column as u32, place as u32))
+        });
+        matrix.stretches = Stretches::of(entries.collect());
+        matrix.stretches.lay_out(&matrix.values, &mut matrix.laid);
         matrix
     }
 
     /// xᵀ A x.
     #[must_use]
     pub fn quadratic_form(&self, x: &[f64]) -> f64 {
-        let mut sum = 0.0;
-        for (column, (diagonal, value)) in self.diagonal.iter().zip(x).enumerate() {
-            let entries = self.starts[column]..self.starts[column + 1];
-            let below: f64 = self.rows[entries.clone()]
-                .iter()
-                .zip(&self.values[entries])
-                .map(|(row, a)| a * x[*row as usize])
-                .sum();
-            sum += value * (diagonal * value + 2.0 * below);
-        }
-        sum
+        Arch::new().dispatch(|| {
+            let below = self.stretches.bilinear(&self.laid, x);
+            lanes::weighted_square(&self.diagonal, x) + 2.0 * below
+        })
     }
 
     /// `product` += A x.

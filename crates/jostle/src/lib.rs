@@ -25,8 +25,10 @@ mod check;
 mod check_row;
 mod contact_points;
 mod element;
+mod lanes;
 mod member_end;
 mod row;
+mod stretches;
 mod summarise;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};

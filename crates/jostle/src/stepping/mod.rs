@@ -15,7 +15,6 @@ mod factors;
 mod impacts;
 mod integrator;
 mod joints;
-mod lanes;
 mod links;
 pub mod modal;
 mod outcome;

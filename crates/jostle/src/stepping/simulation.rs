@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use pulp::Arch;
+
 use super::StepEquations;
 use super::blow::{BlowFactor, BlowScratch};
 use super::clock::{Clock, Stride};
@@ -11,7 +13,6 @@ use super::factors::StepFactors;
 use super::impacts::Landing;
 use super::integrator::Integrator;
 use super::joints::Joints;
-use super::lanes;
 use super::links::Links;
 use super::modal;
 use super::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
@@ -21,6 +22,7 @@ use super::springs::YieldingSprings;
 use super::trial::ContactTrial;
 use crate::gravity::STANDARD_GRAVITY;
 use crate::history::{Impact, Work};
+use crate::lanes;
 use crate::model::Solver;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
@@ -429,18 +431,23 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             let displacements = &mut self.state.displacement[range.clone()];
             let velocities = &mut self.state.velocity[range.clone()];
             let accelerations = &mut self.state.acceleration[range];
-            let motion = displacements.iter_mut().zip(velocities).zip(accelerations);
-            for (rise, ((u, v), a)) in rises.iter_mut().zip(motion) {
-                let (v0, a0) = (*v, *a);
-                let drift = k.d_v * v0 + k.d_a * a0;
-                let change = *rise - own.shift * drift;
-                *rise = change;
-                *u += change;
-                *v = v0 + k.c * change + drift;
-                *a = a0 + k.a * change + (k.b_v * v0 + k.b_a * a0);
-            }
-            let driven_rise = lanes::dot(&equations.driven_mass, rises);
-            let moved = lanes::weighted_square(&equations.mass, rises);
+            // In the registers at hand.
+            let (driven_rise, moved) = Arch::new().dispatch(|| {
+                let motion = displacements.iter_mut().zip(velocities).zip(accelerations);
+                for (rise, ((u, v), a)) in rises.iter_mut().zip(motion) {
+                    let (v0, a0) = (*v, *a);
+                    let drift = k.d_v * v0 + k.d_a * a0;
+                    let change = *rise - own.shift * drift;
+                    *rise = change;
+                    *u += change;
+                    *v = v0 + k.c * change + drift;
+                    *a = a0 + k.a * change + (k.b_v * v0 + k.b_a * a0);
+                }
+                (
+                    lanes::dot(&equations.driven_mass, rises),
+                    lanes::weighted_square(&equations.mass, rises),
+                )
+            });
             if !driven_rise.is_finite() {
                 return Err(StepError::NotFinite {
                     time: self.state.time,

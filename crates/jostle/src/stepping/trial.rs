@@ -1,5 +1,7 @@
 //! A step tried but not yet taken.
 
+use pulp::Arch;
+
 use super::StepEquations;
 use super::clock::Clock;
 use super::coupling::Closed;
@@ -65,15 +67,17 @@ impl<E: StepEquations> Simulation<'_, E> {
             .zip(&self.factors[slot].buildings)
         {
             let (range, equations) = (building.range(), &building.equations);
-            let motion = self.state.velocity[range.clone()]
-                .iter()
-                .zip(&self.state.acceleration[range.clone()]);
-            let masses = equations.mass.iter().zip(&equations.driven_mass);
-            for ((load, (v, a)), (mass, driven)) in
-                self.rise[range].iter_mut().zip(motion).zip(masses)
-            {
-                *load = -mass * (own.l_v * v + own.l_a * a) - driven * change;
-            }
+            let velocity = &self.state.velocity[range.clone()];
+            let acceleration = &self.state.acceleration[range.clone()];
+            let loads = &mut self.rise[range];
+            // In the registers at hand.
+            Arch::new().dispatch(|| {
+                let motion = velocity.iter().zip(acceleration);
+                let masses = equations.mass.iter().zip(&equations.driven_mass);
+                for ((load, (v, a)), (mass, driven)) in loads.iter_mut().zip(motion).zip(masses) {
+                    *load = -mass * (own.l_v * v + own.l_a * a) - driven * change;
+                }
+            });
         }
         self.add_undamped_loads(slot);
         let weight = self.factors[slot].coefficients.unbalanced;

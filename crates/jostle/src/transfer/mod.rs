@@ -22,6 +22,7 @@
 //! [`ProductEquations`], the total transfer equation as published for pounding frames, whose digits
 //! [`digits_left`] counts.
 
+mod abreast;
 mod beam;
 mod condensed_beam;
 mod digits;

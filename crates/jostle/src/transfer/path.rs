@@ -201,18 +201,27 @@ fn node_order(skeleton: &Skeleton) -> Vec<(usize, usize)> {
         } else {
             interior.sort_by(along_column);
         }
-        let mut link = 0;
-        let mut links: Vec<(usize, usize)> = Vec::new();
+        let mut chains: Vec<Vec<usize>> = Vec::new();
         for &node in &interior {
-            let continues = links
-                .last()
-                .is_some_and(|(_, previous)| neighbours[node].contains(previous));
-            link = if continues { link + 1 } else { 0 };
-            links.push((link, node));
+            match chains.last_mut() {
+                Some(chain)
+                    if chain
+                        .last()
+                        .is_some_and(|last| neighbours[node].contains(last)) =>
+                {
+                    chain.push(node);
+                }
+                _ => chains.push(vec![node]),
+            }
         }
-        links.sort_by_key(|(link, _)| *link);
-        let longest = links.last().map_or(0, |(link, _)| link + 1);
-        order.extend(links.into_iter().map(|(link, node)| (rank + link, node)));
+        // The longest first: those abreast of each other at one link are so at every link before. Upwards, so that
+        // those on the ground, which have one end less, are next to each other.
+        chains.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| by_height(&a[0], &b[0])));
+        let longest = chains.first().map_or(0, Vec::len);
+        for link in 0..longest {
+            let abreast = chains.iter().filter_map(|chain| chain.get(link));
+            order.extend(abreast.map(|&node| (rank + link, node)));
+        }
         rank += longest;
     }
     let mut joints: Vec<usize> = (0..nodes.len()).filter(|&node| stage(node) == 2).collect();

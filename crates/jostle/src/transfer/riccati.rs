@@ -5,7 +5,12 @@
 //! are all that need be kept. Unlike the product of transfer matrices no growing and decaying solutions are
 //! ever mixed, so that nothing is lost at small steps or in tall frames.
 
+use std::cell::RefCell;
 use std::convert::Infallible;
+
+use pulp::{Arch, NullaryFnOnce};
+
+use super::abreast::Abreast;
 
 use crate::equations::{Equations, SparseSymmetric};
 use crate::stepping::{NotPositive, StepEquations, StepMatrix};
@@ -34,8 +39,11 @@ pub struct RiccatiSweep {
     mass: Vec<f64>,
     springs: Vec<SpringPlace>,
     initial_tangents: Vec<f64>,
-    /// Columns of equal work.
+    /// The first columns: chains abreast.
+    abreast: Abreast,
+    /// The others, one behind the other.
     runs: Vec<Run>,
+    arch: Arch,
 }
 
 /// Where the tangent of a spring that yields enters the step matrix.
@@ -64,6 +72,10 @@ impl Parts {
 #[derive(Clone, Debug, Default)]
 pub struct RiccatiFactor {
     couplings: Vec<f64>,
+    /// Those of chains abreast, as the passes want them.
+    laid: Vec<f64>,
+    /// Load and ends of the chains during a pass.
+    scratch: RefCell<Vec<f64>>,
     inverse_pivots: Vec<f64>,
     pivots: Vec<f64>,
     /// The step matrix: diagonal, and entries before it by rows.
@@ -119,6 +131,7 @@ impl RiccatiSweep {
             inertia.negative += usize::from(pivot < 0.0);
             Ok::<_, Infallible>(pivot)
         });
+        self.lay_out(factor);
         match never_fails {
             Ok(()) => inertia,
             Err(never) => match never {},
@@ -153,6 +166,13 @@ impl RiccatiSweep {
         }
     }
 
+    /// Puts the couplings of chains abreast where the passes want them.
+    fn lay_out(&self, factor: &mut RiccatiFactor) {
+        self.abreast.lay_out(&factor.couplings, &mut factor.laid);
+        let ends = self.abreast.ends();
+        factor.scratch.get_mut().resize(self.mass.len() + ends, 0.0);
+    }
+
     /// L D Lᵀ of the touched rows of the matrix in `factor`; every pivot is what `accept` makes of (row, entry of the
     /// matrix on the diagonal, pivot).
     fn eliminate<E>(
@@ -168,6 +188,7 @@ impl RiccatiSweep {
             before,
             touched,
             work,
+            ..
         } = factor;
         work.fill(0.0);
         for row in (0..self.mass.len()).filter(|&row| touched[row]) {
@@ -254,6 +275,10 @@ impl StepEquations for RiccatiSweep {
                 next[column as usize] += 1;
             }
         }
+        let parent: Vec<u32> = (0..n)
+            .map(|dof| if parent[dof] == usize::MAX { dof } else { parent[dof] } as u32)
+            .collect();
+        let abreast = Abreast::of(&starts, &rows, &parent);
         let springs = equations.springs.iter().map(|spring| SpringPlace {
             diagonal: spring.dofs,
             between: match spring.dofs {
@@ -268,13 +293,13 @@ impl StepEquations for RiccatiSweep {
             },
         });
         Self {
-            runs: Run::all(&starts),
+            runs: Run::all(abreast.columns(), &starts),
+            abreast,
+            arch: Arch::new(),
             springs: springs.collect(),
             initial_tangents: equations.initial_tangents(),
             positions,
-            parent: (0..n)
-                .map(|dof| if parent[dof] == usize::MAX { dof } else { parent[dof] } as u32)
-                .collect(),
+            parent,
             starts,
             rows,
             reached_starts,
@@ -300,7 +325,9 @@ impl StepEquations for RiccatiSweep {
     ) -> Result<(), NotPositive> {
         self.compose(matrix, tangents, factor);
         factor.touched.fill(true);
-        self.eliminate(factor, sound)
+        self.eliminate(factor, sound)?;
+        self.lay_out(factor);
+        Ok(())
     }
 
     /// Only what lies ahead of the changed springs on the transfer path is passed again.
@@ -322,15 +349,45 @@ impl StepEquations for RiccatiSweep {
                 }
             }
         }
-        self.eliminate(factor, sound)
+        self.eliminate(factor, sound)?;
+        self.lay_out(factor);
+        Ok(())
     }
 
     #[inline]
     fn solve(&self, factor: &RiccatiFactor, load: &mut [f64]) {
-        let n = self.mass.len();
-        let load = &mut load[..n];
-        for run in &self.runs {
-            let (rows, couplings) = run.entries(&self.rows, &factor.couplings);
+        self.arch.dispatch(Passes {
+            sweep: self,
+            factor,
+            load,
+        });
+    }
+}
+
+/// Both passes over a load, compiled for the registers at hand.
+struct Passes<'a> {
+    sweep: &'a RiccatiSweep,
+    factor: &'a RiccatiFactor,
+    load: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Passes<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self {
+            sweep,
+            factor,
+            load,
+        } = self;
+        let n = sweep.mass.len();
+        let mut scratch = factor.scratch.borrow_mut();
+        let (outer, load) = (load, &mut scratch[..]);
+        load[..n].copy_from_slice(&outer[..n]);
+        sweep.abreast.pass_on(&factor.laid, load);
+        for run in &sweep.runs {
+            let (rows, couplings) = run.entries(&sweep.rows, &factor.couplings);
             match run.width {
                 0 => {}
                 1 => pass_on::<1>(run.first, rows, couplings, load),
@@ -345,8 +402,8 @@ impl StepEquations for RiccatiSweep {
         for (value, inverse_pivot) in load.iter_mut().zip(&factor.inverse_pivots) {
             *value *= inverse_pivot;
         }
-        for run in self.runs.iter().rev() {
-            let (rows, couplings) = run.entries(&self.rows, &factor.couplings);
+        for run in sweep.runs.iter().rev() {
+            let (rows, couplings) = run.entries(&sweep.rows, &factor.couplings);
             match run.width {
                 0 => {}
                 1 => gather::<1>(run.first, rows, couplings, load),
@@ -358,6 +415,8 @@ impl StepEquations for RiccatiSweep {
                 width => gather_wide(run.first, width, rows, couplings, load),
             }
         }
+        sweep.abreast.gather(&factor.laid, load);
+        outer[..n].copy_from_slice(&load[..n]);
     }
 }
 
@@ -381,10 +440,10 @@ impl Run {
         )
     }
 
-    /// The runs of a pattern whose columns begin at `starts`.
-    fn all(starts: &[usize]) -> Vec<Self> {
+    /// The runs, from a column on, of a pattern whose columns begin at `starts`.
+    fn all(first: usize, starts: &[usize]) -> Vec<Self> {
         let mut runs: Vec<Self> = Vec::new();
-        for (column, bounds) in starts.windows(2).enumerate() {
+        for (column, bounds) in starts.windows(2).enumerate().skip(first) {
             let width = bounds[1] - bounds[0];
             match runs.last_mut() {
                 Some(run) if run.width == width => run.end = bounds[1],
@@ -401,7 +460,7 @@ impl Run {
 }
 
 /// Every column passes its load on to the rows ahead of it.
-#[inline]
+#[inline(always)]
 fn pass_on<const W: usize>(first: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
     let columns = rows
         .as_chunks::<W>()
@@ -427,7 +486,7 @@ fn pass_on_wide(first: usize, width: usize, rows: &[u32], couplings: &[f64], loa
 }
 
 /// Every column, last first, gathers from the rows ahead of it.
-#[inline]
+#[inline(always)]
 fn gather<const W: usize>(first: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
     let columns = rows
         .as_chunks::<W>()

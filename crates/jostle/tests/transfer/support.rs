@@ -139,8 +139,13 @@ pub(crate) fn step_factors(
 
 /// Forces as they occur in a step: ground acceleration, unequal inertia, a few nodal loads.
 pub(crate) fn step_load(building: &BuildingSystem, mass_factor: f64) -> Vec<f64> {
+    scattered_load(building, mass_factor, 0.0)
+}
+
+/// One of many such loads.
+pub(crate) fn scattered_load(building: &BuildingSystem, mass_factor: f64, phase: f64) -> Vec<f64> {
     let equations = &building.equations;
-    let scatter = |k: usize, s: f64| (s * (k as f64 + 1.0)).sin();
+    let scatter = |k: usize, s: f64| (s * (k as f64 + 1.0) + phase).sin();
     (0..equations.len())
         .map(|k| {
             let inertia = 1e-3 * mass_factor * equations.mass[k] * scatter(k, 1.37);

@@ -2,7 +2,8 @@
 
 use faer::{Mat, Side};
 
-use crate::stepping::{NotPositive, StepEquations, StepMatrix, lanes};
+use crate::lanes;
+use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 

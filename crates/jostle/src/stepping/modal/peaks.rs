@@ -2,9 +2,9 @@
 
 use super::reduced::Reduced;
 use crate::history::{Energy, Extreme, FloorPeaks, History};
+use crate::lanes;
 use crate::state::ContactPhase;
 use crate::stepping::events::Cubic;
-use crate::stepping::lanes;
 use crate::stepping::recorder::{columns, greatest_in_step};
 use crate::system::System;
 

@@ -3,16 +3,18 @@
 const LANES: usize = 8;
 
 /// Σ aᵢ bᵢ.
+#[inline(always)]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sum(a, b, |a, b| a * b)
 }
 
 /// Σ wᵢ xᵢ².
+#[inline(always)]
 pub(crate) fn weighted_square(weights: &[f64], x: &[f64]) -> f64 {
     sum(weights, x, |w, x| w * x * x)
 }
 
-#[inline]
+#[inline(always)]
 fn sum(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
     let mut lanes = [0.0; LANES];
     let (whole_a, whole_b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
