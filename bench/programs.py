@@ -40,8 +40,10 @@ def solvers():
     return ["riccati", "modal"] if "--solver" in help_text else ["riccati"]
 
 
-def jostle(case, solver="riccati", tolerance=None, least=1.0, most=25):
-    """jostle with automatic steps, again and again for a second: the run of the median cost."""
+def jostle(case, solver="riccati", tolerance=None, least=1.0, most=25, fewest=3):
+    """jostle with automatic steps, again and again for a second.
+
+    What is counted is the wall time of stepping in the quickest run, which is never less than its CPU time."""
     command = [JOSTLE, "run", model_of(case), "--json", "--no-report", *case.options]
     if solver != "riccati":
         command += ["--solver", solver]
@@ -49,12 +51,13 @@ def jostle(case, solver="riccati", tolerance=None, least=1.0, most=25):
         if tolerance is not None:
             command[2] = with_tolerance(model_of(case), tolerance, folder)
         runs, started = [], time.perf_counter()
-        while len(runs) < 3 or (time.perf_counter() - started < least and len(runs) < most):
+        while len(runs) < fewest or (time.perf_counter() - started < least and len(runs) < most):
             runs.append(call(command))
             if runs[0][0]["work"]["wall_s"] > 20.0:
                 break
     runs.sort(key=lambda run: run[0]["work"]["wall_s"])
-    summary, _ = runs[len(runs) // 2]
+    summary, _ = runs[0]
+    median, _ = runs[len(runs) // 2]
     peaks = [contact["peak_force_n"] for gap in summary["gaps"] for contact in gap["contacts"]]
     work = summary["work"]
     return {
@@ -62,7 +65,7 @@ def jostle(case, solver="riccati", tolerance=None, least=1.0, most=25):
         "way": solver,
         "settings": f"tolerance {tolerance or 1e-3:g}",
         "cpu_s": work["wall_s"],
-        "cpu_least_s": runs[0][0]["work"]["wall_s"],
+        "median_s": median["work"]["wall_s"],
         "process_cpu_s": sorted(run[1] for run in runs)[len(runs) // 2],
         "runs": len(runs),
         "steps": work["steps"],

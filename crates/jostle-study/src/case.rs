@@ -1,10 +1,12 @@
 //! One case: from the values of its factors to a row.
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use jostle::stepping::{ContactSteps, modal};
 use jostle::{
-    GroundMotion, Model, Outcome, Plan, RunEnd, Settings, StepError, Summary, System, simulate,
+    Gap, GroundMotion, Model, Outcome, Plan, RunEnd, Settings, Solver, StepError, Summary, System,
+    simulate,
 };
 use jostle_io::{Input, InputError, MotionSource, MotionSpec, PathError, Scaling};
 
@@ -17,8 +19,40 @@ use crate::study::Study;
 #[derive(Default)]
 pub struct Workshop {
     /// The last systems, the most recent at the end.
-    systems: Mutex<Vec<(Arc<Model>, Arc<System>)>>,
+    systems: Mutex<Vec<Assembled>>,
     records: Mutex<Vec<(MotionSource, Arc<GroundMotion>)>>,
+}
+
+/// A model, its system, and the shapes for modal stepping once somebody wanted them.
+#[derive(Clone)]
+struct Assembled {
+    model: Arc<Model>,
+    system: Arc<System>,
+    shapes: Arc<OnceLock<Option<Shapes>>>,
+}
+
+/// Shapes, and the steps that they were found for.
+struct Shapes {
+    contact_steps: ContactSteps,
+    reduction: Arc<modal::Reduction>,
+}
+
+impl Assembled {
+    /// The shapes that modal stepping wants, if it is wanted and possible.
+    fn shapes(&self, plan: &Plan) -> Option<Arc<modal::Reduction>> {
+        if plan.solver != Solver::Modal {
+            return None;
+        }
+        let found = self.shapes.get_or_init(|| {
+            let reduction = modal::Reduction::of(&self.system, plan).ok()?;
+            Some(Shapes {
+                contact_steps: plan.contact_steps,
+                reduction: Arc::new(reduction),
+            })
+        });
+        let found = found.as_ref()?;
+        (found.contact_steps == plan.contact_steps).then(|| Arc::clone(&found.reduction))
+    }
 }
 
 /// Assembled systems that are kept.
@@ -36,6 +70,8 @@ pub struct Prepared {
     pub motion: GroundMotion,
     /// Its steps.
     pub plan: Plan,
+    /// Shapes for modal stepping, where they are known already.
+    pub shapes: Option<Arc<modal::Reduction>>,
 }
 
 /// Why a case cannot be stepped.
@@ -60,36 +96,51 @@ impl Workshop {
     }
 
     pub(crate) fn assemble(&self, input: Input) -> Result<Prepared, CaseError> {
-        let system = self.system(&input)?;
+        let assembled = self.assembled(&input)?;
         let motion = self.motion(&input)?;
-        let plan = Plan::choose(&system, &motion, &input.model.analysis)
+        let system = assembled.system.as_ref();
+        let plan = Plan::choose(system, &motion, &input.model.analysis)
             .map_err(|faults| input.faults(faults))?;
-        plan.check_digits(&system)
+        plan.check_digits(system)
             .map_err(|refusal| input.fault("analysis.solver", refusal.to_string()))?;
         Ok(Prepared {
             input,
-            system,
+            shapes: assembled.shapes(&plan),
+            system: assembled.system,
             motion,
             plan,
         })
     }
 
-    fn system(&self, input: &Input) -> Result<Arc<System>, InputError> {
-        {
+    fn assembled(&self, input: &Input) -> Result<Assembled, InputError> {
+        let kin = {
             let systems = self.systems.lock().unwrap_or_else(PoisonError::into_inner);
-            let known = systems.iter().find(|(model, _)| same(model, &input.model));
-            if let Some((_, system)) = known {
-                return Ok(Arc::clone(system));
+            let known = systems
+                .iter()
+                .find(|known| same(&known.model, &input.model));
+            if let Some(known) = known {
+                return Ok(known.clone());
             }
-        }
-        let system = System::assemble(&input.model).map_err(|faults| input.faults(faults))?;
-        let system = Arc::new(system);
+            let kin = systems
+                .iter()
+                .find(|known| kindred(&known.model, &input.model));
+            kin.cloned()
+        };
+        let assembled = match &kin {
+            Some(kin) => kin.system.with_widths_of(&input.model),
+            None => System::assemble(&input.model),
+        };
+        let assembled = Assembled {
+            model: Arc::new(input.model.clone()),
+            system: Arc::new(assembled.map_err(|faults| input.faults(faults))?),
+            shapes: kin.map_or_else(Arc::default, |kin| kin.shapes),
+        };
         let mut systems = self.systems.lock().unwrap_or_else(PoisonError::into_inner);
         if systems.len() >= SYSTEMS {
             systems.remove(0);
         }
-        systems.push((Arc::new(input.model.clone()), Arc::clone(&system)));
-        Ok(system)
+        systems.push(assembled.clone());
+        Ok(assembled)
     }
 
     /// The motion of a case; a record is read once.
@@ -137,7 +188,23 @@ impl Workshop {
 
 /// Whether two models make the same system: what is said about steps and the title makes no difference.
 fn same(a: &Model, b: &Model) -> bool {
-    a.buildings == b.buildings && a.gaps == b.gaps
+    a.buildings == b.buildings && a.gaps == b.gaps && a.links == b.links
+}
+
+/// Whether two models differ in nothing but the widths of their gaps, and in what [`same`] allows.
+fn kindred(a: &Model, b: &Model) -> bool {
+    let alike = |(a, b): (&Gap, &Gap)| {
+        let widths = b.widths.clone();
+        a.widths.len() == widths.len()
+            && Gap {
+                widths,
+                ..a.clone()
+            } == *b
+    };
+    a.buildings == b.buildings
+        && a.links == b.links
+        && a.gaps.len() == b.gaps.len()
+        && a.gaps.iter().zip(&b.gaps).all(alike)
 }
 
 /// A case that was run, with its histories if they were asked for.
@@ -153,13 +220,18 @@ pub struct Ran {
 impl Prepared {
     /// Steps the case; `None` when `stop` asked to.
     pub fn run(self, settings: Settings, stop: &(dyn Fn() -> bool + Sync)) -> Option<Ran> {
-        let outcome = simulate(&self.system, &self.motion, &self.plan, settings, |_| {
+        let (system, motion, plan) = (&self.system, &self.motion, &self.plan);
+        let watch = |_| {
             if stop() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
-        });
+        };
+        let outcome = match &self.shapes {
+            Some(shapes) => modal::simulate(system, motion, plan, settings, shapes, watch),
+            None => simulate(system, motion, plan, settings, watch),
+        };
         if outcome.end == RunEnd::Stopped {
             return None;
         }

@@ -391,15 +391,24 @@ fn compute(
         Ok(prepared) => prepared,
         Err(error) => return Ok(Some(case::failed(study, number, &error.to_string()))),
     };
+    let modal = prepared.plan.solver == jostle::Solver::Modal;
     let keep = study.file.histories.contains(&number);
+    // Energies are audited where histories are recorded; modal stepping audits every step, and rows cost it steps.
+    let shown = jostle::Settings::default();
     let settings = jostle::Settings {
-        record_interval: keep.then_some(0.005),
-        ..jostle::Settings::default()
+        record_interval: shown.record_interval.filter(|_| !modal),
+        ..shown
     };
     let Some(ran) = prepared.run(settings, stop) else {
         return Ok(None);
     };
-    if keep {
+    if keep && modal {
+        let again = workshop.prepare(study, number).ok();
+        let Some(again) = again.and_then(|again| again.run(shown, stop)) else {
+            return Ok(None);
+        };
+        crate::single::write_run(&again, &run_folder(folder, number))?;
+    } else if keep {
         crate::single::write_run(&ran, &run_folder(folder, number))?;
     }
     Ok(Some(case::row_of(study, number, &ran)))

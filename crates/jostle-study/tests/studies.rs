@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use jostle::{Plan, Run, Settings, Summary, System, simulate};
 use jostle_io::{Format, Overrides, StudyFile, builtin_model, read_model_text};
 use jostle_study::dataset::read_columns;
-use jostle_study::{Done, RunSettings, Study, StudyError, run};
+use jostle_study::{Done, RunSettings, Study, StudyError, Workshop, run};
 
 /// Two small towers that are hit within a few seconds.
 const TOWERS: &str = r#"
@@ -524,4 +524,67 @@ values = ["5 mm", "10 mm", "20 mm", "40 mm"]
             );
         }
     }
+}
+
+/// Forces and work of some cases, each from a workshop that has seen all before it, and from one of its own.
+fn shared_and_alone(study: &Study, cases: u64) -> [Vec<(u64, u64, u64)>; 2] {
+    let shared = Workshop::default();
+    let numbers = |workshop: &Workshop, case: u64| {
+        let prepared = workshop.prepare(study, case);
+        let prepared = prepared.unwrap_or_else(|error| panic!("{error}"));
+        let settings = Settings {
+            record_interval: None,
+            ..Settings::default()
+        };
+        let ran = prepared.run(settings, &|| false).expect("nobody stops it");
+        let (gap, work) = (&ran.summary.gaps[0], &ran.summary.work);
+        (
+            gap.peak_force_n.to_bits(),
+            ran.summary.energy.damped_j.to_bits(),
+            work.factorizations,
+        )
+    };
+    [
+        (0..cases).map(|case| numbers(&shared, case)).collect(),
+        (0..cases)
+            .map(|case| numbers(&Workshop::default(), case))
+            .collect(),
+    ]
+}
+
+#[test]
+fn what_cases_share_does_not_show() {
+    let modal = TOWERS.to_owned() + "solver = \"modal\"\n";
+    let folder = temporary();
+    std::fs::write(folder.path().join("towers.toml"), modal).unwrap_or_else(|e| panic!("{e}"));
+    let parse = |text: &str| {
+        let file = StudyFile::parse("study.toml", text, Format::Toml, folder.path(), None);
+        Study::new(file.unwrap_or_else(|error| panic!("{error}")))
+            .unwrap_or_else(|error| panic!("{error}"))
+    };
+    let [shared, alone] = shared_and_alone(&parse(GRID), 50);
+    assert_eq!(shared, alone);
+    let forces: std::collections::BTreeSet<u64> = alone.iter().map(|row| row.0).collect();
+    assert!(forces.len() > 40, "{} forces in 50 cases", forces.len());
+    // Shapes hold for one tolerance only.
+    let tolerances = parse(
+        "base = \"towers.toml\"\n[[vary]]\npath = \"analysis.tolerance\"\nvalues = [1e-2, 1e-4]\n",
+    );
+    let [shared, alone] = shared_and_alone(&tolerances, 2);
+    assert_eq!(shared, alone);
+}
+
+#[test]
+fn links_may_vary() {
+    let linked = TOWERS.to_owned()
+        + "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[2, 2]]\ndamping = \"1 kN.s/m\"\n";
+    let folder = temporary();
+    std::fs::write(folder.path().join("towers.toml"), linked).unwrap_or_else(|e| panic!("{e}"));
+    let text = "base = \"towers.toml\"\n[[vary]]\npath = \"link[0].damping\"\nvalues = [\"1 kN.s/m\", \"2 MN.s/m\"]\n";
+    let file = StudyFile::parse("study.toml", text, Format::Toml, folder.path(), None);
+    let study = Study::new(file.unwrap_or_else(|error| panic!("{error}")))
+        .unwrap_or_else(|error| panic!("{error}"));
+    let [shared, alone] = shared_and_alone(&study, 2);
+    assert_eq!(shared, alone);
+    assert_ne!(alone[0].0, alone[1].0);
 }

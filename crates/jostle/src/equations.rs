@@ -1,6 +1,6 @@
 //! Mass and stiffness of one building in the order of its transfer path.
 
-use pulp::Arch;
+use pulp::{Arch, NullaryFnOnce};
 
 use crate::element::{self, Part, X, Y};
 use crate::hysteresis::Hysteresis;
@@ -243,6 +243,23 @@ fn yielding_springs(skeleton: &Skeleton, path: &Path) -> Vec<YieldingSpring> {
     hinges.chain(storeys).collect()
 }
 
+/// xᵀ A x, compiled for the registers at hand.
+struct QuadraticForm<'a> {
+    matrix: &'a SparseSymmetric,
+    x: &'a [f64],
+}
+
+impl NullaryFnOnce for QuadraticForm<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let Self { matrix, x } = self;
+        let below = matrix.stretches.bilinear(&matrix.laid, x);
+        lanes::weighted_square(&matrix.diagonal, x) + 2.0 * below
+    }
+}
+
 impl SparseSymmetric {
     /// Whether every entry is zero.
     #[must_use]
@@ -289,10 +306,7 @@ impl SparseSymmetric {
     /// xᵀ A x.
     #[must_use]
     pub fn quadratic_form(&self, x: &[f64]) -> f64 {
-        Arch::new().dispatch(|| {
-            let below = self.stretches.bilinear(&self.laid, x);
-            lanes::weighted_square(&self.diagonal, x) + 2.0 * below
-        })
+        Arch::new().dispatch(QuadraticForm { matrix: self, x })
     }
 
     /// `product` += A x.

@@ -162,6 +162,21 @@ impl System {
         row.put_into(&mut system, model).map(|()| system)
     }
 
+    /// The same buildings with the gaps of another model, which may differ from that of this system in the widths of
+    /// its gaps only: nothing is assembled anew.
+    ///
+    /// # Errors
+    /// As [`System::assemble`].
+    pub fn with_widths_of(&self, model: &Model) -> Result<Self, Vec<ModelFault>> {
+        model.check()?;
+        let mut system = Self {
+            buildings: self.buildings.clone(),
+            contacts: Vec::new(),
+            links: Vec::new(),
+        };
+        Row::of(model).put_into(&mut system, model).map(|()| system)
+    }
+
     /// A row of assembled buildings that do not touch; contacts may be added to the list.
     #[must_use]
     pub fn of_buildings(mut buildings: Vec<BuildingSystem>) -> Self {

@@ -15,6 +15,7 @@ mod factors;
 mod impacts;
 mod integrator;
 mod joints;
+mod kernels;
 mod links;
 pub mod modal;
 mod outcome;

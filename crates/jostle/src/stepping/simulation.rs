@@ -13,6 +13,7 @@ use super::factors::StepFactors;
 use super::impacts::Landing;
 use super::integrator::Integrator;
 use super::joints::Joints;
+use super::kernels::Advance;
 use super::links::Links;
 use super::modal;
 use super::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
@@ -71,7 +72,14 @@ pub fn simulate_from(
         return Outcome::not_begun(system, StepError::Unsuited { reason });
     }
     match plan.solver {
-        Solver::Modal => modal::simulate(system, motion, plan, settings, &state, observer),
+        Solver::Modal if !modal::is_rest(&state) => {
+            let reason = "modal stepping starts from rest".to_owned();
+            Outcome::not_begun(system, StepError::Unsuited { reason })
+        }
+        Solver::Modal => match modal::Reduction::of(system, plan) {
+            Ok(shapes) => modal::simulate(system, motion, plan, settings, &shapes, observer),
+            Err(error) => Outcome::not_begun(system, error),
+        },
         Solver::Riccati => {
             Simulation::<RiccatiSweep>::new(system, motion, plan, settings, state).run(observer)
         }
@@ -428,25 +436,14 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
             let (range, equations) = (building.range(), &building.equations);
             let rises = &mut self.rise[range.clone()];
-            let displacements = &mut self.state.displacement[range.clone()];
-            let velocities = &mut self.state.velocity[range.clone()];
-            let accelerations = &mut self.state.acceleration[range];
-            // In the registers at hand.
-            let (driven_rise, moved) = Arch::new().dispatch(|| {
-                let motion = displacements.iter_mut().zip(velocities).zip(accelerations);
-                for (rise, ((u, v), a)) in rises.iter_mut().zip(motion) {
-                    let (v0, a0) = (*v, *a);
-                    let drift = k.d_v * v0 + k.d_a * a0;
-                    let change = *rise - own.shift * drift;
-                    *rise = change;
-                    *u += change;
-                    *v = v0 + k.c * change + drift;
-                    *a = a0 + k.a * change + (k.b_v * v0 + k.b_a * a0);
-                }
-                (
-                    lanes::dot(&equations.driven_mass, rises),
-                    lanes::weighted_square(&equations.mass, rises),
-                )
+            let [driven_rise, moved] = Arch::new().dispatch(Advance {
+                equations,
+                k: &k,
+                shift: own.shift,
+                rise: rises,
+                displacement: &mut self.state.displacement[range.clone()],
+                velocity: &mut self.state.velocity[range.clone()],
+                acceleration: &mut self.state.acceleration[range],
             });
             if !driven_rise.is_finite() {
                 return Err(StepError::NotFinite {

@@ -6,6 +6,7 @@ use super::StepEquations;
 use super::clock::Clock;
 use super::coupling::Closed;
 use super::events::Cubic;
+use super::kernels::Loads;
 use super::outcome::StepError;
 use super::simulation::Simulation;
 use crate::state::ContactPhase;
@@ -67,16 +68,13 @@ impl<E: StepEquations> Simulation<'_, E> {
             .zip(&self.factors[slot].buildings)
         {
             let (range, equations) = (building.range(), &building.equations);
-            let velocity = &self.state.velocity[range.clone()];
-            let acceleration = &self.state.acceleration[range.clone()];
-            let loads = &mut self.rise[range];
-            // In the registers at hand.
-            Arch::new().dispatch(|| {
-                let motion = velocity.iter().zip(acceleration);
-                let masses = equations.mass.iter().zip(&equations.driven_mass);
-                for ((load, (v, a)), (mass, driven)) in loads.iter_mut().zip(motion).zip(masses) {
-                    *load = -mass * (own.l_v * v + own.l_a * a) - driven * change;
-                }
+            Arch::new().dispatch(Loads {
+                equations,
+                own,
+                change,
+                velocity: &self.state.velocity[range.clone()],
+                acceleration: &self.state.acceleration[range.clone()],
+                out: &mut self.rise[range],
             });
         }
         self.add_undamped_loads(slot);

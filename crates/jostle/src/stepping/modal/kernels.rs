@@ -10,7 +10,7 @@ const LANES: usize = 8;
 
 /// out = a q + b q̇ + c p₀ + d p₁, mode by mode.
 pub(super) struct Combine<'a> {
-    pub(super) factors: [&'a [f64]; 4],
+    pub(super) factors: &'a [Vec<f64>; 4],
     pub(super) of: [&'a [f64]; 4],
     pub(super) out: &'a mut [f64],
 }
@@ -21,8 +21,9 @@ impl NullaryFnOnce for Combine<'_> {
     #[inline(always)]
     fn call(self) {
         let n = self.out.len();
-        let [a, b, c, d] = self.factors.map(|list| &list[..n]);
-        let [q, v, p0, p1] = self.of.map(|list| &list[..n]);
+        let ([a, b, c, d], [q, v, p0, p1]) = (self.factors, self.of);
+        let (a, b, c, d) = (&a[..n], &b[..n], &c[..n], &d[..n]);
+        let (q, v, p0, p1) = (&q[..n], &v[..n], &p0[..n], &p1[..n]);
         for i in 0..n {
             self.out[i] = (a[i] * q[i] + b[i] * v[i]) + (c[i] * p0[i] + d[i] * p1[i]);
         }
@@ -74,7 +75,7 @@ impl WithSimd for Show<'_> {
 
 /// Sum of a quadratic form in four values over all modes: upper triangle row by row.
 pub(super) struct Quadratic<'a> {
-    pub(super) form: [&'a [f64]; 10],
+    pub(super) form: &'a [Vec<f64>; 10],
     pub(super) of: [&'a [f64]; 4],
 }
 
@@ -88,18 +89,36 @@ impl WithSimd for Quadratic<'_> {
         let mut lanes = [0.0; LANES];
         let (sums, _) = S::as_mut_simd_f64s(&mut lanes);
         let registers = sums.len();
-        // Lists cut into registers: so many of them are one group of lanes.
-        let of = self.of.map(|list| S::as_simd_f64s(&list[..whole]).0);
-        let form = self.form.map(|list| S::as_simd_f64s(&list[..whole]).0);
-        // Of one length as the compiler sees it, so that it need not look again and again.
-        let count = of[0].len();
-        let (of, form) = (
-            of.map(|list| &list[..count]),
-            form.map(|list| &list[..count]),
-        );
+        // Lists cut into registers: so many of them are one group of lanes. One by one: mapping arrays is not inlined.
+        let [a, b, c, d] = self.of;
+        let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = self.form;
+        let count = cut::<S>(a, whole).len();
+        let of = [
+            &cut::<S>(a, whole)[..count],
+            &cut::<S>(b, whole)[..count],
+            &cut::<S>(c, whole)[..count],
+            &cut::<S>(d, whole)[..count],
+        ];
+        let squares = [
+            &cut::<S>(aa, whole)[..count],
+            &cut::<S>(bb, whole)[..count],
+            &cut::<S>(cc, whole)[..count],
+            &cut::<S>(dd, whole)[..count],
+        ];
+        let products = [
+            &cut::<S>(ab, whole)[..count],
+            &cut::<S>(ac, whole)[..count],
+            &cut::<S>(ad, whole)[..count],
+            &cut::<S>(bc, whole)[..count],
+            &cut::<S>(bd, whole)[..count],
+            &cut::<S>(cd, whole)[..count],
+        ];
         for at in 0..count {
-            let [a, b, c, d] = of.map(|list| list[at]);
-            let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = form.map(|list| list[at]);
+            let [a, b, c, d] = [of[0][at], of[1][at], of[2][at], of[3][at]];
+            let [aa, bb] = [squares[0][at], squares[1][at]];
+            let [cc, dd] = [squares[2][at], squares[3][at]];
+            let [ab, ac, ad] = [products[0][at], products[1][at], products[2][at]];
+            let [bc, bd, cd] = [products[3][at], products[4][at], products[5][at]];
             let (times, plus) = (|x, y| simd.mul_f64s(x, y), |x, y| simd.add_f64s(x, y));
             let by_a = plus(
                 plus(times(aa, a), times(ab, b)),
@@ -114,15 +133,20 @@ impl WithSimd for Quadratic<'_> {
             sums[at % registers] = simd.add_f64s(sums[at % registers], sum);
         }
         let term = |i: usize| {
-            let [a, b, c, d] = self.of.map(|list| list[i]);
-            let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = self.form.map(|list| list[i]);
-            a * ((aa * a + ab * b) + (ac * c + ad * d))
-                + b * (bb * b + (bc * c + bd * d))
-                + (c * (cc * c + cd * d) + dd * d * d)
+            let [a, b, c, d] = [a[i], b[i], c[i], d[i]];
+            a * ((aa[i] * a + ab[i] * b) + (ac[i] * c + ad[i] * d))
+                + b * (bb[i] * b + (bc[i] * c + bd[i] * d))
+                + (c * (cc[i] * c + cd[i] * d) + dd[i] * d * d)
         };
         let rest: f64 = (whole..n).map(term).sum();
         lanes.iter().sum::<f64>() + rest
     }
+}
+
+/// The first `whole` values, register by register.
+#[inline(always)]
+fn cut<S: Simd>(list: &[f64], whole: usize) -> &[S::f64s] {
+    S::as_simd_f64s(&list[..whole]).0
 }
 
 #[cfg(test)]
@@ -141,10 +165,9 @@ mod tests {
         for n in [1, 3, 8, 23, 42] {
             let of: Vec<Vec<f64>> = (0..4).map(|k| list(n, f64::from(k))).collect();
             let of: [&[f64]; 4] = std::array::from_fn(|k| &of[k][..]);
-            let form: Vec<Vec<f64>> = (0..10).map(|k| list(n, 9.0 + f64::from(k))).collect();
-            let form: [&[f64]; 10] = std::array::from_fn(|k| &form[k][..]);
-            let wide = Arch::new().dispatch(Quadratic { form, of });
-            let narrow = Quadratic { form, of }.with_simd(Scalar::new());
+            let form: [Vec<f64>; 10] = std::array::from_fn(|k| list(n, 9.0 + k as f64));
+            let wide = Arch::new().dispatch(Quadratic { form: &form, of });
+            let narrow = Quadratic { form: &form, of }.with_simd(Scalar::new());
             assert_eq!(wide.to_bits(), narrow.to_bits(), "{n} modes");
             let mut plain = 0.0;
             for i in 0..n {

@@ -276,7 +276,7 @@ impl Walk<'_> {
         for row in 0..n {
             for column in 0..n {
                 let [own, other] = [row, column].map(|at| self.coupling.closed[at].contact);
-                let [displacement, rate] = self.tables[slot].opening(own, other, &self.reduced);
+                let [displacement, rate] = self.tables[slot].opening(own, other, self.reduced);
                 self.coupling.compliance.set(row, column, displacement);
                 self.rate_compliance.push(rate);
             }

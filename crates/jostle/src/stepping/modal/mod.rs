@@ -50,26 +50,6 @@ pub fn refusals(building: &BuildingSystem, integrator: Integrator) -> Vec<String
     reasons
 }
 
-/// What keeps a run from being made.
-fn unsuited(system: &System, plan: &Plan, state: &State) -> Option<String> {
-    let buildings = system.buildings.iter();
-    let mut reasons = buildings.flat_map(|building| refusals(building, plan.integrator));
-    let moving = || {
-        let mut values = state.displacement.iter().chain(&state.velocity);
-        values.any(|value| *value != 0.0)
-    };
-    let closed = |phase: &ContactPhase| matches!(phase, ContactPhase::Closed(_));
-    reasons.next().or_else(|| {
-        if !system.links.is_empty() {
-            Some("links join the buildings, so that none has modes of its own".to_owned())
-        } else if moving() || state.contacts.iter().any(closed) {
-            Some("modal stepping starts from rest".to_owned())
-        } else {
-            None
-        }
-    })
-}
-
 /// Impact speed at which a contact is judged \[m/s\].
 const TYPICAL_SPEED: f64 = 0.5;
 /// Share of the tolerance that flexibilities may be off.
@@ -77,37 +57,75 @@ const FLEXIBILITY_SHARE: f64 = 0.1;
 /// Tolerance that fixed steps stand for \[–\].
 const USUAL_TOLERANCE: f64 = 1e-3;
 
-/// Runs a system in modal coordinates from a state, which must be rest.
-pub(super) fn simulate(
+/// The shapes that stand for the buildings of a system. They depend on buildings, on where these meet and by which law,
+/// and on the tolerance; not on the widths of gaps nor on motions, so that runs of many of these may share them.
+pub struct Reduction {
+    reduced: Reduced,
+    /// What it took.
+    work: Work,
+}
+
+impl Reduction {
+    /// Finds the shapes, by what the plan tolerates.
+    ///
+    /// # Errors
+    /// [`StepError::Unsuited`] when modes cannot step the system, [`StepError::NotPositive`] when a building can move
+    /// without resistance.
+    pub fn of(system: &System, plan: &Plan) -> Result<Self, StepError> {
+        let buildings = system.buildings.iter();
+        let mut reasons = buildings.flat_map(|building| refusals(building, plan.integrator));
+        if let Some(reason) = reasons.next() {
+            return Err(StepError::Unsuited { reason });
+        }
+        if !system.links.is_empty() {
+            let reason = "links join the buildings, so that none has modes of its own".to_owned();
+            return Err(StepError::Unsuited { reason });
+        }
+        let mut work = Work::default();
+        let buildings = 0..system.buildings.len();
+        let rates: Vec<Rates> = buildings.map(|index| rates(system, index)).collect();
+        let closeness = FLEXIBILITY_SHARE * tolerance(plan);
+        match Reduced::of(system, &rates, closeness, &mut work) {
+            Ok(reduced) => Ok(Self { reduced, work }),
+            Err((building, source)) => Err(StepError::NotPositive {
+                building: system.buildings[building].name.clone(),
+                time: 0.0,
+                source,
+            }),
+        }
+    }
+}
+
+/// What a run may be off; half of it is for contacts.
+fn tolerance(plan: &Plan) -> f64 {
+    match plan.contact_steps {
+        ContactSteps::PerImpact { tolerance, .. } => 2.0 * tolerance,
+        ContactSteps::Fixed(_) => USUAL_TOLERANCE,
+    }
+}
+
+/// Runs a system from rest in modal coordinates, with shapes found before: of this system, or of one that differs in
+/// the widths of its gaps only, and for the same tolerance. The answer is that of [`crate::simulate`], bit for bit.
+pub fn simulate(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
     settings: Settings,
-    state: &State,
+    reduction: &Reduction,
     observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
-    if let Some(reason) = unsuited(system, plan, state) {
-        return Outcome::not_begun(system, StepError::Unsuited { reason });
-    }
-    let mut work = Work::default();
-    // Half of what a run may be off is for contacts.
-    let tolerance = match plan.contact_steps {
-        ContactSteps::PerImpact { tolerance, .. } => 2.0 * tolerance,
-        ContactSteps::Fixed(_) => USUAL_TOLERANCE,
-    };
-    let buildings = 0..system.buildings.len();
-    let rates: Vec<Rates> = buildings.map(|index| rates(system, index)).collect();
-    match Reduced::of(system, &rates, FLEXIBILITY_SHARE * tolerance, &mut work) {
-        Ok(reduced) => Walk::new(system, motion, plan, settings, reduced, work).run(observer),
-        Err((building, source)) => Outcome::not_begun(
-            system,
-            StepError::NotPositive {
-                building: system.buildings[building].name.clone(),
-                time: 0.0,
-                source,
-            },
-        ),
-    }
+    let (reduced, work) = (&reduction.reduced, reduction.work);
+    Walk::new(system, motion, plan, settings, reduced, work).run(observer)
+}
+
+/// Whether a state is one that modal stepping can start from.
+pub(super) fn is_rest(state: &State) -> bool {
+    let mut values = state.displacement.iter().chain(&state.velocity);
+    values.all(|value| *value == 0.0)
+        && !state
+            .contacts
+            .iter()
+            .any(|phase| matches!(phase, ContactPhase::Closed(_)))
 }
 
 /// Rates of what happens to a building.

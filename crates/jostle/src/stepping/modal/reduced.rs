@@ -323,20 +323,19 @@ impl Table {
     pub(super) fn advance(&self, arch: Arch, of: [&[f64]; 4], end: [&mut [f64]; 2]) {
         let [q1, v1] = end;
         for (factors, out) in [(&self.displacement, q1), (&self.velocity, v1)] {
-            let factors = factors.each_ref().map(|list| &list[..]);
             arch.dispatch(Combine { factors, of, out });
         }
     }
 
     /// ∫q dt of all modes.
     pub(super) fn area(&self, arch: Arch, of: [&[f64]; 4], out: &mut [f64]) {
-        let factors = self.area.each_ref().map(|list| &list[..]);
+        let factors = &self.area;
         arch.dispatch(Combine { factors, of, out });
     }
 
     /// Energy that damping takes over the step \[J\].
     pub(super) fn damped(&self, arch: Arch, of: [&[f64]; 4]) -> f64 {
-        let form = self.damped.each_ref().map(|list| &list[..]);
+        let form = &self.damped;
         arch.dispatch(Quadratic { form, of })
     }
 

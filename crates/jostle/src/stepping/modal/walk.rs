@@ -29,7 +29,7 @@ pub(super) struct Walk<'a> {
     pub(super) motion: &'a GroundMotion,
     pub(super) plan: &'a Plan,
     pub(super) pounding: bool,
-    pub(super) reduced: Reduced,
+    pub(super) reduced: &'a Reduced,
     /// The first serves steps off the grid, the others one division of the free-flight step each.
     pub(super) tables: Vec<Table>,
     divisions: Vec<u32>,
@@ -81,7 +81,7 @@ impl<'a> Walk<'a> {
         motion: &'a GroundMotion,
         plan: &'a Plan,
         settings: Settings,
-        reduced: Reduced,
+        reduced: &'a Reduced,
         work: Work,
     ) -> Self {
         let ground = motion.acceleration(0.0);
@@ -95,7 +95,7 @@ impl<'a> Walk<'a> {
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
-        let mut peaks = Peaks::new(system, &reduced, settings.record_interval, ground);
+        let mut peaks = Peaks::new(system, reduced, settings.record_interval, ground);
         peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
         Self {
             tables: vec![Table::default()],
@@ -264,7 +264,7 @@ impl<'a> Walk<'a> {
             return slot;
         }
         let mut table = Table::default();
-        table.set(&self.reduced, stride.length, Some(&self.rules));
+        table.set(self.reduced, stride.length, Some(&self.rules));
         self.work.factorizations += 1;
         self.tables.push(table);
         self.divisions.push(division);
@@ -274,7 +274,7 @@ impl<'a> Walk<'a> {
     /// Sets the odd table to a length.
     pub(super) fn set_odd(&mut self, length: f64) {
         // Seldom enough that what damping takes may come from the balance of every mode.
-        self.tables[0].set(&self.reduced, length, None);
+        self.tables[0].set(self.reduced, length, None);
         self.work.factorizations += 1;
     }
 
@@ -363,7 +363,7 @@ impl<'a> Walk<'a> {
         self.work.contact_steps += u64::from(was_closed);
         self.peaks.after_step(
             self.system,
-            &self.reduced,
+            self.reduced,
             super::peaks::Moment {
                 u: &self.u,
                 rate: &self.rate,
@@ -469,7 +469,7 @@ impl<'a> Walk<'a> {
         if self.peaks.is_due(self.time, wanted) {
             self.peaks.record(
                 self.system,
-                &self.reduced,
+                self.reduced,
                 (self.time, self.ground[0]),
                 [&self.u[0], &self.rate[0]],
                 &self.phases,
