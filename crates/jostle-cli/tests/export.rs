@@ -76,3 +76,54 @@ restitution = 0.6
     );
     assert!(!folder.path().join("x.py").exists());
 }
+
+#[test]
+fn links_and_walls_are_refused_with_their_lines() {
+    const PAIR: &str = r#"title = "pair"
+motion = { record = "el-centro-1940-ns" }
+[[building]]
+name = "A"
+kind = "shear"
+mass = "40 t"
+stiffness = "60 MN/m"
+[[building]]
+name = "B"
+kind = "shear"
+mass = "80 t"
+stiffness = "60 MN/m"
+[[gap]]
+between = ["A", "B"]
+width = "20 mm"
+"#;
+    let folder = folder();
+    let storeys = PAIR.replace(
+        "\"60 MN/m\"\n",
+        "\"60 MN/m\"\nstoreys = 2\nstorey_height = \"3 m\"\n",
+    );
+    for (more, place, field) in [
+        (
+            "[[link]]\nbetween = [\"A\", \"B\"]\nstiffness = \"5 MN/m\"\n",
+            "model.toml:20:1",
+            "link[0]",
+        ),
+        (
+            "[[gap]]\nbetween = [\"wall\", \"A\"]\nwidth = \"20 mm\"\n",
+            "model.toml:21:11",
+            "gap[1].between",
+        ),
+    ] {
+        std::fs::write(folder.path().join("model.toml"), storeys.clone() + more).expect("written");
+        let output = jostle(
+            folder.path(),
+            &["export", "model.toml", "--to", "openseespy"],
+        );
+        assert_eq!(output.status.code(), Some(2));
+        let complaint = complained(&output);
+        assert!(
+            complaint.contains(place) && complaint.contains(field),
+            "{complaint}"
+        );
+        assert!(complaint.contains("leave"), "{complaint}");
+        assert_eq!(printed(&output), "");
+    }
+}

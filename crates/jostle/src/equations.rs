@@ -1,6 +1,6 @@
 //! Mass and stiffness of one building in the order of its transfer path.
 
-use pulp::{Arch, NullaryFnOnce};
+use pulp::NullaryFnOnce;
 
 use crate::element::{self, Part, X, Y};
 use crate::hysteresis::Hysteresis;
@@ -306,7 +306,7 @@ impl SparseSymmetric {
     /// xᵀ A x.
     #[must_use]
     pub fn quadratic_form(&self, x: &[f64]) -> f64 {
-        Arch::new().dispatch(QuadraticForm { matrix: self, x })
+        lanes::in_wide_registers(x.len(), QuadraticForm { matrix: self, x })
     }
 
     /// `product` += A x.

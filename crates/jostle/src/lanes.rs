@@ -1,6 +1,24 @@
 //! Sums in eight fixed lanes: the same bits everywhere, and fast where the processor has lanes.
 
+use pulp::{Arch, NullaryFnOnce};
+
 const LANES: usize = 8;
+/// Length of lists from which on wide registers are worth being asked for.
+const WORTH_IT: usize = 16;
+
+/// Runs loops over lists of this length, compiled for the widest registers at hand where that pays. Nothing may be fused
+/// or reordered in them: the bits are the same either way.
+#[inline]
+pub(crate) fn in_wide_registers<Loops: NullaryFnOnce>(
+    length: usize,
+    loops: Loops,
+) -> Loops::Output {
+    if length < WORTH_IT {
+        loops.call()
+    } else {
+        Arch::new().dispatch(loops)
+    }
+}
 
 /// Σ aᵢ bᵢ.
 #[inline(always)]

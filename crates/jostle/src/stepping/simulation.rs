@@ -2,8 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use pulp::Arch;
-
 use super::StepEquations;
 use super::blow::{BlowFactor, BlowScratch};
 use super::clock::{Clock, Stride};
@@ -436,15 +434,16 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
             let (range, equations) = (building.range(), &building.equations);
             let rises = &mut self.rise[range.clone()];
-            let [driven_rise, moved] = Arch::new().dispatch(Advance {
+            let advance = Advance {
                 equations,
                 k: &k,
                 shift: own.shift,
                 rise: rises,
                 displacement: &mut self.state.displacement[range.clone()],
                 velocity: &mut self.state.velocity[range.clone()],
-                acceleration: &mut self.state.acceleration[range],
-            });
+                acceleration: &mut self.state.acceleration[range.clone()],
+            };
+            let [driven_rise, moved] = lanes::in_wide_registers(range.len(), advance);
             if !driven_rise.is_finite() {
                 return Err(StepError::NotFinite {
                     time: self.state.time,

@@ -1,7 +1,5 @@
 //! A step tried but not yet taken.
 
-use pulp::Arch;
-
 use super::StepEquations;
 use super::clock::Clock;
 use super::coupling::Closed;
@@ -9,6 +7,7 @@ use super::events::Cubic;
 use super::kernels::Loads;
 use super::outcome::StepError;
 use super::simulation::Simulation;
+use crate::lanes;
 use crate::state::ContactPhase;
 
 /// What a tried step would do at a contact.
@@ -68,14 +67,15 @@ impl<E: StepEquations> Simulation<'_, E> {
             .zip(&self.factors[slot].buildings)
         {
             let (range, equations) = (building.range(), &building.equations);
-            Arch::new().dispatch(Loads {
+            let loads = Loads {
                 equations,
                 own,
                 change,
                 velocity: &self.state.velocity[range.clone()],
                 acceleration: &self.state.acceleration[range.clone()],
-                out: &mut self.rise[range],
-            });
+                out: &mut self.rise[range.clone()],
+            };
+            lanes::in_wide_registers(range.len(), loads);
         }
         self.add_undamped_loads(slot);
         let weight = self.factors[slot].coefficients.unbalanced;

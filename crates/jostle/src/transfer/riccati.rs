@@ -8,11 +8,12 @@
 use std::cell::RefCell;
 use std::convert::Infallible;
 
-use pulp::{Arch, NullaryFnOnce};
+use pulp::NullaryFnOnce;
 
 use super::abreast::Abreast;
 
 use crate::equations::{Equations, SparseSymmetric};
+use crate::lanes;
 use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 
@@ -43,7 +44,6 @@ pub struct RiccatiSweep {
     abreast: Abreast,
     /// The others, one behind the other.
     runs: Vec<Run>,
-    arch: Arch,
 }
 
 /// Where the tangent of a spring that yields enters the step matrix.
@@ -295,7 +295,6 @@ impl StepEquations for RiccatiSweep {
         Self {
             runs: Run::all(abreast.columns(), &starts),
             abreast,
-            arch: Arch::new(),
             springs: springs.collect(),
             initial_tangents: equations.initial_tangents(),
             positions,
@@ -356,11 +355,12 @@ impl StepEquations for RiccatiSweep {
 
     #[inline]
     fn solve(&self, factor: &RiccatiFactor, load: &mut [f64]) {
-        self.arch.dispatch(Passes {
+        let passes = Passes {
             sweep: self,
             factor,
             load,
-        });
+        };
+        lanes::in_wide_registers(self.mass.len(), passes);
     }
 }
 

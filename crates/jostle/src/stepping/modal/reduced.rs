@@ -153,6 +153,9 @@ impl Reduced {
             });
             watching += watched.len();
         }
+        if reduced.modes() < FEW_MODES {
+            reduced.arch = Arch::Scalar;
+        }
         Ok(reduced)
     }
 
@@ -373,3 +376,5 @@ impl Table {
 /// push \[–\].
 const MET: [f64; 2] = [1.0, 4.0];
 const COMPARED: [f64; 2] = [0.5, 2.0];
+/// Modes up to which wide registers are not worth their call.
+const FEW_MODES: usize = 8;

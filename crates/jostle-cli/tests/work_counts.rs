@@ -1,0 +1,41 @@
+//! How much work the built-in example takes. Times depend on the machine, these numbers do not: when one of them rises,
+//! something has become dearer, and CHANGELOG should say why under "Numbers".
+
+mod common;
+
+use common::{complained, folder, jostle, printed};
+
+/// Options, then steps, steps in contact, factorisations, solutions and iterations.
+const WORK: [(&[&str], [u64; 5]); 4] = [
+    (&[], [24_992, 157, 12, 49_996, 359]),
+    (&["--solver", "modal"], [1_692, 135, 25, 1_796, 309]),
+    (
+        &["--pga", "70cm/s2", "--gap", "10mm"],
+        [25_060, 1_177, 134, 50_338, 2_743],
+    ),
+    (
+        &["--pga", "70cm/s2", "--gap", "10mm", "--solver", "modal"],
+        [2_333, 773, 83, 2_476, 4_405],
+    ),
+];
+
+#[test]
+fn the_example_takes_no_more_work_than_it_did() {
+    let folder = folder();
+    for (options, expected) in WORK {
+        let arguments = [&["run", "paper", "--json", "--no-report"], options].concat();
+        let output = jostle(folder.path(), &arguments);
+        assert!(output.status.success(), "{}", complained(&output));
+        let summary: serde_json::Value =
+            serde_json::from_str(&printed(&output)).expect("a summary");
+        let counts = [
+            "steps",
+            "contact_steps",
+            "factorizations",
+            "solves",
+            "iterations",
+        ];
+        let found = counts.map(|name| summary["work"][name].as_u64().expect(name));
+        assert_eq!(found, expected, "{counts:?} of {options:?}");
+    }
+}
