@@ -174,7 +174,7 @@ fn of_several_records_a_run_takes_one() {
 fn a_record_chosen_from_a_list_keeps_what_the_list_says_of_it() {
     let folder = std::env::temp_dir().join(format!("jostle-list-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
-    for name in ["a.txt", "b.txt"] {
+    for name in ["a.txt", "b.txt", "station.NS", "station.EW2"] {
         std::fs::write(folder.join(name), "0.0\n0.1\n-0.2\n0.1\n").expect("written");
     }
     let text = format!(
@@ -188,6 +188,16 @@ fn a_record_chosen_from_a_list_keeps_what_the_list_says_of_it() {
         })
         .expect("a record of the list");
     let motion = input.ground_motion().expect("a motion");
+    // Files of one station that differ in their direction alone keep it in their names.
+    let text = text
+        .replace("a.txt", "station.NS")
+        .replace("b.txt", "station.EW2");
+    let both = read_model_text("m.toml", &text, Format::Toml, &folder).expect("a model");
+    let names = both.each_record().into_iter();
+    let names: Vec<String> = names
+        .map(|input| input.ground_motion().expect("a motion").name)
+        .collect();
+    assert_eq!(names, ["station.NS", "station.EW2"]);
     std::fs::remove_dir_all(&folder).expect("removed");
     assert_eq!((&motion.name[..], motion.scale), ("b", 2.0));
     assert!((motion.peak() - 0.4 * 9.80665).abs() < 1e-12);
