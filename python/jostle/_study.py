@@ -336,7 +336,8 @@ def critical_gap(
     if not isinstance(model, Model):
         model = Model.load(model)
     found: list[CriticalGap] = []
-    for motion in (model.records or [None]) if motions is None else motions:
+    own: Sequence[str | None] = model.records or [None]
+    for motion in own if motions is None else motions:
         one = model
         if motion is not None or pga is not None:
             one = model.changed(motion=motion, pga=pga)
