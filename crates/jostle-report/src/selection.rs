@@ -352,7 +352,10 @@ fn rules_table(check: &SelectionCheck) -> Markup {
     html! {
         div.scroll { table { tbody {
             @for rule in rules(check) {
-                tr style="vertical-align: top" { td { b { (verdict(rule.met)) } } td { (rule.about) } td style="white-space: normal" { (rule.asked) } }
+                tr {
+                    td style="vertical-align: top" { b { (verdict(rule.met)) } }
+                    td style="white-space: normal" { (rule.about) ": " (rule.asked) }
+                }
             }
         } } }
     }

@@ -147,7 +147,7 @@ fn charts(section: &Section) -> Markup {
                                         @if index + 1 == row.len() && row.len() < heads.len() {
                                             td.study-wrap colspan=(heads.len() + 1 - row.len()) { (cell) }
                                         } @else {
-                                            td.study-wrap[cell.chars().count() > LONG] { (cell) }
+                                            td.study-long[cell.chars().count() > LONG] { (cell) }
                                         }
                                     }
                                 }
