@@ -58,8 +58,10 @@ def model_html(model: Model) -> str:
     heads = ("building", "kind", "storeys", "height [m]", "mass [t]", "periods [s]")
     motion = "no ground motion"
     try:
-        ground = model.motion
-        if ground is not None:
+        ground = None if model.records else model.motion
+        if model.records:
+            motion = f"{len(model.records)} records: {', '.join(model.records)}"
+        elif ground is not None:
             motion = f"{ground.name}, peak {100 * ground.pga:.4g} cm/s², {ground.duration:.4g} s"
     except ValueError as error:
         motion = str(error)

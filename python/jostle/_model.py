@@ -193,11 +193,19 @@ class Model:
         return self._core.warnings
 
     @property
+    def records(self) -> list[str]:
+        """The records of a model that lists several; empty otherwise.
+
+        A run takes one of them, ``model.changed(motion=name)``; a study and :func:`critical_gap` take all.
+        """
+        return self._core.records
+
+    @property
     def motion(self) -> Motion | None:
         """The ground motion as it will be used; ``None`` if the model has none.
 
         Raises:
-            ModelError: the record cannot be read or scaled.
+            ModelError: the record cannot be read or scaled, or the model lists several.
         """
         core = self._core.motion()
         return None if core is None else Motion._of(core)

@@ -48,11 +48,12 @@ class Study:
 
     Args:
         model: the base model: a :class:`Model`, a model file, the name of a built-in model, or a tree.
-        vary: what varies, as in ``[{"name": "gap", "path": "gap[0].width", "values": ["20 mm", "40 mm"]}]``.
+        vary: what varies, as in ``[{"name": "gap", "path": "gap[0].width", "values": ["20 mm", "40 mm"]}]``; may be
+            left out for a model that lists several records.
         design: how cases are made of it, as in ``{"kind": "latin-hypercube", "samples": 200, "seed": 1}``; every
             combination without it.
         title: title of its report.
-        **wishes: ``histories``, ``fragility``, ``ida`` and ``sensitivity`` as in a study file.
+        **wishes: ``histories``, ``fragility``, ``ida``, ``sensitivity`` and ``selection`` as in a study file.
 
     Raises:
         ModelError: every fault at once, each with its place.
@@ -64,13 +65,15 @@ class Study:
     def __init__(
         self,
         model: Model | str | os.PathLike[str] | Mapping[str, Any],
-        vary: Iterable[Mapping[str, Any]],
+        vary: Iterable[Mapping[str, Any]] = (),
         *,
         design: Mapping[str, Any] | None = None,
         title: str = "Untitled study",
         **wishes: Any,
     ) -> None:
-        tree: dict[str, Any] = {"title": title, "vary": [dict(entry) for entry in vary], **wishes}
+        tree: dict[str, Any] = {"title": title, **wishes}
+        if factors := [dict(entry) for entry in vary]:
+            tree["vary"] = factors
         if design is not None:
             tree["design"] = dict(design)
         base: _Base | None = None
@@ -317,7 +320,7 @@ def critical_gap(
 
     Args:
         model: the model, or a model file.
-        motions: ground motions, or names or paths of records; that of the model by default.
+        motions: ground motions, or names or paths of records; by default that of the model, or all that it lists.
         pga: scales every motion to this peak [m/s², or a text with a unit].
         tolerance: width of the last bracket, ≥ 1e-9 [m].
         system: structural system for GB 50011: ``frame``, ``frame-wall``, ``wall`` or ``steel-frame``.
@@ -333,7 +336,8 @@ def critical_gap(
     if not isinstance(model, Model):
         model = Model.load(model)
     found: list[CriticalGap] = []
-    for motion in [None] if motions is None else motions:
+    own: Sequence[str | None] = model.records or [None]
+    for motion in own if motions is None else motions:
         one = model
         if motion is not None or pga is not None:
             one = model.changed(motion=motion, pga=pga)

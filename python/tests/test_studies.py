@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import pickle
 import signal
@@ -119,6 +120,25 @@ def test_the_smallest_gap(tmp_path: Path) -> None:
         jostle.critical_gap(towers(), tolerance=0.0)
     with pytest.raises(jostle.ModelError, match="system"):
         jostle.critical_gap(towers(), system="timber")
+
+
+def test_records_of_a_model_vary_by_themselves(tmp_path: Path) -> None:
+    names = ["el-centro-1940-ns", "nanjing-artificial"]
+    listed = ", ".join(f'"{name}"' for name in names)
+    model = jostle.Model.loads(TOWERS.replace('"el-centro-1940-ns"', f"[{listed}]"))
+    assert model.records == names and towers().records == []
+    with pytest.raises(jostle.ModelError, match="list of 2 records") as caught:
+        jostle.run(model)
+    assert 'motion="el-centro-1940-ns"' in str(caught.value)
+    assert jostle.run(model, motion=names[1], record_interval=None).summary["motion"]["name"] == names[1]
+    assert "2 records" in model._repr_html_()
+    assert [gap.motion for gap in jostle.critical_gap(model, outcomes=False)] == names
+    spectrum = {"code": "gb50011", "intensity": 7, "site": "II", "group": 1}
+    result = jostle.Study(model, selection={"spectrum": spectrum}).run(tmp_path)
+    assert list(result["motion"]) == names
+    checked = json.loads((tmp_path / "selection.json").read_text(encoding="utf-8"))
+    assert checked["passes"] is False
+    assert [one["structure"] for one in checked["structures"]] == ["soft", "stiff"]
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs signals")

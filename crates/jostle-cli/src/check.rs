@@ -12,7 +12,7 @@ use jostle::{Building, Model, Plan, RiccatiSweep, System};
 use crate::args::ModelArgs;
 use crate::failure::Failure;
 use crate::numbers::{counted, grouped, mm};
-use crate::open::open;
+use crate::open::{Opened, open};
 use crate::terminal::{self, BOLD, LOUD, styled};
 
 pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
@@ -23,7 +23,9 @@ pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
     for warning in &opened.input.warnings {
         let _ = writeln!(text, "{} {warning}", styled(LOUD, "note:"));
     }
-    if opened.input.motion.is_some() {
+    if !opened.input.records().is_empty() {
+        text += &records(&opened)?;
+    } else if opened.input.motion.is_some() {
         let (motion, plan) = opened.plan()?;
         let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
         let _ = writeln!(text, "  {}", plan.integrator);
@@ -37,6 +39,31 @@ pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
     }
     text.push_str("The model is valid.");
     terminal::print(&text)
+}
+
+/// The records that a run may choose from; each of them is read.
+fn records(opened: &Opened) -> Result<String, Failure> {
+    let inputs = opened.input.each_record();
+    let mut text = format!("{}\n", styled(BOLD, "Records"));
+    for input in &inputs {
+        let (motion, plan) = opened.plan_of(input)?;
+        let _ = writeln!(
+            text,
+            "  {:30} {:>7.2} s {:>8.1} cm/s² {:>8} steps of {:.4} ms",
+            motion.name,
+            motion.duration,
+            100.0 * motion.peak(),
+            grouped((motion.duration / plan.step).ceil() as u64),
+            plan.step * 1e3
+        );
+    }
+    let _ = writeln!(
+        text,
+        "{} a run takes one of them, with --record; a study and \"jostle gap\" take all {}",
+        styled(LOUD, "note:"),
+        inputs.len()
+    );
+    Ok(text)
 }
 
 fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Result {

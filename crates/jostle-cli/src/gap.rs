@@ -21,7 +21,7 @@ pub(crate) struct GapArgs {
     /// Scale the motions to this peak ground acceleration
     #[arg(long, value_name = "QUANTITY")]
     pga: Option<String>,
-    /// Another ground motion: a built-in name or a file; repeated, a set of records
+    /// Another ground motion: a built-in name or a file; repeated, a set of records [default: all that the model lists]
     #[arg(long, value_name = "RECORD")]
     record: Vec<String>,
     /// How closely the gap is found
@@ -83,14 +83,16 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         };
         let overrides: Overrides = overrides.overrides()?;
         let opened = open(args.model.as_deref(), &overrides)?;
-        let (motion, _) = opened.plan()?;
         title.clone_from(&opened.input.model.title);
-        let gaps = critical_gaps(&opened.input.model, &motion, &settings, &stop);
-        found.extend(gaps.map_err(|error| match error {
-            GapError::Stopped => Failure::Stopped,
-            GapError::Run(_) => Failure::Analysis(error.to_string()),
-            _ => opened.input.fault("gap", error.to_string()).into(),
-        })?);
+        for input in opened.input.each_record() {
+            let (motion, _) = opened.plan_of(&input)?;
+            let gaps = critical_gaps(&input.model, &motion, &settings, &stop);
+            found.extend(gaps.map_err(|error| match error {
+                GapError::Stopped => Failure::Stopped,
+                GapError::Run(_) => Failure::Analysis(error.to_string()),
+                _ => input.fault("gap", error.to_string()).into(),
+            })?);
+        }
     }
     if args.json {
         return terminal::print(&json(&title, &found));

@@ -55,8 +55,12 @@ pub(crate) fn read(path: &Path) -> Result<Input, Failure> {
 impl Opened {
     /// The ground motion and the steps to take through it.
     pub(crate) fn plan(&self) -> Result<(GroundMotion, Plan), Failure> {
-        let motion = self
-            .input
+        self.plan_of(&self.input)
+    }
+
+    /// The same for one of the records of the model.
+    pub(crate) fn plan_of(&self, input: &Input) -> Result<(GroundMotion, Plan), Failure> {
+        let motion = input
             .ground_motion()
             .map_err(|error| match &error.faults[..] {
                 [fault] if self.other_record => {
@@ -64,8 +68,8 @@ impl Opened {
                 }
                 _ => error.into(),
             })?;
-        let plan = Plan::choose(&self.system, &motion, &self.input.model.analysis)
-            .map_err(|faults| self.input.faults(faults))?;
+        let plan = Plan::choose(&self.system, &motion, &input.model.analysis)
+            .map_err(|faults| input.faults(faults))?;
         Ok((motion, plan))
     }
 }

@@ -206,6 +206,38 @@ fn waves_are_made_converted_and_checked() {
 }
 
 #[test]
+fn what_a_record_leaves_open_is_asked_in_options() {
+    let folder = folder();
+    std::fs::write(folder.path().join("bare.txt"), "0.0\n0.1\n-0.2\n0.1\n").expect("written");
+    let ask = |arguments: &[&str]| {
+        let output = jostle(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        complained(&output)
+    };
+    let unit = ask(&["motion", "show", "bare.txt"]);
+    assert!(unit.contains("Say it with --unit \"g\""), "{unit}");
+    let step = ask(&["motion", "show", "bare.txt", "--unit", "g"]);
+    assert!(step.contains("Say it with --step \"0.01 s\""), "{step}");
+    let said = [
+        "motion", "show", "bare.txt", "--unit", "g", "--step", "0.01 s",
+    ];
+    assert!(jostle(folder.path(), &said).status.success());
+    // Where a command has no such options, another one has.
+    let mut arguments = vec![
+        "motion",
+        "select",
+        "--natural",
+        "bare.txt",
+        "--periods",
+        "1",
+    ];
+    arguments.extend(["--code", "gb50011", "--intensity", "7"]);
+    arguments.extend(["--site", "II", "--group", "1"]);
+    let set = ask(&arguments);
+    assert!(set.contains("motion convert bare.txt"), "{set}");
+}
+
+#[test]
 fn mistakes_name_the_remedy() {
     let folder = folder();
     for (arguments, part) in [

@@ -57,12 +57,16 @@ pub(crate) enum Section {
     Fragility,
     Ida,
     Sensitivity,
+    /// The code that the records of a study are held against.
+    Selection,
 }
 
 /// What may stand behind a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
     Text,
+    /// A text, or a list of them.
+    TextOrTexts,
     /// A name, or a number from 1.
     Component,
     /// A whole number, not negative.
@@ -226,7 +230,7 @@ use Dimension as D;
 use Kind::{
     Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FloorPairs,
     GradeOr, Modes, Neighbours, NumberOrTable, PerContact, PerStorey, Quantities, Quantity,
-    TablePerStorey, Tables, Text, TextOrTable, WordOr, WordOrTable,
+    TablePerStorey, Tables, Text, TextOrTable, TextOrTexts, WordOr, WordOrTable,
 };
 use Section as S;
 
@@ -240,7 +244,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "link", Tables(&[S::Link]), "Springs and dampers that join neighbours."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
 
-    optional(S::Motion, "record", Text, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC."),
+    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC. A study and jostle gap take all of a list; the other keys then hold for each."),
     optional(S::Motion, "kind", Choice(WAVES), "An analytic wave instead of a record."),
     optional(S::Motion, "amplitude", Quantity(D::Acceleration), "Amplitude of the analytic wave."),
     optional(S::Motion, "period", Quantity(D::Time), "Period of the analytic wave."),
@@ -444,12 +448,13 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Study, "title", Text, "Title of the study."),
     optional(S::Study, "base", Text, "The model that varies: a path from this file, or a built-in name."),
     optional(S::Study, "model", Kind::Any, "The model written out here, instead of base."),
-    required(S::Study, "vary", Tables(&[S::Vary]), "What varies."),
+    optional(S::Study, "vary", Tables(&[S::Vary]), "What varies; needed unless the base model lists several records."),
     optional(S::Study, "design", Kind::Table(S::Design), "How cases are made of it; without it every combination."),
     optional(S::Study, "histories", Kind::Any, "Numbers of the cases whose histories are kept, from 0."),
     optional(S::Study, "fragility", Tables(&[S::Fragility]), "Fragility curves to fit."),
     optional(S::Study, "ida", Tables(&[S::Ida]), "Curves of demand over intensity."),
     optional(S::Study, "sensitivity", Kind::Table(S::Sensitivity), "Which results are to be ranked."),
+    optional(S::Study, "selection", Kind::Table(S::Selection), "The code that the records are held against."),
 
     required(S::Vary, "path", Kind::Any, "Where the value goes in the model file, or a list of such places."),
     optional(S::Vary, "name", Text, "Name of the column; the path without it."),
@@ -496,6 +501,14 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::Ida, "demand", Text, "Column with the demand."),
 
     required(S::Sensitivity, "responses", Kind::Any, "Columns of the results."),
+
+    required(S::Selection, "spectrum", TextOrTable(S::Spectrum), "Design spectrum of the code: a table as in motion.match, or a file of periods and accelerations."),
+    optional(S::Selection, "artificial", Kind::Any, "Records that were made and not recorded, by their names in the study or its model; of built-in ones it is known."),
+    default(S::Selection, "periods", Quantities(D::Time), "those of every building", "Main periods of the structure."),
+    default(S::Selection, "mass_ratios", Quantities(D::Dimensionless), "1 each", "Shares of the mass that move in these periods."),
+    default(S::Selection, "damping", Quantity(D::Dimensionless), "0.05", "Damping ratio of all spectra."),
+    default(S::Selection, "pga", Quantity(D::Acceleration), "that of the code", "Peak to which every motion is scaled before; where the model has a match, that holds instead."),
+    default(S::Selection, "unscaled", Flag, "false", "Whether the motions are taken as recorded."),
 ];
 
 /// The keys of some sections, in order.

@@ -15,9 +15,11 @@ mod pushover;
 mod quantity;
 mod reader;
 mod record;
+mod record_list;
 mod record_text;
 mod reference;
 mod schema;
+mod selection;
 mod source;
 mod study_file;
 mod tables;
@@ -49,10 +51,12 @@ pub use record::{
 pub use record_text::{at2_text, csv_text};
 pub use reference::model_reference;
 pub use schema::model_schema;
+pub use selection::selection_json;
 pub use source::Place;
 pub use study_file::{
     Correlation, Design, DesignKind, Distribution, Factor, FactorValues, FragilityMethod,
-    FragilityWanted, IdaWanted, Level, Sampling, Shape, StudyFile,
+    FragilityWanted, IdaWanted, Level, Sampling, SelectionScaling, SelectionWanted, Shape,
+    StudyFile,
 };
 pub use tables::{
     Values, history_names, impact_columns, write_columns_parquet, write_hinges_parquet,

@@ -18,6 +18,7 @@ mod shear;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use matching::read_spectrum;
 pub use reinforced::ReinforcedMember;
 
 use std::collections::BTreeSet;
@@ -31,6 +32,7 @@ use crate::keys::Section;
 use crate::motion_spec::{MotionError, MotionSource, MotionSpec, Scaling};
 use crate::reader::{Field, Reader};
 use crate::record::RecordOptions;
+use crate::record_list;
 use crate::source::{Source, Span};
 use crate::tree::{self, Format, Node, Value};
 
@@ -179,6 +181,29 @@ impl Input {
         Ok(())
     }
 
+    /// The records that the file lists for a run to choose from; empty unless there are several.
+    #[must_use]
+    pub fn records(&self) -> &[String] {
+        self.motion.as_ref().map_or(&[], MotionSpec::records)
+    }
+
+    /// The same with each of several records in turn; itself if there are not several.
+    #[must_use]
+    pub fn each_record(&self) -> Vec<Self> {
+        let one = |(index, name): (usize, &String)| {
+            let mut one = self.clone();
+            record_list::keep(&mut one.origin.root, index);
+            one.motion = one
+                .motion
+                .and_then(|motion| motion.with_one_of_several(name));
+            one
+        };
+        match self.records() {
+            [] => vec![self.clone()],
+            records => records.iter().enumerate().map(one).collect(),
+        }
+    }
+
     /// The ground motion in numbers.
     ///
     /// # Errors
@@ -193,9 +218,18 @@ impl Input {
                 MotionError::None => "motion",
                 MotionError::TooStrong { .. } | MotionError::Zero { .. } => "motion.pga",
                 MotionError::Match { .. } => "motion.match",
-                MotionError::NotFound { .. } | MotionError::Record { .. } => "motion.record",
+                MotionError::NotFound { .. }
+                | MotionError::Record { .. }
+                | MotionError::Several { .. } => "motion.record",
             };
-            self.fault(path, error.to_string())
+            let mut fault = self.fault(path, error.to_string());
+            if let (MotionError::Several { names }, [fault]) = (&error, &mut fault.faults[..]) {
+                fault.remedy = Some(format!(
+                    "choose one with --record {} (in Python motion={:?}); a study and \"jostle gap\" take all of them",
+                    names[0], names[0]
+                ));
+            }
+            fault
         })
     }
 
@@ -235,13 +269,20 @@ impl Input {
     }
 }
 
-/// The motion of a model with its record replaced: the scaling stays, what described the old source goes.
+/// The motion of a model with its record replaced: the scaling stays, what described the old source goes. A record out
+/// of a list of the model stays what it is there.
 fn with_record(old: Option<&MotionSpec>, record: &str) -> MotionSpec {
+    if let Some(chosen) = old.and_then(|old| old.with_one_of_several(record)) {
+        return chosen;
+    }
     let new = MotionSpec::record(record);
     match old {
         None => new,
         Some(old) => {
-            let was_record = matches!(old.source, MotionSource::Record { .. });
+            let was_record = matches!(
+                old.source,
+                MotionSource::Record { .. } | MotionSource::Records { .. }
+            );
             let MotionSource::Record { name, base, .. } = new.source else {
                 return new;
             };

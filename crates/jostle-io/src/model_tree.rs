@@ -8,6 +8,7 @@ use crate::builtin;
 use crate::fault::InputError;
 use crate::model_file::{self, Input};
 use crate::reader::join;
+use crate::record_list;
 use crate::source::Source;
 use crate::tree::{self, Entry, Format, Node, Table, Value};
 
@@ -159,6 +160,17 @@ impl ModelTree {
     /// [`PathError`] when there is nothing, or no number.
     pub fn multiply(&mut self, path: &str, factor: f64) -> Result<(), PathError> {
         self.change(path, &Change::Multiply(factor))
+    }
+
+    /// The records that the file lists for a run to choose from; empty if it names one, or none.
+    #[must_use]
+    pub fn records(&self) -> Vec<String> {
+        record_list::listed(&self.root)
+    }
+
+    /// Keeps one record of the list, by its position.
+    pub fn keep_record(&mut self, index: usize) {
+        record_list::keep(&mut self.root, index);
     }
 
     fn change(&mut self, path: &str, change: &Change<'_>) -> Result<(), PathError> {

@@ -36,6 +36,15 @@ pub enum MotionSource {
         /// What the file does not say itself.
         options: RecordOptions,
     },
+    /// Several records, two at least, of which a run takes one.
+    Records {
+        /// Names or paths as written.
+        names: Vec<String>,
+        /// Folder that relative paths start from.
+        base: PathBuf,
+        /// What the files do not say themselves.
+        options: RecordOptions,
+    },
     /// A motion already at hand, unscaled.
     Given(GroundMotion),
     /// `amplitude · sin(2π t / period)`.
@@ -99,6 +108,12 @@ pub enum MotionError {
         "the model has no ground motion; add [motion] with a record, such as \"el-centro-1940-ns\""
     )]
     None,
+    /// The model names several.
+    #[error("is a list of {} records, and one analysis takes one", .names.len())]
+    Several {
+        /// Names as written.
+        names: Vec<String>,
+    },
     /// Neither a built-in record nor a file.
     #[error("there is no record \"{name}\"{}; built-in records: {}", similar(.nearest), builtin::record_names())]
     NotFound {
@@ -166,6 +181,37 @@ impl MotionSpec {
         }
     }
 
+    /// The records that a run may choose from; empty unless there are several.
+    #[must_use]
+    pub fn records(&self) -> &[String] {
+        match &self.source {
+            MotionSource::Records { names, .. } => names,
+            _ => &[],
+        }
+    }
+
+    /// The same with one of several records, by its name as written; `None` if it is not among them.
+    #[must_use]
+    pub fn with_one_of_several(&self, record: &str) -> Option<Self> {
+        let MotionSource::Records {
+            names,
+            base,
+            options,
+        } = &self.source
+        else {
+            return None;
+        };
+        let name = names.iter().find(|name| *name == record)?;
+        Some(Self {
+            source: MotionSource::Record {
+                name: name.clone(),
+                base: base.clone(),
+                options: options.clone(),
+            },
+            ..self.clone()
+        })
+    }
+
     /// Reads the record, if it is one, and scales it.
     ///
     /// A peak refers to the whole record, also when the analysis is shorter, so that cutting the end of a
@@ -180,6 +226,11 @@ impl MotionSpec {
                 base,
                 options,
             } => find_record(name, base, options)?,
+            MotionSource::Records { names, .. } => {
+                return Err(MotionError::Several {
+                    names: names.clone(),
+                });
+            }
             MotionSource::Given(motion) => motion.clone(),
             MotionSource::Sine { amplitude, period } => analytic(
                 "sine",
@@ -286,12 +337,24 @@ fn find_record(
         error,
     };
     let record = read_record(&path, options).map_err(error)?;
-    let title = path.file_stem().unwrap_or(path.as_os_str());
+    let title = if names_a_direction(&path) {
+        path.file_name()
+    } else {
+        path.file_stem()
+    };
+    let title = title.unwrap_or(path.as_os_str());
     Ok(GroundMotion::sampled(
         &title.to_string_lossy(),
         record.step,
         record.acceleration,
     ))
+}
+
+/// Whether the extension tells one component of a station from the others: `.NS`, `.EW2`.
+fn names_a_direction(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let letters = extension.trim_end_matches(['1', '2']).to_ascii_uppercase();
+    matches!(&letters[..], "NS" | "EW" | "UD")
 }
 
 /// The built-in record and the file beside `path` whose names come nearest.

@@ -79,6 +79,11 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::Fragility, "Study file: `[[fragility]]`", ""),
     (Section::Ida, "Study file: `[[ida]]`", ""),
     (Section::Sensitivity, "Study file: `[sensitivity]`", ""),
+    (
+        Section::Selection,
+        "Study file: `[selection]`",
+        "Whether the records serve for time-history analysis: GB 50011, clause 5.1.2.",
+    ),
 ];
 
 /// The page of all keys, with a final line break.
@@ -126,6 +131,7 @@ fn value(key: &Key) -> String {
     };
     match key.kind {
         Kind::Text => "text".into(),
+        Kind::TextOrTexts => "text, or a list of texts".into(),
         Kind::Component => "text or number".into(),
         Kind::Count => "whole number".into(),
         Kind::Any => "value or list".into(),

@@ -69,6 +69,10 @@ fn kind(kind: Kind) -> Value {
     let one_or_list = |one: Value| json!({ "anyOf": [one, { "type": "array", "items": one }] });
     match kind {
         Kind::Text => json!({ "type": "string" }),
+        Kind::TextOrTexts => json!({ "anyOf": [
+            { "type": "string" },
+            { "type": "array", "items": { "type": "string" }, "minItems": 1, "uniqueItems": true },
+        ] }),
         Kind::Component => {
             json!({ "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 1 }] })
         }

@@ -2,6 +2,7 @@
 
 mod distribution;
 mod factor;
+mod selection;
 mod wanted;
 
 use std::path::{Path, PathBuf};
@@ -9,6 +10,7 @@ use std::sync::Arc;
 
 pub use distribution::{Distribution, Shape};
 pub use factor::{Factor, FactorValues, Level};
+pub use selection::{SelectionScaling, SelectionWanted};
 pub use wanted::{FragilityMethod, FragilityWanted, IdaWanted};
 
 use crate::builtin;
@@ -40,6 +42,8 @@ pub struct StudyFile {
     pub idas: Vec<IdaWanted>,
     /// Columns whose sensitivity is wanted; empty leaves the choice to the study.
     pub responses: Vec<String>,
+    /// What its records are held against, if the file says it.
+    pub selection: Option<SelectionWanted>,
     /// The folder of the file, from where records are looked for.
     pub folder: PathBuf,
     source: Arc<Source>,
@@ -178,10 +182,9 @@ impl StudyFile {
         let mut all_here = true;
         for fault in &mut moved.faults {
             let own = factors.iter().find(|&&index| {
-                self.factors[index]
-                    .paths
-                    .iter()
-                    .any(|path| touches(path, &fault.path))
+                let factor = &self.factors[index];
+                let mut paths = factor.paths.iter();
+                !factor.from_model && paths.any(|path| touches(path, &fault.path))
             });
             match own {
                 Some(&index) => {
@@ -232,9 +235,14 @@ fn read_root(
         None => Some("Untitled study".to_owned()),
     };
     let tree = base_model(reader, source, &view, folder, base);
-    let factors = match reader.get(&view, "vary") {
-        Some(field) => factor::read_all(reader, &field, folder),
-        None => {
+    let implied = tree.as_ref().and_then(|tree| tree.as_ref().ok());
+    let implied = implied.and_then(factor::of_records);
+    let factors = match (reader.get(&view, "vary"), &implied) {
+        (Some(field), _) => factor::read_all(reader, &field, folder),
+        (None, Some(_)) => Some(Vec::new()),
+        // A base model that cannot be read may list records, and says itself what is wrong with it.
+        (None, None) if matches!(tree, Some(Err(_))) => Some(Vec::new()),
+        (None, None) => {
             reader.missing(
                 &view,
                 "vary",
@@ -243,6 +251,11 @@ fn read_root(
             None
         }
     };
+    let factors = factors.map(|mut factors: Vec<Factor>| {
+        let chosen = factors.iter().any(Factor::chooses_motion);
+        factors.extend(implied.filter(|_| !chosen));
+        factors
+    });
     let names: Vec<String> = factors
         .iter()
         .flatten()
@@ -260,6 +273,8 @@ fn read_root(
         let field = reader.get(&view, "responses")?;
         wanted::texts(reader, &field)
     });
+    let selection = reader.get(&view, "selection");
+    let selection = selection.and_then(|field| selection::read(reader, &field, folder));
     Some(tree?.map(|tree| StudyFile {
         title: title.unwrap_or_default(),
         base: tree,
@@ -276,6 +291,7 @@ fn read_root(
         fragilities,
         idas,
         responses: responses.unwrap_or_default(),
+        selection,
         folder: folder.to_owned(),
         source: Arc::clone(source),
     }))
@@ -442,7 +458,9 @@ fn design_of(
 }
 
 fn zipped_lists_are_equal(reader: &mut Reader<'_>, factors: &[Factor]) {
-    let lists = factors.iter().filter_map(|factor| match &factor.values {
+    // Records of the model are crossed with what is zipped.
+    let own = factors.iter().filter(|factor| !factor.from_model);
+    let lists = own.filter_map(|factor| match &factor.values {
         FactorValues::Listed(levels) => Some((factor, levels.len())),
         FactorValues::Drawn(_) => None,
     });

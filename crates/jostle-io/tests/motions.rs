@@ -115,6 +115,90 @@ fn wrong_matches_name_the_key() {
         let error = motion_of(&format!("{record}{wrong}"), Path::new("")).expect_err(wrong);
         assert!(error.contains(part), "{wrong}:\n{error}");
     }
-    let list = motion_of("record = [\"a\", \"b\"]", Path::new("")).expect_err("a list");
-    assert!(list.contains("lists are for studies"), "{list}");
+}
+
+#[test]
+fn of_several_records_a_run_takes_one() {
+    let read = |motion: &str| {
+        let text = format!("[motion]\n{motion}\n{TOWER}");
+        read_model_text("m.toml", &text, Format::Toml, Path::new("")).map_err(|e| e.to_string())
+    };
+    let one = read("record = [\"el-centro-1940-ns\"]").expect("one record");
+    assert!(one.records().is_empty() && one.ground_motion().is_ok());
+    assert_eq!(one.each_record().len(), 1);
+
+    let listed =
+        "record = [\"el-centro-1940-ns\",\n  \"nanjing-artificial\",\n  \"lost.at2\"]\npga = 1";
+    let several = read(listed).expect("a list");
+    assert_eq!(several.records().len(), 3);
+    let error = several.ground_motion().expect_err("one too many");
+    let error = error.to_string();
+    for part in [
+        "motion.record: is a list of 3 records, and one analysis takes one",
+        "--record el-centro-1940-ns",
+        "m.toml:2",
+    ] {
+        assert!(error.contains(part), "{part} is missing:\n{error}");
+    }
+    let each = several.each_record();
+    let names: Vec<String> = each[..2]
+        .iter()
+        .map(|input| input.ground_motion().expect("a motion").name)
+        .collect();
+    assert_eq!(names, ["el-centro-1940-ns", "nanjing-artificial"]);
+    // A record that cannot be had is shown at its own line.
+    let lost = each[2].ground_motion().expect_err("no file").to_string();
+    assert!(
+        lost.contains("m.toml:4") && lost.contains("lost.at2"),
+        "{lost}"
+    );
+
+    for (wrong, part) in [
+        ("record = []", "motion.record: is an empty list"),
+        (
+            "record = [\"a\", \"a\"]",
+            "motion.record[1]: \"a\" stands in the list twice",
+        ),
+        ("record = [\"a\", 3]", "motion.record[1]: "),
+        (
+            "record = [\"a\", \" \"]",
+            "motion.record[1]: must not be empty",
+        ),
+    ] {
+        let error = read(wrong).expect_err(wrong);
+        assert!(error.contains(part), "{wrong}:\n{error}");
+    }
+}
+
+#[test]
+fn a_record_chosen_from_a_list_keeps_what_the_list_says_of_it() {
+    let folder = std::env::temp_dir().join(format!("jostle-list-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    for name in ["a.txt", "b.txt", "station.NS", "station.EW2"] {
+        std::fs::write(folder.join(name), "0.0\n0.1\n-0.2\n0.1\n").expect("written");
+    }
+    let text = format!(
+        "[motion]\nrecord = [\"a.txt\", \"b.txt\"]\nunit = \"g\"\nstep = 0.01\nscale = 2\n{TOWER}"
+    );
+    let mut input = read_model_text("m.toml", &text, Format::Toml, &folder).expect("a model");
+    input
+        .apply(&jostle_io::Overrides {
+            record: Some("b.txt".into()),
+            ..jostle_io::Overrides::default()
+        })
+        .expect("a record of the list");
+    let motion = input.ground_motion().expect("a motion");
+    // Files of one station that differ in their direction alone keep it in their names.
+    let text = text
+        .replace("a.txt", "station.NS")
+        .replace("b.txt", "station.EW2");
+    let both = read_model_text("m.toml", &text, Format::Toml, &folder).expect("a model");
+    let names = both.each_record().into_iter();
+    let names: Vec<String> = names
+        .map(|input| input.ground_motion().expect("a motion").name)
+        .collect();
+    assert_eq!(names, ["station.NS", "station.EW2"]);
+    std::fs::remove_dir_all(&folder).expect("removed");
+    assert_eq!((&motion.name[..], motion.scale), ("b", 2.0));
+    assert!((motion.peak() - 0.4 * 9.80665).abs() < 1e-12);
 }

@@ -142,6 +142,12 @@ impl Model {
         self.input.warnings.clone()
     }
 
+    /// The records that a run may choose from; empty unless there are several.
+    #[getter]
+    fn records(&self) -> Vec<String> {
+        self.input.records().to_vec()
+    }
+
     /// The ground motion in numbers; none if the model has none.
     fn motion(&self, py: Python<'_>) -> PyResult<Option<Motion>> {
         let Some(spec) = self.input.motion.clone() else {

@@ -230,7 +230,9 @@ impl Motion {
                 period,
                 centre,
             } => (None, vec![*amplitude, *period, *centre]),
-            MotionSource::Given(_) | MotionSource::Record { .. } => (None, Vec::new()),
+            MotionSource::Given(_) | MotionSource::Record { .. } | MotionSource::Records { .. } => {
+                (None, Vec::new())
+            }
         };
         let (pga, factor) = match spec.scaling.clone() {
             Scaling::AsRecorded => (None, None),

@@ -51,7 +51,7 @@ class SpectrumChart {
     this.readouts = series.map((s) => {
       const key = html("span", "key", undefined, legend);
       if (!s.label && series.length > 1) key.hidden = true;
-      html("span", `swatch${s.dashed ? " dashed" : ""}`, undefined, key).style.setProperty("--c", s.colour);
+      if (s.label) html("span", `swatch${s.dashed ? " dashed" : ""}`, undefined, key).style.setProperty("--c", s.colour);
       html("span", "", s.label, key);
       return html("output", "value", "", key);
     });

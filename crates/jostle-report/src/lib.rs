@@ -16,6 +16,7 @@ mod page;
 mod payload;
 mod pushover;
 mod section;
+mod selection;
 mod special;
 mod study_page;
 mod tables;
@@ -24,9 +25,10 @@ mod verdict;
 
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use method::render_method;
-pub use motion_page::{MotionPage, SelectionPage, render_motion, render_selection};
+pub use motion_page::{MotionPage, render_motion};
 pub use pushover::render_pushover;
 pub use section::render_sections;
+pub use selection::{CheckedStructure, SelectionPage, render_selection, selection_sections};
 pub use study_page::{
     Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, render_study,
 };

@@ -1,9 +1,8 @@
-//! The pages of `jostle motion`: one motion, and a set of motions held against a code.
+//! The page of a motion: its history, its spectra, its measures.
 
 use jostle_motion::{
-    Accelerogram, Candidate, MainPeriod, Measures, MotionFault, Origin, Reading, SelectionCheck,
-    SpectrumCurve, TargetSpectrum, displacement, fourier_spectrum, husid, response_spectrum,
-    spaced_periods, velocity,
+    Accelerogram, Measures, MotionFault, Reading, SpectrumCurve, displacement, fourier_spectrum,
+    husid, response_spectrum, spaced_periods, velocity,
 };
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::{Value, json};
@@ -21,21 +20,6 @@ pub struct MotionPage<'a> {
     pub motion: &'a Accelerogram,
     /// Its measures.
     pub measures: &'a Measures,
-}
-
-/// What the page of a set of motions shows.
-#[derive(Clone, Copy, Debug)]
-pub struct SelectionPage<'a> {
-    /// Spectrum of the code.
-    pub target: &'a TargetSpectrum,
-    /// Damping ratio \[–\].
-    pub damping: f64,
-    /// Main periods of the structure.
-    pub periods: &'a [MainPeriod],
-    /// The motions.
-    pub set: &'a [Candidate],
-    /// What was found.
-    pub check: &'a SelectionCheck,
 }
 
 const SCRIPTS: [&str; 4] = [
@@ -92,72 +76,7 @@ pub fn render_motion(page: &MotionPage) -> Result<String, MotionFault> {
     Ok(frame(page.name, "Ground motion", &body, &data))
 }
 
-/// The page of a set of motions: one HTML file that opens offline.
-///
-/// # Errors
-/// When the code says nothing about the damping.
-pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
-    let [first, last] = page.target.range();
-    let periods = spaced_periods(first.max(0.02), last.min(6.0), 200);
-    let mut spectra = Vec::new();
-    let mut mean = vec![0.0; periods.len()];
-    for candidate in page.set {
-        let spectrum = response_spectrum(
-            &candidate.motion,
-            &periods,
-            &[page.damping],
-            Reading::Between,
-        )?;
-        let values = &spectrum.curves[0].pseudo_acceleration;
-        for (sum, value) in mean.iter_mut().zip(values) {
-            *sum += value / page.set.len() as f64;
-        }
-        let (x, y) = (digits(&periods), digits(values));
-        spectra.push(json!({ "label": candidate.name, "periods": x, "psa": y, "thin": true }));
-    }
-    let code: Vec<f64> = periods
-        .iter()
-        .map(|&t| page.target.acceleration(t, page.damping))
-        .collect::<Result<_, _>>()?;
-    spectra.push(
-        json!({ "label": "mean", "periods": digits(&periods), "psa": digits(&mean), "bold": true }),
-    );
-    for (label, factor) in [("code", 1.0), ("code ±20 %", 0.8), ("", 1.2)] {
-        let values: Vec<f64> = code.iter().map(|a| factor * a).collect();
-        let dashed = factor != 1.0;
-        spectra.push(json!({ "label": label, "periods": digits(&periods), "psa": digits(&values), "dashed": dashed, "code": true }));
-    }
-    let marks: Vec<f64> = page.periods.iter().map(|main| main.period).collect();
-    let empty = || Packed::instants(&[]);
-    let data = json!({
-        "duration": 1.0, "run": null, "without": null, "forces": [], "gaps": [], "buildings": [],
-        "ground": { "time": empty(), "values": empty() },
-        "spectra": spectra, "marks": marks,
-    });
-    let verdict = if page.check.passes() {
-        "The set meets what is checked of GB 50011, clause 5.1.2."
-    } else {
-        "The set does not meet GB 50011, clause 5.1.2."
-    };
-    let body = html! {
-        p.verdict { (verdict) }
-        section #rules { h2 { "What the clause asks" } (rules(page.check)) }
-        section #response {
-            h2 { "Response spectra with " (format::plain(100.0 * page.damping, 3)) " % damping" }
-            (spectrum_controls(false))
-            div #spectra {}
-        }
-        section #numbers { h2 { "At the main periods" } (selection_table(page)) }
-    };
-    Ok(frame(
-        &page.target.name(),
-        "Selection of ground motions",
-        &body,
-        &data,
-    ))
-}
-
-fn frame(title: &str, kicker: &str, body: &Markup, data: &Value) -> String {
+pub(crate) fn frame(title: &str, kicker: &str, body: &Markup, data: &Value) -> String {
     // A closing tag inside a name must not end the script.
     let data = data.to_string().replace('<', "\\u003c");
     let page = html! {
@@ -187,7 +106,7 @@ fn frame(title: &str, kicker: &str, body: &Markup, data: &Value) -> String {
     page.into_string()
 }
 
-fn spectrum_controls(quantities: bool) -> Markup {
+pub(crate) fn spectrum_controls(quantities: bool) -> Markup {
     html! {
         div.controls {
             @if quantities {
@@ -327,7 +246,7 @@ fn curve_data(label: &str, periods: &[f64], curve: &SpectrumCurve) -> Value {
 }
 
 /// Values to five digits, enough to draw.
-fn digits(values: &[f64]) -> Vec<f64> {
+pub(crate) fn digits(values: &[f64]) -> Vec<f64> {
     let round = |value: &f64| format!("{value:.4e}").parse().unwrap_or(0.0);
     values.iter().map(round).collect()
 }
@@ -374,72 +293,6 @@ fn smoothed(frequency: &[f64], amplitude: &[f64]) -> (Vec<f64>, Vec<f64>) {
         low *= ratio;
     }
     (centres, means)
-}
-
-fn rules(check: &SelectionCheck) -> Markup {
-    let [natural, artificial] = check.counts;
-    let rows = [
-        (
-            check.enough,
-            format!("{natural} recorded and {artificial} artificial"),
-            "at least two recorded and one artificial; of seven or more, at least five recorded",
-        ),
-        (
-            check.mean_agrees,
-            "mean spectrum".to_owned(),
-            "within 20 % of the code at the main periods",
-        ),
-        (
-            check.base_shear_agrees,
-            "base shear, estimated from the modes".to_owned(),
-            "each within 65 to 135 %, their mean within 80 to 120 % of the code; to be confirmed with the time histories of the structure",
-        ),
-        (
-            check.long_enough,
-            "effective duration".to_owned(),
-            "from the first to the last tenth of the peak, at least five times the longest main period",
-        ),
-    ];
-    html! {
-        div.scroll { table { tbody {
-            @for (good, what, rule) in &rows {
-                tr { td { b { (if *good { "met" } else { "not met" }) } } td { (what) } td style="white-space: normal" { (rule) } }
-            }
-        } } }
-    }
-}
-
-fn selection_table(page: &SelectionPage) -> Markup {
-    let (set, check) = (page.set, page.check);
-    let ratio = |value: f64| format::fixed(value, 3);
-    html! {
-        div.scroll { table {
-            thead { tr {
-                th { "motion" } th { "origin" } th.number { "PGA" }
-                @for main in page.periods { th.number { "T = " (format::plain(main.period, 4)) " s" } }
-                th.number { "base shear" } th.number { "effective duration" }
-            } }
-            tbody {
-                @for (i, candidate) in set.iter().enumerate() {
-                    tr {
-                        td { (candidate.name) }
-                        td { (if candidate.origin == Origin::Natural { "recorded" } else { "artificial" }) }
-                        td.number { (format::unit(format::significant(candidate.motion.peak(), 4), "m/s²")) }
-                        @for value in &check.ratios[i] { td.number { (ratio(*value)) } }
-                        td.number { (ratio(check.base_shear[i])) }
-                        td.number { (format::unit(format::fixed(check.effective_duration[i], 1), "s")) }
-                    }
-                }
-                tr {
-                    td { b { "mean" } } td {} td {}
-                    @for [_, _, difference] in &check.mean { td.number { b { (ratio(1.0 + difference)) } } }
-                    td.number { b { (ratio(check.base_shear.iter().sum::<f64>() / set.len() as f64)) } }
-                    td {}
-                }
-            }
-        } }
-        p.quiet { "Response over that of the code." }
-    }
 }
 
 #[cfg(test)]

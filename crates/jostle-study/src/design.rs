@@ -9,7 +9,8 @@ pub struct CaseDesign {
     /// Number of cases.
     pub cases: u64,
     kind: DesignKind,
-    /// Lengths of the crossed lists, or one for zipped ones; the last varies fastest, after it the draws.
+    /// Lengths of the crossed lists, or one for zipped ones and another for records of the model; the last varies
+    /// fastest, after it the draws.
     lists: Vec<u64>,
     /// Draws for each combination of the lists, 1 where nothing is drawn.
     draws: u64,
@@ -66,13 +67,20 @@ impl CaseDesign {
         let k = factors.len();
         let samples = design.samples.unwrap_or(1);
         let listed = factors.iter().filter_map(|factor| match &factor.values {
-            FactorValues::Listed(levels) => Some(levels.len() as u64),
+            FactorValues::Listed(levels) => Some((factor.from_model, levels.len() as u64)),
             FactorValues::Drawn(_) => None,
         });
-        let listed: Vec<u64> = listed.collect();
+        let listed: Vec<(bool, u64)> = listed.collect();
+        let lengths = |from_model: bool| {
+            let same = listed.iter().filter(move |list| list.0 == from_model);
+            same.map(|list| list.1)
+        };
         let (lists, draws, dimensions) = match design.kind {
-            DesignKind::Factorial => (listed, samples, k),
-            DesignKind::Zipped => (listed.first().copied().into_iter().collect(), samples, k),
+            DesignKind::Factorial => (listed.iter().map(|list| list.1).collect(), samples, k),
+            DesignKind::Zipped => {
+                let zipped = lengths(false).take(1).chain(lengths(true));
+                (zipped.collect(), samples, k)
+            }
             DesignKind::Saltelli => (Vec::new(), samples, 2 * k),
             _ => (Vec::new(), samples, k),
         };
@@ -164,9 +172,13 @@ impl CaseDesign {
         let zipped = self.kind == DesignKind::Zipped;
         let pick = |(factor, u): (&Factor, f64)| match &factor.values {
             FactorValues::Listed(_) => {
-                let level = levels.get(next).copied().unwrap_or(0);
+                let at = if zipped && factor.from_model {
+                    levels.len().saturating_sub(1)
+                } else {
+                    next
+                };
                 next += usize::from(!zipped);
-                Choice::Listed(level)
+                Choice::Listed(levels.get(at).copied().unwrap_or(0))
             }
             FactorValues::Drawn(distribution) => Choice::Drawn(quantile(distribution, u)),
         };

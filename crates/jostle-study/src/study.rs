@@ -97,6 +97,7 @@ impl Study {
             file,
         };
         study.check_wishes()?;
+        study.check_selection()?;
         Ok(study)
     }
 
@@ -119,6 +120,11 @@ impl Study {
     /// [`PathError`].
     pub fn tree(&self, choices: &[Choice]) -> Result<ModelTree, PathError> {
         tree(&self.file, choices)
+    }
+
+    /// The middle of every distribution and the first of every list.
+    pub(crate) fn usual_choices(&self) -> Vec<Choice> {
+        usual(&self.file)
     }
 
     /// Names in the wishes of the file that are no columns.
@@ -199,6 +205,10 @@ impl Study {
 fn tree(file: &StudyFile, choices: &[Choice]) -> Result<ModelTree, PathError> {
     let mut tree = file.base.clone();
     for (factor, choice) in file.factors.iter().zip(choices) {
+        if let (true, Choice::Listed(index)) = (factor.from_model, choice) {
+            tree.keep_record(*index);
+            continue;
+        }
         let (value, number, _) = value_of(factor, choice);
         for path in &factor.paths {
             if factor.multiplies {
@@ -219,11 +229,7 @@ struct Trial {
 
 impl Trial {
     fn of(file: &StudyFile, workshop: &Workshop) -> Result<Self, StudyError> {
-        let usual: Vec<Choice> = file
-            .factors
-            .iter()
-            .map(|factor| at(factor, 0.5, 0))
-            .collect();
+        let usual = usual(file);
         let mut errors: Vec<InputError> = Vec::new();
         let mut first: Option<(Vec<Named>, Vec<String>)> = None;
         let mut results: Vec<Vec<Named>> = Vec::new();
@@ -321,6 +327,12 @@ fn combine(
             }
         }
     }
+}
+
+/// The middle of every distribution and the first of every list.
+fn usual(file: &StudyFile) -> Vec<Choice> {
+    let factors = file.factors.iter();
+    factors.map(|factor| at(factor, 0.5, 0)).collect()
 }
 
 /// A value of a factor: a quantile, or an entry of its list.

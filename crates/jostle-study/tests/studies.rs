@@ -588,3 +588,75 @@ fn links_may_vary() {
     assert_eq!(shared, alone);
     assert_ne!(alone[0].0, alone[1].0);
 }
+
+/// A study of the towers under several records.
+fn under_records(records: &str, rest: &str) -> Result<Study, StudyError> {
+    let folder = temporary();
+    let model = TOWERS.replace("\"el-centro-1940-ns\"", records);
+    std::fs::write(folder.path().join("towers.toml"), model)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let text = format!("base = \"towers.toml\"\n{rest}");
+    let file = StudyFile::parse("study.toml", &text, Format::Toml, folder.path(), None)?;
+    Study::new(file)
+}
+
+#[test]
+fn records_that_the_model_lists_vary_by_themselves() {
+    const LIST: &str = "[\"el-centro-1940-ns\", \"nanjing-artificial\"]";
+    const GAPS: &str = "[[vary]]\npath = \"gap[0].width\"\nvalues = [\"5 mm\", \"10 mm\", 0.02]\n";
+    const PEAKS: &str = "[[vary]]\npath = \"motion.pga\"\nvalues = [1, 2, 3]\n";
+    let made =
+        |rest: &str| under_records(LIST, rest).unwrap_or_else(|error| panic!("{rest}: {error}"));
+    // By themselves, crossed with the rest, and crossed with what is zipped.
+    assert_eq!(made("").design.cases, 2);
+    assert_eq!(made(GAPS).design.cases, 6);
+    let zipped = format!("{GAPS}{PEAKS}[design]\nkind = \"zipped\"\n");
+    let study = made(&zipped);
+    assert_eq!(study.design.cases, 6);
+    let inputs: Vec<&str> = study.layout.inputs.iter().map(|c| &c.name[..]).collect();
+    assert_eq!(inputs, ["gap0.width_m", "motion.pga_m_s2", "motion.record"]);
+
+    let folder = temporary();
+    go(&study, folder.path(), &jobs(2));
+    let names = ["gap0.width_m", "motion.pga_m_s2", "pga_m_s2"];
+    let mut wanted = vec!["motion", "motion.record"];
+    wanted.extend(names);
+    let table = read_columns(&study, folder.path(), &wanted).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(table.texts["motion"], table.texts["motion.record"]);
+    assert_eq!(
+        table.texts["motion"],
+        ["el-centro-1940-ns", "nanjing-artificial"].repeat(3)
+    );
+    let gaps: Vec<f64> = table.column(names[0]).iter().copied().flatten().collect();
+    assert_eq!(gaps, [0.005, 0.005, 0.01, 0.01, 0.02, 0.02]);
+    let peaks: Vec<f64> = table.column(names[2]).iter().copied().flatten().collect();
+    // El Centro peaks within the six seconds, the other one later.
+    for (peak, wanted) in peaks.iter().step_by(2).zip([1.0, 2.0, 3.0]) {
+        assert!((peak / wanted - 1.0).abs() < 1e-12, "{peak} for {wanted}");
+    }
+
+    // What the study says about records holds; so does an analytic wave in their place.
+    for other in [
+        "[[vary]]\npath = \"motion.record\"\nvalues = [\"el-centro-1940-ns\"]\n",
+        "[[vary]]\npath = \"motion\"\nvalues = [{ kind = \"sine\", amplitude = 1, period = 1, duration = 2 }]\n",
+    ] {
+        assert_eq!(made(other).design.cases, 1, "{other}");
+    }
+}
+
+#[test]
+fn a_listed_record_that_is_not_there_is_shown_in_the_model() {
+    let records = "[\"el-centro-1940-ns\",\n\"lost.at2\"]";
+    let error = match under_records(records, "[[vary]]\npath = \"gap[0].width\"\nvalues = [1]\n") {
+        Ok(_) => panic!("accepted"),
+        Err(error) => error.to_string(),
+    };
+    assert!(
+        error.contains("towers.toml:4") && error.contains("lost.at2"),
+        "{error}"
+    );
+    // A model without a list still needs something that varies.
+    let error = under_records("\"el-centro-1940-ns\"", "").err();
+    let error = error.map(|error| error.to_string()).unwrap_or_default();
+    assert!(error.contains("vary: is missing"), "{error}");
+}

@@ -2,10 +2,9 @@
 
 use std::fmt::Write;
 
-use jostle_io::{Dimension, write_atomically};
+use jostle_io::{Dimension, selection_json, write_atomically};
 use jostle_motion::{Candidate, MainPeriod, Origin, SelectionCheck, check_selection};
 use jostle_report::{SelectionPage, render_selection};
-use serde_json::{Value, json};
 
 use super::args::SelectArgs;
 use super::source::{open, quantities, quantity, wrong};
@@ -56,7 +55,7 @@ pub(super) fn select(args: &SelectArgs) -> Result<(), Failure> {
         write_atomically(path, render_selection(&page).map_err(wrong)?.as_bytes())?;
     }
     if args.json {
-        return terminal::print(&format!("{:#}", as_json(&set, &check, &periods)));
+        return terminal::print(&format!("{:#}", selection_json(&set, &check, &periods)));
     }
     let mut text = format!("{}\n", styled(BOLD, &target.name()));
     describe(&mut text, &set, &check, &periods);
@@ -85,36 +84,6 @@ fn main_periods(args: &SelectArgs) -> Result<Vec<MainPeriod>, Failure> {
             mass_ratio: ratio(i),
         })
         .collect())
-}
-
-fn as_json(set: &[Candidate], check: &SelectionCheck, periods: &[MainPeriod]) -> Value {
-    let motions: Vec<Value> = set
-        .iter()
-        .enumerate()
-        .map(|(i, candidate)| {
-            json!({
-                "name": candidate.name,
-                "artificial": candidate.origin == Origin::Artificial,
-                "pga_m_s2": candidate.motion.peak(),
-                "ratios": check.ratios[i],
-                "base_shear_ratio": check.base_shear[i],
-                "effective_duration_s": check.effective_duration[i],
-            })
-        })
-        .collect();
-    let of_mean = |k: usize| check.mean.iter().map(|mean| mean[k]).collect::<Vec<_>>();
-    json!({
-        "periods_s": periods.iter().map(|main| main.period).collect::<Vec<_>>(),
-        "code_m_s2": of_mean(0),
-        "mean_m_s2": of_mean(1),
-        "mean_difference": of_mean(2),
-        "motions": motions,
-        "enough": check.enough,
-        "mean_agrees": check.mean_agrees,
-        "base_shear_agrees": check.base_shear_agrees,
-        "long_enough": check.long_enough,
-        "passes": check.passes(),
-    })
 }
 
 fn describe(text: &mut String, set: &[Candidate], check: &SelectionCheck, periods: &[MainPeriod]) {

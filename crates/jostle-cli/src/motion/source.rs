@@ -37,26 +37,54 @@ impl RecordArgs {
             options.scale = self.record_scale;
             options.remove_mean = self.remove_mean.then_some(true);
         }
-        resolve(&spec)
+        resolve(&spec).map_err(|problem| Failure::Input(as_options(&problem)))
     }
 }
 
 /// A motion by built-in name or path.
 pub(super) fn open(name: &str) -> Result<Named, Failure> {
-    resolve(&MotionSpec::record(name))
+    resolve(&MotionSpec::record(name)).map_err(|problem| {
+        let asks = problem.contains(BESIDE);
+        let problem = as_options(&problem);
+        Failure::Input(if asks {
+            format!("{problem}; say it to \"jostle motion convert {name} new.at2\" and take the new file")
+        } else {
+            problem
+        })
+    })
 }
 
-fn resolve(spec: &MotionSpec) -> Result<Named, Failure> {
-    let motion = spec
-        .resolve()
-        .map_err(|error| Failure::Input(error.to_string()))?;
+/// Where model files complete what a record leaves open.
+const BESIDE: &str = " beside record";
+
+/// A question about a record, with the keys of model files as the options of commands.
+fn as_options(problem: &str) -> String {
+    if !problem.contains(BESIDE) {
+        return problem.to_owned();
+    }
+    let keys = [
+        ("unit = \"", "--unit \""),
+        ("step = \"", "--step \""),
+        ("component = \"", "--component \""),
+        ("column = ", "--column "),
+        ("record_scale = ", "--record-scale "),
+        ("remove_mean = true", "--remove-mean"),
+        (BESIDE, ""),
+    ];
+    keys.iter().fold(problem.to_owned(), |text, (key, option)| {
+        text.replace(key, option)
+    })
+}
+
+fn resolve(spec: &MotionSpec) -> Result<Named, String> {
+    let motion = spec.resolve().map_err(|error| error.to_string())?;
     let GroundMotion { name, wave, .. } = motion;
     match wave {
         jostle::Wave::Sampled { step, acceleration } => Ok(Named {
             name,
-            motion: Accelerogram::new(step, acceleration).map_err(wrong)?,
+            motion: Accelerogram::new(step, acceleration).map_err(|fault| fault.to_string())?,
         }),
-        _ => Err(Failure::Input(format!("{name} is no record"))),
+        _ => Err(format!("{name} is no record")),
     }
 }
 

@@ -33,7 +33,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
             *reader.bad(&value, "cannot stand beside spectrum") = Some("keep one of both".into());
             None
         }
-        (Some(spectrum), None) => target(reader, &spectrum, base).map(MatchTo::Spectrum),
+        (Some(spectrum), None) => read_spectrum(reader, &spectrum, base).map(MatchTo::Spectrum),
         (None, Some(value)) => reader
             .positive(&value, Dimension::Acceleration)
             .map(MatchTo::Value),
@@ -87,7 +87,12 @@ fn place(reader: &mut Reader<'_>, view: &View<'_>) -> Option<MatchAt> {
     }
 }
 
-fn target(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> Option<TargetSpectrum> {
+/// A spectrum written out, or the file of one.
+pub(crate) fn read_spectrum(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    base: &Path,
+) -> Option<TargetSpectrum> {
     if let Some(name) = field.as_text() {
         return match read_target_file(&base.join(name)) {
             Ok(target) => Some(target),

@@ -99,12 +99,7 @@ fn read_record(
     record: &Field<'_>,
     base: &Path,
 ) -> Option<MotionSource> {
-    if record.entries().is_some() {
-        *reader.bad(record, "is a list, and one analysis takes one record") =
-            Some("keep one record; lists are for studies of many cases".into());
-        return None;
-    }
-    let name = reader.text(record)?;
+    let mut names = record_names(reader, record)?;
     let mut options = RecordOptions::default();
     if let Some(field) = reader.get(view, "unit") {
         options.unit = reader.text(&field);
@@ -147,14 +142,49 @@ fn read_record(
         let key = reader.choice(&field, RECORD_FORMATS, &[]);
         options.format = key.and_then(|key| RecordFormat::from_key(key).ok());
     }
-    if name.trim().is_empty() {
-        reader.bad(record, "must not be empty");
-    }
-    Some(MotionSource::Record {
-        name,
-        base: base.to_owned(),
-        options,
+    let base = base.to_owned();
+    Some(if names.len() == 1 {
+        MotionSource::Record {
+            name: names.remove(0),
+            base,
+            options,
+        }
+    } else {
+        MotionSource::Records {
+            names,
+            base,
+            options,
+        }
     })
+}
+
+/// One name or a list of them, none empty, none twice.
+fn record_names(reader: &mut Reader<'_>, record: &Field<'_>) -> Option<Vec<String>> {
+    let entries = match record.entries() {
+        Some(entries) if entries.is_empty() => {
+            *reader.bad(record, "is an empty list") =
+                Some("name a record, such as \"el-centro-1940-ns\"".into());
+            return None;
+        }
+        Some(entries) => entries,
+        None => vec![record.clone()],
+    };
+    let mut names: Vec<String> = Vec::new();
+    let mut good = true;
+    for entry in &entries {
+        let Some(name) = reader.text(entry) else {
+            good = false;
+            continue;
+        };
+        if name.trim().is_empty() {
+            reader.bad(entry, "must not be empty");
+        } else if names.contains(&name) {
+            *reader.bad(entry, format!("\"{name}\" stands in the list twice")) =
+                Some("remove one of them".into());
+        }
+        names.push(name);
+    }
+    good.then_some(names)
 }
 
 /// A name, or the number of a channel.

@@ -71,6 +71,8 @@ intensity = "x"
 demand = "y"
 [sensitivity]
 responses = ["x"]
+[selection]
+spectrum = { code = "gb50011", intensity = 7, site = "II", group = 1 }
 "#;
 
 #[test]

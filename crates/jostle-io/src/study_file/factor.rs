@@ -5,7 +5,7 @@ use std::path::Path;
 use super::distribution::{self, Distribution};
 use crate::builtin;
 use crate::keys::{KEYS, Kind, SPACINGS, Section};
-use crate::model_tree::{TreeValue, quantity_text};
+use crate::model_tree::{ModelTree, TreeValue, quantity_text};
 use crate::quantity::{Dimension, check_magnitude, split_number, unit_size};
 use crate::reader::{Field, Reader, View};
 use crate::source::Span;
@@ -25,7 +25,17 @@ pub struct Factor {
     pub values: FactorValues,
     /// What numbers are, spelt for the end of a column name: `m`, `m_s2`, or nothing.
     pub unit: String,
+    /// Whether it is the list of records of the base model, and not an entry of the study file.
+    pub from_model: bool,
     pub(crate) span: Span,
+}
+
+impl Factor {
+    /// Whether its values decide which motion a case has.
+    pub(super) fn chooses_motion(&self) -> bool {
+        let mut paths = self.paths.iter();
+        paths.any(|path| matches!(&path[..], "motion" | RECORD | "motion.kind"))
+    }
 }
 
 /// Values of a factor.
@@ -55,6 +65,9 @@ pub(super) struct Measured {
     /// Size of the unit in SI.
     pub(super) size: f64,
 }
+
+/// Where the record of a model stands.
+const RECORD: &str = "motion.record";
 
 /// Most values of a list.
 const MOST_LEVELS: usize = 1_000_000;
@@ -142,7 +155,30 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, folder: &Path) -> Option<Fac
         multiplies,
         values,
         unit,
+        from_model: false,
         span: at,
+    })
+}
+
+/// The records that a model lists, as a factor; `None` unless there are several.
+pub(super) fn of_records(model: &ModelTree) -> Option<Factor> {
+    let records = model.records();
+    if records.len() < 2 {
+        return None;
+    }
+    let level = |name: String| Level {
+        label: name.clone(),
+        value: TreeValue::Text(name),
+        number: None,
+    };
+    Some(Factor {
+        name: RECORD.to_owned(),
+        paths: vec![RECORD.to_owned()],
+        multiplies: false,
+        values: FactorValues::Listed(records.into_iter().map(level).collect()),
+        unit: String::new(),
+        from_model: true,
+        span: 0..0,
     })
 }
 

@@ -16,6 +16,9 @@ pub use heat_map::{Cell, HeatMap};
 const OWN_STYLE: &str = include_str!("../../assets/study.css");
 const SCRIPT: &str = include_str!("../../assets/study.js");
 
+/// Characters beyond which a cell of a table is broken into lines.
+const LONG: usize = 60;
+
 /// An axis in the unit that people read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -144,7 +147,7 @@ fn charts(section: &Section) -> Markup {
                                         @if index + 1 == row.len() && row.len() < heads.len() {
                                             td.study-wrap colspan=(heads.len() + 1 - row.len()) { (cell) }
                                         } @else {
-                                            td { (cell) }
+                                            td.study-long[cell.chars().count() > LONG] { (cell) }
                                         }
                                     }
                                 }

@@ -6,6 +6,7 @@ mod groups;
 mod maps;
 mod needed;
 mod rankings;
+mod selection;
 mod words;
 
 use std::collections::BTreeSet;
@@ -44,6 +45,8 @@ struct Results<'a> {
     kept: BTreeSet<u64>,
     /// Tables written so far: name and what it holds.
     files: Vec<(String, String)>,
+    /// Further sentences for the head of the page.
+    said: Vec<String>,
 }
 
 /// Writes `report.html`, the tables behind its figures and, unless there are very many cases, `cases.csv`. Returns
@@ -74,6 +77,7 @@ pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
             "cases/*.parquet".into(),
             "one row a case: inputs and everything that came out".into(),
         )],
+        said: Vec::new(),
     };
     if study.design.cases <= MOST_IN_CSV {
         write_csv(study, folder)?;
@@ -88,6 +92,7 @@ pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
     sections.extend(results.idas()?);
     sections.extend(results.fragilities()?);
     sections.extend(results.rankings(&responses)?);
+    sections.extend(results.selection()?);
     let page = results.page(maps, sections);
     write_atomically(&folder.join("report.html"), render_study(&page).as_bytes())?;
     let mut said = page.headline.join("\n");
@@ -181,6 +186,7 @@ impl Results<'_> {
                 "The buildings pound in {touched} of {known} cases{forces}."
             ));
         }
+        headline.extend(self.said.iter().cloned());
         let mut facts = vec![
             ("cases".to_owned(), study.design.cases.to_string()),
             (

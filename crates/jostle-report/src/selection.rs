@@ -1,0 +1,394 @@
+//! Sets of ground motions held against a code: a page of their own, and sections for the page of a study.
+
+use jostle_motion::{
+    Candidate, MainPeriod, MotionFault, Origin, Reading, SelectionCheck, TargetSpectrum,
+    response_spectrum, spaced_periods,
+};
+use maud::{Markup, html};
+use serde_json::json;
+
+use crate::encode::Packed;
+use crate::format;
+use crate::motion_page::{digits, frame, spectrum_controls};
+use crate::study_page::{Axis, Chart, Section, Series, Stroke};
+
+/// What the page of a set of motions shows.
+#[derive(Clone, Copy, Debug)]
+pub struct SelectionPage<'a> {
+    /// Spectrum of the code.
+    pub target: &'a TargetSpectrum,
+    /// Damping ratio \[–\].
+    pub damping: f64,
+    /// Main periods of the structure.
+    pub periods: &'a [MainPeriod],
+    /// The motions.
+    pub set: &'a [Candidate],
+    /// What was found.
+    pub check: &'a SelectionCheck,
+}
+
+/// A structure for which a set of motions was checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckedStructure {
+    /// Name of the building; empty where periods were given without one.
+    pub name: String,
+    /// Its main periods.
+    pub periods: Vec<MainPeriod>,
+    /// What was found.
+    pub check: SelectionCheck,
+}
+
+/// Points of the spectra.
+const POINTS: usize = 200;
+/// Longest period of the spectra of a page \[s\].
+const LONGEST: f64 = 6.0;
+/// Least span of the spectra in a study \[s\].
+const SHORTEST_SPAN: f64 = 2.0;
+
+/// Pseudo-accelerations of a set, their mean and the code.
+struct Spectra {
+    periods: Vec<f64>,
+    each: Vec<Vec<f64>>,
+    mean: Vec<f64>,
+    code: Vec<f64>,
+}
+
+impl Spectra {
+    fn of(
+        target: &TargetSpectrum,
+        damping: f64,
+        set: &[Candidate],
+        longest: f64,
+    ) -> Result<Self, MotionFault> {
+        let [first, last] = target.range();
+        let periods = spaced_periods(first.max(0.02), last.min(longest), POINTS);
+        let mut each = Vec::new();
+        let mut mean = vec![0.0; periods.len()];
+        for candidate in set {
+            let motion = &candidate.motion;
+            let spectrum = response_spectrum(motion, &periods, &[damping], Reading::Between)?;
+            let values = spectrum.curves[0].pseudo_acceleration.clone();
+            for (sum, value) in mean.iter_mut().zip(&values) {
+                *sum += value / set.len() as f64;
+            }
+            each.push(values);
+        }
+        let code = periods
+            .iter()
+            .map(|&t| target.acceleration(t, damping))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            periods,
+            each,
+            mean,
+            code,
+        })
+    }
+}
+
+/// The page of a set of motions: one HTML file that opens offline.
+///
+/// # Errors
+/// When the code says nothing about the damping.
+pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
+    let found = Spectra::of(page.target, page.damping, page.set, LONGEST)?;
+    let periods = digits(&found.periods);
+    let mut spectra = Vec::new();
+    for (candidate, values) in page.set.iter().zip(&found.each) {
+        let (label, y) = (&candidate.name, digits(values));
+        spectra.push(json!({ "label": label, "periods": periods, "psa": y, "thin": true }));
+    }
+    spectra.push(
+        json!({ "label": "mean", "periods": periods, "psa": digits(&found.mean), "bold": true }),
+    );
+    for (label, factor) in [("code", 1.0), ("code ±20 %", 0.8), ("", 1.2)] {
+        let values: Vec<f64> = found.code.iter().map(|a| factor * a).collect();
+        let dashed = factor != 1.0;
+        spectra.push(json!({ "label": label, "periods": periods, "psa": digits(&values), "dashed": dashed, "code": true }));
+    }
+    let marks: Vec<f64> = page.periods.iter().map(|main| main.period).collect();
+    let empty = || Packed::instants(&[]);
+    let data = json!({
+        "duration": 1.0, "run": null, "without": null, "forces": [], "gaps": [], "buildings": [],
+        "ground": { "time": empty(), "values": empty() },
+        "spectra": spectra, "marks": marks,
+    });
+    let verdict = if page.check.passes() {
+        "The set meets what is checked of GB 50011, clause 5.1.2."
+    } else {
+        "The set does not meet GB 50011, clause 5.1.2."
+    };
+    let body = html! {
+        p.verdict { (verdict) }
+        section #rules { h2 { "What the clause asks" } (rules_table(page.check)) }
+        section #response {
+            h2 { "Response spectra with " (format::plain(100.0 * page.damping, 3)) " % damping" }
+            (spectrum_controls(false))
+            div #spectra {}
+        }
+        section #numbers { h2 { "At the main periods" } (selection_table(page)) }
+    };
+    Ok(frame(
+        &page.target.name(),
+        "Selection of ground motions",
+        &body,
+        &data,
+    ))
+}
+
+/// The sections of a study about its motions: the verdict with the spectra, and the numbers for every structure.
+/// `scaling` says how the motions were scaled.
+///
+/// # Errors
+/// When the code says nothing about the damping.
+pub fn selection_sections(
+    target: &TargetSpectrum,
+    damping: f64,
+    set: &[Candidate],
+    structures: &[CheckedStructure],
+    scaling: &str,
+) -> Result<Vec<Section>, MotionFault> {
+    let periods = structures.iter().flat_map(|structure| &structure.periods);
+    let longest = periods.fold(0.0, |most: f64, main| most.max(main.period));
+    let reach = (1.6 * longest).clamp(SHORTEST_SPAN, LONGEST);
+    let spectra = Spectra::of(target, damping, set, reach)?;
+    let mut sections = vec![Section {
+        title: "Selection of ground motions".into(),
+        remark: format!(
+            "{}, {} % damping. {scaling} Base shears are estimated from the elastic modes; the clause asks for those of the time histories.",
+            target.name(),
+            format::plain(100.0 * damping, 3)
+        ),
+        charts: vec![chart(&spectra, set, structures)],
+        table: Some(verdicts(structures)),
+        ..Section::default()
+    }];
+    sections.extend(structures.iter().map(|structure| Section {
+        title: match &structure.name[..] {
+            "" => "Main periods".to_owned(),
+            name => format!("Main periods of {name}"),
+        },
+        remark: "Response over that of the code.".into(),
+        table: Some(numbers(set, structure)),
+        ..Section::default()
+    }));
+    Ok(sections)
+}
+
+fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) -> Chart {
+    let series = |name: &str, values: &[f64], factor: f64, stroke: Stroke, colour: usize| {
+        let points = spectra.periods.iter().zip(values);
+        Series {
+            name: name.to_owned(),
+            points: points.map(|(t, a)| [*t, factor * a]).collect(),
+            band: Vec::new(),
+            stroke,
+            colour,
+        }
+    };
+    let colour = set.len();
+    let (mean, code) = (&spectra.mean, &spectra.code);
+    let mut all: Vec<Series> = set
+        .iter()
+        .zip(&spectra.each)
+        .enumerate()
+        .map(|(i, (candidate, values))| series(&candidate.name, values, 1.0, Stroke::Thin, i))
+        .collect();
+    all.push(series("mean", mean, 1.0, Stroke::Heavy, colour));
+    all.push(series("code", code, 1.0, Stroke::Line, colour + 1));
+    all.push(series("code ±20 %", code, 0.8, Stroke::Dashed, colour + 1));
+    all.push(series("", code, 1.2, Stroke::Dashed, colour + 1));
+    all.extend(structures.iter().enumerate().map(|(i, structure)| {
+        let means = structure.periods.iter().zip(&structure.check.mean);
+        Series {
+            name: match &structure.name[..] {
+                "" => "at main periods".to_owned(),
+                name => format!("at periods of {name}"),
+            },
+            points: means.map(|(main, mean)| [main.period, mean[1]]).collect(),
+            band: Vec::new(),
+            stroke: Stroke::Dots,
+            colour: colour + 2 + i,
+        }
+    }));
+    let axis = |name: &str, unit: &str| Axis {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+    };
+    Chart {
+        title: "Response spectra".into(),
+        x: axis("period", "s"),
+        y: axis("pseudo-acceleration", "m/s²"),
+        series: all,
+        levels: Vec::new(),
+        reach: 0.0,
+    }
+}
+
+/// What is asked and whether it is met, a column for each structure.
+fn verdicts(structures: &[CheckedStructure]) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut heads = vec!["GB 50011, clause 5.1.2".to_owned()];
+    heads.extend(
+        structures
+            .iter()
+            .map(|structure| match &structure.name[..] {
+                "" => "verdict".to_owned(),
+                name => name.to_owned(),
+            }),
+    );
+    heads.push("asks for".into());
+    let each: Vec<[Rule; 4]> = structures
+        .iter()
+        .map(|structure| rules(&structure.check))
+        .collect();
+    let rows = each.first().map_or(Vec::new(), |first| {
+        let row = |(i, rule): (usize, &Rule)| {
+            let mut row = vec![rule.about.clone()];
+            row.extend(each.iter().map(|rules| verdict(rules[i].met).to_owned()));
+            row.push(rule.asked.to_owned());
+            row
+        };
+        first.iter().enumerate().map(row).collect()
+    });
+    (heads, rows)
+}
+
+fn numbers(set: &[Candidate], structure: &CheckedStructure) -> (Vec<String>, Vec<Vec<String>>) {
+    let (periods, check) = (&structure.periods, &structure.check);
+    let mut heads = vec!["motion".to_owned(), "origin".into(), "PGA".into()];
+    heads.extend(
+        periods
+            .iter()
+            .map(|main| format!("T = {} s", format::plain(main.period, 4))),
+    );
+    heads.extend(["base shear".into(), "effective duration".into()]);
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (i, candidate) in set.iter().enumerate() {
+        let mut row = vec![
+            candidate.name.clone(),
+            origin(candidate).into(),
+            peak(candidate),
+        ];
+        row.extend(check.ratios[i].iter().map(|value| ratio(*value)));
+        row.extend([
+            ratio(check.base_shear[i]),
+            duration(check.effective_duration[i]),
+        ]);
+        rows.push(row);
+    }
+    let mut mean = vec!["mean".to_owned(), String::new(), String::new()];
+    mean.extend(check.mean.iter().map(|mean| ratio(1.0 + mean[2])));
+    mean.extend([ratio(mean_shear(check)), String::new()]);
+    rows.push(mean);
+    (heads, rows)
+}
+
+/// A rule of the clause.
+struct Rule {
+    met: bool,
+    about: String,
+    asked: &'static str,
+}
+
+fn rules(check: &SelectionCheck) -> [Rule; 4] {
+    let [natural, artificial] = check.counts;
+    let rule = |met: bool, about: &str, asked| Rule {
+        met,
+        about: about.to_owned(),
+        asked,
+    };
+    [
+        rule(
+            check.enough,
+            &format!("{natural} recorded and {artificial} artificial"),
+            "at least two recorded and one artificial; of seven or more, at least five recorded",
+        ),
+        rule(
+            check.mean_agrees,
+            "mean spectrum",
+            "within 20 % of the code at the main periods",
+        ),
+        rule(
+            check.base_shear_agrees,
+            "base shear, estimated from the modes",
+            "each within 65 to 135 %, their mean within 80 to 120 % of the code; to be confirmed with the time histories of the structure",
+        ),
+        rule(
+            check.long_enough,
+            "effective duration",
+            "from the first to the last tenth of the peak, at least five times the longest main period",
+        ),
+    ]
+}
+
+fn verdict(met: bool) -> &'static str {
+    if met { "met" } else { "not met" }
+}
+
+fn origin(candidate: &Candidate) -> &'static str {
+    match candidate.origin {
+        Origin::Natural => "recorded",
+        Origin::Artificial => "artificial",
+    }
+}
+
+fn peak(candidate: &Candidate) -> String {
+    format::unit(format::significant(candidate.motion.peak(), 4), "m/s²")
+}
+
+fn duration(seconds: f64) -> String {
+    format::unit(format::fixed(seconds, 1), "s")
+}
+
+fn ratio(value: f64) -> String {
+    format::fixed(value, 3)
+}
+
+fn mean_shear(check: &SelectionCheck) -> f64 {
+    check.base_shear.iter().sum::<f64>() / check.base_shear.len() as f64
+}
+
+fn rules_table(check: &SelectionCheck) -> Markup {
+    html! {
+        div.scroll { table { tbody {
+            @for rule in rules(check) {
+                tr {
+                    td style="vertical-align: top" { b { (verdict(rule.met)) } }
+                    td style="white-space: normal" { (rule.about) ": " (rule.asked) }
+                }
+            }
+        } } }
+    }
+}
+
+fn selection_table(page: &SelectionPage) -> Markup {
+    let (set, check) = (page.set, page.check);
+    html! {
+        div.scroll { table {
+            thead { tr {
+                th { "motion" } th { "origin" } th.number { "PGA" }
+                @for main in page.periods { th.number { "T = " (format::plain(main.period, 4)) " s" } }
+                th.number { "base shear" } th.number { "effective duration" }
+            } }
+            tbody {
+                @for (i, candidate) in set.iter().enumerate() {
+                    tr {
+                        td { (candidate.name) }
+                        td { (origin(candidate)) }
+                        td.number { (peak(candidate)) }
+                        @for value in &check.ratios[i] { td.number { (ratio(*value)) } }
+                        td.number { (ratio(check.base_shear[i])) }
+                        td.number { (duration(check.effective_duration[i])) }
+                    }
+                }
+                tr {
+                    td { b { "mean" } } td {} td {}
+                    @for [_, _, difference] in &check.mean { td.number { b { (ratio(1.0 + difference)) } } }
+                    td.number { b { (ratio(mean_shear(check))) } }
+                    td {}
+                }
+            }
+        } }
+        p.quiet { "Response over that of the code." }
+    }
+}
