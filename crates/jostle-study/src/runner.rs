@@ -265,10 +265,19 @@ impl Work<'_> {
     fn open(&self, number: u64) -> Result<Opened, StudyError> {
         let cases = self.study.part(number);
         let path = part_path(self.folder, cases.start);
+        let journal_path = journal_path(self.folder, cases.start);
         if path.exists() {
+            // Left behind by a process that was killed between writing the part and this.
+            if journal_path.exists()
+                && let Ok(Claim::Ours(journal, _)) =
+                    Journal::claim(&journal_path, &self.study.fingerprint)
+            {
+                journal
+                    .remove()
+                    .map_err(|error| unwritable(&journal_path, &error))?;
+            }
             return Ok(Opened::Finished);
         }
-        let journal_path = journal_path(self.folder, cases.start);
         let claimed = Journal::claim(&journal_path, &self.study.fingerprint);
         let (journal, known) = match claimed.map_err(|error| unwritable(&journal_path, &error))? {
             Claim::Ours(journal, rows) => (journal, rows),
