@@ -300,6 +300,31 @@ fn a_study_leaves_table_report_and_text() {
 }
 
 #[test]
+fn a_sweep_of_one_number_is_drawn_with_a_line_for_every_record() {
+    let folder = workplace(1);
+    let sweep = r#"base = "towers.toml"
+[[vary]]
+path = "gap[0].width"
+values = ["5 mm", "10 mm", "20 mm"]
+[[vary]]
+path = "motion.record"
+values = ["el-centro-1940-ns", "nanjing-artificial"]
+"#;
+    std::fs::write(folder.path().join("sweep.toml"), sweep).expect("written");
+    let done = jostle(folder.path(), &["study", "sweep.toml", "--out", "out"]);
+    assert!(done.status.success(), "{}", common::complained(&done));
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
+    for shown in [
+        "Over gap",
+        "greatest force",
+        "impacts",
+        "nanjing-artificial",
+    ] {
+        assert!(page.contains(shown), "{shown}");
+    }
+}
+
+#[test]
 fn wrong_studies_are_refused_with_their_line() {
     let folder = workplace(5);
     let text = study(5).replace("gap[0].width", "gap[0].widht");

@@ -9,6 +9,8 @@ use crate::study::StudyError;
 
 /// Groups of curves at most.
 const MOST_GROUPS: usize = 8;
+/// Lines of one chart at most that can still be told apart.
+const MOST_LINES: usize = 14;
 /// Curves of one chart at most; more say nothing.
 const MOST_CURVES: usize = 200;
 /// Curves from which on fractiles are drawn.
@@ -55,7 +57,7 @@ impl Results<'_> {
                     },
                     x: x_axis.clone(),
                     y: axis,
-                    series: series.take(14).map(short_name).collect(),
+                    series: series.take(MOST_LINES).map(short_name).collect(),
                     levels: Vec::new(),
                     reach: 0.0,
                 });
@@ -64,6 +66,50 @@ impl Results<'_> {
         (!charts.is_empty()).then(|| Section {
             title: format!("Over {}", x_axis.name),
             remark: format!("One line for each {}.", y_axis.name),
+            charts,
+            ..Section::default()
+        })
+    }
+
+    /// Force, impacts and closing over the only number that varies, a line for every combination of the rest.
+    pub(super) fn sweep_curves(&self) -> Option<Section> {
+        let factor = self.sweep()?;
+        let xs = self.input(factor);
+        let (x_axis, x_size) = words::axis(&self.study.layout.inputs[factor].name);
+        let groups = self.grouped(&self.others(&[factor]));
+        let lines: Vec<_> = groups.into_iter().take(MOST_LINES).collect();
+        let mut charts = Vec::new();
+        for shown in ["peak_force_n", "impact_count", "closing_peak_m"] {
+            let values = self.table.column(shown);
+            if values.is_empty() {
+                continue;
+            }
+            let (axis, size) = words::axis(shown);
+            let series = lines.iter().enumerate().map(|(colour, (name, cases))| {
+                let mut points: Vec<[f64; 2]> = cases
+                    .iter()
+                    .filter_map(|case| Some([x_size * xs[*case]?, size * values[*case]?]))
+                    .collect();
+                points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                Series {
+                    name: name.clone(),
+                    points: means(&points),
+                    band: Vec::new(),
+                    stroke: Stroke::Dotted,
+                    colour,
+                }
+            });
+            charts.push(Chart {
+                title: axis.name.clone(),
+                x: x_axis.clone(),
+                series: series.collect(),
+                y: axis,
+                levels: Vec::new(),
+                reach: 0.0,
+            });
+        }
+        (!charts.is_empty()).then(|| Section {
+            title: format!("Over {}", x_axis.name),
             charts,
             ..Section::default()
         })

@@ -89,6 +89,15 @@ impl Results<'_> {
         }
     }
 
+    /// The only factor with several numbers in a list, where no two span a map.
+    pub(super) fn sweep(&self) -> Option<usize> {
+        if self.plane().is_some() {
+            return None;
+        }
+        let mut factors = self.listed().into_iter();
+        factors.find(|factor| self.numbers(*factor).len() > 1)
+    }
+
     /// The distinct numbers of a factor, growing.
     pub(super) fn numbers(&self, factor: usize) -> Vec<f64> {
         let FactorValues::Listed(levels) = &self.study.file.factors[factor].values else {

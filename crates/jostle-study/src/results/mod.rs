@@ -88,6 +88,7 @@ pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
     let mut sections: Vec<Section> = Vec::new();
     let maps = results.maps();
     sections.extend(results.curves());
+    sections.extend(results.sweep_curves());
     sections.extend(results.needed_gap());
     sections.extend(results.idas()?);
     sections.extend(results.fragilities()?);
