@@ -1,8 +1,8 @@
 //! The smallest gap without pounding, by bracketing on the response, beside what rules and codes ask for.
 
 use jostle::separation::{
-    EN1998_ALIGNED_FLOORS, JointSystem, absolute_sum, ddc_coefficient, double_difference,
-    gb50011_joint, srss,
+    EN1998_ALIGNED_FLOORS, JointSystem, UBC97_OF_ELASTIC, absolute_sum, ddc_coefficient,
+    double_difference, gb50011_joint, srss,
 };
 use jostle::{
     FloorPairs, GroundMotion, Model, Outcome, Plan, Pounding, RunEnd, Settings, Summary, System,
@@ -372,6 +372,15 @@ impl Search<'_> {
                 "0.7 SRSS",
                 "EN 1998-1 §4.4.2.7(3), floors at equal height",
                 EN1998_ALIGNED_FLOORS * root,
+            ));
+        }
+        let mut buildings = apart.system.buildings.iter();
+        if buildings.all(|building| building.equations.springs.is_empty()) {
+            // 0.7 R times the displacement under forces divided by R: 0.7 of the elastic one.
+            rules.push(rule(
+                "UBC-97",
+                "UBC-97 §1630.9.2 and §1633.2.11, with the computed displacements as the elastic ones",
+                UBC97_OF_ELASTIC * root,
             ));
         }
         if let Some(rho) = rho {

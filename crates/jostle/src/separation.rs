@@ -85,6 +85,10 @@ pub fn double_difference(left: f64, right: f64, correlation: f64) -> f64 {
 /// Share of the SRSS that EN 1998-1 §4.4.2.7(3) asks for where the floors of both buildings lie at equal height.
 pub const EN1998_ALIGNED_FLOORS: f64 = 0.7;
 
+/// Maximum inelastic displacement over the elastic one, UBC-97 §1630.9.2: Δ_M = 0.7 R Δ_S, where Δ_S belongs to forces
+/// divided by R \[–\].
+pub const UBC97_OF_ELASTIC: f64 = 0.7;
+
 #[cfg(test)]
 mod tests {
     use super::*;
