@@ -12,6 +12,7 @@ import machine
 import page
 import programs
 import reference
+import studies
 import validation
 from cases import CASES
 
@@ -78,11 +79,15 @@ def main():
     parser.add_argument("--quick", action="store_true", help="two towers and the first five seconds of the example")
     parser.add_argument("--reference", action="store_true", help="find settings and converged values again")
     parser.add_argument("--validation", action="store_true", help="OpenSees' answers for the models of the validation")
+    parser.add_argument("--study", nargs="*", choices=["study", "cores"], help="a thousand cases against OpenSees, and how well two cores are used")
     parser.add_argument("--keep-page", action="store_true", help="leave docs/performance.md alone")
     args = parser.parse_args()
     unknown = set(args.cases) - {case.name for case in CASES}
     if unknown:
         parser.error(f"there is no case {', '.join(sorted(unknown))}")
+    if args.study is not None:
+        RESULTS.mkdir(exist_ok=True)
+        return studies.main(RESULTS, say, args.study)
     if args.validation:
         return validation.main(say)
     chosen = [case for case in CASES if (not args.cases or case.name in args.cases) and (case.quick or not args.quick)]

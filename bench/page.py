@@ -7,6 +7,8 @@ from pathlib import Path
 PAGE = Path(__file__).resolve().parent.parent / "docs" / "performance.md"
 BEGIN = "<!-- bench/run: what follows is written by it -->"
 END = "<!-- bench/run: end -->"
+BEGIN_STUDIES = "<!-- bench/run --study: what follows is written by it -->"
+END_STUDIES = "<!-- bench/run --study: end -->"
 # What the project set itself: solver, case, ratio to OpenSees at its best.
 TARGETS = {
     ("riccati", "few"): 300, ("riccati", "many"): 300, ("modal", "few"): 5000, ("modal", "many"): 5000,
@@ -97,8 +99,17 @@ def rewrite(folder, order):
         "",
         END,
     ])
+    put_between(BEGIN, END, text)
+
+
+def rewrite_studies(text):
+    """The section on studies."""
+    put_between(BEGIN_STUDIES, END_STUDIES, "\n".join([BEGIN_STUDIES, "", text, "", END_STUDIES]))
+
+
+def put_between(begin, end, text):
     page = PAGE.read_text()
-    start, end = page.index(BEGIN), page.index(END) + len(END)
+    start, end = page.index(begin), page.index(end) + len(end)
     temporary = PAGE.with_suffix(".tmp")
     temporary.write_text(page[:start] + text + page[end:])
     temporary.replace(PAGE)

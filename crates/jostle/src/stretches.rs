@@ -141,3 +141,70 @@ fn subtract(from: &mut [f64], values: &[f64], of: &[f64]) {
         *from -= value * of;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use pulp::{Arch, NullaryFnOnce};
+
+    use super::*;
+
+    struct Passes<'a> {
+        stretches: &'a Stretches,
+        laid: &'a [f64],
+        x: &'a mut [f64],
+    }
+
+    impl NullaryFnOnce for Passes<'_> {
+        type Output = f64;
+
+        #[inline(always)]
+        fn call(self) -> f64 {
+            self.stretches.pass_on(self.laid, self.x);
+            self.stretches.gather(self.laid, self.x);
+            self.stretches.bilinear(self.laid, self.x)
+        }
+    }
+
+    /// Stretches of every length, one at a time: what a loop over single entries gives, to the bit in vectors, and the
+    /// same bits in wide registers.
+    #[test]
+    fn stretches_do_what_single_entries_do() {
+        for length in 1..23_u32 {
+            let entries = (0..length).map(|k| (k + 30, k, length - 1 - k)).collect();
+            let stretches = Stretches::of(entries);
+            assert_eq!(
+                (stretches.stretches.len(), stretches.len()),
+                (1, length as usize)
+            );
+            let values: Vec<f64> = (0..length).map(|k| (0.3 + f64::from(k)).sin()).collect();
+            let mut laid = Vec::new();
+            stretches.lay_out(&values, &mut laid);
+            let start: Vec<f64> = (0..60).map(|k| (1.7 * f64::from(k)).cos()).collect();
+            let run = |wide: bool| {
+                let mut x = start.clone();
+                let passes = Passes {
+                    stretches: &stretches,
+                    laid: &laid,
+                    x: &mut x,
+                };
+                let sum = if wide {
+                    Arch::new().dispatch(passes)
+                } else {
+                    passes.call()
+                };
+                (x, sum)
+            };
+            let (wide, narrow) = (run(true), run(false));
+            assert_eq!(wide, narrow, "{length} entries");
+            let mut x = start.clone();
+            let value = |k: usize| values[length as usize - 1 - k];
+            (0..length as usize).for_each(|k| x[k + 30] -= value(k) * x[k]);
+            (0..length as usize).for_each(|k| x[k] -= value(k) * x[k + 30]);
+            assert_eq!(wide.0, x, "{length} entries");
+            let sum: f64 = (0..length as usize)
+                .map(|k| value(k) * x[k] * x[k + 30])
+                .sum();
+            assert!((wide.1 - sum).abs() < 1e-14 * f64::from(length));
+        }
+    }
+}

@@ -1,8 +1,9 @@
 //! The few shapes in which an elastic building answers the ground and its contacts (theory, Eqs. Q3 and Q4).
 
 use faer::{Mat, Side};
+use pulp::NullaryFnOnce;
 
-use crate::lanes;
+use crate::lanes::{self, in_wide_registers};
 use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
@@ -220,15 +221,12 @@ impl<'a> Growing<'a> {
         }
         let length = |vector: &[f64]| lanes::weighted_square(&equations.mass, vector).sqrt();
         let before = length(&vector);
-        // Twice is enough.
-        for _ in 0..2 {
-            for (known, heavy) in self.vectors.iter().zip(&self.heavy) {
-                let part = lanes::dot(heavy, &vector);
-                for (value, known) in vector.iter_mut().zip(known) {
-                    *value -= part * known;
-                }
-            }
-        }
+        let strip = Strip {
+            vector: &mut vector,
+            known: &self.vectors,
+            heavy: &self.heavy,
+        };
+        in_wide_registers(equations.len(), strip);
         let rest = length(&vector);
         if rest <= NOTHING_NEW * before || rest.is_nan() {
             return;
@@ -239,8 +237,14 @@ impl<'a> Growing<'a> {
         let heavy = vector.iter().zip(&equations.mass).map(|(v, m)| v * m);
         self.heavy.push(heavy.collect());
         self.vectors.push(vector);
-        let row = self.vectors.iter().map(|other| lanes::dot(other, &stiff));
-        self.products.push(row.collect());
+        let mut row = vec![0.0; self.vectors.len()];
+        let products = Products {
+            with: &stiff,
+            vectors: &self.vectors,
+            row: &mut row,
+        };
+        in_wide_registers(stiff.len(), products);
+        self.products.push(row);
     }
 
     fn ritz(&self) -> Result<Ritz, NotPositive> {
@@ -328,6 +332,48 @@ impl<'a> Growing<'a> {
             vectors: self.vectors,
             factorizations: self.factorizations,
             solves: self.solves,
+        }
+    }
+}
+
+/// Takes from a vector what it has of those already known; heavy ones are M times these.
+struct Strip<'a> {
+    vector: &'a mut [f64],
+    known: &'a [Vec<f64>],
+    heavy: &'a [Vec<f64>],
+}
+
+impl NullaryFnOnce for Strip<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        // Twice is enough.
+        for _ in 0..2 {
+            for (known, heavy) in self.known.iter().zip(self.heavy) {
+                let part = lanes::dot(heavy, self.vector);
+                for (value, known) in self.vector.iter_mut().zip(known) {
+                    *value -= part * known;
+                }
+            }
+        }
+    }
+}
+
+/// Products of a vector with many.
+struct Products<'a> {
+    with: &'a [f64],
+    vectors: &'a [Vec<f64>],
+    row: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Products<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (product, vector) in self.row.iter_mut().zip(self.vectors) {
+            *product = lanes::dot(vector, self.with);
         }
     }
 }

@@ -4,9 +4,9 @@
 use pulp::{NullaryFnOnce, Simd, WithSimd};
 
 /// Watched displacements taken at once.
-pub(super) const ROWS: usize = 4;
+pub(super) const ROWS: usize = 8;
 /// Modes taken at once.
-const LANES: usize = 8;
+pub(super) const LANES: usize = 8;
 
 /// out = a q + b q̇ + c p₀ + d p₁, mode by mode.
 pub(super) struct Combine<'a> {
@@ -30,47 +30,240 @@ impl NullaryFnOnce for Combine<'_> {
     }
 }
 
-/// What two lists of modal values of one building show at its watched displacements.
-pub(super) struct Show<'a> {
+/// What lists of modal values of one building show at its watched displacements.
+pub(super) struct Show<'a, const N: usize> {
     /// Block after block of rows, mode by mode.
     pub(super) blocks: &'a [[f64; ROWS]],
-    pub(super) modal: [&'a [f64]; 2],
-    pub(super) watched: [&'a mut [f64]; 2],
+    pub(super) modal: [&'a [f64]; N],
+    pub(super) watched: [&'a mut [f64]; N],
 }
 
-impl WithSimd for Show<'_> {
+impl<const N: usize> WithSimd for Show<'_, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let [a, b] = self.modal;
-        let [first, second] = self.watched;
-        let blocks = self.blocks.chunks_exact(a.len().max(1));
-        let places = first.chunks_mut(ROWS).zip(second.chunks_mut(ROWS));
-        for (block, (first, second)) in blocks.zip(places) {
+        let Self {
+            blocks,
+            modal,
+            mut watched,
+        } = self;
+        let n = modal[0].len();
+        for (at, block) in blocks.chunks_exact(n.max(1)).enumerate() {
             // As many registers as a block needs, however wide they are.
-            let mut sums = [[simd.splat_f64s(0.0); ROWS]; 2];
-            for ((shape, a), b) in block.iter().zip(a).zip(b) {
+            let mut sums = [[simd.splat_f64s(0.0); ROWS]; N];
+            for (mode, shape) in block.iter().enumerate() {
                 let (shape, _) = S::as_simd_f64s(shape);
-                let (a, b) = (simd.splat_f64s(*a), simd.splat_f64s(*b));
-                for (register, shape) in shape.iter().enumerate() {
-                    let [u, v] = [&sums[0][register], &sums[1][register]];
-                    let (u, v) = (
-                        simd.add_f64s(*u, simd.mul_f64s(*shape, a)),
-                        simd.add_f64s(*v, simd.mul_f64s(*shape, b)),
-                    );
-                    (sums[0][register], sums[1][register]) = (u, v);
+                for (sums, list) in sums.iter_mut().zip(&modal) {
+                    let value = simd.splat_f64s(list[mode]);
+                    for (sum, shape) in sums.iter_mut().zip(shape) {
+                        *sum = simd.add_f64s(*sum, simd.mul_f64s(*shape, value));
+                    }
                 }
             }
-            for (sums, out) in sums.iter().zip([first, second]) {
+            for (sums, out) in sums.iter().zip(&mut watched) {
                 let mut values = [0.0; ROWS];
                 let (registers, _) = S::as_mut_simd_f64s(&mut values);
                 let count = registers.len();
                 registers.copy_from_slice(&sums[..count]);
-                out.copy_from_slice(&values[..out.len()]);
+                let rows = at * ROWS..out.len().min((at + 1) * ROWS);
+                let count = rows.len();
+                out[rows].copy_from_slice(&values[..count]);
             }
         }
     }
+}
+
+/// Factors of [`LANES`] modes for steps of one length in free flight, where loads follow from the ground alone: of
+/// (q₀, q̇₀, a₀, a₁), a being the ground acceleration.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Lanes {
+    pub(super) displacement: [[f64; LANES]; 4],
+    pub(super) velocity: [[f64; LANES]; 4],
+    /// Of the energy lost by damping: q₀², q₀q̇₀, q̇₀², then q₀ and q̇₀ with a₀ and a₁.
+    pub(super) damped: [[f64; LANES]; 7],
+    /// Of Γ ∫q dt: q₀ and q̇₀.
+    pub(super) area: [[f64; LANES]; 2],
+    pub(super) participation: [f64; LANES],
+    pub(super) damping: [f64; LANES],
+    pub(super) stiffness: [f64; LANES],
+}
+
+/// Sums over modes of a step, lane by lane.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums {
+    /// What damping takes, but for the products of ground accelerations alone \[J\].
+    pub(super) damped: [f64; LANES],
+    /// Γ ∫q dt, but for the parts of ground accelerations.
+    pub(super) area: [f64; LANES],
+    /// Γ q₁.
+    pub(super) moved: [f64; LANES],
+    /// 2 T and 2 U at the end \[J\].
+    pub(super) kinetic: [f64; LANES],
+    pub(super) strain: [f64; LANES],
+}
+
+/// Several steps of free flight, for all modes.
+pub(super) struct Ahead<'a> {
+    pub(super) lanes: &'a [Lanes],
+    /// Ground acceleration at the start and after every step.
+    pub(super) ground: &'a [f64],
+    /// q₀ and q̇₀.
+    pub(super) start: [&'a [f64]; 2],
+    /// q, q̇, q̈ and what the rate of q̈ is but for the load's, step after step.
+    pub(super) modal: [&'a mut [f64]; 4],
+    pub(super) sums: &'a mut [Sums],
+}
+
+impl WithSimd for Ahead<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let stride = self.lanes.len() * LANES;
+        let (times, plus) = (
+            |x, y| simd.mul_f64s(x, y),
+            |x: S::f64s, y: S::f64s| simd.add_f64s(x, y),
+        );
+        let [out_q, out_v, out_a, out_j] = self.modal;
+        for (group, own) in self.lanes.iter().enumerate() {
+            let first = group * LANES;
+            let registers = one::<S>(&own.stiffness).len();
+            for r in 0..registers {
+                let factor = |list: &[f64; LANES]| one::<S>(list)[r];
+                let at = |list: &[f64]| S::as_simd_f64s(&list[first..first + LANES]).0[r];
+                let (mut q0, mut v0) = (at(self.start[0]), at(self.start[1]));
+                let (damping, stiffness) = (factor(&own.damping), factor(&own.stiffness));
+                let participation = factor(&own.participation);
+                for (k, (ground, sums)) in self.ground.windows(2).zip(&mut *self.sums).enumerate() {
+                    let (g0, g1) = (simd.splat_f64s(ground[0]), simd.splat_f64s(ground[1]));
+                    let row = |row: &[[f64; LANES]; 4]| {
+                        plus(
+                            plus(times(factor(&row[0]), q0), times(factor(&row[1]), v0)),
+                            plus(times(factor(&row[2]), g0), times(factor(&row[3]), g1)),
+                        )
+                    };
+                    let (q1, v1) = (row(&own.displacement), row(&own.velocity));
+                    let by_q = plus(
+                        plus(
+                            times(factor(&own.damped[0]), q0),
+                            times(factor(&own.damped[1]), v0),
+                        ),
+                        plus(
+                            times(factor(&own.damped[3]), g0),
+                            times(factor(&own.damped[4]), g1),
+                        ),
+                    );
+                    let by_v = plus(
+                        times(factor(&own.damped[2]), v0),
+                        plus(
+                            times(factor(&own.damped[5]), g0),
+                            times(factor(&own.damped[6]), g1),
+                        ),
+                    );
+                    let strained = times(stiffness, q1);
+                    let a1 = simd.sub_f64s(
+                        simd.neg_f64s(plus(times(participation, g1), times(damping, v1))),
+                        strained,
+                    );
+                    let j1 = simd.neg_f64s(plus(times(damping, a1), times(stiffness, v1)));
+                    let add = |sum: &mut [f64; LANES], value: S::f64s| {
+                        let place = &mut S::as_mut_simd_f64s(sum).0[r];
+                        *place = plus(*place, value);
+                    };
+                    add(&mut sums.damped, plus(times(q0, by_q), times(v0, by_v)));
+                    add(
+                        &mut sums.area,
+                        plus(
+                            times(factor(&own.area[0]), q0),
+                            times(factor(&own.area[1]), v0),
+                        ),
+                    );
+                    add(&mut sums.moved, times(participation, q1));
+                    add(&mut sums.kinetic, times(v1, v1));
+                    add(&mut sums.strain, times(strained, q1));
+                    let here = k * stride + first;
+                    let put = |list: &mut [f64], value: S::f64s| {
+                        S::as_mut_simd_f64s(&mut list[here..here + LANES]).0[r] = value;
+                    };
+                    put(out_q, q1);
+                    put(out_v, v1);
+                    put(out_a, a1);
+                    put(out_j, j1);
+                    (q0, v0) = (q1, v1);
+                }
+            }
+        }
+    }
+}
+
+/// Greatest so far of everything watched, and what cannot be exceeded unseen.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Limits {
+    /// Of displacements, and of the base shear both ways \[m, N\].
+    pub(super) high: Vec<f64>,
+    pub(super) low: Vec<f64>,
+    /// Of storey drifts times storey heights, and of total accelerations \[m, m/s²\]; infinite where there are none.
+    pub(super) drift: Vec<f64>,
+    pub(super) acceleration: Vec<f64>,
+}
+
+/// Whether a step may exceed a limit: a cubic between its ends leaves their range by no more than `beyond` times the sum
+/// of its end slopes.
+pub(super) struct Exceeds<'a> {
+    pub(super) limits: &'a Limits,
+    /// At both ends: displacements, velocities, accelerations and what the rates of these are but for the load's.
+    pub(super) ends: [[&'a [f64]; 4]; 2],
+    pub(super) driven: &'a [f64],
+    /// Ground acceleration at both ends, and its slope.
+    pub(super) ground: [f64; 2],
+    pub(super) ground_rate: f64,
+    pub(super) beyond: f64,
+}
+
+impl NullaryFnOnce for Exceeds<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn call(self) -> bool {
+        let n = self.driven.len();
+        let [[u0, v0, a0, l0], [u1, v1, a1, l1]] = self.ends;
+        let (u0, v0, a0, l0) = (&u0[..n], &v0[..n], &a0[..n], &l0[..n]);
+        let (u1, v1, a1, l1) = (&u1[..n], &v1[..n], &a1[..n], &l1[..n]);
+        let Limits {
+            high,
+            low,
+            drift,
+            acceleration,
+        } = self.limits;
+        let (high, low) = (&high[..n], &low[..n]);
+        let (drift, acceleration) = (&drift[..n], &acceleration[..n]);
+        let driven = &self.driven[..n];
+        let ([g0, g1], beyond) = (self.ground, self.beyond);
+        let more = |a: f64, b: f64| if a > b { a } else { b };
+        let mut seen = false;
+        for i in 0..n {
+            let reach = beyond * (v0[i].abs() + v1[i].abs());
+            seen |= more(u0[i], u1[i]) + reach > high[i];
+            seen |= more(-u0[i], -u1[i]) + reach > -low[i];
+            let slope = self.ground_rate * (1.0 - driven[i]);
+            let reach = beyond * ((l0[i] + slope).abs() + (l1[i] + slope).abs());
+            seen |= more((a0[i] + g0).abs(), (a1[i] + g1).abs()) + reach > acceleration[i];
+        }
+        // Against the floor below; the lowest ones stand on the ground.
+        for i in 1..n {
+            let reach = beyond * ((v0[i] - v0[i - 1]).abs() + (v1[i] - v1[i - 1]).abs());
+            let apart = more((u0[i] - u0[i - 1]).abs(), (u1[i] - u1[i - 1]).abs());
+            seen |= apart + reach > drift[i];
+        }
+        seen
+    }
+}
+
+/// [`LANES`] values, register by register.
+#[inline(always)]
+fn one<S: Simd>(list: &[f64; LANES]) -> &[S::f64s] {
+    S::as_simd_f64s(list).0
 }
 
 /// Sum of a quadratic form in four values over all modes: upper triangle row by row.

@@ -6,6 +6,7 @@
 //! straight. What it cannot do is refused by [`refusals`].
 
 mod basis;
+mod flight;
 mod kernels;
 mod meeting;
 mod peaks;

@@ -1,8 +1,9 @@
 //! Histories and peaks in modal coordinates, also between steps that are long beside the higher modes.
 
+use super::kernels::{Exceeds, Limits};
 use super::reduced::Reduced;
 use crate::history::{Energy, Extreme, FloorPeaks, History};
-use crate::lanes;
+use crate::lanes::in_wide_registers;
 use crate::state::ContactPhase;
 use crate::stepping::events::Cubic;
 use crate::stepping::recorder::{columns, greatest_in_step};
@@ -16,38 +17,40 @@ pub(super) struct Peaks {
     pub(super) floors: Vec<Vec<FloorPeaks>>,
     pub(super) closing: Vec<Extreme>,
     pub(super) base_shear: Vec<f64>,
-    /// Base shear and its rate a step ago, of every building.
-    shear: Vec<[f64; 2]>,
-    /// Accelerations of floors now and a step ago, and what their rates are but for the load's.
-    acceleration: [Vec<f64>; 2],
-    loose: [Vec<f64>; 2],
-    jerk: Vec<f64>,
-    /// What a unit rate of the ground acceleration adds to the rates of accelerations.
+    /// What a unit ground acceleration takes from the accelerations of everything watched, and its rate from their rates.
     driven: Vec<f64>,
+    limits: Limits,
+}
+
+/// What is watched at an instant, place by place.
+#[derive(Clone, Copy)]
+pub(super) struct Watched<'a> {
+    pub(super) u: &'a [f64],
+    pub(super) rate: &'a [f64],
+    /// Acceleration relative to the ground, and its rate but for that of the load.
+    pub(super) acceleration: &'a [f64],
+    pub(super) loose: &'a [f64],
+}
+
+impl<'a> Watched<'a> {
+    fn lists(self) -> [&'a [f64]; 4] {
+        [self.u, self.rate, self.acceleration, self.loose]
+    }
 }
 
 /// A step that was taken.
-pub(super) struct Moment<'a> {
-    /// Watched displacements and velocities at its end and at its start.
-    pub(super) u: &'a [Vec<f64>; 2],
-    pub(super) rate: &'a [Vec<f64>; 2],
-    /// Modal displacements, velocities and accelerations at its end.
-    pub(super) q: &'a [f64],
-    pub(super) v: &'a [f64],
-    pub(super) a: &'a [f64],
-    /// Ground acceleration at its start and at its end.
+pub(super) struct Taken<'a> {
+    /// Its start and its end.
+    pub(super) then: Watched<'a>,
+    pub(super) now: Watched<'a>,
+    /// Ground acceleration at both.
     pub(super) ground: [f64; 2],
     pub(super) start: f64,
     pub(super) step: f64,
 }
 
 impl Peaks {
-    pub(super) fn new(
-        system: &System,
-        reduced: &Reduced,
-        interval: Option<f64>,
-        ground: f64,
-    ) -> Self {
+    pub(super) fn new(system: &System, reduced: &Reduced, interval: Option<f64>) -> Self {
         let watched = reduced.watched();
         let (mut driven, mut spare) = (vec![0.0; watched], vec![0.0; watched]);
         let participation = &reduced.participation[..];
@@ -63,15 +66,8 @@ impl Peaks {
                 .collect(),
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
-            shear: vec![[0.0; 2]; system.buildings.len()],
-            // At rest on moving ground buildings stay behind.
-            acceleration: [
-                driven.iter().map(|share| -share * ground).collect(),
-                vec![0.0; watched],
-            ],
-            loose: [vec![0.0; watched], vec![0.0; watched]],
-            jerk: vec![0.0; reduced.modes()],
             driven,
+            limits: Limits::none(reduced),
         }
     }
 
@@ -85,49 +81,73 @@ impl Peaks {
         self.history
     }
 
+    /// See the field.
+    pub(super) fn driven(&self) -> &[f64] {
+        &self.driven
+    }
+
     /// Updates peaks with a step.
-    pub(super) fn after_step(&mut self, system: &System, reduced: &Reduced, moment: Moment<'_>) {
-        let Moment {
-            u,
-            rate,
-            q,
-            v,
-            a,
+    pub(super) fn after_step(&mut self, system: &System, reduced: &Reduced, taken: &Taken<'_>) {
+        if self.may_exceed(taken) {
+            self.look_at_buildings(system, reduced, taken);
+        }
+        for (contact, closing) in self.closing.iter_mut().enumerate() {
+            let pair = |at: Watched<'_>| {
+                [
+                    reduced.closing(contact, at.u),
+                    reduced.closing(contact, at.rate),
+                ]
+            };
+            let ends = Ends {
+                then: pair(taken.then),
+                now: pair(taken.now),
+            };
+            ends.raise(closing, taken.start, taken.step);
+        }
+    }
+
+    /// Whether a floor, a storey or a base shear may go beyond what it did before.
+    fn may_exceed(&self, taken: &Taken<'_>) -> bool {
+        let Taken {
+            then,
+            now,
+            ground,
+            step,
+            ..
+        } = *taken;
+        in_wide_registers(
+            self.driven.len(),
+            Exceeds {
+                limits: &self.limits,
+                ends: [then.lists(), now.lists()],
+                driven: &self.driven,
+                ground,
+                ground_rate: (ground[1] - ground[0]) / step,
+                beyond: BEYOND * step,
+            },
+        )
+    }
+
+    fn look_at_buildings(&mut self, system: &System, reduced: &Reduced, taken: &Taken<'_>) {
+        let Taken {
+            then,
+            now,
             ground,
             start,
             step,
-        } = moment;
-        self.acceleration.swap(0, 1);
-        self.loose.swap(0, 1);
-        let modes = a
-            .iter()
-            .zip(v)
-            .zip(&reduced.damping)
-            .zip(&reduced.stiffness);
-        for (jerk, (((a, v), d), k)) in self.jerk.iter_mut().zip(modes) {
-            *jerk = -d * a - k * v;
-        }
-        reduced.show(
-            [a, &self.jerk],
-            [&mut self.acceleration[0], &mut self.loose[0]],
-        );
+        } = *taken;
         let ground_rate = (ground[1] - ground[0]) / step;
         for (index, building) in system.buildings.iter().enumerate() {
             let own = &reduced.buildings[index];
-            let floors = own.watched.start..own.watched.start + own.floors;
-            let [[u1, u0], [v1, v0], [a1, a0], [l1, l0]] =
-                [u, rate, &self.acceleration, &self.loose]
-                    .map(|pair| pair.each_ref().map(|list| &list[floors.clone()]));
-            let driven = &self.driven[floors];
             let mut below = Ends {
                 then: [0.0; 2],
                 now: [0.0; 2],
             };
             let floors = self.floors[index].iter_mut().zip(&building.floors);
-            for (at, (peaks, floor)) in floors.enumerate() {
+            for (at, (peaks, floor)) in (own.watched.start..).zip(floors) {
                 let ends = Ends {
-                    then: [u0[at], v0[at]],
-                    now: [u1[at], v1[at]],
+                    then: [then.u[at], then.rate[at]],
+                    now: [now.u[at], now.rate[at]],
                 };
                 ends.raise(&mut peaks.displacement_max, start, step);
                 ends.lower(&mut peaks.displacement_min, start, step);
@@ -140,33 +160,29 @@ impl Peaks {
                 };
                 drifts.widen(&mut peaks.storey_drift, step);
                 below = ends;
-                let slope = ground_rate * (1.0 - driven[at]);
+                let slope = ground_rate * (1.0 - self.driven[at]);
                 let total = Ends {
-                    then: [a0[at] + ground[0], l0[at] + slope],
-                    now: [a1[at] + ground[1], l1[at] + slope],
+                    then: [then.acceleration[at] + ground[0], then.loose[at] + slope],
+                    now: [now.acceleration[at] + ground[1], now.loose[at] + slope],
                 };
                 total.widen(&mut peaks.total_acceleration, step);
+                self.limits.high[at] = peaks.displacement_max.value;
+                self.limits.low[at] = peaks.displacement_min.value;
+                self.limits.acceleration[at] = peaks.total_acceleration;
+                if at > own.watched.start {
+                    // A little less, as the product is rounded.
+                    let widest = peaks.storey_drift * floor.storey_height;
+                    self.limits.drift[at] = (1.0 - 1e-12) * widest;
+                }
             }
-            let sum = |modal: &[f64]| lanes::dot(&own.shear, &modal[own.modes.clone()]);
-            let shear = Ends {
-                then: self.shear[index],
-                now: [sum(q), sum(v)],
+            let shear = own.watched.end - 1;
+            let shears = Ends {
+                then: [then.u[shear], then.rate[shear]],
+                now: [now.u[shear], now.rate[shear]],
             };
-            shear.widen(&mut self.base_shear[index], step);
-            self.shear[index] = shear.now;
-        }
-        for (contact, closing) in self.closing.iter_mut().enumerate() {
-            let pair = |time: usize| {
-                [
-                    reduced.closing(contact, &u[time]),
-                    reduced.closing(contact, &rate[time]),
-                ]
-            };
-            let ends = Ends {
-                then: pair(1),
-                now: pair(0),
-            };
-            ends.raise(closing, start, step);
+            shears.widen(&mut self.base_shear[index], step);
+            self.limits.high[shear] = self.base_shear[index];
+            self.limits.low[shear] = -self.base_shear[index];
         }
     }
 
@@ -175,13 +191,13 @@ impl Peaks {
         self.history.is_some() && (wanted || time >= self.due)
     }
 
-    /// Adds a row: time and ground, displacements and velocities of watched places; accelerations are known.
+    /// Adds a row: time and ground, and what is watched.
     pub(super) fn record(
         &mut self,
         system: &System,
         reduced: &Reduced,
         (time, ground): (f64, f64),
-        [u, rate]: [&[f64]; 2],
+        watched: Watched<'_>,
         phases: &[ContactPhase],
         energy: &Energy,
     ) {
@@ -200,9 +216,9 @@ impl Peaks {
         for (building, own) in system.buildings.iter().zip(&reduced.buildings) {
             for floor in 0..building.floors.len().min(own.floors) {
                 let at = own.watched.start + floor;
-                put(u[at]);
-                put(rate[at]);
-                put(self.acceleration[0][at] + ground);
+                put(watched.u[at]);
+                put(watched.rate[at]);
+                put(watched.acceleration[at] + ground);
             }
         }
         phases.iter().for_each(|phase| put(phase.force()));
@@ -219,6 +235,34 @@ impl Peaks {
     }
 }
 
+/// By how much, in steps times the sum of its end slopes, a cubic may leave the range of its ends: 4/27.
+const BEYOND: f64 = 0.15;
+
+impl Limits {
+    /// Nothing was seen so far; other faces of contacts have no peaks, and the drift of the lowest storey is the
+    /// displacement of its floor.
+    fn none(reduced: &Reduced) -> Self {
+        let watched = reduced.watched();
+        let mut limits = Self {
+            high: vec![f64::INFINITY; watched],
+            low: vec![f64::NEG_INFINITY; watched],
+            drift: vec![f64::INFINITY; watched],
+            acceleration: vec![f64::INFINITY; watched],
+        };
+        for building in &reduced.buildings {
+            let first = building.watched.start;
+            for at in first..first + building.floors {
+                (limits.high[at], limits.low[at]) = (0.0, 0.0);
+                (limits.drift[at], limits.acceleration[at]) = (0.0, 0.0);
+            }
+            limits.drift[first] = f64::INFINITY;
+            let shear = building.watched.end - 1;
+            (limits.high[shear], limits.low[shear]) = (0.0, 0.0);
+        }
+        limits
+    }
+}
+
 /// (value, slope) at the start and at the end of a step.
 #[derive(Clone, Copy)]
 struct Ends {
@@ -227,11 +271,10 @@ struct Ends {
 }
 
 impl Ends {
-    /// By how much a cubic may leave the range of its ends: no more than 4/27 of the step times the sum of its end
-    /// slopes.
+    /// By how much a cubic may leave the range of its ends.
     #[inline(always)]
     fn beyond(&self, step: f64) -> f64 {
-        0.15 * step * (self.then[1].abs() + self.now[1].abs())
+        BEYOND * step * (self.then[1].abs() + self.now[1].abs())
     }
 
     /// Keeps the greatest value so far.

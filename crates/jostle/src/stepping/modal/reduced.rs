@@ -39,16 +39,15 @@ pub(super) struct Shown {
 pub(super) struct ReducedBuilding {
     /// Its modes among all.
     pub(super) modes: Range<usize>,
-    /// Its watched displacements among all: floors from the ground up, then other faces of contacts.
+    /// What is watched of it among all: displacements of floors from the ground up, then of other faces of contacts, and
+    /// the base shear \[m, N\].
     pub(super) watched: Range<usize>,
     /// Number of floors.
     pub(super) floors: usize,
     /// Shapes at the watched displacements, row by row \[kg^−½\].
     rows: Vec<f64>,
     /// The same for so many rows at once, mode by mode; rows that fill up the last block are zero.
-    blocks: Vec<[f64; ROWS]>,
-    /// Base shear of every mode \[N/(m·kg^½)\].
-    pub(super) shear: Vec<f64>,
+    pub(super) blocks: Vec<[f64; ROWS]>,
     /// Number of degrees of freedom, and the shapes over all of them.
     size: usize,
     basis: Basis,
@@ -131,9 +130,11 @@ impl Reduced {
             }
             reduced.stiffness.extend(&basis.stiffness);
             reduced.participation.extend(&basis.participation);
+            let shear = basis.of_shapes(|vector| equations.base_shear(vector));
             let shown: Vec<Vec<f64>> = watched
                 .iter()
                 .map(|&dof| basis.of_shapes(|vector| vector[dof]))
+                .chain([shear])
                 .collect();
             let mut blocks = Vec::with_capacity(basis.len() * shown.len().div_ceil(ROWS));
             for block in shown.chunks(ROWS) {
@@ -143,15 +144,14 @@ impl Reduced {
             }
             reduced.buildings.push(ReducedBuilding {
                 modes: start..reduced.stiffness.len(),
-                watched: watching..watching + watched.len(),
+                watched: watching..watching + shown.len(),
                 floors,
                 rows: shown.concat(),
                 blocks,
-                shear: basis.of_shapes(|vector| equations.base_shear(vector)),
                 size: equations.len(),
                 basis,
             });
-            watching += watched.len();
+            watching += shown.len();
         }
         if reduced.modes() < FEW_MODES {
             reduced.arch = Arch::Scalar;
@@ -176,7 +176,7 @@ impl Reduced {
             .map_or(0, |building| building.watched.end)
     }
 
-    /// What two lists of modal values show at every watched displacement.
+    /// What two lists of modal values show at everything watched.
     pub(super) fn show(&self, modal: [&[f64]; 2], watched: [&mut [f64]; 2]) {
         let [first, second] = watched;
         for building in &self.buildings {
@@ -275,9 +275,9 @@ pub(super) struct Table {
     /// Of (q₀, q̇₀, p₀, p₁) in q₁, q̇₁ and ∫q.
     pub(super) displacement: [Vec<f64>; 4],
     pub(super) velocity: [Vec<f64>; 4],
-    area: [Vec<f64>; 4],
-    /// Of the products of these in the energy lost by damping.
-    damped: [Vec<f64>; 10],
+    pub(super) area: [Vec<f64>; 4],
+    /// Of the products of these in the energy lost by damping: upper triangle row by row.
+    pub(super) damped: [Vec<f64>; 10],
     /// Σ φ b₁₂ φ and Σ φ b₂₂ φ between all pairs of contacts, where already asked for.
     pub(super) compliance: Vec<Option<[f64; 2]>>,
 }

@@ -29,24 +29,33 @@ fn terms(radians: f64) -> usize {
     }
 }
 
-/// (q₀, q̇₀) and the load as first + second·τ, for a unit of each of (q₀, q̇₀, p₀, p₁).
-const STARTS: [([f64; 2], [f64; 2]); 4] = [
-    ([1.0, 0.0], [0.0, 0.0]),
-    ([0.0, 1.0], [0.0, 0.0]),
-    ([0.0, 0.0], [1.0, -1.0]),
-    ([0.0, 0.0], [0.0, 1.0]),
-];
+/// 1/((n + 1)(n + 2)) for every term, and 1/(n + 1).
+const SECOND: [f64; TERMS] = reciprocals(2);
+const FIRST: [f64; TERMS + 4] = reciprocals(1);
 
-/// q(τ) = Σ cₙ τⁿ with τ = t/h.
-fn powers(damping: f64, stiffness: f64, step: f64, count: usize, column: usize) -> [f64; TERMS] {
-    let ([q, v], load) = STARTS[column];
+const fn reciprocals<const N: usize>(factors: usize) -> [f64; N] {
+    let mut list = [0.0; N];
+    let mut n = 0;
+    while n < N {
+        let next = (n + 1) as f64;
+        list[n] = 1.0
+            / (if factors == 1 {
+                next
+            } else {
+                next * (next + 1.0)
+            });
+        n += 1;
+    }
+    list
+}
+
+/// Terms of the answer to a unit impulse, in powers of t/h: q(0) = 0 and q̇(0) = 1 without load.
+fn impulse(damping: f64, stiffness: f64, step: f64, count: usize) -> [f64; TERMS] {
     let (d, k) = (damping * step, stiffness * step * step);
     let mut terms = [0.0; TERMS];
-    (terms[0], terms[1]) = (q, v * step);
+    terms[1] = step;
     for n in 0..count - 2 {
-        let next = (n + 1) as f64;
-        let pushed = if n < 2 { load[n] * step * step } else { 0.0 };
-        terms[n + 2] = (pushed - d * next * terms[n + 1] - k * terms[n]) / (next * (next + 1.0));
+        terms[n + 2] = -(d * (n + 1) as f64 * terms[n + 1] + k * terms[n]) * SECOND[n];
     }
     terms
 }
@@ -60,11 +69,15 @@ impl Response {
             return Self::closed_velocity(damping, stiffness, step, [x21, x22]);
         }
         let count = terms(radians);
-        std::array::from_fn(|column| {
-            let terms = powers(damping, stiffness, step, count, column);
-            let slopes = terms[..count].iter().enumerate().rev();
-            slopes.map(|(n, term)| n as f64 * term).sum::<f64>() / step
-        })
+        let terms = impulse(damping, stiffness, step, count);
+        // ḣ, h and ∫h/step of the impulse's answer h; from the smallest term up.
+        let [mut slope, mut value, mut area] = [0.0; 3];
+        for n in (1..count).rev() {
+            slope += n as f64 * terms[n];
+            value += terms[n];
+            area += terms[n] * FIRST[n];
+        }
+        [-stiffness * value, slope / step, value - area, area]
     }
 
     fn closed_velocity(damping: f64, stiffness: f64, step: f64, [x21, x22]: [f64; 2]) -> [f64; 4] {
@@ -154,19 +167,39 @@ impl Response {
         }
     }
 
+    /// All from the answer h to an impulse: a constant load makes ∫h of it and one that rises ∫∫h, and a start at rest away
+    /// from zero is a constant load −k.
     fn series(damping: f64, stiffness: f64, step: f64) -> Self {
         let count = terms(stiffness.sqrt().max(damping) * step);
-        let mut response = Self::default();
-        for column in 0..4 {
-            let terms = powers(damping, stiffness, step, count, column);
-            // From the smallest term up.
-            for (n, term) in terms[..count].iter().enumerate().rev() {
-                response.displacement[column] += term;
-                response.velocity[column] += n as f64 * term / step;
-                response.area[column] += term * step / (n + 1) as f64;
+        let terms = impulse(damping, stiffness, step, count);
+        // ḣ, h and its first three integrals, these over powers of the step; from the smallest term up.
+        let [mut slope, mut value] = [0.0; 2];
+        let mut integrals = [0.0; 3];
+        for n in (1..count).rev() {
+            slope += n as f64 * terms[n];
+            value += terms[n];
+            let mut term = terms[n];
+            for (times, integral) in integrals.iter_mut().enumerate() {
+                term *= FIRST[n + times];
+                *integral += term;
             }
         }
-        response
+        let [first, second, third] = integrals;
+        Self {
+            displacement: [
+                1.0 - stiffness * step * first,
+                value,
+                step * (first - second),
+                step * second,
+            ],
+            velocity: [-stiffness * value, slope / step, value - first, first],
+            area: [
+                step * (1.0 - stiffness * step * second),
+                step * first,
+                step * step * (second - third),
+                step * step * third,
+            ],
+        }
     }
 }
 

@@ -2,10 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use super::peaks::Peaks;
+use super::flight::Flight;
+use super::peaks::{Peaks, Taken, Watched};
 use super::reduced::{Reduced, StepEnergy, Table};
 use super::response::Rules;
 use crate::history::{Energy, Impact, Work};
+use crate::lanes;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::stepping::clock::{Clock, Stride};
@@ -34,7 +36,8 @@ pub(super) struct Walk<'a> {
     pub(super) tables: Vec<Table>,
     divisions: Vec<u32>,
     /// Division of free flight, so that histories have their rows.
-    least_division: u32,
+    pub(super) least_division: u32,
+    pub(super) flight: Flight,
     rules: Rules,
     pub(super) clock: Clock,
     pub(super) time: f64,
@@ -46,9 +49,13 @@ pub(super) struct Walk<'a> {
     pub(super) p: [Vec<f64>; 2],
     /// ∫q of the accepted step, then whatever else needs a list of modes.
     pub(super) scratch: Vec<f64>,
-    /// Watched displacements and velocities now, and at the end of the tried step.
+    /// What is watched now, and at the end of the tried step; its accelerations and what their rates are but for the
+    /// loads', now and a step ago.
     pub(super) u: [Vec<f64>; 2],
     pub(super) rate: [Vec<f64>; 2],
+    pub(super) acceleration: [Vec<f64>; 2],
+    pub(super) loose: [Vec<f64>; 2],
+    jerk: Vec<f64>,
     pub(super) phases: Vec<ContactPhase>,
     pub(super) trials: Vec<ContactTrial>,
     pub(super) contact_division: Vec<u32>,
@@ -75,6 +82,28 @@ pub(super) struct Audit {
     worst: f64,
 }
 
+impl Audit {
+    /// The balance with these energies of the buildings.
+    pub(super) fn balance(&mut self, kinetic: f64, strain: f64) -> Energy {
+        let mut energy = Energy {
+            input: self.input,
+            kinetic,
+            strain,
+            damped: self.damped,
+            links: 0.0,
+            hysteretic: 0.0,
+            contact: self.contact,
+            worst_imbalance: 0.0,
+        };
+        self.largest = self.largest.max(energy.input.abs()).max(kinetic + strain);
+        if self.largest > 0.0 {
+            self.worst = self.worst.max((energy.residual() / self.largest).abs());
+        }
+        energy.worst_imbalance = self.worst;
+        energy
+    }
+}
+
 impl<'a> Walk<'a> {
     pub(super) fn new(
         system: &'a System,
@@ -95,9 +124,15 @@ impl<'a> Walk<'a> {
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
-        let mut peaks = Peaks::new(system, reduced, settings.record_interval, ground);
+        let mut peaks = Peaks::new(system, reduced, settings.record_interval);
         peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
+        let mut acceleration = pair(watched);
+        // At rest on moving ground buildings stay behind.
+        for (acceleration, share) in acceleration[0].iter_mut().zip(peaks.driven()) {
+            *acceleration = -share * ground;
+        }
         Self {
+            flight: Flight::new(reduced),
             tables: vec![Table::default()],
             divisions: vec![0],
             least_division: settings.record_interval.map_or(1, |interval| {
@@ -117,6 +152,9 @@ impl<'a> Walk<'a> {
             scratch: vec![0.0; modes],
             u: pair(watched),
             rate: pair(watched),
+            acceleration,
+            loose: pair(watched),
+            jerk: vec![0.0; modes],
             phases: vec![ContactPhase::Open; contacts],
             trials: vec![ContactTrial::default(); contacts],
             contact_division: vec![1; contacts],
@@ -143,14 +181,21 @@ impl<'a> Walk<'a> {
         let energy = self.balance();
         self.take_row(true, &energy);
         let mut end = RunEnd::Completed;
+        let mut next_look = 0;
         while duration - self.time > 1e-9 * self.plan.step {
             let progress = Progress {
                 time: self.time,
                 duration,
             };
-            if self.work.steps.is_multiple_of(OBSERVED_EVERY) && observer(progress).is_break() {
-                end = RunEnd::Stopped;
-                break;
+            if self.work.steps >= next_look {
+                next_look = self.work.steps + OBSERVED_EVERY;
+                if observer(progress).is_break() {
+                    end = RunEnd::Stopped;
+                    break;
+                }
+            }
+            if self.fly() {
+                continue;
             }
             if let Err(error) = self.step() {
                 end = RunEnd::Failed(error);
@@ -254,7 +299,7 @@ impl<'a> Walk<'a> {
         divisions.fold(self.least_division, u32::max)
     }
 
-    fn table_for(&mut self, stride: &Stride) -> usize {
+    pub(super) fn table_for(&mut self, stride: &Stride) -> usize {
         if !stride.regular {
             self.set_odd(stride.length);
             return 0;
@@ -361,22 +406,39 @@ impl<'a> Walk<'a> {
         self.cool_down();
         self.work.steps += 1;
         self.work.contact_steps += u64::from(was_closed);
-        self.peaks.after_step(
-            self.system,
-            self.reduced,
-            super::peaks::Moment {
-                u: &self.u,
-                rate: &self.rate,
-                q: &self.q[0],
-                v: &self.v[0],
-                a: &self.scratch,
-                ground,
-                start,
-                step,
-            },
-        );
+        self.look(ground, start, step);
         let energy = self.balance();
         self.take_row(was_closed, &energy);
+    }
+
+    /// Takes in the peaks of a step that was taken, whose modal accelerations at the end stand in `scratch`.
+    fn look(&mut self, ground: [f64; 2], start: f64, step: f64) {
+        let reduced = self.reduced;
+        let modes = self.scratch.iter().zip(&self.v[0]);
+        let factors = reduced.damping.iter().zip(&reduced.stiffness);
+        for (jerk, ((a, v), (d, k))) in self.jerk.iter_mut().zip(modes.zip(factors)) {
+            *jerk = -d * a - k * v;
+        }
+        self.acceleration.swap(0, 1);
+        self.loose.swap(0, 1);
+        reduced.show(
+            [&self.scratch, &self.jerk],
+            [&mut self.acceleration[0], &mut self.loose[0]],
+        );
+        let at = |time: usize| Watched {
+            u: &self.u[time],
+            rate: &self.rate[time],
+            acceleration: &self.acceleration[time],
+            loose: &self.loose[time],
+        };
+        let taken = Taken {
+            then: at(1),
+            now: at(0),
+            ground,
+            start,
+            step,
+        };
+        self.peaks.after_step(self.system, reduced, &taken);
     }
 
     /// What the ground put in and damping took; with closed contacts their work as well.
@@ -388,12 +450,10 @@ impl<'a> Walk<'a> {
         table.area(arch, of, &mut self.scratch);
         let step = table.step;
         let slope = (self.ground[1] - self.ground[0]) / step;
-        let mut input = 0.0;
-        let modes = self.q[0].iter().zip(&self.q[1]).zip(&self.scratch);
-        for (((q0, q1), area), participation) in modes.zip(&self.reduced.participation) {
-            // ∫ a_g q̇ dt by parts.
-            input -= participation * (self.ground[1] * q1 - self.ground[0] * q0 - slope * area);
-        }
+        // ∫ a_g q̇ dt by parts.
+        let driven = |list: &[f64]| lanes::dot(&self.reduced.participation, list);
+        let [before, after] = [0, 1].map(|time| self.ground[time] * driven(&self.q[time]));
+        let input = slope * driven(&self.scratch) - (after - before);
         if was_closed {
             self.contact_work(step);
         }
@@ -436,42 +496,26 @@ impl<'a> Walk<'a> {
 
     /// The balance now.
     pub(super) fn balance(&mut self) -> Energy {
-        let (mut kinetic, mut strain) = (0.0, 0.0);
-        let modes = self.q[0]
-            .iter()
-            .zip(&self.v[0])
-            .zip(&self.reduced.stiffness);
-        for ((q, v), k) in modes {
-            kinetic += 0.5 * v * v;
-            strain += 0.5 * k * q * q;
-        }
-        let audit = &mut self.energy;
-        let mut energy = Energy {
-            input: audit.input,
-            kinetic,
-            strain,
-            damped: audit.damped,
-            links: 0.0,
-            hysteretic: 0.0,
-            contact: audit.contact,
-            worst_imbalance: 0.0,
-        };
-        audit.largest = audit.largest.max(energy.input.abs()).max(kinetic + strain);
-        if audit.largest > 0.0 {
-            audit.worst = audit.worst.max((energy.residual() / audit.largest).abs());
-        }
-        energy.worst_imbalance = audit.worst;
-        energy
+        let kinetic = 0.5 * lanes::dot(&self.v[0], &self.v[0]);
+        let strain = 0.5 * lanes::weighted_square(&self.reduced.stiffness, &self.q[0]);
+        self.energy.balance(kinetic, strain)
     }
 
     /// Adds a row to the history where one is due.
     fn take_row(&mut self, wanted: bool, energy: &Energy) {
         if self.peaks.is_due(self.time, wanted) {
+            let watched = Watched {
+                u: &self.u[0],
+                rate: &self.rate[0],
+                acceleration: &self.acceleration[0],
+                loose: &self.loose[0],
+            };
+            let instant = (self.time, self.ground[0]);
             self.peaks.record(
                 self.system,
                 self.reduced,
-                (self.time, self.ground[0]),
-                [&self.u[0], &self.rate[0]],
+                instant,
+                watched,
                 &self.phases,
                 energy,
             );

@@ -1,0 +1,146 @@
+"""Studies: a thousand cases beside OpenSees, and how well cores are used. See bench/run --study."""
+
+import csv
+import json
+import os
+import resource
+import statistics
+import subprocess
+import tempfile
+import time
+from datetime import datetime, timezone
+from pathlib import Path
+
+import machine
+import page
+import programs
+from cases import Case
+
+STUDIES = Path(__file__).resolve().parent.parent / "benches" / "studies"
+# Cases of the study that OpenSees computes as well, spread evenly over all of them.
+SAMPLE = 12
+# Rounds of the measurement of cores, and the share of the million towers that one of them takes.
+ROUNDS, SHARE = 7, 200
+
+
+def study(name, *options):
+    """Starts a study in a folder of its own; reports and tables beside the rows are left out."""
+    folder = tempfile.TemporaryDirectory()
+    command = [programs.JOSTLE, "study", str(STUDIES / name), "--out", folder.name, *options]
+    started = time.perf_counter()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    return process, folder, started
+
+
+def wait(running):
+    """Waits for studies that run side by side; the wall time of all together [s]."""
+    started = min(start for _, _, start in running)
+    for process, _, _ in running:
+        _, said = process.communicate(timeout=programs.PATIENCE)
+        if process.returncode:
+            raise RuntimeError(said[-2000:])
+    return time.perf_counter() - started
+
+
+def cpu():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def thousand(say):
+    """The study on one thread, its report and tables included, between two halves of what OpenSees needs for a sample."""
+    rounds = []
+    for _ in range(3):
+        before = cpu()
+        running = study("gap_by_pga.toml", "--jobs", "1")
+        wall = wait([running])
+        with open(Path(running[1].name) / "cases.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        rounds.append({"cpu_s": cpu() - before, "wall_s": wall})
+        say(f"study of {len(rows)} cases: {rounds[-1]['cpu_s']:.2f} s of CPU")
+    best = min(rounds, key=lambda run: run["cpu_s"])
+    sample = []
+    for place in range(SAMPLE):
+        row = rows[(2 * place + 1) * len(rows) // (2 * SAMPLE)]
+        options = ("--gap", f"{row['gap_m']} m", "--pga", f"{row['pga_m_s2']} m/s2")
+        case = Case("study", f"case {row['case']}", "paper", options)
+        theirs = programs.opensees(case, free=4e-3, parts=5, axial="stiff")
+        ours = float(row["peak_force_n"])
+        sample.append({
+            "case": int(row["case"]), "gap_m": float(row["gap_m"]), "pga_m_s2": float(row["pga_m_s2"]),
+            "jostle_peak_force_n": ours, "jostle_impacts": int(row["impact_count"]),
+            "opensees_peak_force_n": theirs["peak_force_n"], "opensees_impacts": theirs["impacts"],
+            "opensees_cpu_s": theirs["cpu_s"],
+        })
+        say(f"case {row['case']}: OpenSees {theirs['cpu_s']:.1f} s, {theirs['peak_force_n'] / 1e3:.2f} kN; jostle {ours / 1e3:.2f} kN")
+    mean = statistics.mean(one["opensees_cpu_s"] for one in sample)
+    apart = [abs(one["jostle_peak_force_n"] / one["opensees_peak_force_n"] - 1.0) for one in sample if one["opensees_peak_force_n"]]
+    return {
+        "cases": len(rows), "rounds": rounds, "cpu_s": best["cpu_s"], "sample": sample, "opensees_mean_cpu_s": mean,
+        "ratio": mean * len(rows) / best["cpu_s"],
+        "forces_apart": {"median": statistics.median(apart), "largest": max(apart)} if apart else None,
+    }
+
+
+def cores(say):
+    """Cases a second of one thread, of two threads, and of two processes with nothing in common, in turn."""
+    found = {"one": [], "threads": [], "processes": []}
+    count = 1_000_000 // SHARE
+    for turn in range(ROUNDS):
+        shard = lambda index: ["--shard", f"{index}/{SHARE}", "--no-report"]
+        ways = {
+            "one": [shard(1) + ["--jobs", "1"]],
+            "threads": [shard(2) + ["--jobs", "2"]],
+            "processes": [shard(3) + ["--jobs", "1"], shard(4) + ["--jobs", "1"]],
+        }
+        for way, commands in ways.items():
+            wall = wait([study("million_towers.toml", *options) for options in commands])
+            found[way].append(count * len(commands) / wall)
+        say(f"round {turn + 1}: " + ", ".join(f"{way} {rates[-1]:.0f}/s" for way, rates in found.items()))
+    middle = {way: statistics.median(rates) for way, rates in found.items()}
+    return {
+        "cases": count, "rates": found, **middle,
+        "efficiency": middle["threads"] / (2.0 * middle["one"]),
+        "machine": middle["processes"] / (2.0 * middle["one"]),
+    }
+
+
+def text(results):
+    """What the page says."""
+    study, lines = results.get("study"), []
+    if study:
+        apart = study["forces_apart"]
+        lines.append(
+            f"**A study of {study['cases']} cases**, J1 and J2 elastic, 25 gaps × 40 peak accelerations (`benches/studies/gap_by_pga.toml`), modal stepping, "
+            f"one thread, all of the process with its report and tables: {page.seconds(study['cpu_s'])} of CPU, {1e3 * study['cpu_s'] / study['cases']:.2f} ms a case. "
+            f"OpenSees at its best takes {page.seconds(study['opensees_mean_cpu_s'])} a case, the mean of {len(study['sample'])} spread evenly over the study "
+            f"and run beside it (stepping alone): **{page.times(study['ratio'])}** per core (aim 20 000 ×). Greatest forces of these cases are "
+            f"{apart['median']:.0e} (median) and at most {apart['largest']:.0e} apart."
+        )
+    used = results.get("cores")
+    if used:
+        lines.append(
+            f"**Two cores.** {used['cases']} of the million pairs of towers (`benches/studies/million_towers.toml`), medians of {len(used['rates']['one'])} rounds in turn: one thread "
+            f"{used['one']:.0f} cases a second, two threads {used['threads']:.0f}, two processes that share nothing {used['processes']:.0f}. The efficiency of two "
+            f"threads is {used['efficiency']:.2f}; two processes show what this machine allows, {used['machine']:.2f}; threads lose "
+            f"{max(0.0, 1.0 - used['threads'] / used['processes']):.1%} against them."
+        )
+    if results:
+        about = next(iter(results.values()))["machine_description"]
+        lines.append(f"`bench/run --study`, {', '.join(sorted({part['at'][:10] for part in results.values()}))}: {about['processor']}, {about['cores']} cores, {about['system']}; {about['commit']}.")
+    return "\n\n".join(lines)
+
+
+def main(folder, say, parts):
+    path = folder / "study.json"
+    results = json.loads(path.read_text()) if path.exists() else {}
+    for name, measure in (("cores", cores), ("study", thousand)):
+        if parts and name not in parts:
+            continue
+        results[name] = measure(say)
+        results[name] |= {"machine_description": machine.describe(), "at": datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")}
+        path.with_suffix(".tmp").write_text(json.dumps(results, indent=1, ensure_ascii=False) + "\n")
+        os.replace(path.with_suffix(".tmp"), path)
+    print(text(results))
+    page.rewrite_studies(text(results))
+    return 0

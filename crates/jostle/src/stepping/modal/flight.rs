@@ -1,0 +1,349 @@
+//! Free flight: several regular steps at once while no contact is near.
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::kernels::{Ahead, LANES, Lanes, Show, Sums};
+use super::peaks::{Taken, Watched};
+use super::reduced::{Reduced, Table};
+use super::walk::Walk;
+use crate::lanes;
+use crate::state::ContactPhase;
+use crate::stepping::clock::Clock;
+use crate::stepping::events::Cubic;
+
+/// Most steps taken at once, and fewest.
+const MOST: usize = 16;
+const FEWEST: usize = 2;
+
+/// Room for some steps of free flight.
+pub(super) struct Flight {
+    /// Length of its steps; zero before the first \[s\].
+    step: f64,
+    /// How many are tried next.
+    ahead: usize,
+    lanes: Vec<Lanes>,
+    /// Of the squares and products of ground accelerations: in the energy lost by damping, and of both in Γ ∫q dt.
+    damped_by_ground: [f64; 3],
+    area_by_ground: [f64; 2],
+    /// Modal displacements and velocities now, filled up to whole lanes.
+    start: [Vec<f64>; 2],
+    /// q, q̇, q̈ and the loose part of its rate, step after step.
+    modal: [Vec<f64>; 4],
+    /// What they show of everything watched; the present comes first.
+    shown: [Vec<f64>; 4],
+    ends: Vec<Clock>,
+    ground: Vec<f64>,
+    sums: Vec<Sums>,
+}
+
+impl Flight {
+    pub(super) fn new(reduced: &Reduced) -> Self {
+        let stride = reduced.modes().div_ceil(LANES) * LANES;
+        Self {
+            step: 0.0,
+            ahead: FEWEST,
+            lanes: Vec::new(),
+            damped_by_ground: [0.0; 3],
+            area_by_ground: [0.0; 2],
+            start: [(); 2].map(|()| vec![0.0; stride]),
+            modal: [(); 4].map(|()| vec![0.0; stride * MOST]),
+            shown: [(); 4].map(|()| vec![0.0; reduced.watched() * (MOST + 1)]),
+            ends: Vec::with_capacity(MOST),
+            ground: Vec::with_capacity(MOST + 1),
+            sums: Vec::with_capacity(MOST),
+        }
+    }
+
+    /// Takes over the factors of a table, its loads put down to the ground: p = −Γ a.
+    fn set(&mut self, reduced: &Reduced, table: &Table) {
+        self.step = table.step;
+        self.lanes.clear();
+        self.lanes
+            .resize(self.start[0].len() / LANES, Lanes::default());
+        (self.damped_by_ground, self.area_by_ground) = ([0.0; 3], [0.0; 2]);
+        for mode in 0..reduced.modes() {
+            let (own, lane) = (&mut self.lanes[mode / LANES], mode % LANES);
+            let participation = reduced.participation[mode];
+            let by_ground = [1.0, 1.0, -participation, -participation];
+            for (column, share) in by_ground.into_iter().enumerate() {
+                own.displacement[column][lane] = share * table.displacement[column][mode];
+                own.velocity[column][lane] = share * table.velocity[column][mode];
+            }
+            let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] =
+                table.damped.each_ref().map(|list| list[mode]);
+            let form = [aa, ab, bb, ac, ad, bc, bd];
+            for (entry, value) in form.into_iter().enumerate() {
+                let share = if entry < 3 { 1.0 } else { -participation };
+                own.damped[entry][lane] = share * value;
+            }
+            for (sum, value) in self.damped_by_ground.iter_mut().zip([cc, cd, dd]) {
+                *sum += participation * participation * value;
+            }
+            for column in 0..2 {
+                own.area[column][lane] = participation * table.area[column][mode];
+                self.area_by_ground[column] -=
+                    participation * participation * table.area[column + 2][mode];
+            }
+            own.participation[lane] = participation;
+            own.damping[lane] = reduced.damping[mode];
+            own.stiffness[lane] = reduced.stiffness[mode];
+        }
+    }
+
+    /// Everything watched after so many steps.
+    fn watched(&self, places: usize, steps: usize) -> Watched<'_> {
+        let [u, rate, acceleration, loose] = self
+            .shown
+            .each_ref()
+            .map(|list| &list[steps * places..(steps + 1) * places]);
+        Watched {
+            u,
+            rate,
+            acceleration,
+            loose,
+        }
+    }
+
+    /// Modal displacements and velocities after so many steps, at least one.
+    fn state(&self, modes: usize, steps: usize) -> [&[f64]; 2] {
+        let from = (steps - 1) * self.start[0].len();
+        [0, 1].map(|list| &self.modal[list][from..from + modes])
+    }
+}
+
+/// Steps ahead, and what they show.
+struct Fly<'a> {
+    ahead: Ahead<'a>,
+    reduced: &'a Reduced,
+    shown: &'a mut [Vec<f64>; 4],
+}
+
+impl WithSimd for Fly<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self {
+            ahead,
+            reduced,
+            shown,
+        } = self;
+        let (steps, stride) = (ahead.sums.len(), ahead.start[0].len());
+        let places = reduced.watched();
+        let [q, v, a, j] = ahead.modal;
+        let again = Ahead {
+            modal: [&mut *q, &mut *v, &mut *a, &mut *j],
+            ..ahead
+        };
+        again.with_simd(simd);
+        let modal = [&*q, &*v, &*a, &*j];
+        for step in 0..steps {
+            for building in &reduced.buildings {
+                let from = step * stride;
+                let modes = from + building.modes.start..from + building.modes.end;
+                let own = &building.watched;
+                let from = (step + 1) * places;
+                let places = from + own.start..from + own.end;
+                let [first, second, third, fourth] = &mut *shown;
+                let show = Show {
+                    blocks: &building.blocks,
+                    modal: modal.map(|list| &list[modes.clone()]),
+                    watched: [
+                        &mut first[places.clone()],
+                        &mut second[places.clone()],
+                        &mut third[places.clone()],
+                        &mut fourth[places],
+                    ],
+                };
+                show.with_simd(simd);
+            }
+        }
+    }
+}
+
+impl Walk<'_> {
+    /// Takes several regular steps at once in which nothing touches; false when there is none, and a step
+    /// is to be taken by itself.
+    pub(super) fn fly(&mut self) -> bool {
+        let quiet = |phase: &ContactPhase| *phase == ContactPhase::Open;
+        if !self.phases.iter().all(quiet) || self.contact_division.iter().any(|d| *d > 1) {
+            return false;
+        }
+        let planned = self.plan_ahead();
+        if planned == 0 {
+            return false;
+        }
+        self.go_ahead();
+        let free = self.free_steps();
+        self.flight.ahead = if free < planned {
+            FEWEST
+        } else {
+            (2 * planned).min(MOST)
+        };
+        if free == 0 {
+            return false;
+        }
+        for step in 0..free {
+            self.take(step);
+        }
+        self.land(free);
+        true
+    }
+
+    /// Where the next steps end, and how the ground moves there; returns their number.
+    fn plan_ahead(&mut self) -> usize {
+        let flight = &mut self.flight;
+        flight.ends.clear();
+        flight.ground.clear();
+        flight.ground.push(self.ground[0]);
+        let (mut clock, mut slot) = (self.clock, None);
+        while flight.ends.len() < flight.ahead {
+            let stride = clock.stride(self.least_division);
+            let left = self.motion.duration - clock.time();
+            if !stride.regular || stride.length > left * (1.0 + 1e-9) {
+                break;
+            }
+            slot = slot.or(Some(stride));
+            clock = stride.end;
+            flight.ends.push(clock);
+            flight.ground.push(self.motion.acceleration(clock.time()));
+        }
+        let planned = flight.ends.len();
+        if let Some(stride) = slot {
+            let slot = self.table_for(&stride);
+            if self.flight.step != stride.length {
+                self.flight.set(self.reduced, &self.tables[slot]);
+            }
+        }
+        planned
+    }
+
+    /// All planned steps, as if nothing touched.
+    fn go_ahead(&mut self) {
+        let (flight, reduced) = (&mut self.flight, self.reduced);
+        for (list, now) in flight.start.iter_mut().zip([&self.q[0], &self.v[0]]) {
+            list[..now.len()].copy_from_slice(now);
+        }
+        let now = [
+            &self.u[0],
+            &self.rate[0],
+            &self.acceleration[0],
+            &self.loose[0],
+        ];
+        for (list, now) in flight.shown.iter_mut().zip(now) {
+            list[..now.len()].copy_from_slice(now);
+        }
+        flight.sums.clear();
+        flight.sums.resize(flight.ends.len(), Sums::default());
+        let [q, v, a, j] = &mut flight.modal;
+        let [q0, v0] = &flight.start;
+        Arch::new().dispatch(Fly {
+            ahead: Ahead {
+                lanes: &flight.lanes,
+                ground: &flight.ground,
+                start: [q0, v0],
+                modal: [q, v, a, j],
+                sums: &mut flight.sums,
+            },
+            reduced,
+            shown: &mut flight.shown,
+        });
+    }
+
+    /// How many of the planned steps end before anything can touch, or is no number any more.
+    fn free_steps(&self) -> usize {
+        let flight = &self.flight;
+        let places = self.reduced.watched();
+        let is_free = |step: usize| {
+            let sums = &flight.sums[step];
+            let energy = sums.kinetic.iter().sum::<f64>() + sums.strain.iter().sum::<f64>();
+            if !energy.is_finite() {
+                return false;
+            }
+            let [then, now] = [step, step + 1].map(|at| flight.watched(places, at));
+            !self.pounding
+                || (0..self.phases.len()).all(|index| {
+                    let closing = |list: &[f64]| self.reduced.closing(index, list);
+                    let width = self.system.contacts[index].width;
+                    Cubic::new(
+                        closing(then.u) - width,
+                        closing(then.rate),
+                        closing(now.u) - width,
+                        closing(now.rate),
+                        flight.step,
+                    )
+                    .stays_below_zero()
+                })
+        };
+        let planned = flight.ends.len();
+        (0..planned)
+            .position(|step| !is_free(step))
+            .unwrap_or(planned)
+    }
+
+    /// Books a step of the flight: energies, peaks, and a row where one is due.
+    fn take(&mut self, index: usize) {
+        let (flight, places) = (&self.flight, self.reduced.watched());
+        let step = flight.step;
+        let [g0, g1] = [flight.ground[index], flight.ground[index + 1]];
+        let sums = &flight.sums[index];
+        let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
+        let [cc, cd, dd] = flight.damped_by_ground;
+        self.energy.damped += total(&sums.damped) + (g0 * (cc * g0 + cd * g1) + dd * g1 * g1);
+        let area =
+            total(&sums.area) + (flight.area_by_ground[0] * g0 + flight.area_by_ground[1] * g1);
+        let before = if index == 0 {
+            lanes::dot(&self.reduced.participation, &self.q[0])
+        } else {
+            total(&flight.sums[index - 1].moved)
+        };
+        // ∫ a_g q̇ dt by parts.
+        self.energy.input += (g1 - g0) / step * area - (g1 * total(&sums.moved) - g0 * before);
+        let energy = self
+            .energy
+            .balance(0.5 * total(&sums.kinetic), 0.5 * total(&sums.strain));
+        let start = self.time;
+        self.time = flight.ends[index].time();
+        let now = flight.watched(places, index + 1);
+        let taken = Taken {
+            then: flight.watched(places, index),
+            now,
+            ground: [g0, g1],
+            start,
+            step,
+        };
+        self.peaks.after_step(self.system, self.reduced, &taken);
+        if self.peaks.is_due(self.time, false) {
+            let instant = (self.time, g1);
+            self.peaks.record(
+                self.system,
+                self.reduced,
+                instant,
+                now,
+                &self.phases,
+                &energy,
+            );
+        }
+        self.work.steps += 1;
+        self.work.solves += 1;
+    }
+
+    /// Stands at the end of so many steps of the flight.
+    fn land(&mut self, steps: usize) {
+        let (flight, places) = (&self.flight, self.reduced.watched());
+        let [q, v] = flight.state(self.reduced.modes(), steps);
+        self.q[0].copy_from_slice(q);
+        self.v[0].copy_from_slice(v);
+        let now = flight.watched(places, steps);
+        self.u[0].copy_from_slice(now.u);
+        self.rate[0].copy_from_slice(now.rate);
+        self.acceleration[0].copy_from_slice(now.acceleration);
+        self.loose[0].copy_from_slice(now.loose);
+        self.clock = flight.ends[steps - 1];
+        let ground = flight.ground[steps];
+        self.ground = [ground; 2];
+        for (load, participation) in self.p[0].iter_mut().zip(&self.reduced.participation) {
+            *load = -participation * ground;
+        }
+    }
+}
