@@ -14,6 +14,9 @@ mod run;
 mod study;
 mod table;
 
+#[global_allocator]
+static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The compiled half of the package; its contents are used by `jostle` and may change at any time.
 #[pyo3::pymodule]
 mod _jostle {

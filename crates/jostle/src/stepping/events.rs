@@ -156,6 +156,41 @@ mod tests {
     }
 
     #[test]
+    fn a_peak_is_where_the_slope_turns() {
+        let mut found = 0;
+        for i in 0..2000 {
+            let value = |k: f64| (f64::from(i) * k).sin();
+            let (rise, fall) = (value(1.3).abs() + 1e-6, -value(2.7).abs() - 1e-6);
+            let cubic = Cubic::new(value(0.7), rise, 0.1 * value(5.1), fall, 1.0);
+            let Some(peak) = cubic.peak(0.0, 1.0) else {
+                continue;
+            };
+            found += 1;
+            let at = bisect(0.0, 1.0, |at| cubic.rise(at) <= 0.0);
+            // Both roots are as sharp as the slope is steep there.
+            assert!((cubic.value(at) - peak.value).abs() < 1e-14, "{cubic:?}");
+            assert!((at - peak.at).abs() < 1e-9, "{cubic:?}: {at}, {peak:?}");
+        }
+        assert_eq!(found, 2000);
+    }
+
+    #[test]
+    fn what_stays_below_never_crosses() {
+        let mut below = 0;
+        for i in 0..5000 {
+            let value = |k: f64| (f64::from(i) * k).sin();
+            let ends = [value(0.7) - 0.8, value(1.1) - 0.8];
+            let cubic = Cubic::new(ends[0], 3.0 * value(2.3), ends[1], 3.0 * value(3.1), 1.0);
+            if cubic.stays_below_zero() {
+                below += 1;
+                let highest = (0..=1000).map(|at| cubic.value(f64::from(at) / 1000.0));
+                assert!(highest.fold(f64::NEG_INFINITY, f64::max) < 0.0, "{cubic:?}");
+            }
+        }
+        assert!(below > 500, "{below}");
+    }
+
+    #[test]
     fn a_touch_between_two_open_ends_is_found() {
         // −0.1 + t(1 − t): open at both ends, closed from 0.1127 to 0.8873.
         let cubic = Cubic::new(-0.1, 1.0, -0.1, -1.0, 1.0);

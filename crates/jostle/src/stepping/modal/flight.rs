@@ -92,22 +92,21 @@ impl Flight {
 
     /// Everything watched after so many steps.
     fn watched(&self, places: usize, steps: usize) -> Watched<'_> {
-        let [u, rate, acceleration, loose] = self
-            .shown
-            .each_ref()
-            .map(|list| &list[steps * places..(steps + 1) * places]);
+        let own = steps * places..(steps + 1) * places;
+        let [u, rate, acceleration, loose] = &self.shown;
         Watched {
-            u,
-            rate,
-            acceleration,
-            loose,
+            u: &u[own.clone()],
+            rate: &rate[own.clone()],
+            acceleration: &acceleration[own.clone()],
+            loose: &loose[own],
         }
     }
 
     /// Modal displacements and velocities after so many steps, at least one.
     fn state(&self, modes: usize, steps: usize) -> [&[f64]; 2] {
         let from = (steps - 1) * self.start[0].len();
-        [0, 1].map(|list| &self.modal[list][from..from + modes])
+        let [q, v, ..] = &self.modal;
+        [&q[from..from + modes], &v[from..from + modes]]
     }
 }
 
@@ -344,6 +343,133 @@ impl Walk<'_> {
         self.ground = [ground; 2];
         for (load, participation) in self.p[0].iter_mut().zip(&self.reduced.participation) {
             *load = -participation * ground;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::*;
+    use crate::history::Work;
+    use crate::stepping::modal::{Rates, rates};
+    use crate::{
+        Analysis, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome, Plan,
+        RestitutionIs, Settings, Shear, Solver, Structure, System,
+    };
+
+    fn row_of_towers() -> Model {
+        let tower = |name: &str, floors: usize, stiffness: f64| Building {
+            name: name.into(),
+            structure: Structure::Shear(Shear {
+                mass: vec![5e4; floors],
+                stiffness: vec![stiffness; floors],
+                storey_heights: vec![3.0; floors],
+            }),
+            damping: Damping::Ratio {
+                ratio: 0.05,
+                modes: vec![1, 2],
+            },
+            base: Default::default(),
+            gravity: Default::default(),
+            hinges: None,
+        };
+        let law = ContactLaw {
+            kind: LawKind::HertzDamp,
+            stiffness: 2e9,
+            restitution: 0.65,
+            restitution_is: RestitutionIs::Input,
+        };
+        Model {
+            title: "row".into(),
+            buildings: vec![
+                tower("soft", 3, 2e7),
+                tower("stiff", 9, 9e7),
+                tower("last", 5, 6e7),
+            ],
+            gaps: vec![Gap::after(0, 0.02, law), Gap::after(1, 0.04, law)],
+            links: Vec::new(),
+            analysis: Analysis {
+                solver: Solver::Modal,
+                ..Analysis::default()
+            },
+        }
+    }
+
+    /// The same run, with flights or step by step.
+    fn run(model: &Model, record_interval: Option<f64>, most: usize) -> Outcome {
+        let system = System::assemble(model).expect("a valid model");
+        let shaking = |i: u32| {
+            let t = 0.02 * f64::from(i);
+            2.5 * (7.0 * t).sin() * (-0.2 * t).exp() + 0.8 * (23.0 * t).cos()
+        };
+        let motion = GroundMotion::sampled("shaking", 0.02, (0..=700).map(shaking).collect());
+        let plan = Plan::choose(&system, &motion, &model.analysis).expect("sensible steps");
+        let rates: Vec<Rates> = (0..3).map(|index| rates(&system, index)).collect();
+        let mut work = Work::default();
+        let reduced = Reduced::of(&system, &rates, 1e-4, &mut work).expect("stable");
+        let settings = Settings {
+            record_interval,
+            ..Settings::default()
+        };
+        let mut walk = Walk::new(&system, &motion, &plan, settings, &reduced, work);
+        walk.flight.ahead = most;
+        walk.run(|_| ControlFlow::Continue(()))
+    }
+
+    #[test]
+    fn a_flight_is_so_many_steps() {
+        let model = row_of_towers();
+        for record_interval in [None, Some(0.004)] {
+            let together = run(&model, record_interval, FEWEST);
+            // A flight of no steps never begins.
+            let apart = run(&model, record_interval, 0);
+            assert!(together.impacts.len() > 10, "{}", together.impacts.len());
+            let work = |outcome: &Outcome| (outcome.work.steps, outcome.work.contact_steps);
+            assert_eq!(work(&together), work(&apart));
+            assert_eq!(together.impacts.len(), apart.impacts.len());
+            let close = |a: f64, b: f64, what: &str| {
+                assert!(
+                    (a - b).abs() <= 1e-9 * a.abs().max(1e-6),
+                    "{what}: {a}, {b}"
+                );
+            };
+            for (a, b) in together.impacts.iter().zip(&apart.impacts) {
+                close(a.peak_force, b.peak_force, "force");
+                close(a.start, b.start, "touch");
+            }
+            let floors = together.floors.iter().flatten();
+            for (a, b) in floors.zip(apart.floors.iter().flatten()) {
+                close(a.displacement_max.value, b.displacement_max.value, "right");
+                close(a.displacement_min.value, b.displacement_min.value, "left");
+                close(a.displacement_max.at, b.displacement_max.at, "when");
+                close(a.storey_drift, b.storey_drift, "drift");
+                close(a.total_acceleration, b.total_acceleration, "acceleration");
+            }
+            for (a, b) in together.base_shear.iter().zip(&apart.base_shear) {
+                close(*a, *b, "shear");
+            }
+            for (a, b) in together.closing.iter().zip(&apart.closing) {
+                close(a.value, b.value, "closing");
+            }
+            let (a, b) = (together.energy, apart.energy);
+            close(a.input, b.input, "input");
+            close(a.damped, b.damped, "damped");
+            assert!(a.worst_imbalance < 1e-9, "{}", a.worst_imbalance);
+            match (&together.history, &apart.history) {
+                (Some(a), Some(b)) => {
+                    assert_eq!(a.len(), b.len());
+                    for column in a.columns() {
+                        let [a, b] = [a, b].map(|history| history.column(*column));
+                        let (a, b) = (a.expect("a column"), b.expect("a column"));
+                        let most = a.iter().fold(1e-9, |most: f64, a| most.max(a.abs()));
+                        let apart = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
+                        assert!(apart.fold(0.0, f64::max) <= 1e-8 * most, "{column:?}");
+                    }
+                }
+                (a, b) => assert!(a.is_none() && b.is_none()),
+            }
         }
     }
 }

@@ -352,6 +352,61 @@ mod tests {
         (0..n).map(|i| (seed + 1.7 * i as f64).sin()).collect()
     }
 
+    /// Steps ahead have the same bits in wide registers as in narrow ones.
+    #[test]
+    fn nor_does_it_in_steps_ahead() {
+        let values = |seed: f64| std::array::from_fn(|lane| (seed + 1.7 * lane as f64).sin());
+        let lanes: Vec<Lanes> = (0..3)
+            .map(|group| {
+                let at = |k: usize| f64::from(group) + 0.37 * k as f64;
+                Lanes {
+                    displacement: std::array::from_fn(|k| values(at(k))),
+                    velocity: std::array::from_fn(|k| values(at(k + 4))),
+                    damped: std::array::from_fn(|k| values(at(k + 8))),
+                    area: std::array::from_fn(|k| values(at(k + 15))),
+                    participation: values(at(17)),
+                    damping: values(at(18)),
+                    stiffness: values(at(19)),
+                }
+            })
+            .collect();
+        let (n, steps) = (lanes.len() * LANES, 5);
+        let (q, v, ground) = (list(n, 0.3), list(n, 0.9), list(steps + 1, 2.0));
+        let ahead = |wide: bool| {
+            let mut modal = [(); 4].map(|()| vec![0.0; n * steps]);
+            let mut sums = vec![Sums::default(); steps];
+            let [a, b, c, d] = &mut modal;
+            let ahead = Ahead {
+                lanes: &lanes,
+                ground: &ground,
+                start: [&q, &v],
+                modal: [a, b, c, d],
+                sums: &mut sums,
+            };
+            if wide {
+                Arch::new().dispatch(ahead);
+            } else {
+                ahead.with_simd(Scalar::new());
+            }
+            let sums = sums.iter().flat_map(|sums| {
+                let Sums {
+                    damped,
+                    area,
+                    moved,
+                    kinetic,
+                    strain,
+                } = sums;
+                [damped, area, moved, kinetic, strain].into_iter().flatten()
+            });
+            let mut all: Vec<f64> = sums.copied().collect();
+            all.extend(modal.concat());
+            all
+        };
+        let (wide, narrow) = (ahead(true), ahead(false));
+        assert_eq!(wide, narrow);
+        assert!(wide.iter().any(|value| *value != 0.0));
+    }
+
     /// The same bits in wide registers as in narrow ones, and the right sums.
     #[test]
     fn register_width_does_not_show() {
