@@ -3,7 +3,8 @@
     python benches/python/overhead.py [--rust PROGRAM] [--runs 100] [--leak 10000]
 
 ``--rust`` names the program built by ``cargo build --release -p jostle-cli --example loop_of_runs``: the same runs
-in Rust alone. CPU time is compared, best of five, in turns. Nothing else should run meanwhile.
+in Rust alone. Everything is measured in short rounds, in turns; the median of the ratios counts, since machines change their
+pace. Nothing else should run meanwhile.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import argparse
 import os
 import resource
+import statistics
 import subprocess
 import sys
 import threading
@@ -82,27 +84,30 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rust", help="the same loop in Rust")
     parser.add_argument("--runs", type=int, default=100)
+    parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("--leak", type=int, default=10_000)
     arguments = parser.parse_args()
     model, runs = jostle.Model.load(TOWERS), arguments.runs
     python_loop(model, 3)
 
     if arguments.rust:
-        pairs = [(cpu_of_python(model, runs), cpu_of_rust(arguments.rust, runs)) for _ in range(5)]
-        ours, theirs = (min(column) for column in zip(*pairs))
-        print(f"{runs} runs: Python {ours:.3f} s CPU, Rust {theirs:.3f} s, {100 * (ours / theirs - 1):+.1f} %")
+        pairs = [(cpu_of_python(model, runs), cpu_of_rust(arguments.rust, runs)) for _ in range(arguments.rounds)]
+        ours, theirs = (statistics.median(column) for column in zip(*pairs))
+        more = statistics.median(ours / theirs for ours, theirs in pairs) - 1
+        print(f"{runs} runs: Python {ours:.3f} s CPU, Rust {theirs:.3f} s, {100 * more:+.1f} %")
     else:
-        print(f"{runs} runs: Python {min(cpu_of_python(model, runs) for _ in range(5)):.3f} s CPU")
+        ours = statistics.median(cpu_of_python(model, runs) for _ in range(arguments.rounds))
+        print(f"{runs} runs: Python {ours:.3f} s CPU")
 
     cores = len(os.sched_getaffinity(0))
     walls = [
         (wall_of_threads(model, runs, 1), wall_of_threads(model, runs, 2), wall_of_processes(runs, 2))
-        for _ in range(5)
+        for _ in range(arguments.rounds)
     ]
-    one, two, apart = (min(column) for column in zip(*walls))
+    two, apart = (statistics.median(2 * wall[0] / wall[way] for wall in walls) for way in (1, 2))
     print(
-        f"two threads do {2 * one / two:.2f} times the work of one ({cores} cores), "
-        f"two processes {2 * one / apart:.2f} times"
+        f"two threads do {two:.2f} times the work of one ({cores} cores), "
+        f"two processes that share nothing {apart:.2f} times"
     )
 
     # Short runs, with everything that leaves something behind.

@@ -10,6 +10,10 @@ use std::time::Duration;
 
 use jostle::{Plan, Run, Settings, Summary, System, simulate};
 
+/// As in the program and in the Python module.
+#[global_allocator]
+static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().collect();
     let [_, model, runs] = &arguments[..] else {
