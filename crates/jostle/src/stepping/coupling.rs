@@ -60,14 +60,26 @@ impl ContactEquations {
 
     /// Finds indentations and forces; returns the iterations, or `None` when they do not converge.
     pub(crate) fn solve(&mut self) -> Option<u64> {
+        for closed in &mut self.closed {
+            closed.indentation = closed.free;
+        }
+        self.solve_from_here()
+    }
+
+    /// The same, from indentations that are near already.
+    pub(super) fn solve_from_here(&mut self) -> Option<u64> {
         self.newton().or_else(|| self.settle())
+    }
+
+    /// Sets the indentations to those under known forces.
+    pub(super) fn press(&mut self, force: impl Fn(usize) -> f64) {
+        for (i, closed) in self.closed.iter_mut().enumerate() {
+            closed.indentation = closed.free - self.compliance.times(i, &force);
+        }
     }
 
     fn newton(&mut self) -> Option<u64> {
         let n = self.closed.len();
-        for closed in &mut self.closed {
-            closed.indentation = closed.free;
-        }
         let mut size = self.evaluate();
         for iteration in 1..=ITERATIONS {
             self.newton_update();

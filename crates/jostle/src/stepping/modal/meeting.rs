@@ -293,8 +293,12 @@ impl Walk<'_> {
             time: self.time,
             closed: n,
         };
+        // From the forces a step ago; every round then begins where the one before ended.
         self.forces.clear();
-        self.forces.resize(n, 0.0);
+        let (closed, phases) = (&self.coupling.closed, &self.phases);
+        let before = closed.iter().map(|closed| phases[closed.contact].force());
+        self.forces.extend(before);
+        self.coupling.press(|at| self.forces[at]);
         for _ in 0..ROUNDS {
             for row in 0..n {
                 let mut beyond = 0.0;
@@ -308,7 +312,8 @@ impl Walk<'_> {
                 let index = self.coupling.closed[row].contact;
                 self.coupling.closed[row].free_rate = self.trials[index].rate + beyond;
             }
-            self.work.iterations += self.coupling.solve().ok_or_else(|| diverged.clone())?;
+            let iterations = self.coupling.solve_from_here();
+            self.work.iterations += iterations.ok_or_else(|| diverged.clone())?;
             let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
             for (force, closed) in self.forces.iter_mut().zip(&self.coupling.closed) {
                 change = change.max((closed.force - *force).abs());

@@ -276,7 +276,7 @@ pub(super) struct Table {
     pub(super) displacement: [Vec<f64>; 4],
     pub(super) velocity: [Vec<f64>; 4],
     pub(super) area: [Vec<f64>; 4],
-    /// Of the products of these in the energy lost by damping: upper triangle row by row.
+    /// Of the products of these in the energy lost by damping: upper triangle row by row; empty without rules.
     pub(super) damped: [Vec<f64>; 10],
     /// Σ φ b₁₂ φ and Σ φ b₂₂ φ between all pairs of contacts, where already asked for.
     pub(super) compliance: Vec<Option<[f64; 2]>>,
@@ -301,7 +301,12 @@ impl Table {
         self.damped.iter_mut().for_each(Vec::clear);
         for (damping, stiffness) in reduced.damping.iter().zip(&reduced.stiffness) {
             let response = Response::over(*damping, *stiffness, step);
-            let form = damped(*damping, *stiffness, step, &response, rules);
+            if let Some(rules) = rules {
+                let form = damped(*damping, *stiffness, step, &response, rules);
+                for (list, value) in self.damped.iter_mut().zip(form) {
+                    list.push(value);
+                }
+            }
             let Response {
                 displacement,
                 velocity,
@@ -314,9 +319,6 @@ impl Table {
                 list.push(value);
             }
             for (list, value) in self.area.iter_mut().zip(area) {
-                list.push(value);
-            }
-            for (list, value) in self.damped.iter_mut().zip(form) {
                 list.push(value);
             }
         }
@@ -336,10 +338,29 @@ impl Table {
         arch.dispatch(Combine { factors, of, out });
     }
 
-    /// Energy that damping takes over the step \[J\].
-    pub(super) fn damped(&self, arch: Arch, of: [&[f64]; 4]) -> f64 {
+    /// Energy that damping takes over the step to `end`, with ∫q over it \[J\]. With rules it is found from the motion,
+    /// so that the balance is a check; without, as what loads put in and modes do not keep.
+    pub(super) fn damped(
+        &self,
+        reduced: &Reduced,
+        of: [&[f64]; 4],
+        end: [&[f64]; 2],
+        area: &[f64],
+    ) -> f64 {
         let form = &self.damped;
-        arch.dispatch(Quadratic { form, of })
+        if !form[0].is_empty() {
+            return reduced.arch.dispatch(Quadratic { form, of });
+        }
+        let ([q0, v0, p0, p1], [q1, v1]) = (of, end);
+        let modes = (0..reduced.modes()).filter(|mode| reduced.damping[*mode] > 0.0);
+        modes
+            .map(|i| {
+                let put_in = p1[i] * q1[i] - p0[i] * q0[i] - (p1[i] - p0[i]) / self.step * area[i];
+                let kept = v1[i] * v1[i] - v0[i] * v0[i]
+                    + reduced.stiffness[i] * (q1[i] * q1[i] - q0[i] * q0[i]);
+                put_in - 0.5 * kept
+            })
+            .sum()
     }
 
     /// Displacement and velocity of contact c at the end of the step under a unit end force of contact d, both

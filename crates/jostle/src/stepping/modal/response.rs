@@ -224,13 +224,13 @@ impl Rules {
 
 /// d ∫ q̇² dt over a step as a quadratic form in (q₀, q̇₀, p₀, p₁): upper triangle row by row, what stands off the diagonal
 /// twice. By quadrature, so that the energy balance is a check; where a mode turns or dies too quickly for that, as what
-/// its load puts in and its energy does not keep, as without any rules.
+/// its load puts in and its energy does not keep.
 pub(super) fn damped(
     damping: f64,
     stiffness: f64,
     step: f64,
     response: &Response,
-    rules: Option<&Rules>,
+    rules: &Rules,
 ) -> [f64; 10] {
     let radians = stiffness.sqrt().max(damping) * step;
     let mut form = [0.0; 10];
@@ -247,7 +247,7 @@ pub(super) fn damped(
             }
         }
     };
-    let Some(rules) = rules.filter(|_| radians <= MANY_POINTS) else {
+    if radians > MANY_POINTS {
         let unit = |at: usize| std::array::from_fn(|i| if i == at { 1.0 } else { 0.0 });
         let [q0, v0, p0, p1] = [0, 1, 2, 3].map(unit);
         let slope = [0.0, 0.0, -1.0 / step, 1.0 / step];
@@ -263,7 +263,7 @@ pub(super) fn damped(
         );
         add(0.5 * stiffness, &q0, &q0);
         return form;
-    };
+    }
     let rule = if radians < FEW_POINTS {
         &rules.few
     } else {
@@ -361,7 +361,7 @@ mod tests {
                         "ω = {omega}, ζ = {zeta}, h = {h}: {got} against {expected}"
                     );
                 }
-                let form = damped(d, k, h, &response, Some(&Rules::new()));
+                let form = damped(d, k, h, &response, &Rules::new());
                 let mut sum = 0.0;
                 let mut entry = 0;
                 for i in 0..4 {

@@ -446,8 +446,8 @@ impl<'a> Walk<'a> {
         let table = &self.tables[slot];
         let of = [&self.q[0][..], &self.v[0], &self.p[0], &self.p[1]];
         let arch = self.reduced.arch();
-        let damped = table.damped(arch, of);
         table.area(arch, of, &mut self.scratch);
+        let damped = table.damped(self.reduced, of, [&self.q[1], &self.v[1]], &self.scratch);
         let step = table.step;
         let slope = (self.ground[1] - self.ground[0]) / step;
         // ∫ a_g q̇ dt by parts.
