@@ -6,6 +6,7 @@ use crate::element::{self, Part, X, Y};
 use crate::hysteresis::Hysteresis;
 use crate::lanes;
 use crate::skeleton::{Skeleton, Support};
+use crate::small_keys::in_order;
 use crate::stretches::Stretches;
 use crate::transfer::path::Path;
 
@@ -133,7 +134,7 @@ impl Equations {
             }
         }
         let [stiffness, undamped, dashpots] =
-            triplets.map(|triplets| SparseSymmetric::from_triplets(n, triplets));
+            triplets.map(|triplets| SparseSymmetric::from_triplets(n, &triplets));
         Self {
             plain: undamped.is_zero() && dashpots.is_zero(),
             mass,
@@ -268,15 +269,15 @@ impl SparseSymmetric {
     }
 
     /// Adds up entries of the lower triangle (row ≥ column), in a fixed order.
-    fn from_triplets(n: usize, mut triplets: Vec<(usize, usize, f64)>) -> Self {
-        triplets.sort_by_key(|&(row, column, _)| (column, row));
+    fn from_triplets(n: usize, triplets: &[(usize, usize, f64)]) -> Self {
+        let by_row = in_order(triplets, n, |entry| entry.0);
         let mut matrix = Self {
             diagonal: vec![0.0; n],
             starts: vec![0; n + 1],
             ..Self::default()
         };
         let mut previous = None;
-        for (row, column, value) in triplets {
+        for (row, column, value) in in_order(&by_row, n, |entry| entry.1) {
             if row == column {
                 matrix.diagonal[row] += value;
             } else if previous == Some((row, column)) {
@@ -298,7 +299,7 @@ impl SparseSymmetric {
             let places = matrix.starts[column]..matrix.starts[column + 1];
             places.map(move |place| (rows[place], column as u32, place as u32))
         });
-        matrix.stretches = Stretches::of(entries.collect());
+        matrix.stretches = Stretches::of(&entries.collect::<Vec<_>>());
         matrix.stretches.lay_out(&matrix.values, &mut matrix.laid);
         matrix
     }

@@ -28,6 +28,7 @@ mod element;
 mod lanes;
 mod member_end;
 mod row;
+mod small_keys;
 mod stretches;
 mod summarise;
 

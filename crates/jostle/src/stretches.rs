@@ -2,6 +2,8 @@
 //! Loops over them need no list of indices and fill wide registers, always in the same order: the bits do not depend on
 //! the processor.
 
+use crate::small_keys::in_order;
+
 /// The entries (`row`, `column`), (`row` + 1, `column` + 1) and so on, `row` − `column` ≥ `length`.
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
@@ -23,8 +25,13 @@ const LANES: usize = 4;
 
 impl Stretches {
     /// Of entries (row, column, where the value is kept), row > column.
-    pub(crate) fn of(mut entries: Vec<(u32, u32, u32)>) -> Self {
-        entries.sort_unstable_by_key(|&(row, column, _)| (row - column, column));
+    pub(crate) fn of(entries: &[(u32, u32, u32)]) -> Self {
+        let rows = entries.iter().map(|entry| entry.0 as usize + 1);
+        let rows = rows.max().unwrap_or(0);
+        let by_column = in_order(entries, rows, |entry| entry.1 as usize);
+        let entries = in_order(&by_column, rows, |&(row, column, _)| {
+            (row - column) as usize
+        });
         let mut stretches: Vec<Stretch> = Vec::new();
         for &(row, column, _) in &entries {
             match stretches.last_mut() {
@@ -170,8 +177,8 @@ mod tests {
     #[test]
     fn stretches_do_what_single_entries_do() {
         for length in 1..23_u32 {
-            let entries = (0..length).map(|k| (k + 30, k, length - 1 - k)).collect();
-            let stretches = Stretches::of(entries);
+            let entries: Vec<_> = (0..length).map(|k| (k + 30, k, length - 1 - k)).collect();
+            let stretches = Stretches::of(&entries);
             assert_eq!(
                 (stretches.stretches.len(), stretches.len()),
                 (1, length as usize)

@@ -80,7 +80,7 @@ impl Abreast {
                     (row, column as u32, place as u32)
                 })
             });
-            Stretches::of(entries.collect())
+            Stretches::of(&entries.collect::<Vec<_>>())
         };
         Self {
             levels: bounds.windows(2).map(level).collect(),

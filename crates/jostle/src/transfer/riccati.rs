@@ -14,6 +14,7 @@ use super::abreast::Abreast;
 
 use crate::equations::{Equations, SparseSymmetric};
 use crate::lanes;
+use crate::small_keys::in_order;
 use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 
@@ -553,7 +554,8 @@ fn rows_before_diagonal(equations: &Equations) -> (Vec<usize>, Vec<(u32, Parts)>
             entries.push((a.max(b) as u32, a.min(b) as u32, Parts::default()));
         }
     }
-    entries.sort_by_key(|(row, column, _)| (*row, *column));
+    let by_column = in_order(&entries, n, |entry| entry.1 as usize);
+    let entries = in_order(&by_column, n, |entry| entry.0 as usize);
     let (mut starts, mut rows) = (vec![0; n + 1], Vec::<(u32, Parts)>::new());
     let mut last = None;
     for (row, column, parts) in entries {
