@@ -39,3 +39,29 @@ fn the_example_takes_no_more_work_than_it_did() {
         assert_eq!(found, expected, "{counts:?} of {options:?}");
     }
 }
+
+/// Several contacts at once whose forces can only be found to the last digits but one: rounds must not go on for ever.
+#[test]
+fn forces_that_circle_in_their_last_digits_have_settled() {
+    let folder = folder();
+    for acceleration in ["2.3000000000000003", "3.3"] {
+        let pga = format!("{acceleration} m/s2");
+        let arguments = [
+            "run",
+            "paper",
+            "--json",
+            "--no-report",
+            "--solver",
+            "modal",
+            "--gap",
+            "4 mm",
+            "--pga",
+            &pga,
+        ];
+        let output = jostle(folder.path(), &arguments);
+        assert!(output.status.success(), "{}", complained(&output));
+        let summary: serde_json::Value =
+            serde_json::from_str(&printed(&output)).expect("a summary");
+        assert!(summary["work"]["contact_steps"].as_u64() > Some(3_000));
+    }
+}
