@@ -58,7 +58,11 @@ def thousand(say):
         rounds.append({"cpu_s": cpu() - before, "wall_s": wall})
         say(f"study: {rounds[-1]['cpu_s']:.2f} s of CPU")
         with open(Path(running[1].name) / "cases.csv", newline="") as file:
-            return list(csv.DictReader(file))
+            rows = list(csv.DictReader(file))
+        lost = [row["case"] for row in rows if row["status"] != "completed"]
+        if lost:
+            raise RuntimeError(f"cases {', '.join(lost)} did not finish: {rows[int(lost[0])]['reason']}")
+        return rows
 
     for _ in range(2):
         rows = once()
