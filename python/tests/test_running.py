@@ -101,6 +101,7 @@ def interrupt_after(seconds: float) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
+@pytest.mark.usefixtures("ctrl_c")
 def test_ctrl_c_keeps_what_was_computed_and_twice_is_meant() -> None:
     model = long_model()
     interrupt_after(0.7)

@@ -142,6 +142,7 @@ def test_records_of_a_model_vary_by_themselves(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs signals")
+@pytest.mark.usefixtures("ctrl_c")
 def test_ctrl_c_stops_a_study_and_the_rest_goes_on(tmp_path: Path) -> None:
     vary = [{**VARY[0], "range": {"from": "2 mm", "to": "60 mm", "count": 4000}}]
     long = jostle.Study(towers(), vary)
