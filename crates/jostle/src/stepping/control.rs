@@ -11,8 +11,8 @@ use crate::system::Contact;
 
 /// Steps of a half cycle at the present stiffness, relative to those planned, beyond which finer ones gain nothing.
 const MOST_FINER: f64 = 4.0;
-/// How far an estimate must lie below the target before steps are doubled: doubling multiplies it by four.
-const SLACK: f64 = 6.0;
+/// How far an estimate must lie below the target before steps are doubled, beyond what doubling multiplies it by.
+const SLACK: f64 = 1.5;
 
 impl<E: StepEquations> Simulation<'_, E> {
     /// Rate of change of the closing rate of a contact \[m/s²\].
@@ -49,16 +49,19 @@ impl<E: StepEquations> Simulation<'_, E> {
         let contact = &self.system.contacts[index];
         let strongest = &mut self.strongest[contact.gap];
         *strongest = strongest.max(episode.peak_force);
+        let strongest = *strongest;
         let trial = self.trials[index];
+        let response = contact
+            .law
+            .follow(trial.indentation, trial.rate, &episode.memory);
+        let stiffness = response.by_indentation;
+        let half_cycle = half_cycle(contact, stiffness);
+        let change = self.relative_acceleration(index) - closed.start_acceleration;
         let observed = Observed {
             step,
-            slope: contact
-                .law
-                .follow(trial.indentation, trial.rate, &episode.memory)
-                .by_indentation,
-            strongest: *strongest,
-            acceleration_change: (self.relative_acceleration(index) - closed.start_acceleration)
-                .abs(),
+            stiffness,
+            error: stiffness * step * change.abs() / 12.0 * half_cycle / strongest,
+            order: 2,
         };
         let division = &mut self.contact_division[index];
         *division = next_division(self.plan, contact, &observed, *division, &self.clock);
@@ -71,11 +74,16 @@ pub(super) struct Observed {
     /// Its length \[s\].
     pub(super) step: f64,
     /// F′ at its end \[N/m\].
-    pub(super) slope: f64,
-    /// Greatest force of the gap so far \[N\].
-    pub(super) strongest: f64,
-    /// |Δa| of the closing \[m/s²\].
-    pub(super) acceleration_change: f64,
+    pub(super) stiffness: f64,
+    /// Error of the force over half a cycle of such steps, relative to the greatest of the gap \[–\].
+    pub(super) error: f64,
+    /// Power of the step with which it grows.
+    pub(super) order: i32,
+}
+
+/// Half a cycle of a contact of stiffness F′ \[s\].
+fn half_cycle(contact: &Contact, stiffness: f64) -> f64 {
+    PI * (contact.effective_mass() / stiffness).sqrt()
 }
 
 /// The division to go on with.
@@ -91,21 +99,20 @@ pub(super) fn next_division(
     };
     let Observed {
         step,
-        slope,
-        strongest,
-        acceleration_change,
+        stiffness,
+        error,
+        order,
     } = *observed;
-    if slope <= 0.0 || strongest <= 0.0 {
+    if stiffness <= 0.0 || !error.is_finite() {
         return division;
     }
-    let half_cycle = PI * (contact.effective_mass() / slope).sqrt();
-    let error = slope * step * acceleration_change / 12.0 * half_cycle / strongest;
+    let half_cycle = half_cycle(contact, stiffness);
     if error > tolerance && step * MOST_FINER * steps > half_cycle {
         plan.finer(division)
-    } else if error * SLACK < tolerance
+    } else if error * SLACK * 2.0_f64.powi(order) < tolerance
         && division > 1
         && clock.is_on_grid(division / 2)
-        && division / 2 >= plan.coarsest(contact, slope)
+        && division / 2 >= plan.coarsest(contact, stiffness)
     {
         division / 2
     } else {

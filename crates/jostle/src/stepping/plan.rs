@@ -63,6 +63,10 @@ const MODAL_STEPS_PER_THIRD: f64 = 7.5;
 const MODAL_STEPS_PER_MOTION_PERIOD: f64 = 150.0;
 /// And where nothing else limits it \[s\].
 const LONGEST_MODAL_STEP: f64 = 0.05;
+/// Steps per elastic impact of modal stepping, at a tolerance of 1e-3.
+const MODAL_STEPS_PER_IMPACT: f64 = 20.0;
+/// And per half cycle of a contact however weak it is, relative to these.
+const MODAL_FEWEST_ADAPTED: f64 = 0.5;
 /// Finest division of a free-flight step.
 const FINEST: u32 = 1 << 20;
 
@@ -97,7 +101,11 @@ impl Plan {
                 )
             }
             None => ContactSteps::PerImpact {
-                steps: STEPS_PER_IMPACT / refinement,
+                steps: if analysis.solver == Solver::Modal {
+                    MODAL_STEPS_PER_IMPACT / (analysis.tolerance / 1e-3).powf(0.25)
+                } else {
+                    STEPS_PER_IMPACT / refinement
+                },
                 tolerance: CONTACT_SHARE * analysis.tolerance,
             },
         };
@@ -140,7 +148,8 @@ impl Plan {
     }
 
     /// The division with which a contact that closes at `impact_speed` \[m/s\] begins, when the force to expect is this
-    /// share of the greatest of its gap: errors count relative to the latter, and fall with the square of the step.
+    /// share of the greatest of its gap: errors count relative to the latter, and fall with the square of the step, or with
+    /// its fourth power in modal stepping.
     #[must_use]
     pub fn first_division(&self, contact: &Contact, impact_speed: f64, share: f64) -> u32 {
         match self.contact_steps {
@@ -148,12 +157,30 @@ impl Plan {
             ContactSteps::PerImpact { steps, tolerance } => Self {
                 contact_steps: ContactSteps::PerImpact {
                     steps: STEEP_START.powi(i32::from(contact.law.starts_steeply()))
-                        * (steps * share.sqrt()).max(FEWEST_ADAPTED),
+                        * (steps * self.root_of_share(share)).max(self.fewest_in_contact(steps)),
                     tolerance,
                 },
                 ..*self
             }
             .division(contact, impact_speed),
+        }
+    }
+
+    fn root_of_share(&self, share: f64) -> f64 {
+        let root = share.sqrt();
+        if self.solver == Solver::Modal {
+            root.sqrt()
+        } else {
+            root
+        }
+    }
+
+    /// Steps per half cycle of a contact that remain however weak it is.
+    fn fewest_in_contact(&self, steps: f64) -> f64 {
+        if self.solver == Solver::Modal {
+            MODAL_FEWEST_ADAPTED * steps
+        } else {
+            FEWEST_ADAPTED
         }
     }
 
@@ -163,11 +190,20 @@ impl Plan {
         (2 * division).min(FINEST)
     }
 
+    /// Whether steps of this division hardly see a contact stiffness F′ \[N/m\], and finer ones are to be had.
+    #[must_use]
+    pub(crate) fn is_too_coarse(&self, division: u32, contact: &Contact, slope: f64) -> bool {
+        slope > 0.0 && division < self.coarsest(contact, slope)
+    }
+
     /// The coarsest division worth having at a contact stiffness F′ \[N/m\]: steps must still see it.
     #[must_use]
     pub(crate) fn coarsest(&self, contact: &Contact, slope: f64) -> u32 {
+        let ContactSteps::PerImpact { steps, .. } = self.contact_steps else {
+            return 1;
+        };
         let half_cycle = std::f64::consts::PI * (contact.effective_mass() / slope).sqrt();
-        (self.step * FEWEST_ADAPTED / half_cycle)
+        (self.step * self.fewest_in_contact(steps) / half_cycle)
             .ceil()
             .clamp(1.0, f64::from(FINEST)) as u32
     }

@@ -69,7 +69,7 @@ impl Flight {
                 own.displacement[column][lane] = share * table.displacement[column][mode];
                 own.velocity[column][lane] = share * table.velocity[column][mode];
             }
-            let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] =
+            let [aa, ab, ac, ad, _, bb, bc, bd, _, cc, cd, _, dd, _, _] =
                 table.damped.each_ref().map(|list| list[mode]);
             let form = [aa, ab, bb, ac, ad, bc, bd];
             for (entry, value) in form.into_iter().enumerate() {

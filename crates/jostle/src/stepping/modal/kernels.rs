@@ -3,15 +3,17 @@
 
 use pulp::{NullaryFnOnce, Simd, WithSimd};
 
+use super::response::{INPUTS, PRODUCTS};
+
 /// Watched displacements taken at once.
 pub(super) const ROWS: usize = 8;
 /// Modes taken at once.
 pub(super) const LANES: usize = 8;
 
-/// out = a q + b q̇ + c p₀ + d p₁, mode by mode.
+/// Σ factors of (q₀, q̇₀, p₀, p₁, b), mode by mode.
 pub(super) struct Combine<'a> {
-    pub(super) factors: &'a [Vec<f64>; 4],
-    pub(super) of: [&'a [f64]; 4],
+    pub(super) factors: &'a [Vec<f64>; INPUTS],
+    pub(super) of: [&'a [f64]; INPUTS],
     pub(super) out: &'a mut [f64],
 }
 
@@ -21,11 +23,12 @@ impl NullaryFnOnce for Combine<'_> {
     #[inline(always)]
     fn call(self) {
         let n = self.out.len();
-        let ([a, b, c, d], [q, v, p0, p1]) = (self.factors, self.of);
-        let (a, b, c, d) = (&a[..n], &b[..n], &c[..n], &d[..n]);
-        let (q, v, p0, p1) = (&q[..n], &v[..n], &p0[..n], &p1[..n]);
+        let ([a, b, c, d, e], [q, v, p0, p1, bend]) = (self.factors, self.of);
+        let (a, b, c, d, e) = (&a[..n], &b[..n], &c[..n], &d[..n], &e[..n]);
+        let (q, v, p0, p1, bend) = (&q[..n], &v[..n], &p0[..n], &p1[..n], &bend[..n]);
         for i in 0..n {
-            self.out[i] = (a[i] * q[i] + b[i] * v[i]) + (c[i] * p0[i] + d[i] * p1[i]);
+            let by_loads = (c[i] * p0[i] + d[i] * p1[i]) + e[i] * bend[i];
+            self.out[i] = (a[i] * q[i] + b[i] * v[i]) + by_loads;
         }
     }
 }
@@ -266,10 +269,10 @@ fn one<S: Simd>(list: &[f64; LANES]) -> &[S::f64s] {
     S::as_simd_f64s(list).0
 }
 
-/// Sum of a quadratic form in four values over all modes: upper triangle row by row.
+/// Sum of a quadratic form in (q₀, q̇₀, p₀, p₁, b) over all modes: upper triangle row by row.
 pub(super) struct Quadratic<'a> {
-    pub(super) form: &'a [Vec<f64>; 10],
-    pub(super) of: [&'a [f64]; 4],
+    pub(super) form: &'a [Vec<f64>; PRODUCTS],
+    pub(super) of: [&'a [f64]; INPUTS],
 }
 
 impl WithSimd for Quadratic<'_> {
@@ -283,53 +286,67 @@ impl WithSimd for Quadratic<'_> {
         let (sums, _) = S::as_mut_simd_f64s(&mut lanes);
         let registers = sums.len();
         // Lists cut into registers: so many of them are one group of lanes. One by one: mapping arrays is not inlined.
-        let [a, b, c, d] = self.of;
-        let [aa, ab, ac, ad, bb, bc, bd, cc, cd, dd] = self.form;
+        let [a, b, c, d, e] = self.of;
+        let [aa, ab, ac, ad, ae, bb, bc, bd, be, cc, cd, ce, dd, de, ee] = self.form;
         let count = cut::<S>(a, whole).len();
         let of = [
             &cut::<S>(a, whole)[..count],
             &cut::<S>(b, whole)[..count],
             &cut::<S>(c, whole)[..count],
             &cut::<S>(d, whole)[..count],
+            &cut::<S>(e, whole)[..count],
         ];
         let squares = [
             &cut::<S>(aa, whole)[..count],
             &cut::<S>(bb, whole)[..count],
             &cut::<S>(cc, whole)[..count],
             &cut::<S>(dd, whole)[..count],
+            &cut::<S>(ee, whole)[..count],
         ];
         let products = [
             &cut::<S>(ab, whole)[..count],
             &cut::<S>(ac, whole)[..count],
             &cut::<S>(ad, whole)[..count],
+            &cut::<S>(ae, whole)[..count],
             &cut::<S>(bc, whole)[..count],
             &cut::<S>(bd, whole)[..count],
+            &cut::<S>(be, whole)[..count],
             &cut::<S>(cd, whole)[..count],
+            &cut::<S>(ce, whole)[..count],
+            &cut::<S>(de, whole)[..count],
         ];
         for at in 0..count {
-            let [a, b, c, d] = [of[0][at], of[1][at], of[2][at], of[3][at]];
-            let [aa, bb] = [squares[0][at], squares[1][at]];
-            let [cc, dd] = [squares[2][at], squares[3][at]];
+            let [a, b, c, d, e] = [of[0][at], of[1][at], of[2][at], of[3][at], of[4][at]];
+            let [aa, bb, cc] = [squares[0][at], squares[1][at], squares[2][at]];
+            let [dd, ee] = [squares[3][at], squares[4][at]];
             let [ab, ac, ad] = [products[0][at], products[1][at], products[2][at]];
-            let [bc, bd, cd] = [products[3][at], products[4][at], products[5][at]];
+            let [ae, bc, bd] = [products[3][at], products[4][at], products[5][at]];
+            let [be, cd] = [products[6][at], products[7][at]];
+            let [ce, de] = [products[8][at], products[9][at]];
             let (times, plus) = (|x, y| simd.mul_f64s(x, y), |x, y| simd.add_f64s(x, y));
             let by_a = plus(
                 plus(times(aa, a), times(ab, b)),
-                plus(times(ac, c), times(ad, d)),
+                plus(plus(times(ac, c), times(ad, d)), times(ae, e)),
             );
-            let by_b = plus(times(bb, b), plus(times(bc, c), times(bd, d)));
-            let by_c = plus(times(cc, c), times(cd, d));
+            let by_b = plus(
+                times(bb, b),
+                plus(plus(times(bc, c), times(bd, d)), times(be, e)),
+            );
+            let by_c = plus(plus(times(cc, c), times(cd, d)), times(ce, e));
+            let by_d = plus(times(dd, d), times(de, e));
             let sum = plus(
                 plus(times(a, by_a), times(b, by_b)),
-                plus(times(c, by_c), times(times(dd, d), d)),
+                plus(plus(times(c, by_c), times(d, by_d)), times(times(ee, e), e)),
             );
             sums[at % registers] = simd.add_f64s(sums[at % registers], sum);
         }
         let term = |i: usize| {
-            let [a, b, c, d] = [a[i], b[i], c[i], d[i]];
-            a * ((aa[i] * a + ab[i] * b) + (ac[i] * c + ad[i] * d))
-                + b * (bb[i] * b + (bc[i] * c + bd[i] * d))
-                + (c * (cc[i] * c + cd[i] * d) + dd[i] * d * d)
+            let [a, b, c, d, e] = [a[i], b[i], c[i], d[i], e[i]];
+            let by_a = (aa[i] * a + ab[i] * b) + ((ac[i] * c + ad[i] * d) + ae[i] * e);
+            let by_b = bb[i] * b + ((bc[i] * c + bd[i] * d) + be[i] * e);
+            let by_c = (cc[i] * c + cd[i] * d) + ce[i] * e;
+            let by_d = dd[i] * d + de[i] * e;
+            (a * by_a + b * by_b) + ((c * by_c + d * by_d) + ee[i] * e * e)
         };
         let rest: f64 = (whole..n).map(term).sum();
         lanes.iter().sum::<f64>() + rest
@@ -411,17 +428,17 @@ mod tests {
     #[test]
     fn register_width_does_not_show() {
         for n in [1, 3, 8, 23, 42] {
-            let of: Vec<Vec<f64>> = (0..4).map(|k| list(n, f64::from(k))).collect();
-            let of: [&[f64]; 4] = std::array::from_fn(|k| &of[k][..]);
-            let form: [Vec<f64>; 10] = std::array::from_fn(|k| list(n, 9.0 + k as f64));
+            let of: Vec<Vec<f64>> = (0..5).map(|k| list(n, f64::from(k))).collect();
+            let of: [&[f64]; INPUTS] = std::array::from_fn(|k| &of[k][..]);
+            let form: [Vec<f64>; PRODUCTS] = std::array::from_fn(|k| list(n, 9.0 + k as f64));
             let wide = Arch::new().dispatch(Quadratic { form: &form, of });
             let narrow = Quadratic { form: &form, of }.with_simd(Scalar::new());
             assert_eq!(wide.to_bits(), narrow.to_bits(), "{n} modes");
             let mut plain = 0.0;
             for i in 0..n {
                 let mut entry = 0;
-                for row in 0..4 {
-                    for column in row..4 {
+                for row in 0..INPUTS {
+                    for column in row..INPUTS {
                         plain += form[entry][i] * of[row][i] * of[column][i];
                         entry += 1;
                     }

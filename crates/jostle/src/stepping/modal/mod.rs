@@ -3,7 +3,7 @@
 //!
 //! Between two instants at which loads bend, every mode is known in closed form. Free flight therefore needs no steps
 //! but those of the record and of the search for touches; contacts take shorter ones, over which their forces are
-//! straight. What it cannot do is refused by [`refusals`].
+//! parabolas. What it cannot do is refused by [`refusals`].
 
 mod basis;
 mod flight;

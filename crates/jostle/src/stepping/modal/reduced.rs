@@ -6,7 +6,7 @@ use pulp::Arch;
 
 use super::basis::{Basis, Demand};
 use super::kernels::{Combine, Quadratic, ROWS, Show};
-use super::response::{Response, Rules, damped};
+use super::response::{INPUTS, PRODUCTS, Response, Rules, damped};
 use crate::contact::ForceLaw;
 use crate::equations::Equations;
 use crate::history::Work;
@@ -272,13 +272,14 @@ fn at_once(equations: &Equations) -> f64 {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Table {
     pub(super) step: f64,
-    /// Of (q₀, q̇₀, p₀, p₁) in q₁, q̇₁ and ∫q.
-    pub(super) displacement: [Vec<f64>; 4],
-    pub(super) velocity: [Vec<f64>; 4],
-    pub(super) area: [Vec<f64>; 4],
+    /// Of (q₀, q̇₀, p₀, p₁, b) in q₁, q̇₁, ∫q and ∫τq.
+    pub(super) displacement: [Vec<f64>; INPUTS],
+    pub(super) velocity: [Vec<f64>; INPUTS],
+    pub(super) area: [Vec<f64>; INPUTS],
+    moment: [Vec<f64>; INPUTS],
     /// Of the products of these in the energy lost by damping: upper triangle row by row; empty without rules.
-    pub(super) damped: [Vec<f64>; 10],
-    /// Σ φ b₁₂ φ and Σ φ b₂₂ φ between all pairs of contacts, where already asked for.
+    pub(super) damped: [Vec<f64>; PRODUCTS],
+    /// What end forces do between all pairs of contacts, where already asked for.
     pub(super) compliance: Vec<Option<[f64; 2]>>,
 }
 
@@ -297,7 +298,8 @@ impl Table {
         let contacts = reduced.faces.len();
         self.compliance.resize(contacts * contacts, None);
         let lists = self.displacement.iter_mut().chain(&mut self.velocity);
-        lists.chain(&mut self.area).for_each(Vec::clear);
+        let lists = lists.chain(&mut self.area).chain(&mut self.moment);
+        lists.for_each(Vec::clear);
         self.damped.iter_mut().for_each(Vec::clear);
         for (damping, stiffness) in reduced.damping.iter().zip(&reduced.stiffness) {
             let response = Response::over(*damping, *stiffness, step);
@@ -311,21 +313,23 @@ impl Table {
                 displacement,
                 velocity,
                 area,
+                moment,
             } = response;
-            for (list, value) in self.displacement.iter_mut().zip(displacement) {
-                list.push(value);
-            }
-            for (list, value) in self.velocity.iter_mut().zip(velocity) {
-                list.push(value);
-            }
-            for (list, value) in self.area.iter_mut().zip(area) {
-                list.push(value);
+            for (lists, values) in [
+                (&mut self.displacement, displacement),
+                (&mut self.velocity, velocity),
+                (&mut self.area, area),
+                (&mut self.moment, moment),
+            ] {
+                for (list, value) in lists.iter_mut().zip(values) {
+                    list.push(value);
+                }
             }
         }
     }
 
     /// q₁ and q̇₁ of all modes.
-    pub(super) fn advance(&self, arch: Arch, of: [&[f64]; 4], end: [&mut [f64]; 2]) {
+    pub(super) fn advance(&self, arch: Arch, of: [&[f64]; INPUTS], end: [&mut [f64]; 2]) {
         let [q1, v1] = end;
         for (factors, out) in [(&self.displacement, q1), (&self.velocity, v1)] {
             arch.dispatch(Combine { factors, of, out });
@@ -333,29 +337,36 @@ impl Table {
     }
 
     /// ∫q dt of all modes.
-    pub(super) fn area(&self, arch: Arch, of: [&[f64]; 4], out: &mut [f64]) {
+    pub(super) fn area(&self, arch: Arch, of: [&[f64]; INPUTS], out: &mut [f64]) {
         let factors = &self.area;
         arch.dispatch(Combine { factors, of, out });
     }
 
-    /// Energy that damping takes over the step to `end`, with ∫q over it \[J\]. With rules it is found from the motion,
-    /// so that the balance is a check; without, as what loads put in and modes do not keep.
+    /// ∫τq dt of all modes.
+    pub(super) fn moment(&self, arch: Arch, of: [&[f64]; INPUTS], out: &mut [f64]) {
+        let factors = &self.moment;
+        arch.dispatch(Combine { factors, of, out });
+    }
+
+    /// Energy that damping takes over the step to `end`, with ∫q and, where loads bend, ∫τq over it \[J\]. With rules it
+    /// is found from the motion, so that the balance is a check; without, as what loads put in and modes do not keep.
     pub(super) fn damped(
         &self,
         reduced: &Reduced,
-        of: [&[f64]; 4],
+        of: [&[f64]; INPUTS],
         end: [&[f64]; 2],
-        area: &[f64],
+        [area, moment]: [&[f64]; 2],
     ) -> f64 {
         let form = &self.damped;
         if !form[0].is_empty() {
             return reduced.arch.dispatch(Quadratic { form, of });
         }
-        let ([q0, v0, p0, p1], [q1, v1]) = (of, end);
+        let ([q0, v0, p0, p1, bend], [q1, v1]) = (of, end);
         let modes = (0..reduced.modes()).filter(|mode| reduced.damping[*mode] > 0.0);
         modes
             .map(|i| {
-                let put_in = p1[i] * q1[i] - p0[i] * q0[i] - (p1[i] - p0[i]) / self.step * area[i];
+                let turned = (p1[i] - p0[i]) * area[i] + bend[i] * (2.0 * moment[i] - area[i]);
+                let put_in = p1[i] * q1[i] - p0[i] * q0[i] - turned / self.step;
                 let kept = v1[i] * v1[i] - v0[i] * v0[i]
                     + reduced.stiffness[i] * (q1[i] * q1[i] - q0[i] * q0[i]);
                 put_in - 0.5 * kept
@@ -363,8 +374,8 @@ impl Table {
             .sum()
     }
 
-    /// Displacement and velocity of contact c at the end of the step under a unit end force of contact d, both
-    /// counted as opening \[m/N, m/(N s)\].
+    /// Displacement and velocity of contact c at the end of the step under a unit end force of contact d that sets in
+    /// as the square of time, both counted as opening \[m/N, m/(N s)\].
     pub(super) fn opening(&mut self, c: usize, d: usize, reduced: &Reduced) -> [f64; 2] {
         let contacts = reduced.faces.len();
         if let Some(known) = self.compliance[c * contacts + d] {
@@ -378,13 +389,11 @@ impl Table {
                 }
                 let range = reduced.buildings[own.building].modes.clone();
                 let (a, b) = (reduced.row(own), reduced.row(other));
-                let factors = [
-                    &self.displacement[3][range.clone()],
-                    &self.velocity[3][range],
-                ];
-                for (sum, factors) in sums.iter_mut().zip(factors) {
-                    let pairs = a.iter().zip(b).zip(factors);
-                    *sum += own_sign * other_sign * pairs.map(|((a, b), f)| a * b * f).sum::<f64>();
+                for (sum, factors) in sums.iter_mut().zip([&self.displacement, &self.velocity]) {
+                    let [.., line, bend] = factors.each_ref().map(|list| &list[range.clone()]);
+                    let pairs = a.iter().zip(b).zip(line.iter().zip(bend));
+                    let shown = pairs.map(|((a, b), (line, bend))| a * b * (line + bend));
+                    *sum += own_sign * other_sign * shown.sum::<f64>();
                 }
             }
         }

@@ -1,17 +1,24 @@
 //! One mode over one step, exactly (theory, Eqs. Q1 and Q2).
 
-/// What a mode makes of its state and of a load that runs straight from p₀ to p₁ over a step h.
+/// What a step begins with: q₀, q̇₀, p₀, p₁ and the bend b.
+pub(super) const INPUTS: usize = 5;
+/// Products of two of these.
+pub(super) const PRODUCTS: usize = INPUTS * (INPUTS + 1) / 2;
+
+/// What a mode makes of its state and of a load p₀ + (p₁ − p₀)τ + b(τ² − τ) over a step h, τ = t/h.
 ///
 /// q̈ + d q̇ + k q = p with d = 2ζω, k = ω² (N. C. Nigam and P. C. Jennings, 1969, Bull. Seism. Soc. Am. 59,
-/// 909–922). All rows are factors of (q₀, q̇₀, p₀, p₁).
+/// 909–922, for b = 0). All rows are factors of (q₀, q̇₀, p₀, p₁, b).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Response {
     /// q₁.
-    pub(super) displacement: [f64; 4],
+    pub(super) displacement: [f64; INPUTS],
     /// q̇₁.
-    pub(super) velocity: [f64; 4],
+    pub(super) velocity: [f64; INPUTS],
     /// ∫ q dt.
-    pub(super) area: [f64; 4],
+    pub(super) area: [f64; INPUTS],
+    /// ∫ τ q dt.
+    pub(super) moment: [f64; INPUTS],
 }
 
 /// Below this many radians over a step a power series keeps all digits; the closed forms lose them as (ωh)³.
@@ -31,7 +38,7 @@ fn terms(radians: f64) -> usize {
 
 /// 1/((n + 1)(n + 2)) for every term, and 1/(n + 1).
 const SECOND: [f64; TERMS] = reciprocals(2);
-const FIRST: [f64; TERMS + 4] = reciprocals(1);
+const FIRST: [f64; TERMS + 6] = reciprocals(1);
 
 const fn reciprocals<const N: usize>(factors: usize) -> [f64; N] {
     let mut list = [0.0; N];
@@ -62,7 +69,7 @@ fn impulse(damping: f64, stiffness: f64, step: f64, count: usize) -> [f64; TERMS
 
 impl Response {
     /// The row of q̇₁ alone.
-    fn velocity_over(damping: f64, stiffness: f64, step: f64) -> [f64; 4] {
+    fn velocity_over(damping: f64, stiffness: f64, step: f64) -> [f64; INPUTS] {
         let radians = stiffness.sqrt().max(damping) * step;
         if radians >= SERIES {
             let [[_, _], [x21, x22]] = Self::free(damping, stiffness, step);
@@ -70,24 +77,39 @@ impl Response {
         }
         let count = terms(radians);
         let terms = impulse(damping, stiffness, step, count);
-        // ḣ, h and ∫h/step of the impulse's answer h; from the smallest term up.
-        let [mut slope, mut value, mut area] = [0.0; 3];
+        // ḣ, h and its first two integrals over powers of the step, h being the impulse's answer; from the smallest term up.
+        let [mut slope, mut value, mut first, mut second] = [0.0; 4];
         for n in (1..count).rev() {
             slope += n as f64 * terms[n];
             value += terms[n];
-            area += terms[n] * FIRST[n];
+            let term = terms[n] * FIRST[n];
+            first += term;
+            second += term * FIRST[n + 1];
         }
-        [-stiffness * value, slope / step, value - area, area]
+        [
+            -stiffness * value,
+            slope / step,
+            value - first,
+            first,
+            2.0 * second - first,
+        ]
     }
 
-    fn closed_velocity(damping: f64, stiffness: f64, step: f64, [x21, x22]: [f64; 2]) -> [f64; 4] {
+    fn closed_velocity(
+        damping: f64,
+        stiffness: f64,
+        step: f64,
+        [x21, x22]: [f64; 2],
+    ) -> [f64; INPUTS] {
         let rise = 1.0 / stiffness;
         let (e1, e2) = (rise / step, damping / (stiffness * stiffness * step));
+        let [bent, slope, start] = steady_bend(damping, stiffness, step);
         [
             x21,
             x22,
             -x21 * (rise + e2) + x22 * e1 - e1,
             x21 * e2 - x22 * e1 + e1,
+            (2.0 * bent + slope - slope * x22) / step - start * x21,
         ]
     }
 
@@ -140,41 +162,48 @@ impl Response {
         let [[x11, x12], [x21, x22]] = Self::free(damping, stiffness, step);
         let static_rise = 1.0 / stiffness;
         let (e1, e2) = (static_rise / step, damping / (stiffness * stiffness * step));
+        let [bent, slope, start] = steady_bend(damping, stiffness, step);
         let displacement = [
             x11,
             x12,
             -x11 * (static_rise + e2) + x12 * e1 + e2,
             x11 * e2 - x12 * e1 + static_rise - e2,
+            bent + slope + start - start * x11 - slope / step * x12,
         ];
         let velocity = Self::closed_velocity(damping, stiffness, step, [x21, x22]);
-        // k ∫q = ∫p − Δq̇ − d Δq.
+        // k ∫q = ∫p − Δq̇ − d Δq, and k ∫τq = ∫τp − (q̇₁ − Δq/h) − d(q₁ − ∫q/h): q₀, q̇₀, ∫p/h and ∫τp/h.
         let starts = [
-            (1.0, 0.0, 0.0),
-            (0.0, 1.0, 0.0),
-            (0.0, 0.0, 0.5),
-            (0.0, 0.0, 0.5),
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 0.5, 1.0 / 6.0],
+            [0.0, 0.0, 0.5, 1.0 / 3.0],
+            [0.0, 0.0, -1.0 / 6.0, -1.0 / 12.0],
         ];
-        let mut area = [0.0; 4];
-        for (column, (q, v, load)) in starts.into_iter().enumerate() {
-            area[column] =
-                (load * step - (velocity[column] - v) - damping * (displacement[column] - q))
-                    * static_rise;
+        let (mut area, mut moment) = ([0.0; INPUTS], [0.0; INPUTS]);
+        for (column, [q, v, load, leaning]) in starts.into_iter().enumerate() {
+            let (end, rate) = (displacement[column], velocity[column]);
+            area[column] = (load * step - (rate - v) - damping * (end - q)) * static_rise;
+            moment[column] = (leaning * step
+                - (rate - (end - q) / step)
+                - damping * (end - area[column] / step))
+                * static_rise;
         }
         Self {
             displacement,
             velocity,
             area,
+            moment,
         }
     }
 
-    /// All from the answer h to an impulse: a constant load makes ∫h of it and one that rises ∫∫h, and a start at rest away
-    /// from zero is a constant load −k.
+    /// All from the answer h to an impulse: a constant load makes ∫h of it, one that rises ∫∫h and its square twice
+    /// ∫∫∫h, and a start at rest away from zero is a constant load −k.
     fn series(damping: f64, stiffness: f64, step: f64) -> Self {
         let count = terms(stiffness.sqrt().max(damping) * step);
         let terms = impulse(damping, stiffness, step, count);
-        // ḣ, h and its first three integrals, these over powers of the step; from the smallest term up.
+        // ḣ, h and its first five integrals, these over powers of the step; from the smallest term up.
         let [mut slope, mut value] = [0.0; 2];
-        let mut integrals = [0.0; 3];
+        let mut integrals = [0.0; 5];
         for n in (1..count).rev() {
             slope += n as f64 * terms[n];
             value += terms[n];
@@ -184,23 +213,48 @@ impl Response {
                 *integral += term;
             }
         }
-        let [first, second, third] = integrals;
+        let [first, second, third, fourth, fifth] = integrals;
+        let square = step * step;
         Self {
             displacement: [
                 1.0 - stiffness * step * first,
                 value,
                 step * (first - second),
                 step * second,
+                step * (2.0 * third - second),
             ],
-            velocity: [-stiffness * value, slope / step, value - first, first],
+            velocity: [
+                -stiffness * value,
+                slope / step,
+                value - first,
+                first,
+                2.0 * second - first,
+            ],
             area: [
                 step * (1.0 - stiffness * step * second),
                 step * first,
-                step * step * (second - third),
-                step * step * third,
+                square * (second - third),
+                square * third,
+                square * (2.0 * fourth - third),
+            ],
+            // ∫τq = ∫q − ∫∫q/h.
+            moment: [
+                step * (0.5 - stiffness * step * (second - third)),
+                step * (first - second),
+                square * (second - 2.0 * third + fourth),
+                square * (third - fourth),
+                square * (3.0 * fourth - third - 2.0 * fifth),
             ],
         }
     }
+}
+
+/// What follows a load τ² − τ once free motion has died: factors of τ², τ and 1.
+fn steady_bend(damping: f64, stiffness: f64, step: f64) -> [f64; 3] {
+    let bent = 1.0 / stiffness;
+    let slope = -(1.0 + 2.0 * damping * bent / step) * bent;
+    let start = -(damping * slope + 2.0 * bent / step) / step * bent;
+    [bent, slope, start]
 }
 
 /// Below so many radians over a step four points of Gauss' rule have all digits, and up to so many twelve.
@@ -222,7 +276,7 @@ impl Rules {
     }
 }
 
-/// d ∫ q̇² dt over a step as a quadratic form in (q₀, q̇₀, p₀, p₁): upper triangle row by row, what stands off the diagonal
+/// d ∫ q̇² dt over a step as a quadratic form in (q₀, q̇₀, p₀, p₁, b): upper triangle row by row, what stands off the diagonal
 /// twice. By quadrature, so that the energy balance is a check; where a mode turns or dies too quickly for that, as what
 /// its load puts in and its energy does not keep.
 pub(super) fn damped(
@@ -231,16 +285,16 @@ pub(super) fn damped(
     step: f64,
     response: &Response,
     rules: &Rules,
-) -> [f64; 10] {
+) -> [f64; PRODUCTS] {
     let radians = stiffness.sqrt().max(damping) * step;
-    let mut form = [0.0; 10];
+    let mut form = [0.0; PRODUCTS];
     if damping == 0.0 {
         return form;
     }
-    let mut add = |scale: f64, a: &[f64; 4], b: &[f64; 4]| {
+    let mut add = |scale: f64, a: &[f64; INPUTS], b: &[f64; INPUTS]| {
         let mut entry = 0;
-        for i in 0..4 {
-            for j in i..4 {
+        for i in 0..INPUTS {
+            for j in i..INPUTS {
                 let twice = if i == j { 0.5 } else { 1.0 };
                 form[entry] += scale * twice * (a[i] * b[j] + a[j] * b[i]);
                 entry += 1;
@@ -250,10 +304,13 @@ pub(super) fn damped(
     if radians > MANY_POINTS {
         let unit = |at: usize| std::array::from_fn(|i| if i == at { 1.0 } else { 0.0 });
         let [q0, v0, p0, p1] = [0, 1, 2, 3].map(unit);
-        let slope = [0.0, 0.0, -1.0 / step, 1.0 / step];
+        // ∫p q̇ dt by parts, the slope of the load being that of the line and 2τ − 1 of the bend.
+        let slope = [0.0, 0.0, -1.0, 1.0, -1.0].map(|share| share / step);
+        let bend = [0.0, 0.0, 0.0, 0.0, 2.0 / step];
         add(1.0, &p1, &response.displacement);
         add(-1.0, &p0, &q0);
         add(-1.0, &slope, &response.area);
+        add(-1.0, &bend, &response.moment);
         add(-0.5, &response.velocity, &response.velocity);
         add(0.5, &v0, &v0);
         add(
@@ -270,9 +327,15 @@ pub(super) fn damped(
         &rules.many
     };
     for (at, weight) in rule {
-        let [q, v, first, second] = Response::velocity_over(damping, stiffness, at * step);
-        // The load at that instant lies on the line from p₀ to p₁.
-        let row = [q, v, first + second * (1.0 - at), second * at];
+        let [q, v, first, second, bent] = Response::velocity_over(damping, stiffness, at * step);
+        // The load until that instant: another line, with a lesser bend.
+        let row = [
+            q,
+            v,
+            first + second * (1.0 - at),
+            second * at,
+            second * (at * at - at) + bent * at * at,
+        ];
         add(damping * weight * step, &row, &row);
     }
     form
@@ -311,17 +374,18 @@ mod tests {
     use super::*;
 
     /// The same by many steps of a Runge–Kutta method of fourth order.
-    fn integrated(d: f64, k: f64, h: f64, start: [f64; 2], load: [f64; 2]) -> ([f64; 3], f64) {
+    fn integrated(d: f64, k: f64, h: f64, start: [f64; 2], load: [f64; 3]) -> ([f64; 4], f64) {
         let steps = 20_000;
         let dt = h / f64::from(steps);
-        let rate = |t: f64, [q, v, _, _]: [f64; 4]| {
-            let p = load[0] + (load[1] - load[0]) * t / h;
-            [v, p - d * v - k * q, q, d * v * v]
+        let rate = |t: f64, [q, v, _, _, _]: [f64; 5]| {
+            let at = t / h;
+            let p = load[0] + (load[1] - load[0]) * at + load[2] * (at * at - at);
+            [v, p - d * v - k * q, q, at * q, d * v * v]
         };
-        let mut state = [start[0], start[1], 0.0, 0.0];
+        let mut state = [start[0], start[1], 0.0, 0.0, 0.0];
         for step in 0..steps {
             let t = f64::from(step) * dt;
-            let moved = |by: f64, r: [f64; 4]| std::array::from_fn(|i| state[i] + by * r[i]);
+            let moved = |by: f64, r: [f64; 5]| std::array::from_fn(|i| state[i] + by * r[i]);
             let a = rate(t, state);
             let b = rate(t + 0.5 * dt, moved(0.5 * dt, a));
             let c = rate(t + 0.5 * dt, moved(0.5 * dt, b));
@@ -330,7 +394,8 @@ mod tests {
                 state[i] + dt / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + e[i])
             });
         }
-        ([state[0], state[1], state[2]], state[3])
+        let [q, v, area, moment, lost] = state;
+        ([q, v, area, moment], lost)
     }
 
     #[test]
@@ -346,13 +411,15 @@ mod tests {
             for h in [1e-3, 0.02, 0.07] {
                 let (d, k) = (2.0 * zeta * omega, omega * omega);
                 let response = Response::over(d, k, h);
-                let (start, load) = ([0.3, -1.7], [5.0, -40.0]);
-                let input = [start[0], start[1], load[0], load[1]];
-                let of = |row: [f64; 4]| row.iter().zip(input).map(|(a, b)| a * b).sum::<f64>();
+                let (start, load) = ([0.3, -1.7], [5.0, -40.0, 30.0]);
+                let input = [start[0], start[1], load[0], load[1], load[2]];
+                let of =
+                    |row: [f64; INPUTS]| row.iter().zip(input).map(|(a, b)| a * b).sum::<f64>();
                 let got = [
                     of(response.displacement),
                     of(response.velocity),
                     of(response.area),
+                    of(response.moment),
                 ];
                 let (expected, lost) = integrated(d, k, h, start, load);
                 for (got, expected) in got.iter().zip(expected) {
@@ -364,8 +431,8 @@ mod tests {
                 let form = damped(d, k, h, &response, &Rules::new());
                 let mut sum = 0.0;
                 let mut entry = 0;
-                for i in 0..4 {
-                    for j in i..4 {
+                for i in 0..INPUTS {
+                    for j in i..INPUTS {
                         sum += form[entry] * input[i] * input[j];
                         entry += 1;
                     }
@@ -380,10 +447,11 @@ mod tests {
 
     #[test]
     fn tiny_steps_keep_their_digits() {
-        // For h → 0: q₁ = p₀ h²/3 + p₁ h²/6, which the closed forms would lose.
+        // For h → 0: q₁ = p₀ h²/3 + p₁ h²/6 − b h²/12, which the closed forms would lose.
         let response = Response::over(0.4, 16.0, 1e-7);
         assert!((response.displacement[2] / (1e-14 / 3.0) - 1.0).abs() < 1e-6);
         assert!((response.displacement[3] / (1e-14 / 6.0) - 1.0).abs() < 1e-6);
+        assert!((response.displacement[4] / (-1e-14 / 12.0) - 1.0).abs() < 1e-6);
     }
 
     #[test]

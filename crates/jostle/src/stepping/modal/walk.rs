@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::flight::Flight;
+use super::meeting::Foreseen;
 use super::peaks::{Peaks, Taken, Watched};
 use super::reduced::{Reduced, StepEnergy, Table};
 use super::response::Rules;
@@ -22,6 +23,8 @@ use crate::system::System;
 const OBSERVED_EVERY: u64 = 256;
 /// Most rows of a history in a step of free flight.
 const MOST_ROWS: f64 = 64.0;
+/// How often a step is halved in search of an opening within it.
+const MOST_HALVINGS: usize = 6;
 /// Events without progress before a run gives up.
 const MOST_EVENTS_AT_ONCE: usize = 1000;
 
@@ -47,15 +50,19 @@ pub(super) struct Walk<'a> {
     pub(super) q: [Vec<f64>; 2],
     pub(super) v: [Vec<f64>; 2],
     pub(super) p: [Vec<f64>; 2],
+    /// Bend of the modal load over the tried step: contact forces are parabolas.
+    pub(super) bend: Vec<f64>,
     /// ∫q of the accepted step, then whatever else needs a list of modes.
     pub(super) scratch: Vec<f64>,
+    /// ∫τq of the accepted step, where a contact is closed.
+    moment: Vec<f64>,
     /// What is watched now, and at the end of the tried step; its accelerations and what their rates are but for the
     /// loads', now and a step ago.
     pub(super) u: [Vec<f64>; 2],
     pub(super) rate: [Vec<f64>; 2],
     pub(super) acceleration: [Vec<f64>; 2],
     pub(super) loose: [Vec<f64>; 2],
-    jerk: Vec<f64>,
+    pub(super) jerk: Vec<f64>,
     pub(super) phases: Vec<ContactPhase>,
     pub(super) trials: Vec<ContactTrial>,
     pub(super) contact_division: Vec<u32>,
@@ -65,6 +72,8 @@ pub(super) struct Walk<'a> {
     pub(super) coupling: ContactEquations,
     pub(super) rate_compliance: Vec<f64>,
     pub(super) forces: Vec<f64>,
+    /// Forces of closed contacts over the tried step as they could be foreseen.
+    pub(super) foreseen: Vec<Foreseen>,
     pub(super) finest_in_contact: u32,
     pub(super) impacts: Vec<Impact>,
     pub(super) energy: Audit,
@@ -72,7 +81,7 @@ pub(super) struct Walk<'a> {
     pub(super) peaks: Peaks,
 }
 
-/// Sums that must balance; every one is exact for loads that are straight over a step.
+/// Sums that must balance; every one is exact for loads that are parabolas over a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Audit {
     pub(super) input: f64,
@@ -149,7 +158,9 @@ impl<'a> Walk<'a> {
             q: pair(modes),
             v: pair(modes),
             p,
+            bend: vec![0.0; modes],
             scratch: vec![0.0; modes],
+            moment: vec![0.0; modes],
             u: pair(watched),
             rate: pair(watched),
             acceleration,
@@ -163,6 +174,7 @@ impl<'a> Walk<'a> {
             coupling: ContactEquations::default(),
             rate_compliance: Vec::new(),
             forces: Vec::new(),
+            foreseen: vec![Foreseen::default(); contacts],
             finest_in_contact: 0,
             impacts: Vec::new(),
             energy: Audit::default(),
@@ -258,11 +270,19 @@ impl<'a> Walk<'a> {
 
     /// One accepted step, ending on the grid or on the first event in between.
     fn step(&mut self) -> Result<(), StepError> {
+        let mut halvings = 0;
         for _ in 0..MOST_EVENTS_AT_ONCE {
             let stride = self.next_stride();
             let slot = self.table_for(&stride);
             self.try_step(slot, stride.end)?;
             let Some(event) = self.first_event(stride.length) else {
+                let opening = self.opens_unseen(stride.length);
+                if let Some(contact) = opening.filter(|_| halvings < MOST_HALVINGS) {
+                    halvings += 1;
+                    self.contact_division[contact] = self.plan.finer(self.division());
+                    self.work.repeated_steps += 1;
+                    continue;
+                }
                 self.accept(slot, stride.end);
                 return Ok(());
             };
@@ -330,6 +350,7 @@ impl<'a> Walk<'a> {
         for (load, participation) in self.p[1].iter_mut().zip(&self.reduced.participation) {
             *load = -participation * ground;
         }
+        self.let_forces_set_out(self.tables[slot].step);
         self.advance(slot);
         self.work.solves += 1;
         self.follow();
@@ -344,11 +365,12 @@ impl<'a> Walk<'a> {
         self.find_contact_forces(slot)
     }
 
-    /// q₁ and q̇₁ under the loads that stand in `p`.
+    /// q₁ and q̇₁ under the loads that stand in `p` and `bend`.
     pub(super) fn advance(&mut self, slot: usize) {
         let ([q0, q1], [v0, v1]) = (&mut self.q, &mut self.v);
         let [p0, p1] = &self.p;
-        self.tables[slot].advance(self.reduced.arch(), [q0, v0, p0, p1], [q1, v1]);
+        let of = [&q0[..], v0, p0, p1, &self.bend];
+        self.tables[slot].advance(self.reduced.arch(), of, [q1, v1]);
     }
 
     /// Watched displacements, indentations and rates at the end of the tried step.
@@ -379,7 +401,6 @@ impl<'a> Walk<'a> {
         let was_closed = !self.coupling.closed.is_empty();
         let start = self.time;
         if was_closed {
-            self.accelerations();
             self.gather_episodes(step);
         }
         let energy = self.step_energy(slot, was_closed);
@@ -400,6 +421,7 @@ impl<'a> Walk<'a> {
         let ground = self.ground;
         self.ground[0] = self.ground[1];
         self.accelerations();
+        self.jerks();
         if was_closed {
             self.finish_episodes(step, start);
         }
@@ -411,20 +433,22 @@ impl<'a> Walk<'a> {
         self.take_row(was_closed, &energy);
     }
 
-    /// Takes in the peaks of a step that was taken, whose modal accelerations at the end stand in `scratch`.
-    fn look(&mut self, ground: [f64; 2], start: f64, step: f64) {
-        let reduced = self.reduced;
+    /// Rates of modal accelerations now, but for those of the loads, in `jerk`; the accelerations stand in `scratch`.
+    fn jerks(&mut self) {
         let modes = self.scratch.iter().zip(&self.v[0]);
-        let factors = reduced.damping.iter().zip(&reduced.stiffness);
+        let factors = self.reduced.damping.iter().zip(&self.reduced.stiffness);
         for (jerk, ((a, v), (d, k))) in self.jerk.iter_mut().zip(modes.zip(factors)) {
             *jerk = -d * a - k * v;
         }
+    }
+
+    /// Takes in the peaks of a step that was taken, whose modal accelerations at the end stand in `scratch` and whose
+    /// jerks, but for the ground's, in `jerk`.
+    fn look(&mut self, ground: [f64; 2], start: f64, step: f64) {
+        let reduced = self.reduced;
         self.acceleration.swap(0, 1);
         self.loose.swap(0, 1);
-        reduced.show(
-            [&self.scratch, &self.jerk],
-            [&mut self.acceleration[0], &mut self.loose[0]],
-        );
+        self.show_accelerations();
         let at = |time: usize| Watched {
             u: &self.u[time],
             rate: &self.rate[time],
@@ -441,13 +465,32 @@ impl<'a> Walk<'a> {
         self.peaks.after_step(self.system, reduced, &taken);
     }
 
+    fn show_accelerations(&mut self) {
+        self.reduced.show(
+            [&self.scratch, &self.jerk],
+            [&mut self.acceleration[0], &mut self.loose[0]],
+        );
+    }
+
+    /// Accelerations after a sudden change of loads.
+    pub(super) fn start_anew(&mut self) {
+        self.accelerations();
+        self.jerks();
+        self.show_accelerations();
+    }
+
     /// What the ground put in and damping took; with closed contacts their work as well.
     fn step_energy(&mut self, slot: usize, was_closed: bool) -> StepEnergy {
         let table = &self.tables[slot];
-        let of = [&self.q[0][..], &self.v[0], &self.p[0], &self.p[1]];
+        let [p0, p1] = &self.p;
+        let of = [&self.q[0][..], &self.v[0], p0, p1, &self.bend];
         let arch = self.reduced.arch();
         table.area(arch, of, &mut self.scratch);
-        let damped = table.damped(self.reduced, of, [&self.q[1], &self.v[1]], &self.scratch);
+        if was_closed {
+            table.moment(arch, of, &mut self.moment);
+        }
+        let end = [&self.q[1][..], &self.v[1]];
+        let damped = table.damped(self.reduced, of, end, [&self.scratch, &self.moment]);
         let step = table.step;
         let slope = (self.ground[1] - self.ground[0]) / step;
         // ∫ a_g q̇ dt by parts.
@@ -460,7 +503,7 @@ impl<'a> Walk<'a> {
         StepEnergy { damped, input }
     }
 
-    /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch`.
+    /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch` and ∫τq in `moment`.
     fn contact_work(&mut self, step: f64) {
         for closed in &self.coupling.closed {
             let index = closed.contact;
@@ -468,12 +511,15 @@ impl<'a> Walk<'a> {
                 continue;
             };
             let width = self.system.contacts[index].width;
-            let area = self.reduced.closing_of_modes(index, &self.scratch) - width * step;
+            let closing = self.reduced.closing_of_modes(index, &self.scratch);
+            let leaning = 2.0 * self.reduced.closing_of_modes(index, &self.moment) - closing;
             let before = self.reduced.closing(index, &self.u[0]) - width;
             let (first, last) = (episode.force, self.trials[index].force);
+            let bent = self.foreseen[index].bend(first, last);
             let work = last * self.trials[index].indentation
                 - first * before
-                - (last - first) / step * area;
+                - (last - first) * (closing / step - width)
+                - bent * leaning / step;
             episode.work += work;
             self.energy.contact += work;
         }
