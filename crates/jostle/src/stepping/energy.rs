@@ -15,8 +15,27 @@ pub(crate) struct EnergyAudit {
     /// Work done on links, what their springs would give back included.
     pub(crate) links: f64,
     initial: f64,
+    imbalance: Imbalance,
+}
+
+/// The largest error of a balance so far, relative to the largest energy.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Imbalance {
     largest: f64,
     worst: f64,
+}
+
+impl Imbalance {
+    /// Takes in a balance, and writes the worst so far into it.
+    pub(crate) fn watch(&mut self, mut energy: Energy) -> Energy {
+        let held = energy.kinetic + energy.strain;
+        self.largest = self.largest.max(energy.input.abs()).max(held);
+        if self.largest > 0.0 {
+            self.worst = self.worst.max((energy.residual() / self.largest).abs());
+        }
+        energy.worst_imbalance = self.worst;
+        energy
+    }
 }
 
 /// Energy that would be given back \[J\].
@@ -76,7 +95,7 @@ impl EnergyAudit {
         let kinetic = stored.kinetic;
         let strain = stored.strain + stored.springs + stored.links;
         let links = self.links - stored.links;
-        let mut energy = Energy {
+        self.imbalance.watch(Energy {
             input: self.input + self.initial,
             kinetic,
             strain,
@@ -85,12 +104,6 @@ impl EnergyAudit {
             hysteretic: self.springs - stored.springs,
             contact: self.contact,
             worst_imbalance: 0.0,
-        };
-        self.largest = self.largest.max(energy.input.abs()).max(kinetic + strain);
-        if self.largest > 0.0 {
-            self.worst = self.worst.max((energy.residual() / self.largest).abs());
-        }
-        energy.worst_imbalance = self.worst;
-        energy
+        })
     }
 }

@@ -66,7 +66,7 @@ const LONGEST_MODAL_STEP: f64 = 0.05;
 /// Steps per elastic impact of modal stepping, at a tolerance of 1e-3.
 const MODAL_STEPS_PER_IMPACT: f64 = 20.0;
 /// And per half cycle of a contact however weak it is, relative to these.
-const MODAL_FEWEST_ADAPTED: f64 = 0.5;
+const MODAL_FEWEST_ADAPTED: f64 = 0.7;
 /// Finest division of a free-flight step.
 const FINEST: u32 = 1 << 20;
 

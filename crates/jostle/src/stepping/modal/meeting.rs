@@ -258,15 +258,13 @@ impl Walk<'_> {
         let acceleration = self.reduced.closing(index, &self.acceleration[0]);
         loop {
             let step = self.plan.step / f64::from(division);
-            let (rise, gain) = (rate * step, acceleration * step);
-            let reached =
-                contact
-                    .law
-                    .follow(rise + 0.5 * gain * step, rate + gain, &episode.memory);
-            if !self
-                .plan
-                .is_too_coarse(division, contact, reached.by_indentation)
-            {
+            let end = rate + acceleration * step;
+            let reached = 0.5 * step * (rate + end);
+            let stiffness = contact
+                .law
+                .follow(reached, end, &episode.memory)
+                .by_indentation;
+            if !self.plan.is_too_coarse(division, contact, stiffness) {
                 break;
             }
             division = self.plan.finer(division);
@@ -321,7 +319,8 @@ impl Walk<'_> {
         let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
         let start = closing(&self.u) - contact.width;
         let (rate, acceleration) = (closing(&self.rate), closing(&self.acceleration));
-        let jerk = closing(&self.loose);
+        let driven = self.reduced.closing(index, self.peaks.driven());
+        let jerk = closing(&self.loose) - driven * (self.ground[1] - self.ground[0]) / step;
         let respond =
             |indentation: f64, rate: f64| contact.law.follow(indentation, rate, &episode.memory);
         let force = |share: f64| {
@@ -338,8 +337,7 @@ impl Walk<'_> {
             // Forces set in with all kinds of powers of time, and end within a step.
             let parts = f64::from(CORNER_PARTS);
             let at = |part: u32| force(f64::from(part) / parts);
-            let inside =
-                |first: usize| (first as u32..CORNER_PARTS).step_by(2).map(at).sum::<f64>();
+            let inside = |first: u32| (first..CORNER_PARTS).step_by(2).map(at).sum::<f64>();
             (before + 4.0 * inside(1) + 2.0 * inside(2) + end) / (3.0 * parts)
         };
         let rise = 6.0 * mean - 4.0 * before - 2.0 * end;
@@ -403,11 +401,11 @@ impl Walk<'_> {
             time: self.time,
             closed: n,
         };
-        // From the forces a step ago; every round then begins where the one before ended.
+        // From the forces foreseen; every round then begins where the one before ended.
         self.forces.clear();
-        let (closed, phases) = (&self.coupling.closed, &self.phases);
-        let before = closed.iter().map(|closed| phases[closed.contact].force());
-        self.forces.extend(before);
+        let (closed, foreseen) = (&self.coupling.closed, &self.foreseen);
+        let ends = closed.iter().map(|closed| foreseen[closed.contact].end);
+        self.forces.extend(ends);
         self.coupling.press(|at| self.forces[at]);
         let mut last = f64::INFINITY;
         for _ in 0..ROUNDS {

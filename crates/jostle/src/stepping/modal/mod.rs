@@ -12,6 +12,7 @@ mod meeting;
 mod peaks;
 mod reduced;
 mod response;
+mod series;
 mod walk;
 
 use std::f64::consts::PI;

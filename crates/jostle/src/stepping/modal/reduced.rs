@@ -5,7 +5,7 @@ use std::ops::Range;
 use pulp::Arch;
 
 use super::basis::{Basis, Demand};
-use super::kernels::{Combine, Quadratic, ROWS, Show};
+use super::kernels::{Combine, LANES, Quadratic, ROWS, Show};
 use super::response::{INPUTS, PRODUCTS, Response, Rules, damped};
 use crate::contact::ForceLaw;
 use crate::equations::Equations;
@@ -301,28 +301,28 @@ impl Table {
         let lists = lists.chain(&mut self.area).chain(&mut self.moment);
         lists.for_each(Vec::clear);
         self.damped.iter_mut().for_each(Vec::clear);
-        for (damping, stiffness) in reduced.damping.iter().zip(&reduced.stiffness) {
-            let response = Response::over(*damping, *stiffness, step);
-            if let Some(rules) = rules {
-                let form = damped(*damping, *stiffness, step, &response, rules);
-                for (list, value) in self.damped.iter_mut().zip(form) {
-                    list.push(value);
+        let modes = reduced
+            .damping
+            .chunks(LANES)
+            .zip(reduced.stiffness.chunks(LANES));
+        for (damping, stiffness) in modes {
+            let responses = Response::of_several(reduced.arch, damping, stiffness, step);
+            for ((damping, stiffness), response) in damping.iter().zip(stiffness).zip(&responses) {
+                if let Some(rules) = rules {
+                    let form = damped(*damping, *stiffness, step, response, rules);
+                    for (list, value) in self.damped.iter_mut().zip(form) {
+                        list.push(value);
+                    }
                 }
-            }
-            let Response {
-                displacement,
-                velocity,
-                area,
-                moment,
-            } = response;
-            for (lists, values) in [
-                (&mut self.displacement, displacement),
-                (&mut self.velocity, velocity),
-                (&mut self.area, area),
-                (&mut self.moment, moment),
-            ] {
-                for (list, value) in lists.iter_mut().zip(values) {
-                    list.push(value);
+                for (lists, values) in [
+                    (&mut self.displacement, response.displacement),
+                    (&mut self.velocity, response.velocity),
+                    (&mut self.area, response.area),
+                    (&mut self.moment, response.moment),
+                ] {
+                    for (list, value) in lists.iter_mut().zip(values) {
+                        list.push(value);
+                    }
                 }
             }
         }

@@ -1,5 +1,10 @@
 //! One mode over one step, exactly (theory, Eqs. Q1 and Q2).
 
+use pulp::{Arch, NullaryFnOnce};
+
+use super::kernels::LANES;
+use super::series::{Impulse, SERIES, radians};
+
 /// What a step begins with: q₀, q̇₀, p₀, p₁ and the bend b.
 pub(super) const INPUTS: usize = 5;
 /// Products of two of these.
@@ -21,71 +26,18 @@ pub(super) struct Response {
     pub(super) moment: [f64; INPUTS],
 }
 
-/// Below this many radians over a step a power series keeps all digits; the closed forms lose them as (ωh)³.
-const SERIES: f64 = 1.0;
-/// Most terms of the series; the last one is below 10⁻¹⁸.
-const TERMS: usize = 20;
-
-/// Terms that matter at so many radians.
-fn terms(radians: f64) -> usize {
-    match radians {
-        r if r < 0.02 => 9,
-        r if r < 0.1 => 12,
-        r if r < 0.4 => 16,
-        _ => TERMS,
-    }
-}
-
-/// 1/((n + 1)(n + 2)) for every term, and 1/(n + 1).
-const SECOND: [f64; TERMS] = reciprocals(2);
-const FIRST: [f64; TERMS + 6] = reciprocals(1);
-
-const fn reciprocals<const N: usize>(factors: usize) -> [f64; N] {
-    let mut list = [0.0; N];
-    let mut n = 0;
-    while n < N {
-        let next = (n + 1) as f64;
-        list[n] = 1.0
-            / (if factors == 1 {
-                next
-            } else {
-                next * (next + 1.0)
-            });
-        n += 1;
-    }
-    list
-}
-
-/// Terms of the answer to a unit impulse, in powers of t/h: q(0) = 0 and q̇(0) = 1 without load.
-fn impulse(damping: f64, stiffness: f64, step: f64, count: usize) -> [f64; TERMS] {
-    let (d, k) = (damping * step, stiffness * step * step);
-    let mut terms = [0.0; TERMS];
-    terms[1] = step;
-    for n in 0..count - 2 {
-        terms[n + 2] = -(d * (n + 1) as f64 * terms[n + 1] + k * terms[n]) * SECOND[n];
-    }
-    terms
-}
-
 impl Response {
     /// The row of q̇₁ alone.
     fn velocity_over(damping: f64, stiffness: f64, step: f64) -> [f64; INPUTS] {
-        let radians = stiffness.sqrt().max(damping) * step;
-        if radians >= SERIES {
+        if radians(damping, stiffness, step) >= SERIES {
             let [[_, _], [x21, x22]] = Self::free(damping, stiffness, step);
             return Self::closed_velocity(damping, stiffness, step, [x21, x22]);
         }
-        let count = terms(radians);
-        let terms = impulse(damping, stiffness, step, count);
-        // ḣ, h and its first two integrals over powers of the step, h being the impulse's answer; from the smallest term up.
-        let [mut slope, mut value, mut first, mut second] = [0.0; 4];
-        for n in (1..count).rev() {
-            slope += n as f64 * terms[n];
-            value += terms[n];
-            let term = terms[n] * FIRST[n];
-            first += term;
-            second += term * FIRST[n + 1];
-        }
+        let Impulse {
+            slope: [slope],
+            value: [value],
+            integrals: [[first], [second]],
+        } = Impulse::over(&[damping], &[stiffness], step);
         [
             -stiffness * value,
             slope / step,
@@ -115,10 +67,32 @@ impl Response {
 
     /// `damping` d ≥ 0 \[1/s\], `stiffness` k > 0 \[1/s²\], `step` h > 0 \[s\].
     pub(super) fn over(damping: f64, stiffness: f64, step: f64) -> Self {
-        if stiffness.sqrt().max(damping) * step < SERIES {
-            Self::series(damping, stiffness, step)
+        if radians(damping, stiffness, step) < SERIES {
+            let impulse = Impulse::over(&[damping], &[stiffness], step);
+            Self::of_impulse(stiffness, step, &impulse, 0)
         } else {
             Self::closed(damping, stiffness, step)
+        }
+    }
+
+    /// The same of up to [`LANES`] modes at once; what is beyond them means nothing.
+    pub(super) fn of_several(
+        arch: Arch,
+        damping: &[f64],
+        stiffness: &[f64],
+        step: f64,
+    ) -> [Self; LANES] {
+        let filled = |list: &[f64]| std::array::from_fn(|i| list[i.min(list.len() - 1)]);
+        let several = Several {
+            damping: filled(damping),
+            stiffness: filled(stiffness),
+            step,
+        };
+        let mut modes = several.damping.iter().zip(&several.stiffness);
+        if modes.all(|(d, k)| radians(*d, *k, step) < SERIES) {
+            arch.dispatch(several)
+        } else {
+            std::array::from_fn(|i| Self::over(several.damping[i], several.stiffness[i], step))
         }
     }
 
@@ -198,22 +172,16 @@ impl Response {
 
     /// All from the answer h to an impulse: a constant load makes ∫h of it, one that rises ∫∫h and its square twice
     /// ∫∫∫h, and a start at rest away from zero is a constant load −k.
-    fn series(damping: f64, stiffness: f64, step: f64) -> Self {
-        let count = terms(stiffness.sqrt().max(damping) * step);
-        let terms = impulse(damping, stiffness, step, count);
-        // ḣ, h and its first five integrals, these over powers of the step; from the smallest term up.
-        let [mut slope, mut value] = [0.0; 2];
-        let mut integrals = [0.0; 5];
-        for n in (1..count).rev() {
-            slope += n as f64 * terms[n];
-            value += terms[n];
-            let mut term = terms[n];
-            for (times, integral) in integrals.iter_mut().enumerate() {
-                term *= FIRST[n + times];
-                *integral += term;
-            }
-        }
-        let [first, second, third, fourth, fifth] = integrals;
+    #[inline(always)]
+    fn of_impulse<const N: usize>(
+        stiffness: f64,
+        step: f64,
+        impulse: &Impulse<N, 5>,
+        mode: usize,
+    ) -> Self {
+        let (slope, value) = (impulse.slope[mode], impulse.value[mode]);
+        let [first, second, third, fourth, fifth] =
+            std::array::from_fn(|times| impulse.integrals[times][mode]);
         let square = step * step;
         Self {
             displacement: [
@@ -246,6 +214,23 @@ impl Response {
                 square * (3.0 * fourth - third - 2.0 * fifth),
             ],
         }
+    }
+}
+
+/// Modes that all turn little over a step.
+struct Several {
+    damping: [f64; LANES],
+    stiffness: [f64; LANES],
+    step: f64,
+}
+
+impl NullaryFnOnce for Several {
+    type Output = [Response; LANES];
+
+    #[inline(always)]
+    fn call(self) -> [Response; LANES] {
+        let impulse = Impulse::over(&self.damping, &self.stiffness, self.step);
+        std::array::from_fn(|i| Response::of_impulse(self.stiffness[i], self.step, &impulse, i))
     }
 }
 
@@ -286,7 +271,7 @@ pub(super) fn damped(
     response: &Response,
     rules: &Rules,
 ) -> [f64; PRODUCTS] {
-    let radians = stiffness.sqrt().max(damping) * step;
+    let radians = radians(damping, stiffness, step);
     let mut form = [0.0; PRODUCTS];
     if damping == 0.0 {
         return form;
@@ -441,6 +426,36 @@ mod tests {
                     (sum - lost).abs() <= 1e-9 * (1.0 + lost),
                     "ω = {omega}, ζ = {zeta}, h = {h}: {sum} against {lost} J"
                 );
+            }
+        }
+    }
+
+    /// Many modes at once, and one by one, to the last digits; also where some need the closed forms.
+    #[test]
+    fn several_modes_are_as_good_as_one() {
+        let bits = |response: &Response| {
+            let Response {
+                displacement,
+                velocity,
+                area,
+                moment,
+            } = *response;
+            [displacement, velocity, area, moment].concat()
+        };
+        for (slowest, modes) in [(2.0, 8), (2.0, 5), (300.0, 8)] {
+            let omegas: Vec<f64> = (0..modes).map(|i| slowest * f64::from(1 + i)).collect();
+            let damping: Vec<f64> = omegas.iter().map(|omega| 0.1 * omega).collect();
+            let stiffness: Vec<f64> = omegas.iter().map(|omega| omega * omega).collect();
+            let several = Response::of_several(Arch::new(), &damping, &stiffness, 7e-4);
+            for (i, got) in several[..omegas.len()].iter().enumerate() {
+                let one = Response::over(damping[i], stiffness[i], 7e-4);
+                for (a, b) in bits(got).iter().zip(bits(&one)) {
+                    assert!(
+                        (a - b).abs() <= 4e-16 * b.abs(),
+                        "ω = {}: {a}, {b}",
+                        omegas[i]
+                    );
+                }
             }
         }
     }

@@ -13,6 +13,7 @@ use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::stepping::clock::{Clock, Stride};
 use crate::stepping::coupling::ContactEquations;
+use crate::stepping::energy::Imbalance;
 use crate::stepping::events::Crossing;
 use crate::stepping::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
@@ -87,14 +88,13 @@ pub(super) struct Audit {
     pub(super) input: f64,
     pub(super) damped: f64,
     pub(super) contact: f64,
-    largest: f64,
-    worst: f64,
+    imbalance: Imbalance,
 }
 
 impl Audit {
     /// The balance with these energies of the buildings.
     pub(super) fn balance(&mut self, kinetic: f64, strain: f64) -> Energy {
-        let mut energy = Energy {
+        self.imbalance.watch(Energy {
             input: self.input,
             kinetic,
             strain,
@@ -103,13 +103,7 @@ impl Audit {
             hysteretic: 0.0,
             contact: self.contact,
             worst_imbalance: 0.0,
-        };
-        self.largest = self.largest.max(energy.input.abs()).max(kinetic + strain);
-        if self.largest > 0.0 {
-            self.worst = self.worst.max((energy.residual() / self.largest).abs());
-        }
-        energy.worst_imbalance = self.worst;
-        energy
+        })
     }
 }
 
