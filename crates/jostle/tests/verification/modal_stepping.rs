@@ -9,8 +9,8 @@ use jostle::{
 };
 
 use crate::support::{
-    EVERYTHING, LAWS, Random, assembled, frame, framed, law, random_frame, row, run, shaking,
-    slider, sliders, steps, still, tower, two_frames,
+    EVERYTHING, LAWS, Random, assembled, frame, framed, law, meeting_towers, random_frame, row,
+    run, shaking, slider, sliders, steps, still, tower, two_frames,
 };
 
 fn modal(plan: &Plan) -> Plan {
@@ -101,14 +101,7 @@ fn contacts_keep_the_balance_of_energy() {
 /// damping, or as the power 1½ of time.
 #[test]
 fn peak_force_of_an_impact_is_of_order_two_and_a_half_at_least() {
-    let buildings = vec![tower("left", 1, 4e4, 0.5), tower("right", 1, 6e4, 0.9)];
-    for kind in [
-        LawKind::Linear,
-        LawKind::Kelvin,
-        LawKind::Hertz,
-        LawKind::HertzDamp,
-    ] {
-        let system = assembled(&row(buildings.clone(), 0.02, law(kind, 0.65)));
+    for (kind, system) in meeting_towers() {
         let motion = shaking(1.0);
         let peak = |division: u32| {
             let plan = modal(&steps(0.01, division));

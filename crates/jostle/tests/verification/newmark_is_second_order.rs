@@ -1,7 +1,7 @@
 use jostle::{GroundMotion, Plan, System};
 
 use crate::support::{
-    assembled, frame, framed, largest, law, row, run, shaking, slider, steps, tower,
+    assembled, frame, framed, largest, law, meeting_towers, row, run, shaking, slider, steps,
 };
 use jostle::LawKind;
 
@@ -121,14 +121,7 @@ fn linear_acceleration_is_second_order_too() {
 /// Locating the touch and interpolating the peak keep the order through an impact.
 #[test]
 fn peak_force_of_an_impact_is_of_second_order() {
-    let buildings = vec![tower("left", 1, 4e4, 0.5), tower("right", 1, 6e4, 0.9)];
-    for kind in [
-        LawKind::Linear,
-        LawKind::Kelvin,
-        LawKind::Hertz,
-        LawKind::HertzDamp,
-    ] {
-        let system = assembled(&row(buildings.clone(), 0.02, law(kind, 0.65)));
+    for (kind, system) in meeting_towers() {
         let motion = shaking(1.0);
         let peak = |step: f64| run(&system, &motion, &steps(step, 1)).impacts[0].peak_force;
         let answers: Vec<f64> = (0..5).map(|n| peak(1e-3 / f64::from(1 << n))).collect();

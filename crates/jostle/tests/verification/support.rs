@@ -194,6 +194,20 @@ pub(crate) fn shaking(duration: f64) -> GroundMotion {
     GroundMotion::sampled("shaking", step, values.collect())
 }
 
+/// Two towers that meet when [`shaking`], under every law whose force has no corner.
+pub(crate) fn meeting_towers() -> impl Iterator<Item = (LawKind, System)> {
+    let laws = [
+        LawKind::Linear,
+        LawKind::Kelvin,
+        LawKind::Hertz,
+        LawKind::HertzDamp,
+    ];
+    laws.into_iter().map(|kind| {
+        let towers = vec![tower("left", 1, 4e4, 0.5), tower("right", 1, 6e4, 0.9)];
+        (kind, assembled(&row(towers, 0.02, law(kind, 0.65))))
+    })
+}
+
 /// No ground acceleration \[s\].
 pub(crate) fn still(duration: f64) -> GroundMotion {
     GroundMotion::sampled("still", duration, vec![0.0, 0.0])
