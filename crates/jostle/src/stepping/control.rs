@@ -1,4 +1,4 @@
-//! Step control while contacts are closed: as few steps as the tolerance allows (theory, Eqs. G2 and G3).
+//! Step control while contacts are closed: as few steps as the tolerance allows (theory, Eqs. G2, G3 and Q6).
 
 use std::f64::consts::PI;
 

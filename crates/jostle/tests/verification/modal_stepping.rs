@@ -116,6 +116,28 @@ fn peak_force_of_an_impact_is_of_order_two_and_a_half_at_least() {
     }
 }
 
+/// Floors that are hit are pushed hardest within a step: cubics between steps must know how the force changes.
+#[test]
+fn accelerations_of_struck_floors_agree_with_riccati() {
+    for (kind, system) in meeting_towers() {
+        let motion = shaking(1.0);
+        let peaks = |plan: &Plan| {
+            let outcome = run(&system, &motion, plan);
+            let floors = outcome.floors.iter().flatten();
+            floors.map(|f| f.total_acceleration).collect::<Vec<_>>()
+        };
+        let fine = peaks(&planned(&system, &motion, Solver::Riccati, 1e-6));
+        let got = peaks(&modal(&steps(0.01, 2)));
+        for (got, wanted) in got.iter().zip(&fine) {
+            let error = got / wanted - 1.0;
+            assert!(
+                error.abs() < 4e-6,
+                "{kind:?}: {got} against {wanted} m/s², {error:e}"
+            );
+        }
+    }
+}
+
 fn peak(outcome: &Outcome) -> f64 {
     let forces = outcome.impacts.iter().map(|impact| impact.peak_force);
     forces.fold(0.0, f64::max)

@@ -3,7 +3,7 @@
 use pulp::{Arch, NullaryFnOnce};
 
 use super::kernels::LANES;
-use super::series::{Impulse, SERIES, radians};
+use super::series::{INTEGRALS, Impulse, SERIES, radians};
 
 /// What a step begins with: q₀, q̇₀, p₀, p₁ and the bend b.
 pub(super) const INPUTS: usize = 5;
@@ -176,7 +176,7 @@ impl Response {
     fn of_impulse<const N: usize>(
         stiffness: f64,
         step: f64,
-        impulse: &Impulse<N, 5>,
+        impulse: &Impulse<N, INTEGRALS>,
         mode: usize,
     ) -> Self {
         let (slope, value) = (impulse.slope[mode], impulse.value[mode]);

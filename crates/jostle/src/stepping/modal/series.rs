@@ -5,7 +5,7 @@ pub(super) const SERIES: f64 = 1.0;
 /// Most terms of the series; the last one is below 10⁻¹⁸.
 const TERMS: usize = 20;
 /// Most integrals of an answer.
-const INTEGRALS: usize = 5;
+pub(super) const INTEGRALS: usize = 5;
 
 /// 1/((n + 1)(n + 2)) for every term, and 1/(n + 1).
 const SECOND: [f64; TERMS] = reciprocals(2);
