@@ -261,6 +261,26 @@ impl NullaryFnOnce for QuadraticForm<'_> {
     }
 }
 
+/// `product` += A x, compiled for the registers at hand.
+struct Product<'a> {
+    matrix: &'a SparseSymmetric,
+    x: &'a [f64],
+    product: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Product<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { matrix, x, product } = self;
+        for ((product, diagonal), x) in product.iter_mut().zip(&matrix.diagonal).zip(x) {
+            *product += diagonal * x;
+        }
+        matrix.stretches.multiply_add(&matrix.laid, x, product);
+    }
+}
+
 impl SparseSymmetric {
     /// Whether every entry is zero.
     #[must_use]
@@ -294,12 +314,13 @@ impl SparseSymmetric {
         for column in 0..n {
             matrix.starts[column + 1] += matrix.starts[column];
         }
-        let entries = (0..n).flat_map(|column| {
-            let rows = &matrix.rows;
-            let places = matrix.starts[column]..matrix.starts[column + 1];
-            places.map(move |place| (rows[place], column as u32, place as u32))
-        });
-        matrix.stretches = Stretches::of(&entries.collect::<Vec<_>>());
+        let mut entries = Vec::with_capacity(matrix.rows.len());
+        for column in 0..n {
+            for place in matrix.starts[column]..matrix.starts[column + 1] {
+                entries.push((matrix.rows[place], column as u32, place as u32));
+            }
+        }
+        matrix.stretches = Stretches::of(entries, n);
         matrix.stretches.lay_out(&matrix.values, &mut matrix.laid);
         matrix
     }
@@ -312,14 +333,11 @@ impl SparseSymmetric {
 
     /// `product` += A x.
     pub fn multiply_add(&self, x: &[f64], product: &mut [f64]) {
-        for column in 0..self.diagonal.len() {
-            let mut sum = self.diagonal[column] * x[column];
-            for entry in self.starts[column]..self.starts[column + 1] {
-                let row = self.rows[entry] as usize;
-                sum += self.values[entry] * x[row];
-                product[row] += self.values[entry] * x[column];
-            }
-            product[column] += sum;
-        }
+        let product = Product {
+            matrix: self,
+            x,
+            product,
+        };
+        lanes::in_wide_registers(x.len(), product);
     }
 }

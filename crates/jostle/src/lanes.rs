@@ -20,6 +20,25 @@ pub(crate) fn in_wide_registers<Loops: NullaryFnOnce>(
     }
 }
 
+/// [`weighted_square`] in the widest registers at hand.
+pub(crate) fn wide_weighted_square(weights: &[f64], x: &[f64]) -> f64 {
+    in_wide_registers(x.len(), WeightedSquare { weights, x })
+}
+
+struct WeightedSquare<'a> {
+    weights: &'a [f64],
+    x: &'a [f64],
+}
+
+impl NullaryFnOnce for WeightedSquare<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        weighted_square(self.weights, self.x)
+    }
+}
+
 /// Σ aᵢ bᵢ.
 #[inline(always)]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -50,6 +69,55 @@ fn sum(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
     lanes.iter().sum::<f64>() + rest
 }
 
+/// Vectors taken at once.
+const TOGETHER: usize = 4;
+
+/// Products of many vectors with one.
+#[inline(always)]
+pub(crate) fn dots(vectors: &[Vec<f64>], with: &[f64], products: &mut [f64]) {
+    let (fours, rest) = vectors.as_chunks::<TOGETHER>();
+    let (of_fours, of_rest) = products.as_chunks_mut::<TOGETHER>();
+    let (whole, short) = with.as_chunks::<LANES>();
+    for (four, products) in fours.iter().zip(of_fours) {
+        let [a, b, c, d] = four.each_ref().map(|vector| vector.as_chunks::<LANES>());
+        let mut sums = [[0.0; LANES]; TOGETHER];
+        let pairs = a.0.iter().zip(b.0).zip(c.0.iter().zip(d.0));
+        for (with, ((a, b), (c, d))) in whole.iter().zip(pairs) {
+            for lane in 0..LANES {
+                sums[0][lane] += a[lane] * with[lane];
+                sums[1][lane] += b[lane] * with[lane];
+                sums[2][lane] += c[lane] * with[lane];
+                sums[3][lane] += d[lane] * with[lane];
+            }
+        }
+        for ((product, sum), rest) in products.iter_mut().zip(&sums).zip([a.1, b.1, c.1, d.1]) {
+            let rest: f64 = rest.iter().zip(short).map(|(a, b)| a * b).sum();
+            *product = sum.iter().sum::<f64>() + rest;
+        }
+    }
+    for (vector, product) in rest.iter().zip(of_rest) {
+        *product = dot(vector, with);
+    }
+}
+
+/// Takes so many times each of many vectors from one.
+#[inline(always)]
+pub(crate) fn subtract_all(vectors: &[Vec<f64>], times: &[f64], from: &mut [f64]) {
+    let (fours, rest) = vectors.as_chunks::<TOGETHER>();
+    let (times_fours, times_rest) = times.as_chunks::<TOGETHER>();
+    for ([a, b, c, d], times) in fours.iter().zip(times_fours) {
+        let pairs = a.iter().zip(b).zip(c.iter().zip(d));
+        for (value, ((a, b), (c, d))) in from.iter_mut().zip(pairs) {
+            *value -= (times[0] * a + times[1] * b) + (times[2] * c + times[3] * d);
+        }
+    }
+    for (vector, times) in rest.iter().zip(times_rest) {
+        for (value, known) in from.iter_mut().zip(vector) {
+            *value -= times * known;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,5 +128,28 @@ mod tests {
         let b = vec![2.0; 19];
         assert_eq!(dot(&a, &b), 380.0);
         assert_eq!(weighted_square(&b, &a), 2.0 * 2470.0);
+        assert_eq!(wide_weighted_square(&b, &a), 2.0 * 2470.0);
+    }
+
+    #[test]
+    fn many_vectors_are_as_good_as_one() {
+        let list = |k: usize| (0..19).map(|i| ((3 + i * k) % 7) as f64).collect::<Vec<f64>>();
+        for count in [0, 1, 4, 6, 9] {
+            let vectors: Vec<Vec<f64>> = (0..count).map(list).collect();
+            let with = list(11);
+            let mut products = vec![0.0; count];
+            dots(&vectors, &with, &mut products);
+            let mut left = with.clone();
+            subtract_all(&vectors, &products, &mut left);
+            let mut expected = with.clone();
+            for (vector, product) in vectors.iter().zip(&products) {
+                // Whole numbers, so that sums are exact in any order.
+                assert_eq!(*product, dot(vector, &with));
+                for (value, part) in expected.iter_mut().zip(vector) {
+                    *value -= product * part;
+                }
+            }
+            assert_eq!(left, expected);
+        }
     }
 }

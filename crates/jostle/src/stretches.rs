@@ -1,90 +1,113 @@
 //! Entries of a matrix that lie next to each other along its diagonal: members beside each other make many of them.
-//! Loops over them need no list of indices and fill wide registers, always in the same order: the bits do not depend on
-//! the processor.
+//! Loops over them take a register at a time, always in the same order: the bits do not depend on the processor.
 
-use crate::small_keys::in_order;
-
-/// The entries (`row`, `column`), (`row` + 1, `column` + 1) and so on, `row` − `column` ≥ `length`.
+/// The entries (`row`, `column`), (`row` + 1, `column` + 1) and so on, a register of them. Those that a matrix does not
+/// have are zero.
 #[derive(Clone, Copy, Debug)]
-struct Stretch {
+struct Chunk {
     column: u32,
     row: u32,
-    length: u32,
 }
 
-/// Entries below the diagonal, stretch by stretch.
+/// Entries below the diagonal, stretch by stretch, cut into chunks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Stretches {
-    stretches: Vec<Stretch>,
-    /// Where the values of these entries are kept, in the order of the stretches.
+    chunks: Vec<Chunk>,
+    /// Where the values of the chunks are kept; [`NOWHERE`] fills them up.
     places: Vec<u32>,
+    /// Entries (row, column, where the value is kept) too close to the ends of a vector for a chunk.
+    loose: Vec<(u32, u32, u32)>,
 }
 
 /// Values taken at once.
-const LANES: usize = 4;
+const LANES: usize = 8;
+const NOWHERE: u32 = u32::MAX;
 
 impl Stretches {
-    /// Of entries (row, column, where the value is kept), row > column.
-    pub(crate) fn of(entries: &[(u32, u32, u32)]) -> Self {
-        let rows = entries.iter().map(|entry| entry.0 as usize + 1);
-        let rows = rows.max().unwrap_or(0);
-        let by_column = in_order(entries, rows, |entry| entry.1 as usize);
-        let entries = in_order(&by_column, rows, |&(row, column, _)| {
-            (row - column) as usize
-        });
-        let mut stretches: Vec<Stretch> = Vec::new();
-        for &(row, column, _) in &entries {
-            match stretches.last_mut() {
-                Some(last)
-                    if (row, column) == (last.row + last.length, last.column + last.length)
-                        && last.length < row - column =>
-                {
-                    last.length += 1;
-                }
-                _ => stretches.push(Stretch {
-                    column,
-                    row,
-                    length: 1,
-                }),
+    /// Of entries (row, column, where the value is kept), row > column, for vectors of `order` values.
+    pub(crate) fn of(mut entries: Vec<(u32, u32, u32)>, order: usize) -> Self {
+        entries.sort_unstable_by_key(|&(row, column, _)| (row - column, column));
+        let mut stretches = Self::default();
+        let mut rest = &entries[..];
+        while let Some(&(row, column, place)) = rest.first() {
+            // No row of a chunk may be one of its columns.
+            let most = LANES.min((row - column) as usize);
+            let next = |(step, entry): &(usize, &(u32, u32, u32))| {
+                (entry.0 as usize, entry.1 as usize)
+                    == (row as usize + step, column as usize + step)
+            };
+            let own = rest.iter().enumerate().take(most).take_while(next).count();
+            let (own, after) = rest.split_at(own);
+            rest = after;
+            // At the end of a vector a chunk begins earlier, with nothing.
+            let early = (row as usize + LANES).saturating_sub(order) as u32;
+            if early > column {
+                stretches.loose.push((row, column, place));
+                let others = own.iter().skip(1);
+                stretches.loose.extend(others);
+                continue;
             }
+            stretches.chunks.push(Chunk {
+                column: column - early,
+                row: row - early,
+            });
+            let places = (0..LANES).map(|lane| {
+                let entry = lane.checked_sub(early as usize);
+                let entry = entry.and_then(|entry| own.get(entry));
+                entry.map_or(NOWHERE, |entry| entry.2)
+            });
+            stretches.places.extend(places);
         }
-        Self {
-            stretches,
-            places: entries.iter().map(|&(_, _, place)| place).collect(),
-        }
+        stretches
     }
 
-    /// Number of entries.
+    /// Number of values laid out.
     pub(crate) fn len(&self) -> usize {
-        self.places.len()
+        self.places.len() + self.loose.len()
     }
 
     /// Lays values out as the loops want them.
     pub(crate) fn lay_out(&self, values: &[f64], laid: &mut Vec<f64>) {
-        laid.extend(self.places.iter().map(|&place| values[place as usize]));
+        let value = |place: u32| values.get(place as usize).copied().unwrap_or(0.0);
+        laid.extend(self.places.iter().map(|place| value(*place)));
+        laid.extend(self.loose.iter().map(|&(_, _, place)| value(place)));
     }
 
     /// x at rows less value · x at columns. No row may be one of the columns.
     #[inline(always)]
     pub(crate) fn pass_on(&self, laid: &[f64], x: &mut [f64]) {
-        let mut rest = laid;
-        for stretch in &self.stretches {
-            let (values, after) = rest.split_at(stretch.length as usize);
-            rest = after;
-            let (columns, rows) = stretch.split(x);
-            subtract(rows, values, columns);
+        let (values, loose) = laid.split_at(self.places.len());
+        for (chunk, values) in self.chunks.iter().zip(values.as_chunks().0) {
+            subtract(chunk.row, values, chunk.column, x);
+        }
+        for (&(row, column, _), value) in self.loose.iter().zip(loose) {
+            x[row as usize] -= value * x[column as usize];
         }
     }
 
     /// x at columns less value · x at rows. No row may be one of the columns.
     #[inline(always)]
     pub(crate) fn gather(&self, laid: &[f64], x: &mut [f64]) {
-        let mut rest = laid;
-        for stretch in &self.stretches {
-            let (values, after) = rest.split_at(stretch.length as usize);
-            rest = after;
-            let (columns, rows) = stretch.split(x);
-            subtract(columns, values, rows);
+        let (values, loose) = laid.split_at(self.places.len());
+        for (chunk, values) in self.chunks.iter().zip(values.as_chunks().0) {
+            subtract(chunk.column, values, chunk.row, x);
+        }
+        for (&(row, column, _), value) in self.loose.iter().zip(loose) {
+            x[column as usize] -= value * x[row as usize];
+        }
+    }
+
+    /// Adds values · x, and what their mirror images across the diagonal make of it, to a product.
+    #[inline(always)]
+    pub(crate) fn multiply_add(&self, laid: &[f64], x: &[f64], product: &mut [f64]) {
+        let (values, loose) = laid.split_at(self.places.len());
+        for (chunk, values) in self.chunks.iter().zip(values.as_chunks().0) {
+            add(chunk.row, values, &at(chunk.column, x), product);
+            add(chunk.column, values, &at(chunk.row, x), product);
+        }
+        for (&(row, column, _), value) in self.loose.iter().zip(loose) {
+            product[row as usize] += value * x[column as usize];
+            product[column as usize] += value * x[row as usize];
         }
     }
 
@@ -92,61 +115,52 @@ impl Stretches {
     #[inline(always)]
     pub(crate) fn bilinear(&self, laid: &[f64], x: &[f64]) -> f64 {
         // Two sums in turn: one would wait for itself.
-        let (mut sums, mut left) = ([[0.0; LANES]; 2], 0.0);
-        let mut rest = laid;
-        for stretch in &self.stretches {
-            let length = stretch.length as usize;
-            let (values, after) = rest.split_at(length);
-            rest = after;
-            let (values, short_values) = values.as_chunks::<LANES>();
-            let columns = &x[stretch.column as usize..][..length];
-            let (columns, short_columns) = columns.as_chunks::<LANES>();
-            let (rows, short_rows) = x[stretch.row as usize..][..length].as_chunks::<LANES>();
-            for ((value, column), row) in values.iter().zip(columns).zip(rows) {
-                let (value, column, row) = (*value, *column, *row);
-                let mut sum = sums[0];
-                for lane in 0..LANES {
-                    sum[lane] += value[lane] * column[lane] * row[lane];
-                }
-                sums = [sums[1], sum];
+        let mut sums = [[0.0; LANES]; 2];
+        let (values, loose) = laid.split_at(self.places.len());
+        for (chunk, values) in self.chunks.iter().zip(values.as_chunks::<LANES>().0) {
+            let (columns, rows) = (at(chunk.column, x), at(chunk.row, x));
+            let mut sum = sums[0];
+            for lane in 0..LANES {
+                sum[lane] += values[lane] * columns[lane] * rows[lane];
             }
-            for ((value, column), row) in short_values.iter().zip(short_columns).zip(short_rows) {
-                left += value * column * row;
-            }
+            sums = [sums[1], sum];
         }
-        sums.as_flattened().iter().sum::<f64>() + left
+        let loose = self.loose.iter().zip(loose);
+        let loose = loose.map(|(&(row, column, _), v)| v * x[row as usize] * x[column as usize]);
+        sums.as_flattened().iter().sum::<f64>() + loose.sum::<f64>()
     }
 }
 
-impl Stretch {
-    /// Of a vector, what stands at the columns and what at the rows.
-    #[inline(always)]
-    fn split<'a>(&self, x: &'a mut [f64]) -> (&'a mut [f64], &'a mut [f64]) {
-        let length = self.length as usize;
-        let (before, rows) = x.split_at_mut(self.row as usize);
-        (
-            &mut before[self.column as usize..][..length],
-            &mut rows[..length],
-        )
-    }
-}
-
+/// A register of x.
 #[inline(always)]
-fn subtract(from: &mut [f64], values: &[f64], of: &[f64]) {
-    let (from, short_from) = from.as_chunks_mut::<LANES>();
-    let (values, short_values) = values.as_chunks::<LANES>();
-    let (of, short_of) = of.as_chunks::<LANES>();
-    for ((from, value), of) in from.iter_mut().zip(values).zip(of) {
-        // Whole registers in, one out: nothing can overlap.
-        let (mut sum, value, of) = (*from, *value, *of);
-        for lane in 0..LANES {
-            sum[lane] -= value[lane] * of[lane];
-        }
-        *from = sum;
+fn at(first: u32, x: &[f64]) -> [f64; LANES] {
+    let mut values = [0.0; LANES];
+    let first = first as usize;
+    values.copy_from_slice(&x[first..first + LANES]);
+    values
+}
+
+/// Adds values · x to a product from one place on.
+#[inline(always)]
+fn add(to: u32, values: &[f64; LANES], x: &[f64; LANES], product: &mut [f64]) {
+    let mut sum = at(to, product);
+    for lane in 0..LANES {
+        sum[lane] += values[lane] * x[lane];
     }
-    for ((from, value), of) in short_from.iter_mut().zip(short_values).zip(short_of) {
-        *from -= value * of;
+    let to = to as usize;
+    product[to..to + LANES].copy_from_slice(&sum);
+}
+
+/// x from one place on less values · x from another.
+#[inline(always)]
+fn subtract(from: u32, values: &[f64; LANES], of: u32, x: &mut [f64]) {
+    // Whole registers in, one out: they may overlap where values are zero.
+    let (of, mut sum) = (at(of, x), at(from, x));
+    for lane in 0..LANES {
+        sum[lane] -= values[lane] * of[lane];
     }
+    let from = from as usize;
+    x[from..from + LANES].copy_from_slice(&sum);
 }
 
 #[cfg(test)]
@@ -172,46 +186,61 @@ mod tests {
         }
     }
 
-    /// Stretches of every length, one at a time: what a loop over single entries gives, to the bit in vectors, and the
-    /// same bits in wide registers.
+    /// Stretches of every length, far from the diagonal and next to it, inside a vector and up to its end: what a loop over
+    /// single entries gives, to the bit in vectors, and the same bits in wide registers.
     #[test]
     fn stretches_do_what_single_entries_do() {
-        for length in 1..23_u32 {
-            let entries: Vec<_> = (0..length).map(|k| (k + 30, k, length - 1 - k)).collect();
-            let stretches = Stretches::of(&entries);
-            assert_eq!(
-                (stretches.stretches.len(), stretches.len()),
-                (1, length as usize)
-            );
-            let values: Vec<f64> = (0..length).map(|k| (0.3 + f64::from(k)).sin()).collect();
-            let mut laid = Vec::new();
-            stretches.lay_out(&values, &mut laid);
-            let start: Vec<f64> = (0..60).map(|k| (1.7 * f64::from(k)).cos()).collect();
-            let run = |wide: bool| {
-                let mut x = start.clone();
-                let passes = Passes {
-                    stretches: &stretches,
-                    laid: &laid,
-                    x: &mut x,
-                };
-                let sum = if wide {
-                    Arch::new().dispatch(passes)
-                } else {
-                    passes.call()
-                };
-                (x, sum)
-            };
-            let (wide, narrow) = (run(true), run(false));
-            assert_eq!(wide, narrow, "{length} entries");
+        for apart in [1, 2, 5, 9, 30] {
+            for length in 1..23.min(apart + 1) {
+                for order in [length + apart, length + apart + 3, 60] {
+                    compare(apart, length, order);
+                }
+            }
+        }
+    }
+
+    fn compare(apart: u32, length: u32, order: u32) {
+        let entries: Vec<_> = (0..length)
+            .map(|k| (k + apart, k, length - 1 - k))
+            .collect();
+        let stretches = Stretches::of(entries, order as usize);
+        let values: Vec<f64> = (0..length).map(|k| (0.3 + f64::from(k)).sin()).collect();
+        let mut laid = Vec::new();
+        stretches.lay_out(&values, &mut laid);
+        assert_eq!(laid.len(), stretches.len());
+        let start: Vec<f64> = (0..order).map(|k| (1.7 * f64::from(k)).cos()).collect();
+        let run = |wide: bool| {
             let mut x = start.clone();
-            let value = |k: usize| values[length as usize - 1 - k];
-            (0..length as usize).for_each(|k| x[k + 30] -= value(k) * x[k]);
-            (0..length as usize).for_each(|k| x[k] -= value(k) * x[k + 30]);
-            assert_eq!(wide.0, x, "{length} entries");
-            let sum: f64 = (0..length as usize)
-                .map(|k| value(k) * x[k] * x[k + 30])
-                .sum();
-            assert!((wide.1 - sum).abs() < 1e-14 * f64::from(length));
+            let passes = Passes {
+                stretches: &stretches,
+                laid: &laid,
+                x: &mut x,
+            };
+            let sum = if wide {
+                Arch::new().dispatch(passes)
+            } else {
+                passes.call()
+            };
+            (x, sum)
+        };
+        let (wide, narrow) = (run(true), run(false));
+        let case = format!("{length} entries {apart} apart of {order}");
+        assert_eq!(wide, narrow, "{case}");
+        let (length, apart) = (length as usize, apart as usize);
+        let mut x = start;
+        let value = |k: usize| values[length - 1 - k];
+        (0..length).for_each(|k| x[k + apart] -= value(k) * x[k]);
+        (0..length).for_each(|k| x[k] -= value(k) * x[k + apart]);
+        assert_eq!(wide.0, x, "{case}");
+        let sum: f64 = (0..length).map(|k| value(k) * x[k] * x[k + apart]).sum();
+        assert!((wide.1 - sum).abs() < 1e-14 * length as f64, "{case}");
+        let mut product = vec![0.0; order as usize];
+        stretches.multiply_add(&laid, &x, &mut product);
+        let mut expected = vec![0.0; order as usize];
+        (0..length).for_each(|k| expected[k + apart] += value(k) * x[k]);
+        (0..length).for_each(|k| expected[k] += value(k) * x[k + apart]);
+        for (got, expected) in product.iter().zip(&expected) {
+            assert!((got - expected).abs() < 1e-14, "{case}");
         }
     }
 }

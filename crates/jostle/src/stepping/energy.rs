@@ -1,6 +1,7 @@
 //! The energy audit (theory, Eq. E1): sums over steps that must balance if every step is in equilibrium.
 
 use crate::history::Energy;
+use crate::lanes;
 use crate::state::State;
 use crate::system::System;
 
@@ -51,13 +52,9 @@ fn stored(system: &System, state: &State) -> Stored {
     let (displacement, velocity) = (&state.displacement, &state.velocity);
     let (mut kinetic, mut strain) = (0.0, 0.0);
     for building in &system.buildings {
-        let moving = building
-            .equations
-            .mass
-            .iter()
-            .zip(&velocity[building.range()]);
-        kinetic += 0.5 * moving.map(|(m, v)| m * v * v).sum::<f64>();
-        strain += 0.5 * building.equations.strain(&displacement[building.range()]);
+        let (equations, own) = (&building.equations, building.range());
+        kinetic += 0.5 * lanes::wide_weighted_square(&equations.mass, &velocity[own.clone()]);
+        strain += 0.5 * equations.strain(&displacement[own]);
     }
     let springs = system
         .buildings

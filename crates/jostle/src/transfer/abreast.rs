@@ -1,7 +1,6 @@
 //! Chains of displacements taken abreast: the insides of members, which meet nothing but the joints at their ends.
 
-use std::collections::BTreeMap;
-
+use crate::small_keys::in_order;
 use crate::stretches::Stretches;
 
 /// The first columns of a factor, level by level: columns of a level do not couple, and what they couple to beyond the
@@ -46,45 +45,25 @@ impl Abreast {
                 chain[column] = chain[next];
             }
         }
-        // Ends of one kind of neighbouring chains become neighbours.
-        let mut met: BTreeMap<(usize, u32), usize> = BTreeMap::new();
-        for column in 0..columns {
-            for row in &rows[starts[column]..starts[column + 1]] {
-                if *row as usize >= columns {
-                    met.insert((chain[column], *row), 0);
+        let ends = Ends::of(&starts[..=columns], rows, &chain);
+        let level = |bounds: &[usize]| {
+            let mut entries = Vec::with_capacity(starts[bounds[1]] - starts[bounds[0]]);
+            for column in bounds[0]..bounds[1] {
+                for place in starts[column]..starts[column + 1] {
+                    let row = rows[place];
+                    let row = if row as usize >= columns {
+                        (order + ends.place(chain[column], row)) as u32
+                    } else {
+                        row
+                    };
+                    entries.push((row, column as u32, place as u32));
                 }
             }
-        }
-        let mut of_chain = (usize::MAX, 0);
-        let mut kinds: Vec<(usize, usize, u32)> = Vec::with_capacity(met.len());
-        for &(last, row) in met.keys() {
-            let kind = if of_chain.0 == last {
-                of_chain.1 + 1
-            } else {
-                0
-            };
-            of_chain = (last, kind);
-            kinds.push((kind, last, row));
-        }
-        kinds.sort_unstable();
-        for (index, &(_, last, row)) in kinds.iter().enumerate() {
-            met.insert((last, row), order + index);
-        }
-        let level = |bounds: &[usize]| {
-            let entries = (bounds[0]..bounds[1]).flat_map(|column| {
-                let (met, last) = (&met, chain[column]);
-                let places = starts[column]..starts[column + 1];
-                places.map(move |place| {
-                    let row = rows[place];
-                    let row = met.get(&(last, row)).map_or(row, |end| *end as u32);
-                    (row, column as u32, place as u32)
-                })
-            });
-            Stretches::of(&entries.collect::<Vec<_>>())
+            Stretches::of(entries, order + ends.rows.len())
         };
         Self {
             levels: bounds.windows(2).map(level).collect(),
-            ends: kinds.iter().map(|&(_, _, row)| row).collect(),
+            ends: ends.in_places(),
             columns,
             order,
         }
@@ -137,5 +116,68 @@ impl Abreast {
             level.gather(own, load);
             rest = before;
         }
+    }
+}
+
+/// Rows beyond the chains that the chains meet.
+struct Ends {
+    /// Chain by chain, a chain being known by its last column, rows rising.
+    rows: Vec<u32>,
+    /// Where the rows of every chain begin in the list.
+    starts: Vec<usize>,
+    /// Places of the rows behind the vector: ends of one kind of neighbouring chains become neighbours.
+    places: Vec<usize>,
+}
+
+impl Ends {
+    /// Of the columns of a pattern, with the chain of each.
+    fn of(starts: &[usize], rows: &[u32], chain: &[usize]) -> Self {
+        let columns = chain.len();
+        let mut met: Vec<(usize, u32)> = Vec::new();
+        for (bounds, last) in starts.windows(2).zip(chain) {
+            let ahead = rows[bounds[0]..bounds[1]].iter();
+            met.extend(ahead.filter(|row| **row as usize >= columns).map(|row| (*last, *row)));
+        }
+        met.sort_unstable();
+        met.dedup();
+        let mut first = vec![0; columns + 1];
+        for (last, _) in &met {
+            first[last + 1] += 1;
+        }
+        for column in 0..columns {
+            first[column + 1] += first[column];
+        }
+        // The first row of every chain, then the second ones, and so on.
+        let listed: Vec<(usize, usize)> = met
+            .iter()
+            .enumerate()
+            .map(|(index, (last, _))| (index - first[*last], index))
+            .collect();
+        let mut places = vec![0; met.len()];
+        let by_kind = in_order(&listed, met.len(), |entry| entry.0);
+        for (place, (_, index)) in by_kind.into_iter().enumerate() {
+            places[index] = place;
+        }
+        Self {
+            rows: met.into_iter().map(|(_, row)| row).collect(),
+            starts: first,
+            places,
+        }
+    }
+
+    /// Where a chain adds up what it passes on to a row.
+    fn place(&self, last: usize, row: u32) -> usize {
+        let own = self.starts[last]..self.starts[last + 1];
+        let known = self.rows[own.clone()].iter().position(|other| *other == row);
+        self.places[own.start + known.unwrap_or(0)]
+    }
+
+    /// The rows in the order of their places.
+    fn in_places(&self) -> Vec<u32> {
+        let mut rows = vec![0; self.rows.len()];
+        for (row, place) in self.rows.iter().zip(&self.places) {
+            rows[*place] = *row;
+        }
+        rows
     }
 }

@@ -5,6 +5,8 @@
 //! are all that need be kept. Unlike the product of transfer matrices no growing and decaying solutions are
 //! ever mixed, so that nothing is lost at small steps or in tall frames.
 
+pub(crate) mod rates;
+
 use std::cell::RefCell;
 use std::convert::Infallible;
 

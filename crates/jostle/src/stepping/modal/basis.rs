@@ -1,12 +1,14 @@
 //! The few shapes in which an elastic building answers the ground and its contacts (theory, Eqs. Q3 and Q4).
 
+use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use pulp::NullaryFnOnce;
 
 use crate::lanes::{self, in_wide_registers};
-use crate::stepping::{NotPositive, StepEquations, StepMatrix};
+use crate::stepping::{NotPositive, StepEquations};
 use crate::system::BuildingSystem;
-use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
+use crate::transfer::riccati::RiccatiSweep;
+use crate::transfer::riccati::rates::{PerRate, RATES, RateFactors};
 
 /// Ritz modes of one building: natural modes as far as they matter in time, and beyond them what makes its
 /// flexibility at the contacts and under the ground motion exact.
@@ -37,7 +39,7 @@ pub(super) struct Demand<'a> {
     /// Rates s ≥ 0 at which the flexibilities gᵀ(K + s²M)⁻¹g are met exactly; the last is that of further vectors
     /// \[1/s\].
     pub(super) met: &'a [f64],
-    /// Rates at which they are compared.
+    /// Rates at which they are compared; with those above no more than [`RATES`].
     pub(super) compared: &'a [f64],
     /// By how much they may differ there, relative; ten times as much at floors that are not pushed \[–\].
     pub(super) tolerance: f64,
@@ -53,12 +55,8 @@ impl Basis {
     /// [`NotPositive`] when the building can move without deforming.
     pub(super) fn of(building: &BuildingSystem, demand: &Demand<'_>) -> Result<Self, NotPositive> {
         let mut growing = Growing::of(building, demand)?;
-        loop {
-            let basis = growing.ritz()?;
-            if growing.is_close(&basis) || !growing.extend() {
-                return Ok(growing.finished(basis));
-            }
-        }
+        while !growing.is_close()? && growing.extend() {}
+        growing.finished()
     }
 
     /// Number of shapes.
@@ -101,11 +99,10 @@ struct Growing<'a> {
     building: &'a BuildingSystem,
     demand: &'a Demand<'a>,
     sweep: RiccatiSweep,
-    factor: RiccatiFactor,
+    /// Of the last of the rates that are met.
+    last_rate: RateFactors,
     /// M-orthonormal vectors over all degrees of freedom.
     vectors: Vec<Vec<f64>>,
-    /// M times them.
-    heavy: Vec<Vec<f64>>,
     /// vᵀK w between them, lower triangle row by row.
     products: Vec<Vec<f64>>,
     /// First vector of the last block.
@@ -115,99 +112,83 @@ struct Growing<'a> {
     solves: u64,
 }
 
-/// Eigenvalues and eigenvectors within the vectors.
-struct Ritz {
-    values: Vec<f64>,
-    parts: Vec<Vec<f64>>,
-}
-
 impl<'a> Growing<'a> {
     fn of(building: &'a BuildingSystem, demand: &'a Demand<'a>) -> Result<Self, NotPositive> {
+        let sweep = RiccatiSweep::of(building);
+        // Rates that are met come first; what is left of the lanes repeats the last one.
+        let asked = || demand.met.iter().chain(demand.compared).copied();
+        let mut rates = [0.0; RATES];
+        for (lane, rate) in rates.iter_mut().zip(asked().chain(asked().cycle())) {
+            *lane = rate;
+        }
+        let factors = sweep.factorize_at(&rates)?;
+        let loads: Vec<Vec<f64>> = std::iter::once(building.equations.driven_mass.clone())
+            .chain(demand.faces.iter().map(|face| push_on(building, *face)))
+            .collect();
+        let answers: Vec<Vec<PerRate>> = loads
+            .iter()
+            .map(|load| {
+                let mut answers: Vec<PerRate> = load.iter().map(|value| [*value; RATES]).collect();
+                sweep.solve_at(&factors, &mut answers);
+                answers
+            })
+            .collect();
+        let met = demand.met.len();
+        let compared = demand.compared.iter().enumerate();
+        let wanted = compared.map(|(index, rate)| Wanted {
+            rate: *rate,
+            answers: answers
+                .iter()
+                .zip(loaded(demand))
+                .map(|(answer, own)| {
+                    let places = demand.floors.iter().chain(own);
+                    places.map(|place| answer[*place][met + index]).collect()
+                })
+                .collect(),
+        });
+        let rates = met + demand.compared.len();
         let mut growing = Self {
+            last_rate: factors.only(met.saturating_sub(1)),
+            wanted: wanted.collect(),
+            factorizations: rates as u64,
+            solves: (rates * loads.len()) as u64,
             building,
             demand,
-            sweep: RiccatiSweep::of(building),
-            factor: RiccatiFactor::default(),
+            sweep,
             vectors: Vec::new(),
-            heavy: Vec::new(),
             products: Vec::new(),
             last_block: 0,
-            wanted: Vec::new(),
-            factorizations: 0,
-            solves: 0,
         };
-        for &rate in demand.compared {
-            growing.compare_at(rate)?;
-        }
         for mode in building.lateral_modes() {
             growing.add(mode.shape.clone());
         }
-        for &rate in demand.met {
+        for rate in 0..met {
             growing.last_block = growing.vectors.len();
-            growing.factorize(rate)?;
-            growing.answer(building.equations.driven_mass.clone());
-            for &face in demand.faces {
-                growing.answer(growing.push_on(face));
+            for answer in &answers {
+                growing.add(answer.iter().map(|values| values[rate]).collect());
             }
         }
         Ok(growing)
     }
 
-    fn factorize(&mut self, rate: f64) -> Result<(), NotPositive> {
-        let tangents = self.building.equations.initial_tangents();
-        let matrix = StepMatrix::new(1.0, rate * rate);
-        self.factorizations += 1;
-        self.sweep.factorize(&matrix, &tangents, &mut self.factor)
-    }
-
-    fn push_on(&self, face: usize) -> Vec<f64> {
-        let mut load = vec![0.0; self.building.equations.len()];
-        load[face] = 1.0;
-        load
-    }
-
-    fn solved(&mut self, mut load: Vec<f64>) -> Vec<f64> {
-        self.solves += 1;
-        self.sweep.solve(&self.factor, &mut load);
-        load
-    }
-
-    fn compare_at(&mut self, rate: f64) -> Result<(), NotPositive> {
-        self.factorize(rate)?;
-        let mut answers = Vec::with_capacity(self.demand.faces.len() + 1);
-        let loads = std::iter::once(self.building.equations.driven_mass.clone());
-        let pushes: Vec<Vec<f64>> = self
-            .demand
-            .faces
-            .iter()
-            .map(|face| self.push_on(*face))
-            .collect();
-        for (load, own) in loads.chain(pushes).zip(self.loaded()) {
-            let answer = self.solved(load);
-            let floors = self.demand.floors.iter().chain(own);
-            answers.push(floors.map(|place| answer[*place]).collect());
-        }
-        self.wanted.push(Wanted { rate, answers });
-        Ok(())
-    }
-
-    /// The face that every load pushes: none for the ground, then one after the other.
-    fn loaded(&self) -> impl Iterator<Item = Option<&'a usize>> + use<'a> {
-        std::iter::once(None).chain(self.demand.faces.iter().map(Some))
-    }
-
-    /// The answer to a load, as far as it is new.
-    fn answer(&mut self, load: Vec<f64>) {
-        let vector = self.solved(load);
-        self.add(vector);
-    }
-
     /// One block more; false when there is nothing left to find.
     fn extend(&mut self) -> bool {
-        let loads = self.heavy[self.last_block..].to_vec();
+        let mass = &self.building.equations.mass;
+        let inertia = |vector: &Vec<f64>| vector.iter().zip(mass).map(|(v, m)| v * m).collect();
+        let loads: Vec<Vec<f64>> = self.vectors[self.last_block..].iter().map(inertia).collect();
         self.last_block = self.vectors.len();
-        for load in loads {
-            self.answer(load);
+        self.solves += loads.len() as u64;
+        for loads in loads.chunks(RATES) {
+            let mut answers = vec![[0.0; RATES]; self.building.equations.len()];
+            for (lane, load) in loads.iter().enumerate() {
+                for (answer, value) in answers.iter_mut().zip(load) {
+                    answer[lane] = *value;
+                }
+            }
+            self.sweep.solve_at(&self.last_rate, &mut answers);
+            for lane in 0..loads.len() {
+                self.add(answers.iter().map(|values| values[lane]).collect());
+            }
         }
         self.vectors.len() > self.last_block
     }
@@ -219,12 +200,12 @@ impl<'a> Growing<'a> {
         if self.vectors.len() == most {
             return;
         }
-        let length = |vector: &[f64]| lanes::weighted_square(&equations.mass, vector).sqrt();
+        let length = |vector: &[f64]| lanes::wide_weighted_square(&equations.mass, vector).sqrt();
         let before = length(&vector);
         let strip = Strip {
             vector: &mut vector,
             known: &self.vectors,
-            heavy: &self.heavy,
+            mass: &equations.mass,
         };
         in_wide_registers(equations.len(), strip);
         let rest = length(&vector);
@@ -234,8 +215,6 @@ impl<'a> Growing<'a> {
         vector.iter_mut().for_each(|value| *value /= rest);
         let mut stiff = vec![0.0; vector.len()];
         equations.stiffness.multiply_add(&vector, &mut stiff);
-        let heavy = vector.iter().zip(&equations.mass).map(|(v, m)| v * m);
-        self.heavy.push(heavy.collect());
         self.vectors.push(vector);
         let mut row = vec![0.0; self.vectors.len()];
         let products = Products {
@@ -247,100 +226,98 @@ impl<'a> Growing<'a> {
         self.products.push(row);
     }
 
-    fn ritz(&self) -> Result<Ritz, NotPositive> {
+    /// vᵀ(K + s²M)w between all vectors; only the lower triangle is filled.
+    fn projected(&self, rate: f64) -> Mat<f64> {
         let n = self.vectors.len();
         let mut matrix = Mat::zeros(n, n);
         for (i, row) in self.products.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
                 matrix[(i, j)] = *value;
             }
+            matrix[(i, i)] += rate * rate;
         }
-        let eigen = matrix
-            .self_adjoint_eigen(Side::Lower)
-            .map_err(|_| NotPositive { dof: 0 })?;
-        let values: Vec<f64> = (0..n).map(|k| eigen.S()[k]).collect();
-        if values.iter().any(|value| *value <= 0.0 || value.is_nan()) {
-            return Err(NotPositive { dof: 0 });
-        }
-        let parts = (0..n).map(|k| (0..n).map(|i| eigen.U()[(i, k)]).collect());
-        Ok(Ritz {
-            values,
-            parts: parts.collect(),
-        })
+        matrix
     }
 
-    /// Σ parts·vectors at one place.
-    fn at(&self, parts: &[f64], place: usize) -> f64 {
-        let vectors = self.vectors.iter().zip(parts);
-        vectors.map(|(vector, part)| vector[place] * part).sum()
+    /// Horizontal mass that goes with every vector \[kg^½\].
+    fn driven(&self) -> Vec<f64> {
+        let driven = &self.building.equations.driven_mass;
+        self.vectors.iter().map(|v| lanes::dot(driven, v)).collect()
     }
 
     /// Whether answers within the vectors are those of the building.
-    fn is_close(&self, ritz: &Ritz) -> bool {
-        let shown = |place: usize| -> Vec<f64> {
-            ritz.parts
-                .iter()
-                .map(|parts| self.at(parts, place))
-                .collect()
-        };
-        let driven = &self.building.equations.driven_mass;
-        let by_ground: Vec<f64> = self.vectors.iter().map(|v| lanes::dot(driven, v)).collect();
-        let participation = ritz.parts.iter().map(|parts| lanes::dot(&by_ground, parts));
-        let loads = std::iter::once(participation.collect())
-            .chain(self.demand.faces.iter().map(|face| shown(*face)));
-        let loads: Vec<Vec<f64>> = loads.collect();
-        let floors: Vec<Vec<f64>> = self
-            .demand
-            .floors
-            .iter()
-            .map(|floor| shown(*floor))
-            .collect();
-        self.wanted.iter().all(|wanted| {
-            let weights: Vec<f64> = ritz
-                .values
-                .iter()
-                .map(|k| 1.0 / (k + wanted.rate * wanted.rate))
-                .collect();
-            let loaded = loads.iter().zip(self.loaded());
-            loaded.zip(&wanted.answers).all(|((load, own), answers)| {
-                let quiet = QUIET
-                    * answers
-                        .iter()
-                        .fold(0.0, |most: f64, answer| most.max(answer.abs()));
+    fn is_close(&self) -> Result<bool, NotPositive> {
+        let shown = |place: &usize| -> Vec<f64> { self.vectors.iter().map(|v| v[*place]).collect() };
+        let faces = self.demand.faces.iter().map(shown);
+        let loads: Vec<Vec<f64>> = std::iter::once(self.driven()).chain(faces).collect();
+        let floors: Vec<Vec<f64>> = self.demand.floors.iter().map(shown).collect();
+        for wanted in &self.wanted {
+            let factor = self.projected(wanted.rate).llt(Side::Lower);
+            let factor = factor.map_err(|_| NotPositive { dof: 0 })?;
+            let mut answers =
+                Mat::from_fn(self.vectors.len(), loads.len(), |i, load| loads[load][i]);
+            factor.solve_in_place(&mut answers);
+            let columns = answers.col_iter().zip(&loads).zip(loaded(self.demand));
+            let mut of_loads = columns.zip(&wanted.answers);
+            let close = of_loads.all(|(((got, load), own), wanted)| {
+                let sizes = wanted.iter().map(|answer| answer.abs());
+                let quiet = QUIET * sizes.fold(0.0, f64::max);
                 // The face itself comes last, and is to be met more closely.
-                let places = floors
-                    .iter()
-                    .map(|shown| (shown, FLOOR_SHARE))
-                    .chain(own.map(|_| (load, 1.0)));
-                places.zip(answers).all(|((shown, share), wanted)| {
-                    let terms = load.iter().zip(shown).zip(&weights);
-                    let got: f64 = terms.map(|((a, b), weight)| a * b * weight).sum();
+                let floors = floors.iter().map(|shown| (shown, FLOOR_SHARE));
+                let mut places = floors.chain(own.map(|_| (load, 1.0))).zip(wanted);
+                places.all(|((shown, share), wanted)| {
+                    let got: f64 = got.iter().zip(shown).map(|(a, b)| a * b).sum();
                     (got - wanted).abs() <= share * self.demand.tolerance * wanted.abs().max(quiet)
                 })
-            })
-        })
+            });
+            if !close {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
-    fn finished(self, ritz: Ritz) -> Basis {
-        let driven = &self.building.equations.driven_mass;
-        let by_ground: Vec<f64> = self.vectors.iter().map(|v| lanes::dot(driven, v)).collect();
-        let participation = ritz.parts.iter().map(|parts| lanes::dot(&by_ground, parts));
-        Basis {
+    /// Ritz modes: eigenvalues and eigenvectors within the vectors.
+    fn finished(self) -> Result<Basis, NotPositive> {
+        let n = self.vectors.len();
+        let eigen = self.projected(0.0).self_adjoint_eigen(Side::Lower);
+        let eigen = eigen.map_err(|_| NotPositive { dof: 0 })?;
+        let stiffness: Vec<f64> = (0..n).map(|k| eigen.S()[k]).collect();
+        if stiffness.iter().any(|value| *value <= 0.0 || value.is_nan()) {
+            return Err(NotPositive { dof: 0 });
+        }
+        let parts = (0..n).map(|k| (0..n).map(|i| eigen.U()[(i, k)]).collect());
+        let parts: Vec<Vec<f64>> = parts.collect();
+        let driven = self.driven();
+        let participation = parts.iter().map(|parts| lanes::dot(&driven, parts));
+        Ok(Basis {
             participation: participation.collect(),
-            stiffness: ritz.values,
-            parts: ritz.parts,
+            stiffness,
+            parts,
             vectors: self.vectors,
             factorizations: self.factorizations,
             solves: self.solves,
-        }
+        })
     }
 }
 
-/// Takes from a vector what it has of those already known; heavy ones are M times these.
+/// The face that every load pushes: none for the ground, then one after the other.
+fn loaded<'a>(demand: &Demand<'a>) -> impl Iterator<Item = Option<&'a usize>> + use<'a> {
+    std::iter::once(None).chain(demand.faces.iter().map(Some))
+}
+
+/// A unit force on one degree of freedom.
+fn push_on(building: &BuildingSystem, face: usize) -> Vec<f64> {
+    let mut load = vec![0.0; building.equations.len()];
+    load[face] = 1.0;
+    load
+}
+
+/// Takes from a vector what it has of those already known, which are M-orthonormal (Gram and Schmidt, all at once).
 struct Strip<'a> {
     vector: &'a mut [f64],
     known: &'a [Vec<f64>],
-    heavy: &'a [Vec<f64>],
+    mass: &'a [f64],
 }
 
 impl NullaryFnOnce for Strip<'_> {
@@ -348,14 +325,19 @@ impl NullaryFnOnce for Strip<'_> {
 
     #[inline(always)]
     fn call(self) {
+        let Self {
+            vector,
+            known,
+            mass,
+        } = self;
+        let (mut heavy, mut parts) = (vec![0.0; vector.len()], vec![0.0; known.len()]);
         // Twice is enough.
         for _ in 0..2 {
-            for (known, heavy) in self.known.iter().zip(self.heavy) {
-                let part = lanes::dot(heavy, self.vector);
-                for (value, known) in self.vector.iter_mut().zip(known) {
-                    *value -= part * known;
-                }
+            for ((heavy, value), mass) in heavy.iter_mut().zip(&*vector).zip(mass) {
+                *heavy = value * mass;
             }
+            lanes::dots(known, &heavy, &mut parts);
+            lanes::subtract_all(known, &parts, vector);
         }
     }
 }
@@ -372,8 +354,6 @@ impl NullaryFnOnce for Products<'_> {
 
     #[inline(always)]
     fn call(self) {
-        for (product, vector) in self.row.iter_mut().zip(self.vectors) {
-            *product = lanes::dot(vector, self.with);
-        }
+        lanes::dots(self.vectors, self.with, self.row);
     }
 }

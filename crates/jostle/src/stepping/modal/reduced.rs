@@ -6,7 +6,7 @@ use pulp::Arch;
 
 use super::basis::{Basis, Demand};
 use super::kernels::{Combine, LANES, Quadratic, ROWS, Show};
-use super::response::{INPUTS, PRODUCTS, Response, Rules, damped};
+use super::response::{Damped, INPUTS, PRODUCTS, Responses, Rules};
 use crate::contact::ForceLaw;
 use crate::equations::Equations;
 use crate::history::Work;
@@ -99,9 +99,9 @@ impl Reduced {
                 }
             }
             let Rates { pushed, swaying } = rates[index];
-            let [slow, quick] = MET.map(|factor| factor * pushed);
+
             let [low, high] = COMPARED.map(|factor| factor * pushed);
-            let mut met = vec![0.0, quick, slow];
+            let mut met = vec![0.0, pushed];
             let mut struck = system.contacts.iter().filter(|contact| {
                 let law = matches!(contact.law, ForceLaw::Restitution { .. });
                 law && contact.faces.buildings().contains(&Some(index))
@@ -299,30 +299,37 @@ impl Table {
         self.compliance.resize(contacts * contacts, None);
         let lists = self.displacement.iter_mut().chain(&mut self.velocity);
         let lists = lists.chain(&mut self.area).chain(&mut self.moment);
-        lists.for_each(Vec::clear);
-        self.damped.iter_mut().for_each(Vec::clear);
+        lists.for_each(|list| list.resize(reduced.modes(), 0.0));
+        let asked = rules.map_or(0, |_| reduced.modes());
+        self.damped.iter_mut().for_each(|list| list.resize(asked, 0.0));
         let modes = reduced
             .damping
             .chunks(LANES)
             .zip(reduced.stiffness.chunks(LANES));
-        for (damping, stiffness) in modes {
-            let responses = Response::of_several(reduced.arch, damping, stiffness, step);
-            for ((damping, stiffness), response) in damping.iter().zip(stiffness).zip(&responses) {
-                if let Some(rules) = rules {
-                    let form = damped(*damping, *stiffness, step, response, rules);
-                    for (list, value) in self.damped.iter_mut().zip(form) {
-                        list.push(value);
-                    }
+        for (group, (damping, stiffness)) in modes.enumerate() {
+            let (first, count) = (group * LANES, damping.len());
+            let (damping, stiffness) = (filled(damping), filled(stiffness));
+            let responses = Responses::of_several(reduced.arch, damping, stiffness, step);
+            for (lists, rows) in [
+                (&mut self.displacement, &responses.displacement),
+                (&mut self.velocity, &responses.velocity),
+                (&mut self.area, &responses.area),
+                (&mut self.moment, &responses.moment),
+            ] {
+                for (list, row) in lists.iter_mut().zip(rows) {
+                    list[first..first + count].copy_from_slice(&row[..count]);
                 }
-                for (lists, values) in [
-                    (&mut self.displacement, response.displacement),
-                    (&mut self.velocity, response.velocity),
-                    (&mut self.area, response.area),
-                    (&mut self.moment, response.moment),
-                ] {
-                    for (list, value) in lists.iter_mut().zip(values) {
-                        list.push(value);
-                    }
+            }
+            if let Some(rules) = rules {
+                let form = reduced.arch.dispatch(Damped {
+                    damping,
+                    stiffness,
+                    step,
+                    responses: &responses,
+                    rules,
+                });
+                for (list, row) in self.damped.iter_mut().zip(&form) {
+                    list[first..first + count].copy_from_slice(&row[..count]);
                 }
             }
         }
@@ -402,9 +409,14 @@ impl Table {
     }
 }
 
-/// Rates at which answers are met, besides the slowest, and at which they are compared, in units of that of the quickest
-/// push \[–\].
-const MET: [f64; 2] = [1.0, 4.0];
+/// Values of up to [`LANES`] modes, the last one repeated.
+fn filled(values: &[f64]) -> [f64; LANES] {
+    let mut lanes = [values[values.len() - 1]; LANES];
+    lanes[..values.len()].copy_from_slice(values);
+    lanes
+}
+
+/// Rates at which answers are compared, in units of that of the quickest push \[–\].
 const COMPARED: [f64; 2] = [0.5, 2.0];
 /// Modes up to which wide registers are not worth their call.
 const FEW_MODES: usize = 8;

@@ -27,26 +27,7 @@ pub(super) struct Response {
 }
 
 impl Response {
-    /// The row of q̇₁ alone.
-    fn velocity_over(damping: f64, stiffness: f64, step: f64) -> [f64; INPUTS] {
-        if radians(damping, stiffness, step) >= SERIES {
-            let [[_, _], [x21, x22]] = Self::free(damping, stiffness, step);
-            return Self::closed_velocity(damping, stiffness, step, [x21, x22]);
-        }
-        let Impulse {
-            slope: [slope],
-            value: [value],
-            integrals: [[first], [second]],
-        } = Impulse::over(&[damping], &[stiffness], step);
-        [
-            -stiffness * value,
-            slope / step,
-            value - first,
-            first,
-            2.0 * second - first,
-        ]
-    }
-
+    #[inline(always)]
     fn closed_velocity(
         damping: f64,
         stiffness: f64,
@@ -66,34 +47,9 @@ impl Response {
     }
 
     /// `damping` d ≥ 0 \[1/s\], `stiffness` k > 0 \[1/s²\], `step` h > 0 \[s\].
-    pub(super) fn over(damping: f64, stiffness: f64, step: f64) -> Self {
-        if radians(damping, stiffness, step) < SERIES {
-            let impulse = Impulse::over(&[damping], &[stiffness], step);
-            Self::of_impulse(stiffness, step, &impulse, 0)
-        } else {
-            Self::closed(damping, stiffness, step)
-        }
-    }
-
-    /// The same of up to [`LANES`] modes at once; what is beyond them means nothing.
-    pub(super) fn of_several(
-        arch: Arch,
-        damping: &[f64],
-        stiffness: &[f64],
-        step: f64,
-    ) -> [Self; LANES] {
-        let filled = |list: &[f64]| std::array::from_fn(|i| list[i.min(list.len() - 1)]);
-        let several = Several {
-            damping: filled(damping),
-            stiffness: filled(stiffness),
-            step,
-        };
-        let mut modes = several.damping.iter().zip(&several.stiffness);
-        if modes.all(|(d, k)| radians(*d, *k, step) < SERIES) {
-            arch.dispatch(several)
-        } else {
-            std::array::from_fn(|i| Self::over(several.damping[i], several.stiffness[i], step))
-        }
+    #[cfg(test)]
+    fn over(damping: f64, stiffness: f64, step: f64) -> Self {
+        Responses::over(&[damping], &[stiffness], step).mode(0)
     }
 
     /// Free motion from (q, q̇) = (1, 0) and (0, 1).
@@ -131,93 +87,206 @@ impl Response {
             ],
         ]
     }
+}
 
-    fn closed(damping: f64, stiffness: f64, step: f64) -> Self {
-        let [[x11, x12], [x21, x22]] = Self::free(damping, stiffness, step);
-        let static_rise = 1.0 / stiffness;
-        let (e1, e2) = (static_rise / step, damping / (stiffness * stiffness * step));
-        let [bent, slope, start] = steady_bend(damping, stiffness, step);
-        let displacement = [
-            x11,
-            x12,
-            -x11 * (static_rise + e2) + x12 * e1 + e2,
-            x11 * e2 - x12 * e1 + static_rise - e2,
-            bent + slope + start - start * x11 - slope / step * x12,
-        ];
-        let velocity = Self::closed_velocity(damping, stiffness, step, [x21, x22]);
-        // k ∫q = ∫p − Δq̇ − d Δq, and k ∫τq = ∫τp − (q̇₁ − Δq/h) − d(q₁ − ∫q/h): q₀, q̇₀, ∫p/h and ∫τp/h.
-        let starts = [
-            [1.0, 0.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0, 0.0],
-            [0.0, 0.0, 0.5, 1.0 / 6.0],
-            [0.0, 0.0, 0.5, 1.0 / 3.0],
-            [0.0, 0.0, -1.0 / 6.0, -1.0 / 12.0],
-        ];
-        let (mut area, mut moment) = ([0.0; INPUTS], [0.0; INPUTS]);
-        for (column, [q, v, load, leaning]) in starts.into_iter().enumerate() {
-            let (end, rate) = (displacement[column], velocity[column]);
-            area[column] = (load * step - (rate - v) - damping * (end - q)) * static_rise;
-            moment[column] = (leaning * step
-                - (rate - (end - q) / step)
-                - damping * (end - area[column] / step))
-                * static_rise;
+/// The same of N modes: for every input a list of factors, mode by mode.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Responses<const N: usize> {
+    pub(super) displacement: [[f64; N]; INPUTS],
+    pub(super) velocity: [[f64; N]; INPUTS],
+    pub(super) area: [[f64; N]; INPUTS],
+    pub(super) moment: [[f64; N]; INPUTS],
+}
+
+impl Responses<LANES> {
+    /// Of [`LANES`] modes, in the registers at hand.
+    pub(super) fn of_several(
+        arch: Arch,
+        damping: [f64; LANES],
+        stiffness: [f64; LANES],
+        step: f64,
+    ) -> Self {
+        arch.dispatch(Several {
+            damping,
+            stiffness,
+            step,
+        })
+    }
+}
+
+impl<const N: usize> Responses<N> {
+    const NONE: Self = Self {
+        displacement: [[0.0; N]; INPUTS],
+        velocity: [[0.0; N]; INPUTS],
+        area: [[0.0; N]; INPUTS],
+        moment: [[0.0; N]; INPUTS],
+    };
+
+    /// Of one of the modes.
+    pub(super) fn mode(&self, mode: usize) -> Response {
+        let of = |rows: &[[f64; N]; INPUTS]| rows.each_ref().map(|row| row[mode]);
+        Response {
+            displacement: of(&self.displacement),
+            velocity: of(&self.velocity),
+            area: of(&self.area),
+            moment: of(&self.moment),
         }
-        Self {
-            displacement,
-            velocity,
-            area,
-            moment,
+    }
+
+    #[inline(always)]
+    fn over(damping: &[f64; N], stiffness: &[f64; N], step: f64) -> Self {
+        let (mut turning, mut still) = (0, 0);
+        for i in 0..N {
+            if radians(damping[i], stiffness[i], step) < SERIES {
+                still += 1;
+            } else {
+                turning += 1;
+            }
         }
+        if turning == 0 {
+            return Self::of_impulses(stiffness, step, &Impulse::over(damping, stiffness, step));
+        }
+        let closed = Self::closed(damping, stiffness, step);
+        if still == 0 {
+            return closed;
+        }
+        // Where the series would not converge its numbers are not used.
+        let series = Self::of_impulses(stiffness, step, &Impulse::over(damping, stiffness, step));
+        let mut mixed = closed;
+        for i in 0..N {
+            if radians(damping[i], stiffness[i], step) < SERIES {
+                for input in 0..INPUTS {
+                    mixed.displacement[input][i] = series.displacement[input][i];
+                    mixed.velocity[input][i] = series.velocity[input][i];
+                    mixed.area[input][i] = series.area[input][i];
+                    mixed.moment[input][i] = series.moment[input][i];
+                }
+            }
+        }
+        mixed
+    }
+
+    /// The rows of q̇₁ alone.
+    #[inline(always)]
+    fn velocities_over(
+        damping: &[f64; N],
+        stiffness: &[f64; N],
+        step: f64,
+    ) -> [[f64; N]; INPUTS] {
+        let mut rows = [[0.0; N]; INPUTS];
+        if most_radians(damping, stiffness, step) >= SERIES {
+            for i in 0..N {
+                let (damping, stiffness) = (damping[i], stiffness[i]);
+                let row = if radians(damping, stiffness, step) >= SERIES {
+                    let [_, free] = Response::free(damping, stiffness, step);
+                    Response::closed_velocity(damping, stiffness, step, free)
+                } else {
+                    Responses::velocities_over(&[damping], &[stiffness], step).map(|[value]| value)
+                };
+                for (rows, value) in rows.iter_mut().zip(row) {
+                    rows[i] = value;
+                }
+            }
+            return rows;
+        }
+        let Impulse {
+            slope,
+            value,
+            integrals: [first, second],
+        } = Impulse::over(damping, stiffness, step);
+        for i in 0..N {
+            rows[0][i] = -stiffness[i] * value[i];
+            rows[1][i] = slope[i] / step;
+            rows[2][i] = value[i] - first[i];
+            rows[3][i] = first[i];
+            rows[4][i] = 2.0 * second[i] - first[i];
+        }
+        rows
+    }
+
+    #[inline(always)]
+    fn closed(damping: &[f64; N], stiffness: &[f64; N], step: f64) -> Self {
+        let [mut x11, mut x12, mut x21, mut x22] = [[0.0; N]; 4];
+        for i in 0..N {
+            [[x11[i], x12[i]], [x21[i], x22[i]]] = Response::free(damping[i], stiffness[i], step);
+        }
+        let mut all = Self::NONE;
+        for i in 0..N {
+            let (damping, stiffness) = (damping[i], stiffness[i]);
+            let (x11, x12) = (x11[i], x12[i]);
+            let static_rise = 1.0 / stiffness;
+            let (e1, e2) = (static_rise / step, damping / (stiffness * stiffness * step));
+            let [bent, slope, start] = steady_bend(damping, stiffness, step);
+            let displacement = [
+                x11,
+                x12,
+                -x11 * (static_rise + e2) + x12 * e1 + e2,
+                x11 * e2 - x12 * e1 + static_rise - e2,
+                bent + slope + start - start * x11 - slope / step * x12,
+            ];
+            let velocity = Response::closed_velocity(damping, stiffness, step, [x21[i], x22[i]]);
+            // k ∫q = ∫p − Δq̇ − d Δq, and k ∫τq = ∫τp − (q̇₁ − Δq/h) − d(q₁ − ∫q/h): q₀, q̇₀, ∫p/h and ∫τp/h.
+            const STARTS: [[f64; 4]; INPUTS] = [
+                [1.0, 0.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0, 0.0],
+                [0.0, 0.0, 0.5, 1.0 / 6.0],
+                [0.0, 0.0, 0.5, 1.0 / 3.0],
+                [0.0, 0.0, -1.0 / 6.0, -1.0 / 12.0],
+            ];
+            for column in 0..INPUTS {
+                let [q, v, load, leaning] = STARTS[column];
+                let (end, rate) = (displacement[column], velocity[column]);
+                let area = (load * step - (rate - v) - damping * (end - q)) * static_rise;
+                all.displacement[column][i] = end;
+                all.velocity[column][i] = rate;
+                all.area[column][i] = area;
+                all.moment[column][i] = (leaning * step
+                    - (rate - (end - q) / step)
+                    - damping * (end - area / step))
+                    * static_rise;
+            }
+        }
+        all
     }
 
     /// All from the answer h to an impulse: a constant load makes ∫h of it, one that rises ∫∫h and its square twice
     /// ∫∫∫h, and a start at rest away from zero is a constant load −k.
     #[inline(always)]
-    fn of_impulse<const N: usize>(
-        stiffness: f64,
-        step: f64,
-        impulse: &Impulse<N, INTEGRALS>,
-        mode: usize,
-    ) -> Self {
-        let (slope, value) = (impulse.slope[mode], impulse.value[mode]);
-        let [first, second, third, fourth, fifth] =
-            std::array::from_fn(|times| impulse.integrals[times][mode]);
+    fn of_impulses(stiffness: &[f64; N], step: f64, impulse: &Impulse<N, INTEGRALS>) -> Self {
+        let mut all = Self::NONE;
         let square = step * step;
-        Self {
-            displacement: [
-                1.0 - stiffness * step * first,
-                value,
-                step * (first - second),
-                step * second,
-                step * (2.0 * third - second),
-            ],
-            velocity: [
-                -stiffness * value,
-                slope / step,
-                value - first,
-                first,
-                2.0 * second - first,
-            ],
-            area: [
-                step * (1.0 - stiffness * step * second),
-                step * first,
-                square * (second - third),
-                square * third,
-                square * (2.0 * fourth - third),
-            ],
+        let [firsts, seconds, thirds, fourths, fifths] = &impulse.integrals;
+        for i in 0..N {
+            let (stiffness, slope, value) = (stiffness[i], impulse.slope[i], impulse.value[i]);
+            let (first, second, third) = (firsts[i], seconds[i], thirds[i]);
+            let (fourth, fifth) = (fourths[i], fifths[i]);
+            all.displacement[0][i] = 1.0 - stiffness * step * first;
+            all.displacement[1][i] = value;
+            all.displacement[2][i] = step * (first - second);
+            all.displacement[3][i] = step * second;
+            all.displacement[4][i] = step * (2.0 * third - second);
+            all.velocity[0][i] = -stiffness * value;
+            all.velocity[1][i] = slope / step;
+            all.velocity[2][i] = value - first;
+            all.velocity[3][i] = first;
+            all.velocity[4][i] = 2.0 * second - first;
+            all.area[0][i] = step * (1.0 - stiffness * step * second);
+            all.area[1][i] = step * first;
+            all.area[2][i] = square * (second - third);
+            all.area[3][i] = square * third;
+            all.area[4][i] = square * (2.0 * fourth - third);
             // ∫τq = ∫q − ∫∫q/h.
-            moment: [
-                step * (0.5 - stiffness * step * (second - third)),
-                step * (first - second),
-                square * (second - 2.0 * third + fourth),
-                square * (third - fourth),
-                square * (3.0 * fourth - third - 2.0 * fifth),
-            ],
+            all.moment[0][i] = step * (0.5 - stiffness * step * (second - third));
+            all.moment[1][i] = step * (first - second);
+            all.moment[2][i] = square * (second - 2.0 * third + fourth);
+            all.moment[3][i] = square * (third - fourth);
+            all.moment[4][i] = square * (3.0 * fourth - third - 2.0 * fifth);
         }
+        all
     }
 }
 
-/// Modes that all turn little over a step.
+/// [`LANES`] modes, compiled for the registers at hand.
 struct Several {
     damping: [f64; LANES],
     stiffness: [f64; LANES],
@@ -225,16 +294,16 @@ struct Several {
 }
 
 impl NullaryFnOnce for Several {
-    type Output = [Response; LANES];
+    type Output = Responses<LANES>;
 
     #[inline(always)]
-    fn call(self) -> [Response; LANES] {
-        let impulse = Impulse::over(&self.damping, &self.stiffness, self.step);
-        std::array::from_fn(|i| Response::of_impulse(self.stiffness[i], self.step, &impulse, i))
+    fn call(self) -> Responses<LANES> {
+        Responses::over(&self.damping, &self.stiffness, self.step)
     }
 }
 
 /// What follows a load τ² − τ once free motion has died: factors of τ², τ and 1.
+#[inline(always)]
 fn steady_bend(damping: f64, stiffness: f64, step: f64) -> [f64; 3] {
     let bent = 1.0 / stiffness;
     let slope = -(1.0 + 2.0 * damping * bent / step) * bent;
@@ -261,17 +330,102 @@ impl Rules {
     }
 }
 
-/// d ∫ q̇² dt over a step as a quadratic form in (q₀, q̇₀, p₀, p₁, b): upper triangle row by row, what stands off the diagonal
-/// twice. By quadrature, so that the energy balance is a check; where a mode turns or dies too quickly for that, as what
-/// its load puts in and its energy does not keep.
-pub(super) fn damped(
+/// Greatest of [`radians`].
+#[inline(always)]
+fn most_radians<const N: usize>(damping: &[f64; N], stiffness: &[f64; N], step: f64) -> f64 {
+    let mut most: f64 = 0.0;
+    for i in 0..N {
+        most = most.max(radians(damping[i], stiffness[i], step));
+    }
+    most
+}
+
+/// d ∫ q̇² dt over a step as a quadratic form in (q₀, q̇₀, p₀, p₁, b), mode by mode: upper triangle row by row, what stands
+/// off the diagonal twice. By quadrature, so that the energy balance is a check; where a mode turns or dies too quickly for
+/// that, as what its load puts in and its energy does not keep.
+pub(super) struct Damped<'a, const N: usize> {
+    pub(super) damping: [f64; N],
+    pub(super) stiffness: [f64; N],
+    pub(super) step: f64,
+    pub(super) responses: &'a Responses<N>,
+    pub(super) rules: &'a Rules,
+}
+
+impl<const N: usize> NullaryFnOnce for Damped<'_, N> {
+    type Output = [[f64; N]; PRODUCTS];
+
+    #[inline(always)]
+    fn call(self) -> [[f64; N]; PRODUCTS] {
+        let Self {
+            damping,
+            stiffness,
+            step,
+            responses,
+            rules,
+        } = self;
+        let mut form = [[0.0; N]; PRODUCTS];
+        let most = most_radians(&damping, &stiffness, step);
+        if most > MANY_POINTS {
+            for i in 0..N {
+                let (damping, stiffness) = (damping[i], stiffness[i]);
+                let alone = if radians(damping, stiffness, step) > MANY_POINTS {
+                    damped_by_balance(damping, stiffness, step, &responses.mode(i))
+                } else {
+                    by_quadrature(&[damping], &[stiffness], step, &rules.many).map(|[value]| value)
+                };
+                for (form, value) in form.iter_mut().zip(alone) {
+                    form[i] = value;
+                }
+            }
+            return form;
+        }
+        let rule = if most < FEW_POINTS {
+            &rules.few
+        } else {
+            &rules.many
+        };
+        by_quadrature(&damping, &stiffness, step, rule)
+    }
+}
+
+#[inline(always)]
+fn by_quadrature<const N: usize>(
+    damping: &[f64; N],
+    stiffness: &[f64; N],
+    step: f64,
+    rule: &[(f64, f64)],
+) -> [[f64; N]; PRODUCTS] {
+    let mut form = [[0.0; N]; PRODUCTS];
+    for &(at, weight) in rule {
+        let mut row = Responses::velocities_over(damping, stiffness, at * step);
+        // The load until that instant: another line, with a lesser bend.
+        for i in 0..N {
+            let (first, second, bent) = (row[2][i], row[3][i], row[4][i]);
+            row[2][i] = first + second * (1.0 - at);
+            row[3][i] = second * at;
+            row[4][i] = second * (at * at - at) + bent * at * at;
+        }
+        let mut entry = 0;
+        for a in 0..INPUTS {
+            for b in a..INPUTS {
+                let scale = if a == b { weight } else { 2.0 * weight } * step;
+                for i in 0..N {
+                    form[entry][i] += damping[i] * scale * (row[a][i] * row[b][i]);
+                }
+                entry += 1;
+            }
+        }
+    }
+    form
+}
+
+/// What the load of a mode puts in and its energy does not keep.
+fn damped_by_balance(
     damping: f64,
     stiffness: f64,
     step: f64,
     response: &Response,
-    rules: &Rules,
 ) -> [f64; PRODUCTS] {
-    let radians = radians(damping, stiffness, step);
     let mut form = [0.0; PRODUCTS];
     if damping == 0.0 {
         return form;
@@ -286,43 +440,23 @@ pub(super) fn damped(
             }
         }
     };
-    if radians > MANY_POINTS {
-        let unit = |at: usize| std::array::from_fn(|i| if i == at { 1.0 } else { 0.0 });
-        let [q0, v0, p0, p1] = [0, 1, 2, 3].map(unit);
-        // ∫p q̇ dt by parts, the slope of the load being that of the line and 2τ − 1 of the bend.
-        let slope = [0.0, 0.0, -1.0, 1.0, -1.0].map(|share| share / step);
-        let bend = [0.0, 0.0, 0.0, 0.0, 2.0 / step];
-        add(1.0, &p1, &response.displacement);
-        add(-1.0, &p0, &q0);
-        add(-1.0, &slope, &response.area);
-        add(-1.0, &bend, &response.moment);
-        add(-0.5, &response.velocity, &response.velocity);
-        add(0.5, &v0, &v0);
-        add(
-            -0.5 * stiffness,
-            &response.displacement,
-            &response.displacement,
-        );
-        add(0.5 * stiffness, &q0, &q0);
-        return form;
-    }
-    let rule = if radians < FEW_POINTS {
-        &rules.few
-    } else {
-        &rules.many
-    };
-    for (at, weight) in rule {
-        let [q, v, first, second, bent] = Response::velocity_over(damping, stiffness, at * step);
-        // The load until that instant: another line, with a lesser bend.
-        let row = [
-            q,
-            v,
-            first + second * (1.0 - at),
-            second * at,
-            second * (at * at - at) + bent * at * at,
-        ];
-        add(damping * weight * step, &row, &row);
-    }
+    let unit = |at: usize| std::array::from_fn(|i| if i == at { 1.0 } else { 0.0 });
+    let [q0, v0, p0, p1] = [0, 1, 2, 3].map(unit);
+    // ∫p q̇ dt by parts, the slope of the load being that of the line and 2τ − 1 of the bend.
+    let slope = [0.0, 0.0, -1.0, 1.0, -1.0].map(|share| share / step);
+    let bend = [0.0, 0.0, 0.0, 0.0, 2.0 / step];
+    add(1.0, &p1, &response.displacement);
+    add(-1.0, &p0, &q0);
+    add(-1.0, &slope, &response.area);
+    add(-1.0, &bend, &response.moment);
+    add(-0.5, &response.velocity, &response.velocity);
+    add(0.5, &v0, &v0);
+    add(
+        -0.5 * stiffness,
+        &response.displacement,
+        &response.displacement,
+    );
+    add(0.5 * stiffness, &q0, &q0);
     form
 }
 
@@ -413,7 +547,14 @@ mod tests {
                         "ω = {omega}, ζ = {zeta}, h = {h}: {got} against {expected}"
                     );
                 }
-                let form = damped(d, k, h, &response, &Rules::new());
+                let damped = Damped {
+                    damping: [d],
+                    stiffness: [k],
+                    step: h,
+                    responses: &Responses::over(&[d], &[k], h),
+                    rules: &Rules::new(),
+                };
+                let form = damped.call().map(|[value]| value);
                 let mut sum = 0.0;
                 let mut entry = 0;
                 for i in 0..INPUTS {
@@ -442,14 +583,14 @@ mod tests {
             } = *response;
             [displacement, velocity, area, moment].concat()
         };
-        for (slowest, modes) in [(2.0, 8), (2.0, 5), (300.0, 8)] {
-            let omegas: Vec<f64> = (0..modes).map(|i| slowest * f64::from(1 + i)).collect();
-            let damping: Vec<f64> = omegas.iter().map(|omega| 0.1 * omega).collect();
-            let stiffness: Vec<f64> = omegas.iter().map(|omega| omega * omega).collect();
-            let several = Response::of_several(Arch::new(), &damping, &stiffness, 7e-4);
-            for (i, got) in several[..omegas.len()].iter().enumerate() {
+        for slowest in [2.0, 300.0] {
+            let omegas: [f64; LANES] = std::array::from_fn(|i| slowest * (1 + i) as f64);
+            let damping = omegas.map(|omega| 0.1 * omega);
+            let stiffness = omegas.map(|omega| omega * omega);
+            let several = Responses::of_several(Arch::new(), damping, stiffness, 7e-4);
+            for i in 0..LANES {
                 let one = Response::over(damping[i], stiffness[i], 7e-4);
-                for (a, b) in bits(got).iter().zip(bits(&one)) {
+                for (a, b) in bits(&several.mode(i)).iter().zip(bits(&one)) {
                     assert!(
                         (a - b).abs() <= 4e-16 * b.abs(),
                         "ω = {}: {a}, {b}",

@@ -1,0 +1,174 @@
+//! The recursion of K + s²M for several rates s at once: a lane each.
+
+use pulp::NullaryFnOnce;
+
+use super::{RiccatiFactor, RiccatiSweep};
+use crate::lanes::in_wide_registers;
+use crate::stepping::{NotPositive, StepMatrix};
+
+/// Rates taken at once.
+pub(crate) const RATES: usize = 8;
+
+/// One value for every rate.
+pub(crate) type PerRate = [f64; RATES];
+
+/// Couplings and pivots of K + s²M for [`RATES`] rates.
+#[derive(Clone, Debug)]
+pub(crate) struct RateFactors {
+    couplings: Vec<PerRate>,
+    inverse_pivots: Vec<PerRate>,
+}
+
+impl RateFactors {
+    /// The factor of a single one of the rates, in all lanes: for that many loads at once.
+    pub(crate) fn only(&self, rate: usize) -> Self {
+        let of = |list: &[PerRate]| list.iter().map(|values| [values[rate]; RATES]).collect();
+        Self {
+            couplings: of(&self.couplings),
+            inverse_pivots: of(&self.inverse_pivots),
+        }
+    }
+}
+
+impl RiccatiSweep {
+    /// Factorises K + s²M at all rates s ≥ 0 \[1/s\]; springs that yield have their initial stiffness.
+    ///
+    /// # Errors
+    /// [`NotPositive`] when one of them is not positive definite.
+    pub(crate) fn factorize_at(&self, rates: &PerRate) -> Result<RateFactors, NotPositive> {
+        let mut static_matrix = RiccatiFactor::default();
+        let tangents = &self.initial_tangents;
+        self.compose(&StepMatrix::STATIC, tangents, &mut static_matrix);
+        let mut factors = RateFactors {
+            couplings: vec![[0.0; RATES]; self.rows.len()],
+            inverse_pivots: vec![[0.0; RATES]; self.mass.len()],
+        };
+        let eliminate = Eliminate {
+            sweep: self,
+            squares: rates.map(|rate| rate * rate),
+            diagonal: &static_matrix.diagonal,
+            before: &static_matrix.before,
+            factors: &mut factors,
+        };
+        in_wide_registers(RATES * self.mass.len(), eliminate)?;
+        Ok(factors)
+    }
+
+    /// Replaces loads by the displacements they cause, at every rate.
+    pub(crate) fn solve_at(&self, factors: &RateFactors, loads: &mut [PerRate]) {
+        let passes = Passes {
+            sweep: self,
+            factors,
+            loads,
+        };
+        in_wide_registers(RATES * self.mass.len(), passes);
+    }
+}
+
+/// L D Lᵀ, row by row.
+struct Eliminate<'a> {
+    sweep: &'a RiccatiSweep,
+    squares: PerRate,
+    /// K.
+    diagonal: &'a [f64],
+    before: &'a [f64],
+    factors: &'a mut RateFactors,
+}
+
+impl NullaryFnOnce for Eliminate<'_> {
+    type Output = Result<(), NotPositive>;
+
+    #[inline(always)]
+    fn call(self) -> Result<(), NotPositive> {
+        let Self {
+            sweep,
+            squares,
+            diagonal,
+            before,
+            factors,
+        } = self;
+        let RateFactors {
+            couplings,
+            inverse_pivots,
+        } = factors;
+        let mut work = vec![[0.0; RATES]; diagonal.len()];
+        for (row, stiffness) in diagonal.iter().enumerate() {
+            let entries = sweep.before_starts[row]..sweep.before_starts[row + 1];
+            for ((column, _), value) in sweep.before[entries.clone()].iter().zip(&before[entries]) {
+                work[*column as usize] = [*value; RATES];
+            }
+            let own = squares.map(|square| stiffness + square * sweep.mass[row]);
+            let mut pivots = own;
+            let reached = sweep.reached_starts[row]..sweep.reached_starts[row + 1];
+            let columns = sweep.reached[reached.clone()].iter();
+            for (&column, &position) in columns.zip(&sweep.positions[reached]) {
+                let (column, position) = (column as usize, position as usize);
+                let values = std::mem::replace(&mut work[column], [0.0; RATES]);
+                let known = sweep.starts[column]..position;
+                for (&below, coupling) in sweep.rows[known.clone()].iter().zip(&couplings[known]) {
+                    subtract(&mut work[below as usize], coupling, &values);
+                }
+                let inverse = &inverse_pivots[column];
+                let mut coupling = values;
+                for rate in 0..RATES {
+                    coupling[rate] *= inverse[rate];
+                }
+                subtract(&mut pivots, &coupling, &values);
+                couplings[position] = coupling;
+            }
+            let unsound = |rate: usize| super::sound(row, own[rate], pivots[rate]).err();
+            if let Some(failure) = (0..RATES).find_map(unsound) {
+                return Err(failure);
+            }
+            inverse_pivots[row] = pivots.map(|pivot| 1.0 / pivot);
+        }
+        Ok(())
+    }
+}
+
+/// Both passes over loads.
+struct Passes<'a> {
+    sweep: &'a RiccatiSweep,
+    factors: &'a RateFactors,
+    loads: &'a mut [PerRate],
+}
+
+impl NullaryFnOnce for Passes<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self {
+            sweep,
+            factors,
+            loads,
+        } = self;
+        let columns = sweep.starts.windows(2).map(|bounds| bounds[0]..bounds[1]);
+        for (column, entries) in columns.clone().enumerate() {
+            let passed = loads[column];
+            let ahead = sweep.rows[entries.clone()].iter();
+            for (row, coupling) in ahead.zip(&factors.couplings[entries]) {
+                subtract(&mut loads[*row as usize], coupling, &passed);
+            }
+        }
+        let pivots = factors.inverse_pivots.iter();
+        for ((column, entries), pivots) in columns.enumerate().zip(pivots).rev() {
+            let mut sums = loads[column];
+            for (sum, pivot) in sums.iter_mut().zip(pivots) {
+                *sum *= pivot;
+            }
+            let ahead = sweep.rows[entries.clone()].iter();
+            for (row, coupling) in ahead.zip(&factors.couplings[entries]) {
+                subtract(&mut sums, coupling, &loads[*row as usize]);
+            }
+            loads[column] = sums;
+        }
+    }
+}
+
+#[inline(always)]
+fn subtract(from: &mut PerRate, a: &PerRate, b: &PerRate) {
+    for rate in 0..RATES {
+        from[rate] -= a[rate] * b[rate];
+    }
+}
