@@ -1,6 +1,6 @@
 //! Sums in eight fixed lanes: the same bits everywhere, and fast where the processor has lanes.
 
-use pulp::{Arch, NullaryFnOnce};
+use pulp::{Arch, NullaryFnOnce, Simd};
 
 const LANES: usize = 8;
 /// Length of lists from which on wide registers are worth being asked for.
@@ -74,25 +74,37 @@ const TOGETHER: usize = 4;
 
 /// Products of many vectors with one.
 #[inline(always)]
-pub(crate) fn dots(vectors: &[Vec<f64>], with: &[f64], products: &mut [f64]) {
+pub(crate) fn dots<S: Simd>(simd: S, vectors: &[Vec<f64>], with: &[f64], products: &mut [f64]) {
     let (fours, rest) = vectors.as_chunks::<TOGETHER>();
     let (of_fours, of_rest) = products.as_chunks_mut::<TOGETHER>();
-    let (whole, short) = with.as_chunks::<LANES>();
-    for (four, products) in fours.iter().zip(of_fours) {
-        let [a, b, c, d] = four.each_ref().map(|vector| vector.as_chunks::<LANES>());
-        let mut sums = [[0.0; LANES]; TOGETHER];
-        let pairs = a.0.iter().zip(b.0).zip(c.0.iter().zip(d.0));
-        for (with, ((a, b), (c, d))) in whole.iter().zip(pairs) {
-            for lane in 0..LANES {
-                sums[0][lane] += a[lane] * with[lane];
-                sums[1][lane] += b[lane] * with[lane];
-                sums[2][lane] += c[lane] * with[lane];
-                sums[3][lane] += d[lane] * with[lane];
+    let whole = with.len() - with.len() % LANES;
+    let cut = |list| S::as_simd_f64s(list).0;
+    let (registers, left) = (cut(&with[..whole]), &with[whole..]);
+    for ([a, b, c, d], products) in fours.iter().zip(of_fours) {
+        let [own_a, own_b] = [cut(&a[..whole]), cut(&b[..whole])];
+        let [own_c, own_d] = [cut(&c[..whole]), cut(&d[..whole])];
+        // As many registers as lanes need, however wide they are.
+        let mut sums = [[simd.splat_f64s(0.0); LANES]; TOGETHER];
+        let used = LANES / S::F64_LANES;
+        for first in (0..registers.len()).step_by(used) {
+            for r in 0..used {
+                let (at, with) = (first + r, registers[first + r]);
+                let add =
+                    |sum: &mut S::f64s, own| *sum = simd.add_f64s(*sum, simd.mul_f64s(own, with));
+                add(&mut sums[0][r], own_a[at]);
+                add(&mut sums[1][r], own_b[at]);
+                add(&mut sums[2][r], own_c[at]);
+                add(&mut sums[3][r], own_d[at]);
             }
         }
-        for ((product, sum), rest) in products.iter_mut().zip(&sums).zip([a.1, b.1, c.1, d.1]) {
-            let rest: f64 = rest.iter().zip(short).map(|(a, b)| a * b).sum();
-            *product = sum.iter().sum::<f64>() + rest;
+        let rests = [&a[whole..], &b[whole..], &c[whole..], &d[whole..]];
+        for ((product, sums), rest) in products.iter_mut().zip(&sums).zip(rests) {
+            let mut lanes = [0.0; LANES];
+            S::as_mut_simd_f64s(&mut lanes)
+                .0
+                .copy_from_slice(&sums[..used]);
+            let rest: f64 = rest.iter().zip(left).map(|(a, b)| a * b).sum();
+            *product = lanes.iter().sum::<f64>() + rest;
         }
     }
     for (vector, product) in rest.iter().zip(of_rest) {
@@ -120,7 +132,20 @@ pub(crate) fn subtract_all(vectors: &[Vec<f64>], times: &[f64], from: &mut [f64]
 
 #[cfg(test)]
 mod tests {
+    use pulp::{Scalar, WithSimd};
+
     use super::*;
+
+    struct Dots<'a>(&'a [Vec<f64>], &'a [f64], &'a mut [f64]);
+
+    impl WithSimd for Dots<'_> {
+        type Output = ();
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) {
+            dots(simd, self.0, self.1, self.2);
+        }
+    }
 
     #[test]
     fn lanes_add_up() {
@@ -133,12 +158,18 @@ mod tests {
 
     #[test]
     fn many_vectors_are_as_good_as_one() {
-        let list = |k: usize| (0..19).map(|i| ((3 + i * k) % 7) as f64).collect::<Vec<f64>>();
+        let list = |k: usize| {
+            (0..19)
+                .map(|i| ((3 + i * k) % 7) as f64)
+                .collect::<Vec<f64>>()
+        };
         for count in [0, 1, 4, 6, 9] {
             let vectors: Vec<Vec<f64>> = (0..count).map(list).collect();
             let with = list(11);
-            let mut products = vec![0.0; count];
-            dots(&vectors, &with, &mut products);
+            let (mut products, mut narrow) = (vec![0.0; count], vec![0.0; count]);
+            Arch::new().dispatch(Dots(&vectors, &with, &mut products));
+            dots(Scalar::new(), &vectors, &with, &mut narrow);
+            assert_eq!(products, narrow);
             let mut left = with.clone();
             subtract_all(&vectors, &products, &mut left);
             let mut expected = with.clone();

@@ -136,7 +136,11 @@ impl Ends {
         let mut met: Vec<(usize, u32)> = Vec::new();
         for (bounds, last) in starts.windows(2).zip(chain) {
             let ahead = rows[bounds[0]..bounds[1]].iter();
-            met.extend(ahead.filter(|row| **row as usize >= columns).map(|row| (*last, *row)));
+            met.extend(
+                ahead
+                    .filter(|row| **row as usize >= columns)
+                    .map(|row| (*last, *row)),
+            );
         }
         met.sort_unstable();
         met.dedup();
@@ -168,7 +172,9 @@ impl Ends {
     /// Where a chain adds up what it passes on to a row.
     fn place(&self, last: usize, row: u32) -> usize {
         let own = self.starts[last]..self.starts[last + 1];
-        let known = self.rows[own.clone()].iter().position(|other| *other == row);
+        let known = self.rows[own.clone()]
+            .iter()
+            .position(|other| *other == row);
         self.places[own.start + known.unwrap_or(0)]
     }
 

@@ -2,9 +2,9 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
-use pulp::NullaryFnOnce;
+use pulp::{Arch, Simd, WithSimd};
 
-use crate::lanes::{self, in_wide_registers};
+use crate::lanes;
 use crate::stepping::{NotPositive, StepEquations};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::RiccatiSweep;
@@ -175,7 +175,10 @@ impl<'a> Growing<'a> {
     fn extend(&mut self) -> bool {
         let mass = &self.building.equations.mass;
         let inertia = |vector: &Vec<f64>| vector.iter().zip(mass).map(|(v, m)| v * m).collect();
-        let loads: Vec<Vec<f64>> = self.vectors[self.last_block..].iter().map(inertia).collect();
+        let loads: Vec<Vec<f64>> = self.vectors[self.last_block..]
+            .iter()
+            .map(inertia)
+            .collect();
         self.last_block = self.vectors.len();
         self.solves += loads.len() as u64;
         for loads in loads.chunks(RATES) {
@@ -207,7 +210,7 @@ impl<'a> Growing<'a> {
             known: &self.vectors,
             mass: &equations.mass,
         };
-        in_wide_registers(equations.len(), strip);
+        Arch::new().dispatch(strip);
         let rest = length(&vector);
         if rest <= NOTHING_NEW * before || rest.is_nan() {
             return;
@@ -222,7 +225,7 @@ impl<'a> Growing<'a> {
             vectors: &self.vectors,
             row: &mut row,
         };
-        in_wide_registers(stiff.len(), products);
+        Arch::new().dispatch(products);
         self.products.push(row);
     }
 
@@ -247,7 +250,8 @@ impl<'a> Growing<'a> {
 
     /// Whether answers within the vectors are those of the building.
     fn is_close(&self) -> Result<bool, NotPositive> {
-        let shown = |place: &usize| -> Vec<f64> { self.vectors.iter().map(|v| v[*place]).collect() };
+        let shown =
+            |place: &usize| -> Vec<f64> { self.vectors.iter().map(|v| v[*place]).collect() };
         let faces = self.demand.faces.iter().map(shown);
         let loads: Vec<Vec<f64>> = std::iter::once(self.driven()).chain(faces).collect();
         let floors: Vec<Vec<f64>> = self.demand.floors.iter().map(shown).collect();
@@ -283,7 +287,10 @@ impl<'a> Growing<'a> {
         let eigen = self.projected(0.0).self_adjoint_eigen(Side::Lower);
         let eigen = eigen.map_err(|_| NotPositive { dof: 0 })?;
         let stiffness: Vec<f64> = (0..n).map(|k| eigen.S()[k]).collect();
-        if stiffness.iter().any(|value| *value <= 0.0 || value.is_nan()) {
+        if stiffness
+            .iter()
+            .any(|value| *value <= 0.0 || value.is_nan())
+        {
             return Err(NotPositive { dof: 0 });
         }
         let parts = (0..n).map(|k| (0..n).map(|i| eigen.U()[(i, k)]).collect());
@@ -320,11 +327,11 @@ struct Strip<'a> {
     mass: &'a [f64],
 }
 
-impl NullaryFnOnce for Strip<'_> {
+impl WithSimd for Strip<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Self {
             vector,
             known,
@@ -336,7 +343,7 @@ impl NullaryFnOnce for Strip<'_> {
             for ((heavy, value), mass) in heavy.iter_mut().zip(&*vector).zip(mass) {
                 *heavy = value * mass;
             }
-            lanes::dots(known, &heavy, &mut parts);
+            lanes::dots(simd, known, &heavy, &mut parts);
             lanes::subtract_all(known, &parts, vector);
         }
     }
@@ -349,11 +356,11 @@ struct Products<'a> {
     row: &'a mut [f64],
 }
 
-impl NullaryFnOnce for Products<'_> {
+impl WithSimd for Products<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
-        lanes::dots(self.vectors, self.with, self.row);
+    fn with_simd<S: Simd>(self, simd: S) {
+        lanes::dots(simd, self.vectors, self.with, self.row);
     }
 }

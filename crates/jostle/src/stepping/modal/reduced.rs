@@ -301,7 +301,9 @@ impl Table {
         let lists = lists.chain(&mut self.area).chain(&mut self.moment);
         lists.for_each(|list| list.resize(reduced.modes(), 0.0));
         let asked = rules.map_or(0, |_| reduced.modes());
-        self.damped.iter_mut().for_each(|list| list.resize(asked, 0.0));
+        self.damped
+            .iter_mut()
+            .for_each(|list| list.resize(asked, 0.0));
         let modes = reduced
             .damping
             .chunks(LANES)

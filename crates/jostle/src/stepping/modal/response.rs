@@ -168,11 +168,7 @@ impl<const N: usize> Responses<N> {
 
     /// The rows of q̇₁ alone.
     #[inline(always)]
-    fn velocities_over(
-        damping: &[f64; N],
-        stiffness: &[f64; N],
-        step: f64,
-    ) -> [[f64; N]; INPUTS] {
+    fn velocities_over(damping: &[f64; N], stiffness: &[f64; N], step: f64) -> [[f64; N]; INPUTS] {
         let mut rows = [[0.0; N]; INPUTS];
         if most_radians(damping, stiffness, step) >= SERIES {
             for i in 0..N {
@@ -240,10 +236,9 @@ impl<const N: usize> Responses<N> {
                 all.displacement[column][i] = end;
                 all.velocity[column][i] = rate;
                 all.area[column][i] = area;
-                all.moment[column][i] = (leaning * step
-                    - (rate - (end - q) / step)
-                    - damping * (end - area / step))
-                    * static_rise;
+                all.moment[column][i] =
+                    (leaning * step - (rate - (end - q) / step) - damping * (end - area / step))
+                        * static_rise;
             }
         }
         all
