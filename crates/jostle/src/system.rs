@@ -1,5 +1,7 @@
 //! The assembled buildings and contacts: immutable, shared by every run of the same model.
 
+use std::sync::Arc;
+
 use crate::contact::ForceLaw;
 use crate::equations::Equations;
 use crate::faces::{Face, Faces};
@@ -9,6 +11,7 @@ use crate::model::{Damping, LEVEL_TOLERANCE, Model, ModelFault};
 use crate::row::Row;
 use crate::skeleton::Idealisation;
 use crate::state::State;
+use crate::transfer::riccati::RiccatiSweep;
 
 /// Buildings in a row and what stands between them, ready to be stepped.
 #[derive(Clone, Debug)]
@@ -48,6 +51,8 @@ pub struct BuildingSystem {
     /// Lateral modes, longest period first; empty when the building can move without deforming.
     /// [`modal::modes`] finds those of all kinds.
     pub modes: Vec<Mode>,
+    /// The recursion through it as it was assembled, before weight softened it.
+    pub(crate) sweep: Arc<RiccatiSweep>,
 }
 
 /// A floor of a building.
@@ -283,6 +288,7 @@ impl BuildingSystem {
     #[must_use]
     pub fn new(name: &str, idealisation: Idealisation) -> Self {
         let equations = Equations::assemble(&idealisation.skeleton);
+        let sweep = RiccatiSweep::through(&equations);
         let mut below = 0.0;
         let mut floors = Vec::new();
         for &node in &idealisation.floors {
@@ -311,8 +317,10 @@ impl BuildingSystem {
             spring_offset: 0,
             modal_damping: None,
             modes: Vec::new(),
+            sweep: Arc::new(sweep),
         };
-        building.modes = modal::lateral_modes(&building).unwrap_or_default();
+        let modes = modal::lateral_modes_along(&building, &building.sweep);
+        building.modes = modes.unwrap_or_default();
         building
     }
 

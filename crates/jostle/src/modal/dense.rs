@@ -4,8 +4,9 @@ use faer::{Mat, Side};
 
 use super::Mode;
 use super::lateral::Flexibility;
-use crate::stepping::NotPositive;
+use crate::stepping::{NotPositive, StepEquations};
 use crate::system::BuildingSystem;
+use crate::transfer::riccati::RiccatiSweep;
 
 /// All modes of a building, longest period first, from a dense eigenvalue solver.
 ///
@@ -16,7 +17,8 @@ use crate::system::BuildingSystem;
 /// # Errors
 /// [`NotPositive`] when the building can move without deforming.
 pub fn modes_dense(building: &BuildingSystem) -> Result<Vec<Mode>, NotPositive> {
-    let mut flexibility = Flexibility::of(building)?;
+    let sweep = RiccatiSweep::of(building);
+    let mut flexibility = Flexibility::along(building, &sweep)?;
     let n = flexibility.len();
     if n == 0 {
         return Ok(Vec::new());

@@ -21,7 +21,15 @@ const LOOK_EVERY: usize = 4;
 /// # Errors
 /// [`NotPositive`] when the building can move without deforming.
 pub fn lateral_modes(building: &BuildingSystem) -> Result<Vec<Mode>, NotPositive> {
-    let mut flexibility = Flexibility::of(building)?;
+    lateral_modes_along(building, &RiccatiSweep::of(building))
+}
+
+/// The same by a recursion that is already known.
+pub(crate) fn lateral_modes_along(
+    building: &BuildingSystem,
+    sweep: &RiccatiSweep,
+) -> Result<Vec<Mode>, NotPositive> {
+    let mut flexibility = Flexibility::along(building, sweep)?;
     let equations = &building.equations;
     let start: Vec<f64> = flexibility
         .massive
@@ -59,18 +67,20 @@ pub fn lateral_modes(building: &BuildingSystem) -> Result<Vec<Mode>, NotPositive
 }
 
 /// M^½ (K⁻¹)_mm M^½ of one building, m being the degrees of freedom with mass (theory, Eq. M1).
-pub(super) struct Flexibility {
-    sweep: RiccatiSweep,
+pub(super) struct Flexibility<'a> {
+    sweep: &'a RiccatiSweep,
     factor: RiccatiFactor,
     massive: Vec<usize>,
     root: Vec<f64>,
     full: Vec<f64>,
 }
 
-impl Flexibility {
-    pub(super) fn of(building: &BuildingSystem) -> Result<Self, NotPositive> {
+impl<'a> Flexibility<'a> {
+    pub(super) fn along(
+        building: &BuildingSystem,
+        sweep: &'a RiccatiSweep,
+    ) -> Result<Self, NotPositive> {
         let mass = &building.equations.mass;
-        let sweep = RiccatiSweep::of(building);
         let mut factor = RiccatiFactor::default();
         sweep.factorize(
             &StepMatrix::STATIC,
@@ -152,7 +162,7 @@ impl Krylov {
     }
 
     /// Uses the last vector and finds the next one; true when there is none.
-    fn extend(&mut self, flexibility: &mut Flexibility) -> bool {
+    fn extend(&mut self, flexibility: &mut Flexibility<'_>) -> bool {
         let n = flexibility.len();
         let used = self.basis.len() / n.max(1);
         if n == 0 || self.mass == 0.0 {

@@ -113,6 +113,91 @@ impl RiccatiSweep {
         self.rows.len()
     }
 
+    /// The recursion of the equations of a building.
+    pub(crate) fn through(equations: &Equations) -> Self {
+        let n = equations.len();
+        let (before_starts, before) = rows_before_diagonal(equations);
+        // The displacement that each one is eliminated into: the parent in the elimination tree.
+        let mut parent = vec![usize::MAX; n];
+        let mut met_by = vec![usize::MAX; n];
+        let (mut reached, mut reached_starts, mut counts) = (Vec::new(), vec![0], vec![0_usize; n]);
+        let mut branch = Vec::new();
+        for row in 0..n {
+            met_by[row] = row;
+            let first = reached.len();
+            for &(column, _) in &before[before_starts[row]..before_starts[row + 1]] {
+                let mut at = column as usize;
+                branch.clear();
+                while met_by[at] != row {
+                    if parent[at] == usize::MAX {
+                        parent[at] = row;
+                    }
+                    branch.push(at as u32);
+                    counts[at] += 1;
+                    met_by[at] = row;
+                    at = parent[at];
+                }
+                reached.extend(branch.iter());
+            }
+            // Along the path every column comes after those it depends on.
+            reached[first..].sort_unstable();
+            reached_starts.push(reached.len());
+        }
+        let mut starts = vec![0; n + 1];
+        for column in 0..n {
+            starts[column + 1] = starts[column] + counts[column];
+        }
+        let mut next = starts.clone();
+        let mut rows = vec![0; starts[n]];
+        let mut positions = Vec::with_capacity(reached.len());
+        for row in 0..n {
+            for &column in &reached[reached_starts[row]..reached_starts[row + 1]] {
+                rows[next[column as usize]] = row as u32;
+                positions.push(next[column as usize] as u32);
+                next[column as usize] += 1;
+            }
+        }
+        let parent: Vec<u32> = (0..n)
+            .map(|dof| if parent[dof] == usize::MAX { dof } else { parent[dof] } as u32)
+            .collect();
+        let abreast = Abreast::of(&starts, &rows, &parent);
+        let springs = equations.springs.iter().map(|spring| SpringPlace {
+            diagonal: spring.dofs,
+            between: match spring.dofs {
+                [Some(a), Some(b)] => {
+                    let entries = before_starts[a.max(b)]..before_starts[a.max(b) + 1];
+                    let place = before[entries.clone()]
+                        .iter()
+                        .position(|(column, _)| *column as usize == a.min(b));
+                    place.map(|place| entries.start + place)
+                }
+                _ => None,
+            },
+        });
+        Self {
+            runs: Run::all(abreast.columns(), &starts),
+            abreast,
+            springs: springs.collect(),
+            initial_tangents: equations.initial_tangents(),
+            positions,
+            parent,
+            starts,
+            rows,
+            reached_starts,
+            reached,
+            diagonal: (0..n)
+                .map(|dof| Parts {
+                    elastic: equations.stiffness.diagonal[dof],
+                    undamped: equations.undamped.diagonal[dof],
+                    dashpot: equations.dashpots.diagonal[dof],
+                })
+                .collect(),
+            before_starts,
+            before,
+            mass: equations.mass.clone(),
+        }
+    }
+
     /// Factorises K − `shift`·M whatever the signs of its pivots, and returns how many are negative: as many as
     /// there are eigenvalues ω² below the shift (Sylvester; theory, Eq. M3).
     pub(crate) fn factorize_shifted(&self, shift: f64, factor: &mut RiccatiFactor) -> Inertia {
@@ -235,88 +320,7 @@ impl StepEquations for RiccatiSweep {
     type Factor = RiccatiFactor;
 
     fn of(building: &BuildingSystem) -> Self {
-        let equations = &building.equations;
-        let n = equations.len();
-        let (before_starts, before) = rows_before_diagonal(equations);
-        // The displacement that each one is eliminated into: the parent in the elimination tree.
-        let mut parent = vec![usize::MAX; n];
-        let mut met_by = vec![usize::MAX; n];
-        let (mut reached, mut reached_starts, mut counts) = (Vec::new(), vec![0], vec![0_usize; n]);
-        let mut branch = Vec::new();
-        for row in 0..n {
-            met_by[row] = row;
-            let first = reached.len();
-            for &(column, _) in &before[before_starts[row]..before_starts[row + 1]] {
-                let mut at = column as usize;
-                branch.clear();
-                while met_by[at] != row {
-                    if parent[at] == usize::MAX {
-                        parent[at] = row;
-                    }
-                    branch.push(at as u32);
-                    counts[at] += 1;
-                    met_by[at] = row;
-                    at = parent[at];
-                }
-                reached.extend(branch.iter());
-            }
-            // Along the path every column comes after those it depends on.
-            reached[first..].sort_unstable();
-            reached_starts.push(reached.len());
-        }
-        let mut starts = vec![0; n + 1];
-        for column in 0..n {
-            starts[column + 1] = starts[column] + counts[column];
-        }
-        let mut next = starts.clone();
-        let mut rows = vec![0; starts[n]];
-        let mut positions = Vec::with_capacity(reached.len());
-        for row in 0..n {
-            for &column in &reached[reached_starts[row]..reached_starts[row + 1]] {
-                rows[next[column as usize]] = row as u32;
-                positions.push(next[column as usize] as u32);
-                next[column as usize] += 1;
-            }
-        }
-        let parent: Vec<u32> = (0..n)
-            .map(|dof| if parent[dof] == usize::MAX { dof } else { parent[dof] } as u32)
-            .collect();
-        let abreast = Abreast::of(&starts, &rows, &parent);
-        let springs = equations.springs.iter().map(|spring| SpringPlace {
-            diagonal: spring.dofs,
-            between: match spring.dofs {
-                [Some(a), Some(b)] => {
-                    let entries = before_starts[a.max(b)]..before_starts[a.max(b) + 1];
-                    let place = before[entries.clone()]
-                        .iter()
-                        .position(|(column, _)| *column as usize == a.min(b));
-                    place.map(|place| entries.start + place)
-                }
-                _ => None,
-            },
-        });
-        Self {
-            runs: Run::all(abreast.columns(), &starts),
-            abreast,
-            springs: springs.collect(),
-            initial_tangents: equations.initial_tangents(),
-            positions,
-            parent,
-            starts,
-            rows,
-            reached_starts,
-            reached,
-            diagonal: (0..n)
-                .map(|dof| Parts {
-                    elastic: equations.stiffness.diagonal[dof],
-                    undamped: equations.undamped.diagonal[dof],
-                    dashpot: equations.dashpots.diagonal[dof],
-                })
-                .collect(),
-            before_starts,
-            before,
-            mass: equations.mass.clone(),
-        }
+        Self::through(&building.equations)
     }
 
     fn factorize(

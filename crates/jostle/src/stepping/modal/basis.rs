@@ -5,7 +5,7 @@ use faer::{Mat, Side};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::lanes;
-use crate::stepping::{NotPositive, StepEquations};
+use crate::stepping::NotPositive;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::RiccatiSweep;
 use crate::transfer::riccati::rates::{PerRate, RATES, RateFactors};
@@ -98,7 +98,7 @@ const QUIET: f64 = 1e-2;
 struct Growing<'a> {
     building: &'a BuildingSystem,
     demand: &'a Demand<'a>,
-    sweep: RiccatiSweep,
+    sweep: &'a RiccatiSweep,
     /// Of the last of the rates that are met.
     last_rate: RateFactors,
     /// M-orthonormal vectors over all degrees of freedom.
@@ -114,7 +114,7 @@ struct Growing<'a> {
 
 impl<'a> Growing<'a> {
     fn of(building: &'a BuildingSystem, demand: &'a Demand<'a>) -> Result<Self, NotPositive> {
-        let sweep = RiccatiSweep::of(building);
+        let sweep = &*building.sweep;
         // Rates that are met come first; what is left of the lanes repeats the last one.
         let asked = || demand.met.iter().chain(demand.compared).copied();
         let mut rates = [0.0; RATES];
