@@ -115,7 +115,7 @@ struct Growing<'a> {
 impl<'a> Growing<'a> {
     fn of(building: &'a BuildingSystem, demand: &'a Demand<'a>) -> Result<Self, NotPositive> {
         let sweep = &*building.sweep;
-        // Rates that are met come first; what is left of the lanes repeats the last one.
+        // Rates that are met come first; what is left of the lanes repeats them.
         let asked = || demand.met.iter().chain(demand.compared).copied();
         let mut rates = [0.0; RATES];
         for (lane, rate) in rates.iter_mut().zip(asked().chain(asked().cycle())) {

@@ -6,6 +6,7 @@
 //! parabolas. What it cannot do is refused by [`refusals`].
 
 mod basis;
+mod damped;
 mod flight;
 mod kernels;
 mod meeting;

@@ -5,8 +5,9 @@ use std::ops::Range;
 use pulp::Arch;
 
 use super::basis::{Basis, Demand};
+use super::damped::{Damped, Rules};
 use super::kernels::{Combine, LANES, Quadratic, ROWS, Show};
-use super::response::{Damped, INPUTS, PRODUCTS, Responses, Rules};
+use super::response::{INPUTS, PRODUCTS, Responses};
 use crate::contact::ForceLaw;
 use crate::equations::Equations;
 use crate::history::Work;

@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
+use super::damped::Rules;
 use super::flight::Flight;
 use super::meeting::Foreseen;
 use super::peaks::{Peaks, Taken, Watched};
 use super::reduced::{Reduced, StepEnergy, Table};
-use super::response::Rules;
 use crate::history::{Energy, Impact, Work};
 use crate::lanes;
 use crate::motion::GroundMotion;
