@@ -189,12 +189,13 @@ fn hung_on_nodes(
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::model::{Axial, Building, Damping, Frame, Joint, Section, Structure};
     use crate::skeleton::Idealisation;
 
-    fn frame(columns_flexible: bool) -> BuildingSystem {
+    /// Three storeys over two spans.
+    pub(crate) fn frame(columns_flexible: bool) -> BuildingSystem {
         let section = |line_mass| Section {
             flexural_rigidity: 1e8,
             axial_rigidity: Some(8e9),

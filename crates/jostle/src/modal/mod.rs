@@ -8,6 +8,7 @@ mod dense;
 mod lateral;
 mod slicing;
 mod spectrum;
+pub(crate) mod symmetric;
 mod tridiagonal;
 
 use std::f64::consts::PI;

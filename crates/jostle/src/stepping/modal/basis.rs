@@ -5,6 +5,7 @@ use faer::{Mat, Side};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::lanes;
+use crate::modal::symmetric;
 use crate::stepping::NotPositive;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::RiccatiSweep;
@@ -283,18 +284,13 @@ impl<'a> Growing<'a> {
 
     /// Ritz modes: eigenvalues and eigenvectors within the vectors.
     fn finished(self) -> Result<Basis, NotPositive> {
-        let n = self.vectors.len();
-        let eigen = self.projected(0.0).self_adjoint_eigen(Side::Lower);
-        let eigen = eigen.map_err(|_| NotPositive { dof: 0 })?;
-        let stiffness: Vec<f64> = (0..n).map(|k| eigen.S()[k]).collect();
+        let (stiffness, parts) = symmetric::eigen(&self.products);
         if stiffness
             .iter()
             .any(|value| *value <= 0.0 || value.is_nan())
         {
             return Err(NotPositive { dof: 0 });
         }
-        let parts = (0..n).map(|k| (0..n).map(|i| eigen.U()[(i, k)]).collect());
-        let parts: Vec<Vec<f64>> = parts.collect();
         let driven = self.driven();
         let participation = parts.iter().map(|parts| lanes::dot(&driven, parts));
         Ok(Basis {

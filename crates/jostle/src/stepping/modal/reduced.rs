@@ -100,7 +100,6 @@ impl Reduced {
                 }
             }
             let Rates { pushed, swaying } = rates[index];
-
             let [low, high] = COMPARED.map(|factor| factor * pushed);
             let mut met = vec![0.0, pushed];
             let mut struck = system.contacts.iter().filter(|contact| {

@@ -172,3 +172,43 @@ fn subtract(from: &mut PerRate, a: &PerRate, b: &PerRate) {
         from[rate] -= a[rate] * b[rate];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gravity::tests::frame;
+    use crate::stepping::StepEquations;
+
+    /// Every lane is the recursion of its own rate, also where a single rate is spread over all lanes.
+    #[test]
+    fn lanes_are_rates_of_their_own() {
+        let building = frame(true);
+        let sweep = RiccatiSweep::of(&building);
+        let rates = [0.0, 1.0, 7.0, 40.0, 90.0, 400.0, 3e3, 1e5];
+        let factors = sweep.factorize_at(&rates).expect("a standing frame");
+        let load = |lane: usize, dof: usize| (0.7 * dof as f64 + lane as f64).sin();
+        let loads: Vec<PerRate> = (0..building.equations.len())
+            .map(|dof| std::array::from_fn(|lane| load(lane, dof)))
+            .collect();
+        let mut of_all = loads.clone();
+        sweep.solve_at(&factors, &mut of_all);
+        let mut of_one = loads.clone();
+        sweep.solve_at(&factors.only(3), &mut of_one);
+        for (lane, own) in rates.into_iter().enumerate() {
+            for (rate, answers) in [(own, &of_all), (rates[3], &of_one)] {
+                let mut factor = RiccatiFactor::default();
+                let matrix = StepMatrix::new(1.0, rate * rate);
+                let tangents = building.equations.initial_tangents();
+                sweep
+                    .factorize(&matrix, &tangents, &mut factor)
+                    .expect("a standing frame");
+                let mut alone: Vec<f64> = loads.iter().map(|values| values[lane]).collect();
+                sweep.solve(&factor, &mut alone);
+                let most = alone.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+                for (answer, alone) in answers.iter().zip(&alone) {
+                    assert!((answer[lane] - alone).abs() <= 1e-11 * most, "s = {rate}");
+                }
+            }
+        }
+    }
+}
