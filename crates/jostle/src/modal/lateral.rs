@@ -47,18 +47,20 @@ pub(crate) fn lateral_modes_along(
         }
     }
     let n = krylov.diagonal.len();
-    let mut vectors: Vec<Vec<f64>> = (0..n)
-        .map(|i| (0..n).map(|j| if i == j { 1.0 } else { 0.0 }).collect())
-        .collect();
+    let mut vectors = vec![0.0; n * n];
+    for k in 0..n {
+        vectors[k * n + k] = 1.0;
+    }
     let values = tridiagonal::eigen(&krylov.diagonal, &krylov.next, &mut vectors);
     let mut found: Vec<usize> = (0..n)
-        .filter(|&k| krylov.mass * vectors[0][k].powi(2) >= 0.5 * hidden)
+        .filter(|&k| krylov.mass * vectors[k * n].powi(2) >= 0.5 * hidden)
         .collect();
     found.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
     let modes = found.into_iter().map(|k| {
         let mut shape = vec![0.0; flexibility.len()];
-        for (vector, row) in krylov.basis.chunks_exact(flexibility.len()).zip(&vectors) {
-            add(&mut shape, row[k], vector);
+        let parts = &vectors[k * n..][..n];
+        for (vector, part) in krylov.basis.chunks_exact(flexibility.len()).zip(parts) {
+            add(&mut shape, *part, vector);
         }
         let shape = flexibility.with_massless(&shape, values[k]);
         Mode::of(building, 1.0 / values[k], shape)
@@ -197,14 +199,15 @@ impl Krylov {
     /// Greatest mass that a mode not yet found can carry \[kg\].
     fn may_hide(&self) -> f64 {
         let n = self.diagonal.len();
-        let mut rows = vec![vec![0.0; n]; 2];
-        (rows[0][0], rows[1][n - 1]) = (1.0, 1.0);
-        let values = tridiagonal::eigen(&self.diagonal, &self.next, &mut rows);
+        // First and last entry of each eigenvector.
+        let mut ends = vec![0.0; 2 * n];
+        (ends[0], ends[2 * n - 1]) = (1.0, 1.0);
+        let values = tridiagonal::eigen(&self.diagonal, &self.next, &mut ends);
         let mut open: Vec<(f64, f64)> = (0..n)
             .map(|k| {
-                let residual = self.next[n - 1] * rows[1][k].abs();
+                let residual = self.next[n - 1] * ends[2 * k + 1].abs();
                 let found = residual <= CONVERGED * values[k];
-                let weight = if found { 0.0 } else { rows[0][k].powi(2) };
+                let weight = if found { 0.0 } else { ends[2 * k].powi(2) };
                 (values[k], self.mass * weight)
             })
             .collect();

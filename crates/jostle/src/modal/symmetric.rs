@@ -1,74 +1,95 @@
 //! Eigenvectors of small symmetric matrices, the same to the bit on every processor.
 
+use pulp::NullaryFnOnce;
+
 use super::tridiagonal;
+use crate::lanes::{dot, in_wide_registers};
 
 /// Eigenvalues, rising, and the eigenvector of length one of each, of a symmetric matrix given by its lower triangle row by
 /// row. Householder's reflections (A. S. Householder, 1958, J. ACM 5, 339–342) make it tridiagonal.
 ///
 /// Libraries fuse and reorder as registers allow, and shapes found with them would differ between processors.
 pub(crate) fn eigen(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
+    in_wide_registers(lower.len(), Eigen(lower))
+}
+
+struct Eigen<'a>(&'a [Vec<f64>]);
+
+impl NullaryFnOnce for Eigen<'_> {
+    type Output = (Vec<f64>, Vec<Vec<f64>>);
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        found(self.0)
+    }
+}
+
+#[inline(always)]
+fn found(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
     let n = lower.len();
     let mut matrix = vec![vec![0.0; n]; n];
-    let mut turn = vec![vec![0.0; n]; n];
     for (i, row) in lower.iter().enumerate() {
-        turn[i][i] = 1.0;
         for (j, value) in row.iter().enumerate() {
             matrix[i][j] = *value;
             matrix[j][i] = *value;
         }
     }
-    let (mut mirror, mut product) = (vec![0.0; n], vec![0.0; n]);
-    for k in 0..n.saturating_sub(2) {
-        let rest = k + 1..n;
-        for i in rest.clone() {
-            mirror[i] = matrix[i][k];
-        }
-        let length = norm(&mirror[rest.clone()]);
-        let left = -length.copysign(mirror[k + 1]);
-        mirror[k + 1] -= left;
-        let own = norm(&mirror[rest.clone()]);
+    let mut next = Vec::with_capacity(n);
+    // Each mirror acts on what lies below its row.
+    let mut mirrors: Vec<Vec<f64>> = Vec::with_capacity(n);
+    let mut product = vec![0.0; n];
+    for k in 0..n.saturating_sub(1) {
+        let mut mirror = matrix[k][k + 1..].to_vec();
+        let left = -norm(&mirror).copysign(mirror[0]);
+        next.push(left);
+        mirror[0] -= left;
+        let own = norm(&mirror);
         if own == 0.0 {
+            mirrors.push(Vec::new());
             continue;
         }
-        mirror[rest.clone()].iter_mut().for_each(|v| *v /= own);
-        let along = |row: &[f64], mirror: &[f64]| -> f64 {
-            let terms = row[rest.clone()].iter().zip(&mirror[rest.clone()]);
-            terms.map(|(a, v)| a * v).sum()
-        };
-        for i in rest.clone() {
-            product[i] = along(&matrix[i], &mirror);
+        mirror.iter_mut().for_each(|v| *v /= own);
+        let rows = &mut matrix[k + 1..];
+        for (product, row) in product.iter_mut().zip(&*rows) {
+            *product = dot(&row[k + 1..], &mirror);
         }
-        let twice = along(&product, &mirror);
-        for i in rest.clone() {
-            product[i] = 2.0 * (product[i] - twice * mirror[i]);
+        let product = &mut product[..mirror.len()];
+        let twice = dot(product, &mirror);
+        for (product, v) in product.iter_mut().zip(&mirror) {
+            *product = 2.0 * (*product - twice * v);
         }
-        for i in rest.clone() {
-            for j in rest.clone() {
-                matrix[i][j] -= mirror[i] * product[j] + product[i] * mirror[j];
+        for ((row, v), p) in rows.iter_mut().zip(&mirror).zip(&*product) {
+            for ((value, q), w) in row[k + 1..].iter_mut().zip(&*product).zip(&mirror) {
+                *value -= v * q + p * w;
             }
         }
-        (matrix[k + 1][k], matrix[k][k + 1]) = (left, left);
-        for row in &mut turn {
-            let part = 2.0 * along(row, &mirror);
-            for i in rest.clone() {
-                row[i] -= part * mirror[i];
-            }
+        mirrors.push(mirror);
+    }
+    let mut turn = vec![0.0; n * n];
+    for k in 0..n {
+        turn[k * n + k] = 1.0;
+    }
+    for (k, mirror) in mirrors.iter().enumerate().rev() {
+        for column in turn.chunks_exact_mut(n).skip(k + 1) {
+            let part = 2.0 * dot(&column[n - mirror.len()..], mirror);
+            let below = column[n - mirror.len()..].iter_mut();
+            below.zip(mirror).for_each(|(value, v)| *value -= part * v);
         }
     }
     let diagonal: Vec<f64> = (0..n).map(|i| matrix[i][i]).collect();
-    let next: Vec<f64> = (1..n).map(|i| matrix[i][i - 1]).collect();
     let values = tridiagonal::eigen(&diagonal, &next, &mut turn);
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-    let vector = |k: &usize| turn.iter().map(|row| row[*k]).collect();
+    let vector = |k: &usize| turn[k * n..][..n].to_vec();
     (
         order.iter().map(|k| values[*k]).collect(),
         order.iter().map(vector).collect(),
     )
 }
 
+#[inline(always)]
 fn norm(vector: &[f64]) -> f64 {
-    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
+    dot(vector, vector).sqrt()
 }
 
 #[cfg(test)]

@@ -1,11 +1,13 @@
 //! Eigenvalues of small symmetric tridiagonal matrices.
 
-/// Eigenvalues of the matrix with this diagonal and next diagonal, and the given rows times the matrix of its
-/// eigenvectors. Implicit QL iteration with Wilkinson's shift.
+/// Eigenvalues of the matrix with this diagonal and next diagonal, and the given matrix, column after column, times that of
+/// its eigenvectors. Implicit QL iteration with Wilkinson's shift.
 ///
-/// With the rows of a unit matrix one gets whole eigenvectors; a single row of it costs one order less.
-pub(super) fn eigen(diagonal: &[f64], next: &[f64], rows: &mut [Vec<f64>]) -> Vec<f64> {
+/// With a unit matrix one gets whole eigenvectors; a single row of it costs one order less.
+#[inline(always)]
+pub(super) fn eigen(diagonal: &[f64], next: &[f64], columns: &mut [f64]) -> Vec<f64> {
     let n = diagonal.len();
+    let height = columns.len() / n.max(1);
     let mut d = diagonal.to_vec();
     let mut e = next[..n.saturating_sub(1)].to_vec();
     e.push(0.0);
@@ -24,7 +26,7 @@ pub(super) fn eigen(diagonal: &[f64], next: &[f64], rows: &mut [Vec<f64>]) -> Ve
             let mut split = false;
             for i in (low..high).rev() {
                 let (f, b) = (sine * e[i], cosine * e[i]);
-                let r = f.hypot(g);
+                let r = hypotenuse(f, g);
                 e[i + 1] = r;
                 if r == 0.0 {
                     d[i + 1] -= passed;
@@ -37,10 +39,10 @@ pub(super) fn eigen(diagonal: &[f64], next: &[f64], rows: &mut [Vec<f64>]) -> Ve
                 passed = sine * along;
                 d[i + 1] = from + passed;
                 g = cosine * along - b;
-                for row in &mut *rows {
-                    let (a, b) = (row[i], row[i + 1]);
-                    row[i + 1] = sine * a + cosine * b;
-                    row[i] = cosine * a - sine * b;
+                let pair = &mut columns[i * height..(i + 2) * height];
+                let (one, other) = pair.split_at_mut(height);
+                for (a, b) in one.iter_mut().zip(other) {
+                    (*a, *b) = (cosine * *a - sine * *b, sine * *a + cosine * *b);
                 }
             }
             if split {
@@ -55,6 +57,17 @@ pub(super) fn eigen(diagonal: &[f64], next: &[f64], rows: &mut [Vec<f64>]) -> Ve
     d
 }
 
+/// √(a² + b²), in the simple way where squares neither vanish nor overflow.
+#[inline(always)]
+fn hypotenuse(a: f64, b: f64) -> f64 {
+    let square = a * a + b * b;
+    if (1e-280..1e300).contains(&square) {
+        square.sqrt()
+    } else {
+        a.hypot(b)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -63,25 +76,25 @@ mod tests {
     #[test]
     fn second_difference_has_its_known_eigenvalues_and_sines() {
         let n = 30;
-        let mut rows: Vec<Vec<f64>> = (0..n)
-            .map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect())
-            .collect();
-        let values = eigen(&vec![2.0; n], &vec![-1.0; n - 1], &mut rows);
+        let unit = |i: usize| f64::from(u8::from(i.is_multiple_of(n + 1)));
+        let mut columns: Vec<f64> = (0..n * n).map(unit).collect();
+        let values = eigen(&vec![2.0; n], &vec![-1.0; n - 1], &mut columns);
         let mut order: Vec<usize> = (0..n).collect();
         order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-        for (k, &column) in order.iter().enumerate() {
+        for (k, &place) in order.iter().enumerate() {
             let angle = (k + 1) as f64 * std::f64::consts::PI / (n + 1) as f64;
             let expected = 2.0 - 2.0 * angle.cos();
             assert!(
-                (values[column] - expected).abs() < 4e-15,
+                (values[place] - expected).abs() < 4e-15,
                 "eigenvalue {k}: {} instead of {expected}",
-                values[column]
+                values[place]
             );
             let norm = (2.0 / (n + 1) as f64).sqrt();
-            let sign = rows[0][column].signum();
-            for (i, row) in rows.iter().enumerate() {
+            let column = &columns[place * n..][..n];
+            let sign = column[0].signum();
+            for (i, value) in column.iter().enumerate() {
                 let expected = norm * ((i + 1) as f64 * angle).sin();
-                let got = sign * row[column];
+                let got = sign * value;
                 assert!(
                     (got - expected).abs() < 1e-13,
                     "eigenvector {k}, row {i}: {got} instead of {expected}"
@@ -92,11 +105,11 @@ mod tests {
 
     #[test]
     fn separate_blocks_and_single_numbers_are_no_trouble() {
-        let mut rows = vec![vec![1.0, 0.0, 0.0]];
-        let mut values = eigen(&[3.0, 1.0, 2.0], &[0.0, 0.0], &mut rows);
+        let mut row = [1.0, 0.0, 0.0];
+        let mut values = eigen(&[3.0, 1.0, 2.0], &[0.0, 0.0], &mut row);
         values.sort_by(f64::total_cmp);
         assert_eq!(values, [1.0, 2.0, 3.0]);
-        assert_eq!(rows[0], [1.0, 0.0, 0.0]);
+        assert_eq!(row, [1.0, 0.0, 0.0]);
         assert_eq!(eigen(&[5.0], &[], &mut []), [5.0]);
     }
 }

@@ -40,7 +40,7 @@ pub(super) struct Demand<'a> {
     /// Rates s ≥ 0 at which the flexibilities gᵀ(K + s²M)⁻¹g are met exactly; the last is that of further vectors
     /// \[1/s\].
     pub(super) met: &'a [f64],
-    /// Rates at which they are compared; with those above no more than [`RATES`].
+    /// Rates at which they are compared, the hardest to meet first; with those above no more than [`RATES`].
     pub(super) compared: &'a [f64],
     /// By how much they may differ there, relative; ten times as much at floors that are not pushed \[–\].
     pub(super) tolerance: f64,
@@ -74,13 +74,19 @@ impl Basis {
 
     /// Adds Σ φ q to a displacement of all degrees of freedom.
     pub(super) fn expand(&self, modal: &[f64], full: &mut [f64]) {
-        for (index, vector) in self.vectors.iter().enumerate() {
-            let terms = self.parts.iter().zip(modal);
-            let share: f64 = terms.map(|(parts, q)| parts[index] * q).sum();
-            for (value, vector) in full.iter_mut().zip(vector) {
-                *value += share * vector;
-            }
+        let mut shares = vec![0.0; self.vectors.len()];
+        for (parts, q) in self.parts.iter().zip(modal) {
+            add(*q, parts, &mut shares);
         }
+        for (vector, share) in self.vectors.iter().zip(shares) {
+            add(share, vector, full);
+        }
+    }
+}
+
+fn add(times: f64, list: &[f64], to: &mut [f64]) {
+    for (value, more) in to.iter_mut().zip(list) {
+        *value += times * more;
     }
 }
 

@@ -38,6 +38,7 @@ pub(super) struct Show<'a, const N: usize> {
     /// Block after block of rows, mode by mode.
     pub(super) blocks: &'a [[f64; ROWS]],
     pub(super) modal: [&'a [f64]; N],
+    /// In whole blocks.
     pub(super) watched: [&'a mut [f64]; N],
 }
 
@@ -65,13 +66,10 @@ impl<const N: usize> WithSimd for Show<'_, N> {
                 }
             }
             for (sums, out) in sums.iter().zip(&mut watched) {
-                let mut values = [0.0; ROWS];
-                let (registers, _) = S::as_mut_simd_f64s(&mut values);
-                let count = registers.len();
-                registers.copy_from_slice(&sums[..count]);
-                let rows = at * ROWS..out.len().min((at + 1) * ROWS);
-                let count = rows.len();
-                out[rows].copy_from_slice(&values[..count]);
+                let (places, _) = S::as_mut_simd_f64s(&mut out[at * ROWS..][..ROWS]);
+                for (place, sum) in places.iter_mut().zip(sums) {
+                    *place = *sum;
+                }
             }
         }
     }
@@ -200,19 +198,19 @@ impl WithSimd for Ahead<'_> {
     }
 }
 
-/// Greatest so far of everything watched, and what cannot be exceeded unseen.
+/// Greatest so far of everything watched, and what cannot be exceeded unseen; infinite where there is nothing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Limits {
     /// Of displacements, and of the base shear both ways \[m, N\].
     pub(super) high: Vec<f64>,
     pub(super) low: Vec<f64>,
-    /// Of storey drifts times storey heights, and of total accelerations \[m, m/s²\]; infinite where there are none.
+    /// Of storey drifts times storey heights, and of total accelerations \[m, m/s²\].
     pub(super) drift: Vec<f64>,
     pub(super) acceleration: Vec<f64>,
 }
 
-/// Whether a step may exceed a limit: a cubic between its ends leaves their range by no more than `beyond` times the sum
-/// of its end slopes.
+/// Whether a step may exceed a limit, block by block of what is watched: a cubic between its ends leaves their range by no
+/// more than `beyond` times the sum of its end slopes.
 pub(super) struct Exceeds<'a> {
     pub(super) limits: &'a Limits,
     /// At both ends: displacements, velocities, accelerations and what the rates of these are but for the load's.
@@ -222,45 +220,115 @@ pub(super) struct Exceeds<'a> {
     pub(super) ground: [f64; 2],
     pub(super) ground_rate: f64,
     pub(super) beyond: f64,
+    pub(super) seen: &'a mut [bool],
 }
 
-impl NullaryFnOnce for Exceeds<'_> {
+impl WithSimd for Exceeds<'_> {
+    /// Whether any block may.
     type Output = bool;
 
     #[inline(always)]
-    fn call(self) -> bool {
-        let n = self.driven.len();
+    fn with_simd<S: Simd>(self, simd: S) -> bool {
+        let places = self.seen.len() * ROWS;
         let [[u0, v0, a0, l0], [u1, v1, a1, l1]] = self.ends;
-        let (u0, v0, a0, l0) = (&u0[..n], &v0[..n], &a0[..n], &l0[..n]);
-        let (u1, v1, a1, l1) = (&u1[..n], &v1[..n], &a1[..n], &l1[..n]);
         let Limits {
             high,
             low,
             drift,
             acceleration,
         } = self.limits;
-        let (high, low) = (&high[..n], &low[..n]);
-        let (drift, acceleration) = (&drift[..n], &acceleration[..n]);
-        let driven = &self.driven[..n];
-        let ([g0, g1], beyond) = (self.ground, self.beyond);
-        let more = |a: f64, b: f64| if a > b { a } else { b };
-        let mut seen = false;
-        for i in 0..n {
-            let reach = beyond * (v0[i].abs() + v1[i].abs());
-            seen |= more(u0[i], u1[i]) + reach > high[i];
-            seen |= more(-u0[i], -u1[i]) + reach > -low[i];
-            let slope = self.ground_rate * (1.0 - driven[i]);
-            let reach = beyond * ((l0[i] + slope).abs() + (l1[i] + slope).abs());
-            seen |= more((a0[i] + g0).abs(), (a1[i] + g1).abs()) + reach > acceleration[i];
+        let count = places / S::F64_LANES;
+        let (below_u0, below_u1) = (below::<S>(u0, count), below::<S>(u1, count));
+        let (below_v0, below_v1) = (below::<S>(v0, count), below::<S>(v1, count));
+        let (u0, v0, a0, l0) = (
+            own::<S>(u0, count),
+            own::<S>(v0, count),
+            own::<S>(a0, count),
+            own::<S>(l0, count),
+        );
+        let (u1, v1, a1, l1) = (
+            own::<S>(u1, count),
+            own::<S>(v1, count),
+            own::<S>(a1, count),
+            own::<S>(l1, count),
+        );
+        let (high, low, driven) = (
+            own::<S>(high, count),
+            own::<S>(low, count),
+            own::<S>(self.driven, count),
+        );
+        let (drift, acceleration) = (own::<S>(drift, count), own::<S>(acceleration, count));
+        let [g0, g1] = self.ground;
+        let (g0, g1) = (simd.splat_f64s(g0), simd.splat_f64s(g1));
+        let slope = simd.splat_f64s(self.ground_rate);
+        let beyond = simd.splat_f64s(self.beyond);
+        let mut any = false;
+        let registers = ROWS / S::F64_LANES;
+        for (block, seen) in self.seen.iter_mut().enumerate() {
+            *seen = false;
+            for at in block * registers..(block + 1) * registers {
+                let reach = out_of(simd, beyond, v0[at], v1[at]);
+                let above = simd.add_f64s(simd.max_f64s(u0[at], u1[at]), reach);
+                let under = simd.sub_f64s(simd.min_f64s(u0[at], u1[at]), reach);
+                let moved = simd.or_m64s(
+                    simd.greater_than_f64s(above, high[at]),
+                    simd.less_than_f64s(under, low[at]),
+                );
+                let free = simd.sub_f64s(slope, simd.mul_f64s(slope, driven[at]));
+                let (rate0, rate1) = (simd.add_f64s(l0[at], free), simd.add_f64s(l1[at], free));
+                let (then, now) = (simd.add_f64s(a0[at], g0), simd.add_f64s(a1[at], g1));
+                let reach = out_of(simd, beyond, rate0, rate1);
+                let total = simd.add_f64s(greater(simd, then, now), reach);
+                let shaken = simd.greater_than_f64s(total, acceleration[at]);
+                // What stands lowest has no limit against the floor below.
+                let (then, now, rate0, rate1) = if at == 0 {
+                    (
+                        simd.rotate_right_f64s(u0[0], 1),
+                        simd.rotate_right_f64s(u1[0], 1),
+                        simd.rotate_right_f64s(v0[0], 1),
+                        simd.rotate_right_f64s(v1[0], 1),
+                    )
+                } else {
+                    let at = at - 1;
+                    (below_u0[at], below_u1[at], below_v0[at], below_v1[at])
+                };
+                let (then, now) = (simd.sub_f64s(u0[at], then), simd.sub_f64s(u1[at], now));
+                let (rate0, rate1) = (simd.sub_f64s(v0[at], rate0), simd.sub_f64s(v1[at], rate1));
+                let reach = out_of(simd, beyond, rate0, rate1);
+                let total = simd.add_f64s(greater(simd, then, now), reach);
+                let apart = simd.greater_than_f64s(total, drift[at]);
+                let found = simd.or_m64s(simd.or_m64s(moved, shaken), apart);
+                *seen |= simd.first_true_m64s(found) < S::F64_LANES;
+            }
+            any |= *seen;
         }
-        // Against the floor below; the lowest ones stand on the ground.
-        for i in 1..n {
-            let reach = beyond * ((v0[i] - v0[i - 1]).abs() + (v1[i] - v1[i - 1]).abs());
-            let apart = more((u0[i] - u0[i - 1]).abs(), (u1[i] - u1[i - 1]).abs());
-            seen |= apart + reach > drift[i];
-        }
-        seen
+        any
     }
+}
+
+/// So many registers of a list.
+#[inline(always)]
+fn own<S: Simd>(list: &[f64], count: usize) -> &[S::f64s] {
+    &S::as_simd_f64s(list).0[..count]
+}
+
+/// For each of them after the first, the values one place before its own.
+#[inline(always)]
+fn below<S: Simd>(list: &[f64], count: usize) -> &[S::f64s] {
+    &S::as_simd_f64s(&list[S::F64_LANES - 1..]).0[..count - 1]
+}
+
+/// By how much cubics of these end slopes may leave the range of their ends.
+#[inline(always)]
+fn out_of<S: Simd>(simd: S, beyond: S::f64s, before: S::f64s, after: S::f64s) -> S::f64s {
+    let slopes = simd.add_f64s(simd.abs_f64s(before), simd.abs_f64s(after));
+    simd.mul_f64s(beyond, slopes)
+}
+
+/// The greater size of two.
+#[inline(always)]
+fn greater<S: Simd>(simd: S, a: S::f64s, b: S::f64s) -> S::f64s {
+    simd.max_f64s(simd.abs_f64s(a), simd.abs_f64s(b))
 }
 
 /// [`LANES`] values, register by register.
@@ -457,7 +525,8 @@ mod tests {
                     })
                     .collect();
                 let show = |wide: bool| {
-                    let mut out = [vec![0.0; watched], vec![0.0; watched]];
+                    let places = watched.div_ceil(ROWS) * ROWS;
+                    let mut out = [vec![0.0; places], vec![0.0; places]];
                     let [first, second] = &mut out;
                     let show = Show {
                         blocks: &blocks,
@@ -475,6 +544,72 @@ mod tests {
                 for (row, got) in rows.iter().zip(&show(true)[1]) {
                     let plain: f64 = row.iter().zip(of[1]).map(|(a, b)| a * b).sum();
                     assert!((got - plain).abs() < 1e-13 * n as f64);
+                }
+            }
+        }
+    }
+
+    /// Every block is judged by itself, with the floor below that may stand in the block before.
+    #[test]
+    fn exceeding_is_seen_block_by_block() {
+        let n = 3 * ROWS;
+        let [then, now]: [[Vec<f64>; 4]; 2] =
+            [0.2, 0.7].map(|at| std::array::from_fn(|k| list(n, at + 3.0 * k as f64)));
+        let driven = list(n, 5.0);
+        let ends = [&then, &now].map(|lists| lists.each_ref().map(|list| &list[..]));
+        let ([g0, g1], ground_rate, beyond) = ([0.3, -0.4], 0.9, 0.15);
+        let most = |a: f64, b: f64, slopes: [f64; 2]| {
+            a.max(b) + beyond * (slopes[0].abs() + slopes[1].abs())
+        };
+        let free = |i: usize| ground_rate * (1.0 - driven[i]);
+        let high = |i: usize| most(then[0][i], now[0][i], [then[1][i], now[1][i]]);
+        let low = |i: usize| -most(-then[0][i], -now[0][i], [then[1][i], now[1][i]]);
+        let drift = |i: usize| {
+            let part = |list: &Vec<f64>| list[i] - list[i - 1];
+            let [a, b] = [&then[0], &now[0]].map(|list| part(list).abs());
+            most(a, b, [part(&then[1]), part(&now[1])])
+        };
+        let acceleration = |i: usize| {
+            let (a, b) = ((then[2][i] + g0).abs(), (now[2][i] + g1).abs());
+            most(a, b, [then[3][i] + free(i), now[3][i] + free(i)])
+        };
+        let widest = |i: usize| if i == 0 { f64::INFINITY } else { drift(i) };
+        // A little above what is reached everywhere, but for one quantity at one place.
+        for place in 0..n {
+            for quantity in 0..4 {
+                let gap = |i: usize, k: usize| {
+                    if (i, k) == (place, quantity) {
+                        -1e-9
+                    } else {
+                        1e-9
+                    }
+                };
+                let limits = Limits {
+                    high: (0..n).map(|i| high(i) + gap(i, 0)).collect(),
+                    low: (0..n).map(|i| low(i) - gap(i, 1)).collect(),
+                    drift: (0..n).map(|i| widest(i) + gap(i, 2)).collect(),
+                    acceleration: (0..n).map(|i| acceleration(i) + gap(i, 3)).collect(),
+                };
+                let mut expected = vec![false; n / ROWS];
+                expected[place / ROWS] = (place, quantity) != (0, 2);
+                for wide in [false, true] {
+                    let mut seen = vec![false; n / ROWS];
+                    let exceeds = Exceeds {
+                        limits: &limits,
+                        ends,
+                        driven: &driven,
+                        ground: [g0, g1],
+                        ground_rate,
+                        beyond,
+                        seen: &mut seen,
+                    };
+                    let any = if wide {
+                        Arch::new().dispatch(exceeds)
+                    } else {
+                        exceeds.with_simd(Scalar::new())
+                    };
+                    assert_eq!(seen, expected, "{place}, {quantity}, {wide}");
+                    assert_eq!(any, seen.contains(&true));
                 }
             }
         }

@@ -1,9 +1,10 @@
 //! Histories and peaks in modal coordinates, also between steps that are long beside the higher modes.
 
-use super::kernels::{Exceeds, Limits};
+use pulp::Arch;
+
+use super::kernels::{Exceeds, Limits, ROWS};
 use super::reduced::Reduced;
 use crate::history::{Energy, Extreme, FloorPeaks, History};
-use crate::lanes::in_wide_registers;
 use crate::state::ContactPhase;
 use crate::stepping::events::Cubic;
 use crate::stepping::recorder::{columns, greatest_in_step};
@@ -20,6 +21,8 @@ pub(super) struct Peaks {
     /// What a unit ground acceleration takes from the accelerations of everything watched, and its rate from their rates.
     driven: Vec<f64>,
     limits: Limits,
+    /// Blocks of what is watched that may exceed a limit in the step looked at.
+    seen: Vec<bool>,
 }
 
 /// What is watched at an instant, place by place.
@@ -68,6 +71,7 @@ impl Peaks {
             base_shear: vec![0.0; system.buildings.len()],
             driven,
             limits: Limits::none(reduced),
+            seen: vec![false; watched / ROWS],
         }
     }
 
@@ -107,7 +111,7 @@ impl Peaks {
     }
 
     /// Whether a floor, a storey or a base shear may go beyond what it did before.
-    fn may_exceed(&self, taken: &Taken<'_>) -> bool {
+    fn may_exceed(&mut self, taken: &Taken<'_>) -> bool {
         let Taken {
             then,
             now,
@@ -115,17 +119,15 @@ impl Peaks {
             step,
             ..
         } = *taken;
-        in_wide_registers(
-            self.driven.len(),
-            Exceeds {
-                limits: &self.limits,
-                ends: [then.lists(), now.lists()],
-                driven: &self.driven,
-                ground,
-                ground_rate: (ground[1] - ground[0]) / step,
-                beyond: BEYOND * step,
-            },
-        )
+        Arch::new().dispatch(Exceeds {
+            limits: &self.limits,
+            ends: [then.lists(), now.lists()],
+            driven: &self.driven,
+            ground,
+            ground_rate: (ground[1] - ground[0]) / step,
+            beyond: BEYOND * step,
+            seen: &mut self.seen,
+        })
     }
 
     fn look_at_buildings(&mut self, system: &System, reduced: &Reduced, taken: &Taken<'_>) {
@@ -139,6 +141,10 @@ impl Peaks {
         let ground_rate = (ground[1] - ground[0]) / step;
         for (index, building) in system.buildings.iter().enumerate() {
             let own = &reduced.buildings[index];
+            let blocks = own.watched.start / ROWS..own.watched.end / ROWS;
+            if !self.seen[blocks].contains(&true) {
+                continue;
+            }
             let mut below = Ends {
                 then: [0.0; 2],
                 now: [0.0; 2],
@@ -175,7 +181,7 @@ impl Peaks {
                     self.limits.drift[at] = (1.0 - 1e-12) * widest;
                 }
             }
-            let shear = own.watched.end - 1;
+            let shear = own.shear;
             let shears = Ends {
                 then: [then.u[shear], then.rate[shear]],
                 now: [now.u[shear], now.rate[shear]],
@@ -256,7 +262,7 @@ impl Limits {
                 (limits.drift[at], limits.acceleration[at]) = (0.0, 0.0);
             }
             limits.drift[first] = f64::INFINITY;
-            let shear = building.watched.end - 1;
+            let shear = building.shear;
             (limits.high[shear], limits.low[shear]) = (0.0, 0.0);
         }
         limits

@@ -40,11 +40,12 @@ pub(super) struct Shown {
 pub(super) struct ReducedBuilding {
     /// Its modes among all.
     pub(super) modes: Range<usize>,
-    /// What is watched of it among all: displacements of floors from the ground up, then of other faces of contacts, and
-    /// the base shear \[m, N\].
+    /// What is watched of it among all: displacements of floors from the ground up, then of other faces of contacts, the
+    /// base shear \[m, N\], and nothing up to a whole block.
     pub(super) watched: Range<usize>,
-    /// Number of floors.
+    /// Number of floors, and the place of the base shear.
     pub(super) floors: usize,
+    pub(super) shear: usize,
     /// Shapes at the watched displacements, row by row \[kg^−½\].
     rows: Vec<f64>,
     /// The same for so many rows at once, mode by mode; rows that fill up the last block are zero.
@@ -114,7 +115,7 @@ impl Reduced {
                 faces: &faces,
                 floors: &watched[..floors],
                 met: &met,
-                compared: &[swaying, 3.0 * swaying, low, high],
+                compared: &[high, low, 3.0 * swaying, swaying],
                 tolerance: closeness,
             };
             let basis = Basis::of(building, &demand).map_err(|failure| (index, failure))?;
@@ -142,16 +143,18 @@ impl Reduced {
                     std::array::from_fn(|row| block.get(row).map_or(0.0, |shape| shape[mode]))
                 }));
             }
+            let places = shown.len().div_ceil(ROWS) * ROWS;
             reduced.buildings.push(ReducedBuilding {
                 modes: start..reduced.stiffness.len(),
-                watched: watching..watching + shown.len(),
+                watched: watching..watching + places,
                 floors,
+                shear: watching + shown.len() - 1,
                 rows: shown.concat(),
                 blocks,
                 size: equations.len(),
                 basis,
             });
-            watching += shown.len();
+            watching += places;
         }
         if reduced.modes() < FEW_MODES {
             reduced.arch = Arch::Scalar;
@@ -169,7 +172,7 @@ impl Reduced {
         self.stiffness.len()
     }
 
-    /// Number of watched displacements.
+    /// Number of places of watched displacements, in whole blocks.
     pub(super) fn watched(&self) -> usize {
         self.buildings
             .last()

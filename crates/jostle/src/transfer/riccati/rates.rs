@@ -144,7 +144,10 @@ impl NullaryFnOnce for Passes<'_> {
             loads,
         } = self;
         let columns = sweep.starts.windows(2).map(|bounds| bounds[0]..bounds[1]);
-        for (column, entries) in columns.clone().enumerate() {
+        // A push on one face has nothing to pass on before it.
+        let pushed = |values: &PerRate| values.iter().any(|value| *value != 0.0);
+        let first = loads.iter().position(pushed).unwrap_or(loads.len());
+        for (column, entries) in columns.clone().enumerate().skip(first) {
             let passed = loads[column];
             let ahead = sweep.rows[entries.clone()].iter();
             for (row, coupling) in ahead.zip(&factors.couplings[entries]) {
