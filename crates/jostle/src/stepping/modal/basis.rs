@@ -112,6 +112,8 @@ struct Growing<'a> {
     vectors: Vec<Vec<f64>>,
     /// vᵀK w between them, lower triangle row by row.
     products: Vec<Vec<f64>>,
+    /// Horizontal mass that goes with every vector \[kg^½\].
+    driven: Vec<f64>,
     /// First vector of the last block.
     last_block: usize,
     wanted: Vec<Wanted>,
@@ -164,6 +166,7 @@ impl<'a> Growing<'a> {
             sweep,
             vectors: Vec::new(),
             products: Vec::new(),
+            driven: Vec::new(),
             last_block: 0,
         };
         for mode in building.lateral_modes() {
@@ -225,6 +228,8 @@ impl<'a> Growing<'a> {
         vector.iter_mut().for_each(|value| *value /= rest);
         let mut stiff = vec![0.0; vector.len()];
         equations.stiffness.multiply_add(&vector, &mut stiff);
+        self.driven
+            .push(lanes::dot(&equations.driven_mass, &vector));
         self.vectors.push(vector);
         let mut row = vec![0.0; self.vectors.len()];
         let products = Products {
@@ -249,18 +254,12 @@ impl<'a> Growing<'a> {
         matrix
     }
 
-    /// Horizontal mass that goes with every vector \[kg^½\].
-    fn driven(&self) -> Vec<f64> {
-        let driven = &self.building.equations.driven_mass;
-        self.vectors.iter().map(|v| lanes::dot(driven, v)).collect()
-    }
-
     /// Whether answers within the vectors are those of the building.
     fn is_close(&self) -> Result<bool, NotPositive> {
         let shown =
             |place: &usize| -> Vec<f64> { self.vectors.iter().map(|v| v[*place]).collect() };
         let faces = self.demand.faces.iter().map(shown);
-        let loads: Vec<Vec<f64>> = std::iter::once(self.driven()).chain(faces).collect();
+        let loads: Vec<Vec<f64>> = std::iter::once(self.driven.clone()).chain(faces).collect();
         let floors: Vec<Vec<f64>> = self.demand.floors.iter().map(shown).collect();
         for wanted in &self.wanted {
             let factor = self.projected(wanted.rate).llt(Side::Lower);
@@ -297,8 +296,7 @@ impl<'a> Growing<'a> {
         {
             return Err(NotPositive { dof: 0 });
         }
-        let driven = self.driven();
-        let participation = parts.iter().map(|parts| lanes::dot(&driven, parts));
+        let participation = parts.iter().map(|parts| lanes::dot(&self.driven, parts));
         Ok(Basis {
             participation: participation.collect(),
             stiffness,

@@ -11,6 +11,7 @@ use super::response::{INPUTS, PRODUCTS, Responses};
 use crate::contact::ForceLaw;
 use crate::equations::Equations;
 use crate::history::Work;
+use crate::lanes;
 use crate::stepping::NotPositive;
 use crate::system::System;
 
@@ -205,8 +206,7 @@ impl Reduced {
         let at = |face: Option<Shown>| {
             face.map_or(0.0, |shown| {
                 let own = &modal[self.buildings[shown.building].modes.clone()];
-                let terms = self.row(shown).iter().zip(own);
-                terms.map(|(a, b)| a * b).sum::<f64>()
+                lanes::dot(self.row(shown), own)
             })
         };
         let [left, right] = self.faces[contact];
