@@ -69,6 +69,14 @@ fn sum(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
     lanes.iter().sum::<f64>() + rest
 }
 
+/// Adds so many times a vector to another.
+#[inline(always)]
+pub(crate) fn add(to: &mut [f64], factor: f64, vector: &[f64]) {
+    for (value, part) in to.iter_mut().zip(vector) {
+        *value += factor * part;
+    }
+}
+
 /// Vectors taken at once.
 const TOGETHER: usize = 4;
 
@@ -124,9 +132,7 @@ pub(crate) fn subtract_all(vectors: &[Vec<f64>], times: &[f64], from: &mut [f64]
         }
     }
     for (vector, times) in rest.iter().zip(times_rest) {
-        for (value, known) in from.iter_mut().zip(vector) {
-            *value -= times * known;
-        }
+        add(from, -times, vector);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The modes that horizontal shaking excites, by Lanczos' method.
 
 use super::{LATERAL_SHARE, Mode, tridiagonal};
+use crate::lanes::{add, dot};
 use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
@@ -215,27 +216,6 @@ impl Krylov {
         open.push((0.0, 0.0));
         let gaps = open.windows(2).map(|pair| pair[0].1 + pair[1].1);
         gaps.fold(0.0, f64::max)
-    }
-}
-
-/// Numbers taken at once, for the sake of speed.
-const LANES: usize = 8;
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
-    let mut sums = [0.0; LANES];
-    for (a, b) in a.iter().zip(b) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
-        }
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
-}
-
-fn add(to: &mut [f64], factor: f64, vector: &[f64]) {
-    for (value, part) in to.iter_mut().zip(vector) {
-        *value += factor * part;
     }
 }
 

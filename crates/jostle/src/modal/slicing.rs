@@ -1,9 +1,8 @@
 //! Modes by slicing the spectrum: counting isolates them, inverse iteration finds their shapes.
 
-use faer::{Mat, Side};
-
 use super::spectrum::{Spectrum, number_of_modes};
-use super::{Mode, inner};
+use super::{Mode, inner, symmetric};
+use crate::lanes::add;
 use crate::stepping::{NotPositive, StepEquations};
 use crate::system::BuildingSystem;
 
@@ -209,25 +208,25 @@ impl Search<'_> {
         images: &[Vec<f64>],
     ) -> (Vec<f64>, Vec<Vec<f64>>, Vec<Vec<f64>>) {
         let n = shapes.len();
-        let projected = Mat::from_fn(n, n, |i, j| {
+        let projected = |i: usize, j: usize| {
             0.5 * (inner(self.mass, &shapes[i], &images[j])
                 + inner(self.mass, &shapes[j], &images[i]))
-        });
-        // What cannot be diagonalised is not finite, and will not be found inside the slice.
-        let Ok(eigen) = projected.self_adjoint_eigen(Side::Lower) else {
-            return (vec![f64::NAN; n], shapes.to_vec(), images.to_vec());
         };
+        let lower: Vec<Vec<f64>> = (0..n)
+            .map(|i| (0..=i).map(|j| projected(i, j)).collect())
+            .collect();
+        // What is not finite stays so, and will not be found inside the slice.
+        let (values, parts) = symmetric::eigen(&lower);
         let turned = |vectors: &[Vec<f64>]| {
             let turn = |k: usize| {
                 let mut sum = vec![0.0; self.mass.len()];
-                for (i, vector) in vectors.iter().enumerate() {
-                    add(&mut sum, eigen.U()[(i, k)], vector);
+                for (vector, part) in vectors.iter().zip(&parts[k]) {
+                    add(&mut sum, *part, vector);
                 }
                 sum
             };
             (0..n).map(turn).collect()
         };
-        let values = (0..n).map(|k| eigen.S()[k]).collect();
         (values, turned(shapes), turned(images))
     }
 
@@ -301,11 +300,5 @@ fn turn_equal_ones(found: &mut [Found], driven_mass: &[f64]) {
                 }
             }
         }
-    }
-}
-
-fn add(to: &mut [f64], factor: f64, vector: &[f64]) {
-    for (value, part) in to.iter_mut().zip(vector) {
-        *value += factor * part;
     }
 }

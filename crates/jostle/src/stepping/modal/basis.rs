@@ -76,17 +76,11 @@ impl Basis {
     pub(super) fn expand(&self, modal: &[f64], full: &mut [f64]) {
         let mut shares = vec![0.0; self.vectors.len()];
         for (parts, q) in self.parts.iter().zip(modal) {
-            add(*q, parts, &mut shares);
+            lanes::add(&mut shares, *q, parts);
         }
         for (vector, share) in self.vectors.iter().zip(shares) {
-            add(share, vector, full);
+            lanes::add(full, share, vector);
         }
-    }
-}
-
-fn add(times: f64, list: &[f64], to: &mut [f64]) {
-    for (value, more) in to.iter_mut().zip(list) {
-        *value += times * more;
     }
 }
 
