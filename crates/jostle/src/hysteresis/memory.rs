@@ -48,6 +48,14 @@ impl HysteresisMemory {
         self.extremes[side.index()]
     }
 
+    /// Stands at a point, reached on the way to a side.
+    #[inline]
+    pub(super) fn stand_at(&mut self, deformation: f64, force: f64, side: Side) {
+        (self.deformation, self.force) = (deformation, force);
+        let extreme = &mut self.extremes[side.index()];
+        *extreme = extreme.max(side.sign() * deformation);
+    }
+
     pub(super) fn point(&self) -> Corner {
         Corner {
             deformation: self.deformation,

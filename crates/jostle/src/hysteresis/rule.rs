@@ -179,11 +179,42 @@ impl Hysteresis {
                 degrading::respond(&self.backbone, memory, deformation)
             }
         };
-        response.memory.deformation = deformation;
-        response.memory.force = response.force;
-        let extreme = &mut response.memory.extremes[side.index()];
-        *extreme = extreme.max(side.sign() * deformation);
+        let force = response.force;
+        response.memory.stand_at(deformation, force, side);
         response
+    }
+
+    /// Force and tangent of [`Hysteresis::respond`] alone, for trials that may not stand.
+    #[inline]
+    pub(crate) fn answer(&self, memory: &HysteresisMemory, deformation: f64) -> [f64; 2] {
+        match self.rule {
+            HysteresisRule::Bilinear | HysteresisRule::Normal
+                if deformation != memory.deformation =>
+            {
+                let answer = sliders::answer(&self.backbone, memory, deformation);
+                [answer.force, answer.tangent]
+            }
+            _ => {
+                let response = self.respond(memory, deformation);
+                [response.force, response.tangent]
+            }
+        }
+    }
+
+    /// Moves the committed point: the memory of [`Hysteresis::respond`], in its place.
+    #[inline]
+    pub(crate) fn commit(&self, memory: &mut HysteresisMemory, deformation: f64) {
+        match self.rule {
+            HysteresisRule::Bilinear | HysteresisRule::Normal => {
+                let change = deformation - memory.deformation;
+                if change != 0.0 {
+                    let answer = sliders::answer(&self.backbone, memory, deformation);
+                    memory.offsets = answer.offsets;
+                    memory.stand_at(deformation, answer.force, Side::of(change));
+                }
+            }
+            _ => *memory = self.respond(memory, deformation).memory,
+        }
     }
 
     /// Slope on which the spring would turn back from where it is \[N·m/rad or N/m\].
@@ -261,5 +292,60 @@ fn elastic(backbone: &Backbone, memory: &HysteresisMemory, deformation: f64) -> 
         tangent: backbone.initial(),
         work: 0.5 * (force + memory.force) * (deformation - memory.deformation),
         memory: *memory,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::backbone::Corners;
+    use super::*;
+
+    /// The short ways answer and remember what the long one does, to the bit, sliding and turning.
+    #[test]
+    fn answers_and_commits_are_those_of_whole_responses() {
+        let corners = |yielding: f64, post_yield: f64| Corners {
+            cracking: 100.0,
+            yielding,
+            post_cracking: 0.3,
+            post_yield,
+        };
+        let trilinear = |negative: f64| {
+            Backbone::from_forces(1e5, corners(250.0, 0.02), corners(negative, 0.02))
+        };
+        let bilinear = Corners::bilinear(250.0, 0.02);
+        let bilinear = Backbone::from_forces(1e5, bilinear, bilinear);
+        let exponent = DEFAULT_TAKEDA_EXPONENT;
+        let rules = [
+            (HysteresisRule::Elastic, trilinear(250.0)),
+            (HysteresisRule::Bilinear, bilinear),
+            (HysteresisRule::Normal, trilinear(180.0)),
+            (HysteresisRule::PeakOriented, trilinear(180.0)),
+            (HysteresisRule::Takeda { exponent }, trilinear(180.0)),
+            (HysteresisRule::DegradingTrilinear, trilinear(250.0)),
+        ];
+        for (rule, backbone) in rules {
+            let spring = Hysteresis::new(rule, backbone.expect("sound")).expect("sound");
+            let (mut known, mut kept) = (HysteresisMemory::default(), HysteresisMemory::default());
+            let mut furthest = 0.0_f64;
+            for i in 0..400 {
+                // Every third point is tried only, every seventh stays where it is.
+                let x = f64::from(i);
+                let at = if i % 7 == 6 {
+                    known.deformation()
+                } else {
+                    4e-5 * x * (0.9 * x).sin()
+                };
+                let response = spring.respond(&known, at);
+                let answer = spring.answer(&kept, at);
+                assert_eq!(answer, [response.force, response.tangent], "{rule:?}, {i}");
+                if i % 3 != 0 {
+                    known = response.memory;
+                    spring.commit(&mut kept, at);
+                    assert_eq!(kept, known, "{rule:?}, {i}");
+                }
+                furthest = furthest.max(spring.ductility(&known, Side::Negative));
+            }
+            assert!(furthest > 1.5, "{rule:?} never yielded: {furthest}");
+        }
     }
 }

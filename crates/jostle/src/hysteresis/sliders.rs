@@ -35,40 +35,70 @@ fn sliders(backbone: &Backbone) -> [Slider; 2] {
     ]
 }
 
+/// Force and tangent at a deformation, and where each slider then has no force.
+pub(super) struct Answer {
+    pub(super) force: f64,
+    pub(super) tangent: f64,
+    pub(super) offsets: [f64; 2],
+}
+
+/// How far a slider is stretched at most on the way to a side, with the sign of the side, and whether it slides there.
 #[inline]
+fn limit_of(slider: &Slider, stretch: f64, side: Side) -> (f64, bool) {
+    let limit = side.sign() * slider.reach[side.index()];
+    (limit, side.sign() * (stretch - limit) >= 0.0)
+}
+
+#[inline]
+pub(super) fn answer(backbone: &Backbone, memory: &HysteresisMemory, deformation: f64) -> Answer {
+    let last = backbone.side(Side::Positive).post_yield;
+    let side = Side::of(deformation - memory.deformation);
+    let mut answer = Answer {
+        force: last * deformation,
+        tangent: last,
+        offsets: memory.offsets,
+    };
+    for (slider, offset) in sliders(backbone).iter().zip(&mut answer.offsets) {
+        let stretch = deformation - *offset;
+        let (limit, slides) = limit_of(slider, stretch, side);
+        answer.force += slider.stiffness * if slides { limit } else { stretch };
+        answer.tangent += if slides { 0.0 } else { slider.stiffness };
+        *offset = if slides { deformation - limit } else { *offset };
+    }
+    answer
+}
+
 pub(super) fn respond(
     backbone: &Backbone,
     memory: &HysteresisMemory,
     deformation: f64,
 ) -> Response {
+    let Answer {
+        force,
+        tangent,
+        offsets,
+    } = answer(backbone, memory, deformation);
     let last = backbone.side(Side::Positive).post_yield;
     let (from, side) = (
         memory.deformation,
         Side::of(deformation - memory.deformation),
     );
-    let mut response = Response {
-        force: last * deformation,
-        tangent: last,
-        work: 0.5 * last * (deformation + from) * (deformation - from),
-        memory: *memory,
-    };
-    for (slider, offset) in sliders(backbone).iter().zip(&mut response.memory.offsets) {
+    let mut work = 0.5 * last * (deformation + from) * (deformation - from);
+    for (slider, offset) in sliders(backbone).iter().zip(memory.offsets) {
         let Slider { stiffness, reach } = slider;
-        let limit = side.sign() * reach[side.index()];
-        let before = (from - *offset).clamp(-reach[1], reach[0]);
-        let stretch = deformation - *offset;
-        let slides = side.sign() * (stretch - limit) >= 0.0;
+        let before = (from - offset).clamp(-reach[1], reach[0]);
+        let stretch = deformation - offset;
+        let (limit, slides) = limit_of(slider, stretch, side);
         let after = if slides { limit } else { stretch };
         let slid = if slides { stretch - limit } else { 0.0 };
-        response.force += stiffness * after;
-        response.work += stiffness * (0.5 * (after + before) * (after - before) + after * slid);
-        if slides {
-            *offset = deformation - limit;
-        } else {
-            response.tangent += stiffness;
-        }
+        work += stiffness * (0.5 * (after + before) * (after - before) + after * slid);
     }
-    response
+    Response {
+        force,
+        tangent,
+        work,
+        memory: HysteresisMemory { offsets, ..*memory },
+    }
 }
 
 pub(super) fn next_corner(backbone: &Backbone, memory: &HysteresisMemory, towards: Side) -> f64 {

@@ -9,7 +9,7 @@ use super::StepEquations;
 use super::outcome::StepError;
 use super::simulation::Simulation;
 use crate::history::{SpringEvent, SpringTotals};
-use crate::hysteresis::{HysteresisMemory, Response, Stage};
+use crate::hysteresis::{HysteresisMemory, Stage};
 use crate::state::State;
 use crate::system::{BuildingSystem, System};
 
@@ -20,6 +20,8 @@ pub(super) struct SpringTrial {
     deformation: f64,
     force: f64,
     tangent: f64,
+    /// What the committed velocity and acceleration take from the change of deformation (theory, Eq. Y2).
+    drift: f64,
     /// Force with which the solution before was balanced there.
     balance: f64,
     /// What the solution made of it: deformation, force on the line, and the answer of the rule.
@@ -27,13 +29,17 @@ pub(super) struct SpringTrial {
     on_line: f64,
     answer: f64,
     next_tangent: f64,
-    pub(super) memory: HysteresisMemory,
 }
 
 impl SpringTrial {
     /// How far the rule is from the line, as a share of the force of yield.
     fn misfit(&self, yield_force: f64) -> f64 {
         (self.answer - self.on_line).abs() / yield_force.max(self.answer.abs())
+    }
+
+    /// Whether it is on the line but for rounding.
+    fn fits(&self, yield_force: f64) -> bool {
+        (self.answer - self.on_line).abs() <= FIT * yield_force.max(self.answer.abs())
     }
 }
 
@@ -106,15 +112,15 @@ impl<E: StepEquations> Simulation<'_, E> {
     /// Solves the step whose loads stand in `rise`, springs and contacts together.
     pub(super) fn find_spring_forces(&mut self, slot: usize) -> Result<(), StepError> {
         self.yielding.loads.copy_from_slice(&self.rise);
-        self.lay_first_lines();
+        self.lay_first_lines(slot);
         for iteration in 1..=MOST_ITERATIONS {
             self.retune(slot)?;
             self.rise.copy_from_slice(&self.yielding.loads);
-            self.add_spring_loads(slot);
+            self.add_spring_loads();
             self.factors[slot].solve(self.system, &self.equations, &mut self.rise, &mut self.work);
             self.solve_contacts(slot)?;
             self.work.outer_iterations += 1;
-            if self.follow_springs(slot) <= FIT {
+            if self.follow_springs() {
                 return Ok(());
             }
             if iteration > PLAIN_ITERATIONS {
@@ -134,10 +140,24 @@ impl<E: StepEquations> Simulation<'_, E> {
     }
 
     /// Lines through the committed points, with the tangents of the last step: most springs go on as they were.
-    fn lay_first_lines(&mut self) {
+    fn lay_first_lines(&mut self, slot: usize) {
         for (trial, memory) in self.yielding.trials.iter_mut().zip(&self.state.springs) {
             trial.deformation = memory.deformation();
             trial.force = memory.force();
+        }
+        let factors = &self.factors[slot];
+        let k = factors.coefficients;
+        for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
+            let range = building.range();
+            let (v, a) = (
+                &self.state.velocity[range.clone()],
+                &self.state.acceleration[range],
+            );
+            let trials = &mut self.yielding.trials[building.spring_range()];
+            for (spring, trial) in building.equations.springs.iter().zip(trials) {
+                let drift = k.d_v * spring.deformation(v) + k.d_a * spring.deformation(a);
+                trial.drift = own.shift * drift;
+            }
         }
         for (trial, tangent) in self.yielding.trials.iter_mut().zip(&self.yielding.tangents) {
             trial.tangent = *tangent;
@@ -166,15 +186,9 @@ impl<E: StepEquations> Simulation<'_, E> {
     }
 
     /// −(m_r − m) + k_t (δ_r − δ) + s k_t gᵀ D′ of every spring (theory, Eq. Y2).
-    fn add_spring_loads(&mut self, slot: usize) {
-        let factors = &self.factors[slot];
-        let k = factors.coefficients;
-        for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
+    fn add_spring_loads(&mut self) {
+        for building in &self.system.buildings {
             let (range, springs) = (building.range(), building.spring_range());
-            let (v, a) = (
-                &self.state.velocity[range.clone()],
-                &self.state.acceleration[range.clone()],
-            );
             let load = &mut self.rise[range];
             let now = self.state.springs[springs.clone()]
                 .iter()
@@ -183,26 +197,18 @@ impl<E: StepEquations> Simulation<'_, E> {
             for ((spring, trial), (memory, balanced)) in
                 building.equations.springs.iter().zip(trials).zip(now)
             {
-                let drift = k.d_v * spring.deformation(v) + k.d_a * spring.deformation(a);
                 let force = balanced - trial.force
-                    + trial.tangent
-                        * (trial.deformation - memory.deformation() + own.shift * drift);
+                    + trial.tangent * (trial.deformation - memory.deformation() + trial.drift);
                 spring.push(force, load);
             }
         }
     }
 
-    /// Deformations at the end of the tried step and what the rules answer; returns the greatest misfit.
-    fn follow_springs(&mut self, slot: usize) -> f64 {
-        let factors = &self.factors[slot];
-        let k = factors.coefficients;
-        let mut worst = 0.0_f64;
-        for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
+    /// Deformations at the end of the tried step and what the rules answer; whether all springs are on their lines.
+    fn follow_springs(&mut self) -> bool {
+        let mut all_fit = true;
+        for building in &self.system.buildings {
             let (range, springs) = (building.range(), building.spring_range());
-            let (v, a) = (
-                &self.state.velocity[range.clone()],
-                &self.state.acceleration[range.clone()],
-            );
             let rise = &self.rise[range];
             let memories = &self.state.springs[springs.clone()];
             for ((spring, trial), memory) in building
@@ -212,27 +218,15 @@ impl<E: StepEquations> Simulation<'_, E> {
                 .zip(&mut self.yielding.trials[springs])
                 .zip(memories)
             {
-                let drift = k.d_v * spring.deformation(v) + k.d_a * spring.deformation(a);
-                let change = spring.deformation(rise) - own.shift * drift;
+                let change = spring.deformation(rise) - trial.drift;
                 trial.reached = memory.deformation() + change;
                 trial.on_line = trial.force + trial.tangent * (trial.reached - trial.deformation);
-                let Response {
-                    force,
-                    tangent,
-                    memory,
-                    ..
-                } = spring.hysteresis.respond(memory, trial.reached);
-                (trial.answer, trial.next_tangent, trial.memory) = (force, tangent, memory);
-                let yield_force = spring.hysteresis.backbone().yield_force();
-                let misfit = trial.misfit(yield_force);
-                worst = worst.max(if misfit.is_nan() {
-                    f64::INFINITY
-                } else {
-                    misfit
-                });
+                [trial.answer, trial.next_tangent] =
+                    spring.hysteresis.answer(memory, trial.reached);
+                all_fit &= trial.fits(spring.hysteresis.backbone().yield_force());
             }
         }
-        worst
+        all_fit
     }
 
     /// Goes back from the deformations reached to where the potential of the step is least on the way to them: its
@@ -255,7 +249,7 @@ impl<E: StepEquations> Simulation<'_, E> {
                     let way = trial.reached - trial.deformation;
                     let at = trial.deformation + share * way;
                     let balance = trial.balance + share * (trial.on_line - trial.balance);
-                    way * (spring.hysteresis.respond(memory, at).force - balance)
+                    way * (spring.hysteresis.answer(memory, at)[0] - balance)
                 })
                 .sum()
         };
@@ -282,8 +276,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         for (spring, (trial, memory)) in springs.zip(known) {
             trial.reached = trial.deformation + high * (trial.reached - trial.deformation);
             trial.on_line = trial.balance + high * (trial.on_line - trial.balance);
-            let response = spring.hysteresis.respond(memory, trial.reached);
-            (trial.answer, trial.next_tangent) = (response.force, response.tangent);
+            [trial.answer, trial.next_tangent] = spring.hysteresis.answer(memory, trial.reached);
         }
     }
 
@@ -300,12 +293,16 @@ impl<E: StepEquations> Simulation<'_, E> {
             let change = trial.reached - memory.deformation();
             let work = 0.5 * (self.yielding.balanced[index] + trial.on_line) * change;
             self.audit.springs += work;
-            *memory = trial.memory;
+            spring.hysteresis.commit(memory, trial.reached);
             self.yielding.balanced[index] = trial.on_line;
             self.yielding.tangents[index] = trial.next_tangent;
-            let stage = spring.hysteresis.stage(memory);
-            if stage > self.yielding.stages[index] {
-                self.yielding.stages[index] = stage;
+            let known = &mut self.yielding.stages[index];
+            let stage = match known {
+                Stage::Yielded => Stage::Yielded,
+                _ => spring.hysteresis.stage(memory),
+            };
+            if stage > *known {
+                *known = stage;
                 self.yielding.events.push(SpringEvent {
                     spring: index,
                     stage,
