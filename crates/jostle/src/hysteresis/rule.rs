@@ -184,7 +184,8 @@ impl Hysteresis {
         response
     }
 
-    /// Force and tangent of [`Hysteresis::respond`] alone, for trials that may not stand.
+    /// Force \[N·m or N\] and tangent \[N·m/rad or N/m\] of [`Hysteresis::respond`] alone, for trials that may not stand:
+    /// no memory is copied.
     #[inline]
     pub(crate) fn answer(&self, memory: &HysteresisMemory, deformation: f64) -> [f64; 2] {
         match self.rule {

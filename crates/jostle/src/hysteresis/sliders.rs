@@ -35,7 +35,7 @@ fn sliders(backbone: &Backbone) -> [Slider; 2] {
     ]
 }
 
-/// Force and tangent at a deformation, and where each slider then has no force.
+/// Force \[N·m or N\] and tangent at a deformation, and the deformation at which each slider then has no force.
 pub(super) struct Answer {
     pub(super) force: f64,
     pub(super) tangent: f64,

@@ -24,6 +24,7 @@ impl NullaryFnOnce for Eigen<'_> {
     }
 }
 
+/// See [`eigen`]; compiled for the registers at hand.
 #[inline(always)]
 fn found(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
     let n = lower.len();

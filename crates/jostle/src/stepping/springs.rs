@@ -20,7 +20,7 @@ pub(super) struct SpringTrial {
     deformation: f64,
     force: f64,
     tangent: f64,
-    /// What the committed velocity and acceleration take from the change of deformation (theory, Eq. Y2).
+    /// What the committed velocity and acceleration take from the change of deformation (theory, Eq. Y2) \[rad or m\].
     drift: f64,
     /// Force with which the solution before was balanced there.
     balance: f64,
