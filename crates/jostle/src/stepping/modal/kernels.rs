@@ -356,32 +356,32 @@ impl WithSimd for Quadratic<'_> {
         // Lists cut into registers: so many of them are one group of lanes. One by one: mapping arrays is not inlined.
         let [a, b, c, d, e] = self.of;
         let [aa, ab, ac, ad, ae, bb, bc, bd, be, cc, cd, ce, dd, de, ee] = self.form;
-        let count = cut::<S>(a, whole).len();
+        let count = whole / S::F64_LANES;
         let of = [
-            &cut::<S>(a, whole)[..count],
-            &cut::<S>(b, whole)[..count],
-            &cut::<S>(c, whole)[..count],
-            &cut::<S>(d, whole)[..count],
-            &cut::<S>(e, whole)[..count],
+            own::<S>(a, count),
+            own::<S>(b, count),
+            own::<S>(c, count),
+            own::<S>(d, count),
+            own::<S>(e, count),
         ];
         let squares = [
-            &cut::<S>(aa, whole)[..count],
-            &cut::<S>(bb, whole)[..count],
-            &cut::<S>(cc, whole)[..count],
-            &cut::<S>(dd, whole)[..count],
-            &cut::<S>(ee, whole)[..count],
+            own::<S>(aa, count),
+            own::<S>(bb, count),
+            own::<S>(cc, count),
+            own::<S>(dd, count),
+            own::<S>(ee, count),
         ];
         let products = [
-            &cut::<S>(ab, whole)[..count],
-            &cut::<S>(ac, whole)[..count],
-            &cut::<S>(ad, whole)[..count],
-            &cut::<S>(ae, whole)[..count],
-            &cut::<S>(bc, whole)[..count],
-            &cut::<S>(bd, whole)[..count],
-            &cut::<S>(be, whole)[..count],
-            &cut::<S>(cd, whole)[..count],
-            &cut::<S>(ce, whole)[..count],
-            &cut::<S>(de, whole)[..count],
+            own::<S>(ab, count),
+            own::<S>(ac, count),
+            own::<S>(ad, count),
+            own::<S>(ae, count),
+            own::<S>(bc, count),
+            own::<S>(bd, count),
+            own::<S>(be, count),
+            own::<S>(cd, count),
+            own::<S>(ce, count),
+            own::<S>(de, count),
         ];
         for at in 0..count {
             let [a, b, c, d, e] = [of[0][at], of[1][at], of[2][at], of[3][at], of[4][at]];
@@ -419,12 +419,6 @@ impl WithSimd for Quadratic<'_> {
         let rest: f64 = (whole..n).map(term).sum();
         lanes.iter().sum::<f64>() + rest
     }
-}
-
-/// The first `whole` values, register by register.
-#[inline(always)]
-fn cut<S: Simd>(list: &[f64], whole: usize) -> &[S::f64s] {
-    S::as_simd_f64s(&list[..whole]).0
 }
 
 #[cfg(test)]
