@@ -4,6 +4,7 @@
 use pulp::{NullaryFnOnce, Simd, WithSimd};
 
 use super::response::{INPUTS, PRODUCTS};
+use crate::lanes;
 
 /// Watched displacements taken at once.
 pub(super) const ROWS: usize = 8;
@@ -29,6 +30,24 @@ impl NullaryFnOnce for Combine<'_> {
         for i in 0..n {
             let by_loads = (c[i] * p0[i] + d[i] * p1[i]) + e[i] * bend[i];
             self.out[i] = (a[i] * q[i] + b[i] * v[i]) + by_loads;
+        }
+    }
+}
+
+/// Adds so many times some lists to others.
+pub(super) struct AddUp<'a, const N: usize> {
+    pub(super) factor: f64,
+    pub(super) of: [&'a [f64]; N],
+    pub(super) to: [&'a mut [f64]; N],
+}
+
+impl<const N: usize> NullaryFnOnce for AddUp<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (to, of) in self.to.into_iter().zip(self.of) {
+            lanes::add(to, self.factor, of);
         }
     }
 }

@@ -15,12 +15,6 @@ use crate::stepping::impacts::{
 };
 use crate::stepping::outcome::StepError;
 
-/// Rounds in which rates and forces of several contacts settle on each other.
-const ROUNDS: usize = 60;
-/// Change of the forces, relative to the greatest, at which they have settled.
-const SETTLED: f64 = 1e-13;
-/// Change that may be nothing but rounding where it no longer shrinks.
-const ROUNDING: f64 = 1e-11;
 /// Parts of a step in which a force sets in or ends.
 const CORNER_PARTS: u32 = 16;
 
@@ -28,7 +22,7 @@ const CORNER_PARTS: u32 = 16;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Foreseen {
     /// At the end of the step \[N\].
-    end: f64,
+    pub(super) end: f64,
     /// Its slope at the start \[N/s\].
     slope: f64,
     /// What the parabola of the same mean and end would rise over the step if it went on as it starts \[N\].
@@ -349,94 +343,6 @@ impl Walk<'_> {
             response.by_indentation * rate + response.by_rate * acceleration
         };
         Foreseen { end, slope, rise }
-    }
-
-    /// Solves for the forces of the closed contacts at the end of the tried step and lets them push.
-    pub(super) fn find_contact_forces(&mut self, slot: usize) -> Result<(), StepError> {
-        if self.coupling.closed.is_empty() {
-            return Ok(());
-        }
-        for closed in &mut self.coupling.closed {
-            let trial = &self.trials[closed.contact];
-            (closed.free, closed.free_rate) = (trial.indentation, trial.rate);
-            closed.indentation = trial.indentation;
-        }
-        self.couple(slot);
-        self.settle()?;
-        for closed in &self.coupling.closed {
-            for loads in [&mut self.p[1], &mut self.bend] {
-                self.reduced.push_apart(closed.contact, closed.force, loads);
-            }
-        }
-        self.advance(slot);
-        self.follow();
-        for closed in &self.coupling.closed {
-            self.trials[closed.contact].force = closed.force;
-        }
-        Ok(())
-    }
-
-    /// How far and how fast end forces open the closed contacts.
-    fn couple(&mut self, slot: usize) {
-        let n = self.coupling.closed.len();
-        self.coupling.compliance.reset(n, n - 1);
-        self.rate_compliance.clear();
-        for row in 0..n {
-            for column in 0..n {
-                let [own, other] = [row, column].map(|at| self.coupling.closed[at].contact);
-                let [displacement, rate] = self.tables[slot].opening(own, other, self.reduced);
-                self.coupling.compliance.set(row, column, displacement);
-                self.rate_compliance.push(rate);
-            }
-            let own = self.coupling.compliance.get(row, row);
-            self.coupling.closed[row].rate_gain = self.rate_compliance[row * n + row] / own;
-        }
-    }
-
-    /// Forces with which indentations and rates agree. The equations take a rate that goes with the indentation of its own
-    /// contact; what the others add beyond that is put in from the round before, and is small where steps are short.
-    fn settle(&mut self) -> Result<(), StepError> {
-        let n = self.coupling.closed.len();
-        let diverged = StepError::ContactDiverged {
-            time: self.time,
-            closed: n,
-        };
-        // From the forces foreseen; every round then begins where the one before ended.
-        self.forces.clear();
-        let (closed, foreseen) = (&self.coupling.closed, &self.foreseen);
-        let ends = closed.iter().map(|closed| foreseen[closed.contact].end);
-        self.forces.extend(ends);
-        self.coupling.press(|at| self.forces[at]);
-        let mut last = f64::INFINITY;
-        for _ in 0..ROUNDS {
-            for row in 0..n {
-                let mut beyond = 0.0;
-                for column in 0..n {
-                    let at = row * n + column;
-                    let gain = self.coupling.closed[row].rate_gain;
-                    beyond += (gain * self.coupling.compliance.get(row, column)
-                        - self.rate_compliance[at])
-                        * self.forces[column];
-                }
-                let index = self.coupling.closed[row].contact;
-                self.coupling.closed[row].free_rate = self.trials[index].rate + beyond;
-            }
-            let iterations = self.coupling.solve_from_here();
-            self.work.iterations += iterations.ok_or_else(|| diverged.clone())?;
-            let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
-            for (force, closed) in self.forces.iter_mut().zip(&self.coupling.closed) {
-                change = change.max((closed.force - *force).abs());
-                greatest = greatest.max(closed.force.abs());
-                *force = closed.force;
-            }
-            // Rounds that begin near their end may go round in circles in the last digits.
-            let rounding = change <= ROUNDING * greatest && change >= last;
-            if n == 1 || change <= SETTLED * greatest || rounding {
-                return Ok(());
-            }
-            last = change;
-        }
-        Err(diverged)
     }
 
     /// Relative acceleration of the faces of a contact; modal ones stand in `scratch` \[m/s²\].

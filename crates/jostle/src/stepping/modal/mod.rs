@@ -8,9 +8,11 @@
 mod basis;
 mod damped;
 mod flight;
+mod forces;
 mod kernels;
 mod meeting;
 mod peaks;
+mod pushes;
 mod reduced;
 mod response;
 mod series;

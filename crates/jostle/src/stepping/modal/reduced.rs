@@ -6,7 +6,8 @@ use pulp::Arch;
 
 use super::basis::{Basis, Demand};
 use super::damped::{Damped, Rules};
-use super::kernels::{Combine, LANES, Quadratic, ROWS, Show};
+use super::kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show};
+use super::pushes::{Answer, Push};
 use super::response::{INPUTS, PRODUCTS, Responses};
 use crate::contact::ForceLaw;
 use crate::equations::Equations;
@@ -28,13 +29,15 @@ pub(super) struct Reduced {
     arch: Arch,
     /// Where the two faces of every contact show; `None` is a wall.
     pub(super) faces: Vec<[Option<Shown>; 2]>,
+    /// What a force at every contact makes of modal loads.
+    pub(super) pushes: Vec<Push>,
 }
 
 /// Where a face shows: its building, and its place among all watched displacements.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
-    building: usize,
-    watched: usize,
+    pub(super) building: usize,
+    pub(super) watched: usize,
 }
 
 /// Modes and watched displacements of one building.
@@ -47,9 +50,7 @@ pub(super) struct ReducedBuilding {
     /// Number of floors, and the place of the base shear.
     pub(super) floors: usize,
     pub(super) shear: usize,
-    /// Shapes at the watched displacements, row by row \[kg^−½\].
-    rows: Vec<f64>,
-    /// The same for so many rows at once, mode by mode; rows that fill up the last block are zero.
+    /// Shapes at so many watched displacements at once, mode by mode; rows that fill up the last block are zero \[kg^−½\].
     pub(super) blocks: Vec<[f64; ROWS]>,
     /// Number of degrees of freedom, and the shapes over all of them.
     size: usize,
@@ -71,6 +72,7 @@ impl Reduced {
             buildings: Vec::new(),
             arch: Arch::new(),
             faces: vec![[None; 2]; system.contacts.len()],
+            pushes: Vec::new(),
         };
         let mut watching = 0;
         for (index, building) in system.buildings.iter().enumerate() {
@@ -150,7 +152,6 @@ impl Reduced {
                 watched: watching..watching + places,
                 floors,
                 shear: watching + shown.len() - 1,
-                rows: shown.concat(),
                 blocks,
                 size: equations.len(),
                 basis,
@@ -160,6 +161,10 @@ impl Reduced {
         if reduced.modes() < FEW_MODES {
             reduced.arch = Arch::Scalar;
         }
+        let contacts = 0..system.contacts.len();
+        reduced.pushes = contacts
+            .map(|contact| Push::of(&reduced, contact))
+            .collect();
         Ok(reduced)
     }
 
@@ -182,9 +187,25 @@ impl Reduced {
 
     /// What two lists of modal values show at everything watched.
     pub(super) fn show(&self, modal: [&[f64]; 2], watched: [&mut [f64]; 2]) {
+        self.show_of(0..self.buildings.len(), modal, watched);
+    }
+
+    /// The same of some buildings, where the lists begin with the first of them.
+    pub(super) fn show_of(
+        &self,
+        buildings: Range<usize>,
+        modal: [&[f64]; 2],
+        watched: [&mut [f64]; 2],
+    ) {
+        let buildings = &self.buildings[buildings];
+        let Some(start) = buildings.first() else {
+            return;
+        };
         let [first, second] = watched;
-        for building in &self.buildings {
-            let (modes, own) = (building.modes.clone(), building.watched.clone());
+        let own = |range: &Range<usize>, start: usize| range.start - start..range.end - start;
+        for building in buildings {
+            let modes = own(&building.modes, start.modes.start);
+            let own = own(&building.watched, start.watched.start);
             self.arch.dispatch(Show {
                 blocks: &building.blocks,
                 modal: modal.map(|list| &list[modes.clone()]),
@@ -203,39 +224,25 @@ impl Reduced {
 
     /// The same of modal values.
     pub(super) fn closing_of_modes(&self, contact: usize, modal: &[f64]) -> f64 {
-        let at = |face: Option<Shown>| {
-            face.map_or(0.0, |shown| {
-                let own = &modal[self.buildings[shown.building].modes.clone()];
-                lanes::dot(self.row(shown), own)
-            })
-        };
-        let [left, right] = self.faces[contact];
-        at(left) - at(right)
+        let push = &self.pushes[contact];
+        -lanes::dot(&push.loads, &modal[push.modes.clone()])
     }
 
-    /// Shapes at a face.
-    fn row(&self, shown: Shown) -> &[f64] {
-        let own = &self.buildings[shown.building];
-        let (at, n) = (shown.watched - own.watched.start, own.modes.len());
-        &own.rows[at * n..(at + 1) * n]
-    }
-
-    /// The faces of a contact on buildings, with the direction in which the other side pushes them.
-    fn sides(&self, contact: usize) -> impl Iterator<Item = (Shown, f64)> + use<> {
-        let [left, right] = self.faces[contact];
-        [left.map(|face| (face, -1.0)), right.map(|face| (face, 1.0))]
-            .into_iter()
-            .flatten()
+    /// Shape of one of its building's modes at a face \[kg^−½\].
+    pub(super) fn shape(&self, face: Shown, mode: usize) -> f64 {
+        let own = &self.buildings[face.building];
+        let place = face.watched - own.watched.start;
+        own.blocks[place / ROWS * own.modes.len() + mode][place % ROWS]
     }
 
     /// Adds what a force on the faces of a contact, pushing them apart, makes of modal loads.
     pub(super) fn push_apart(&self, contact: usize, force: f64, loads: &mut [f64]) {
-        for (shown, sign) in self.sides(contact) {
-            let loads = &mut loads[self.buildings[shown.building].modes.clone()];
-            for (load, shape) in loads.iter_mut().zip(self.row(shown)) {
-                *load += sign * force * shape;
-            }
-        }
+        let push = &self.pushes[contact];
+        self.arch.dispatch(AddUp {
+            factor: force,
+            of: [&push.loads],
+            to: [&mut loads[push.modes.clone()]],
+        });
     }
 
     /// Full displacements of all buildings.
@@ -282,8 +289,8 @@ pub(super) struct Table {
     moment: [Vec<f64>; INPUTS],
     /// Of the products of these in the energy lost by damping: upper triangle row by row; empty without rules.
     pub(super) damped: [Vec<f64>; PRODUCTS],
-    /// What end forces do between all pairs of contacts, where already asked for.
-    pub(super) compliance: Vec<Option<[f64; 2]>>,
+    /// What unit end forces at the contacts do.
+    answers: Vec<Answer>,
 }
 
 /// What a step did to the energies of all modes \[J\].
@@ -297,9 +304,9 @@ pub(super) struct StepEnergy {
 impl Table {
     pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rules: Option<&Rules>) {
         self.step = step;
-        self.compliance.clear();
-        let contacts = reduced.faces.len();
-        self.compliance.resize(contacts * contacts, None);
+        self.answers
+            .resize_with(reduced.pushes.len(), Answer::default);
+        self.answers.iter_mut().for_each(Answer::forget);
         let lists = self.displacement.iter_mut().chain(&mut self.velocity);
         let lists = lists.chain(&mut self.area).chain(&mut self.moment);
         lists.for_each(|list| list.resize(reduced.modes(), 0.0));
@@ -386,31 +393,18 @@ impl Table {
             .sum()
     }
 
-    /// Displacement and velocity of contact c at the end of the step under a unit end force of contact d that sets in
-    /// as the square of time, both counted as opening \[m/N, m/(N s)\].
-    pub(super) fn opening(&mut self, c: usize, d: usize, reduced: &Reduced) -> [f64; 2] {
-        let contacts = reduced.faces.len();
-        if let Some(known) = self.compliance[c * contacts + d] {
-            return known;
-        }
-        let mut sums = [0.0; 2];
-        for (own, own_sign) in reduced.sides(c) {
-            for (other, other_sign) in reduced.sides(d) {
-                if own.building != other.building {
-                    continue;
-                }
-                let range = reduced.buildings[own.building].modes.clone();
-                let (a, b) = (reduced.row(own), reduced.row(other));
-                for (sum, factors) in sums.iter_mut().zip([&self.displacement, &self.velocity]) {
-                    let [.., line, bend] = factors.each_ref().map(|list| &list[range.clone()]);
-                    let pairs = a.iter().zip(b).zip(line.iter().zip(bend));
-                    let shown = pairs.map(|((a, b), (line, bend))| a * b * (line + bend));
-                    *sum += own_sign * other_sign * shown.sum::<f64>();
-                }
-            }
-        }
-        self.compliance[c * contacts + d] = Some(sums);
-        sums
+    /// Finds what a unit end force of a contact does, where it is not known yet.
+    pub(super) fn find_answer(&mut self, contact: usize, reduced: &Reduced) {
+        let ends = [&self.displacement, &self.velocity].map(|factors| {
+            let [.., line, bend] = factors;
+            [&line[..], bend]
+        });
+        self.answers[contact].find(contact, ends, reduced);
+    }
+
+    /// What a unit end force of a contact does, once found.
+    pub(super) fn answer(&self, contact: usize) -> &Answer {
+        &self.answers[contact]
     }
 }
 

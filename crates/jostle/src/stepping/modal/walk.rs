@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::damped::Rules;
 use super::flight::Flight;
+use super::forces::ForceEquations;
 use super::meeting::Foreseen;
 use super::peaks::{Peaks, Taken, Watched};
 use super::reduced::{Reduced, StepEnergy, Table};
@@ -71,8 +72,7 @@ pub(super) struct Walk<'a> {
     pub(super) open_steps: Vec<u32>,
     pub(super) strongest: Vec<f64>,
     pub(super) coupling: ContactEquations,
-    pub(super) rate_compliance: Vec<f64>,
-    pub(super) forces: Vec<f64>,
+    pub(super) equations: ForceEquations,
     /// Forces of closed contacts over the tried step as they could be foreseen.
     pub(super) foreseen: Vec<Foreseen>,
     pub(super) finest_in_contact: u32,
@@ -166,8 +166,7 @@ impl<'a> Walk<'a> {
             open_steps: vec![0; contacts],
             strongest: vec![0.0; system.contacts.iter().map(|c| c.gap + 1).max().unwrap_or(0)],
             coupling: ContactEquations::default(),
-            rate_compliance: Vec::new(),
-            forces: Vec::new(),
+            equations: ForceEquations::default(),
             foreseen: vec![Foreseen::default(); contacts],
             finest_in_contact: 0,
             impacts: Vec::new(),
@@ -217,7 +216,7 @@ impl<'a> Walk<'a> {
                 self.report_impact(index, &episode, false);
             }
         }
-        self.work.coupling_operations = self.coupling.operations;
+        self.work.coupling_operations = self.coupling.operations + self.equations.operations;
         let energy = self.balance();
         let contact_step = Some(self.finest_in_contact)
             .filter(|d| *d > 0)
@@ -379,7 +378,8 @@ impl<'a> Walk<'a> {
         self.read_trials(0);
     }
 
-    fn read_trials(&mut self, at: usize) {
+    /// Sets `trials` to the present or to the end of the tried step.
+    pub(super) fn read_trials(&mut self, at: usize) {
         let (u, rate) = (&self.u[at], &self.rate[at]);
         for (index, trial) in self.trials.iter_mut().enumerate() {
             let width = self.system.contacts[index].width;

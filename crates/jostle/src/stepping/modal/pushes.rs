@@ -1,0 +1,100 @@
+//! What forces at contacts make of modal loads, and what these do until the end of a step.
+
+use std::ops::Range;
+
+use super::reduced::{Reduced, Shown};
+
+/// A force that pushes the faces of a contact apart, as the modes of the buildings on both sides feel it.
+pub(super) struct Push {
+    /// These buildings, their modes and what is watched of them, among all.
+    buildings: Range<usize>,
+    pub(super) modes: Range<usize>,
+    pub(super) watched: Range<usize>,
+    /// Modal loads of a unit force \[kg^−½\].
+    pub(super) loads: Vec<f64>,
+}
+
+impl Push {
+    pub(super) fn of(reduced: &Reduced, contact: usize) -> Self {
+        let [left, right] = reduced.faces[contact];
+        let sides = [left.map(|face| (face, -1.0)), right.map(|face| (face, 1.0))];
+        let sides = || sides.into_iter().flatten();
+        let touched = || sides().map(|(face, _)| face.building);
+        let first = touched().min().unwrap_or(0);
+        let buildings = first..touched().max().map_or(first, |last| last + 1);
+        let joined = &reduced.buildings[buildings.clone()];
+        let from = joined
+            .first()
+            .map_or([0; 2], |b| [b.modes.start, b.watched.start]);
+        let to = joined
+            .last()
+            .map_or([0; 2], |b| [b.modes.end, b.watched.end]);
+        let mut loads = vec![0.0; to[0] - from[0]];
+        for (face, sign) in sides() {
+            let modes = reduced.buildings[face.building].modes.clone();
+            for (mode, load) in loads[modes.start - from[0]..modes.end - from[0]]
+                .iter_mut()
+                .enumerate()
+            {
+                *load = sign * reduced.shape(face, mode);
+            }
+        }
+        Self {
+            buildings,
+            modes: from[0]..to[0],
+            watched: from[1]..to[1],
+            loads,
+        }
+    }
+}
+
+/// What a unit force at the end of a step does until then, when it sets in as the square of time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Answer {
+    known: bool,
+    /// Displacements and velocities of the modes of its [`Push`].
+    pub(super) modal: [Vec<f64>; 2],
+    /// What is watched there of displacements and velocities \[m/N, m/(N s)\].
+    pub(super) watched: [Vec<f64>; 2],
+}
+
+impl Answer {
+    /// The step has changed.
+    pub(super) fn forget(&mut self) {
+        self.known = false;
+    }
+
+    /// Finds it, where it is not known yet, from what loads that rise along a line, and bends of loads, make of
+    /// displacements and of velocities.
+    pub(super) fn find(&mut self, contact: usize, ends: [[&[f64]; 2]; 2], reduced: &Reduced) {
+        if self.known {
+            return;
+        }
+        self.known = true;
+        let push = &reduced.pushes[contact];
+        for (list, factors) in self.modal.iter_mut().zip(ends) {
+            let [line, bend] = factors.map(|list| &list[push.modes.clone()]);
+            let factors = line.iter().zip(bend).zip(&push.loads);
+            list.clear();
+            list.extend(factors.map(|((line, bend), load)| (line + bend) * load));
+        }
+        let [u, rate] = &mut self.watched;
+        u.resize(push.watched.len(), 0.0);
+        rate.resize(push.watched.len(), 0.0);
+        let [q, v] = &self.modal;
+        reduced.show_of(push.buildings.clone(), [q, v], [u, rate]);
+    }
+
+    /// How far and how fast the force, at contact `from`, opens a contact \[m/N, m/(N s)\].
+    pub(super) fn opening(&self, contact: usize, from: usize, reduced: &Reduced) -> [f64; 2] {
+        let seen = &reduced.pushes[from].watched;
+        let [left, right] = reduced.faces[contact];
+        self.watched.each_ref().map(|list| {
+            let at = |face: Option<Shown>| {
+                face.filter(|face| seen.contains(&face.watched))
+                    .map_or(0.0, |face| list[face.watched - seen.start])
+            };
+            at(right) - at(left)
+        })
+    }
+}
