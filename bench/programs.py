@@ -34,19 +34,14 @@ def call(command):
     return json.loads(done.stdout), cpu
 
 
-def solvers():
-    """Ways of stepping that this jostle has."""
-    help_text = subprocess.run([JOSTLE, "run", "--help"], capture_output=True, text=True, check=True).stdout
-    return ["riccati", "modal"] if "--solver" in help_text else ["riccati"]
+SOLVERS = ["riccati", "modal"]
 
 
 def jostle(case, solver="riccati", tolerance=None, least=1.0, most=25, fewest=3):
     """jostle with automatic steps, again and again for a second.
 
     What is counted is the wall time of stepping in the quickest run, which is never less than its CPU time."""
-    command = [JOSTLE, "run", model_of(case), "--json", "--no-report", *case.options]
-    if solver != "riccati":
-        command += ["--solver", solver]
+    command = [JOSTLE, "run", model_of(case), "--json", "--no-report", "--solver", solver, *case.options]
     with tempfile.TemporaryDirectory() as folder:
         if tolerance is not None:
             command[2] = with_tolerance(model_of(case), tolerance, folder)

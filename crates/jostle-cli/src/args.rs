@@ -111,6 +111,8 @@ pub(crate) struct RunArgs {
 /// Equations that advance a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum SolverName {
+    /// Modes where buildings are elastic and steps automatic, otherwise Riccati
+    Auto,
     /// Riccati transfer recursion
     Riccati,
     /// Direct stiffness, the independent check

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use jostle::stepping::Progress;
+use jostle::stepping::{Progress, modal};
 use jostle::{
     GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, simulate,
 };
@@ -27,10 +27,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let mut opened = open(args.model.model.as_deref(), &args.model.overrides()?)?;
     if let Some(solver) = args.solver {
         opened.input.model.analysis.solver = match solver {
-            SolverName::Riccati => Solver::Riccati,
-            SolverName::Stiffness => Solver::Stiffness,
-            SolverName::Product => Solver::Product,
-            SolverName::Modal => Solver::Modal,
+            SolverName::Auto => None,
+            SolverName::Riccati => Some(Solver::Riccati),
+            SolverName::Stiffness => Some(Solver::Stiffness),
+            SolverName::Product => Some(Solver::Product),
+            SolverName::Modal => Some(Solver::Modal),
         };
     }
     for warning in &opened.input.warnings {
@@ -64,12 +65,17 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let started = Instant::now();
     // Energies are audited where histories are recorded, so that these are needed even where nobody writes them.
     // Modal stepping audits in every step.
-    let seen = out.is_some() || opened.input.model.analysis.solver != Solver::Modal;
+    let seen = out.is_some() || plan.solver != Solver::Modal;
     let settings = Settings {
         record_interval: Settings::default().record_interval.filter(|_| seen),
         ..Settings::default()
     };
-    let outcome = watch(&opened, &motion, &plan, settings, &stop);
+    // Both runs step the same shapes; what is wrong with them the run says.
+    let shapes = (plan.solver == Solver::Modal)
+        .then(|| modal::Reduction::of(&opened.system, &plan).ok())
+        .flatten();
+    let shapes = shapes.as_ref();
+    let outcome = watch(&opened, &motion, &plan, settings, shapes, &stop);
     let wall = started.elapsed().as_secs_f64();
     let twin =
         (!args.no_report && !opened.system.contacts.is_empty() && outcome.end == RunEnd::Completed)
@@ -78,7 +84,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
                     pounding: Pounding::Excluded,
                     ..settings
                 };
-                watch(&opened, &motion, &plan, settings, &stop)
+                watch(&opened, &motion, &plan, settings, shapes, &stop)
             })
             .filter(|twin| twin.end == RunEnd::Completed);
 
@@ -190,6 +196,7 @@ fn watch(
     motion: &GroundMotion,
     plan: &Plan,
     settings: Settings,
+    shapes: Option<&modal::Reduction>,
     stop: &AtomicBool,
 ) -> Outcome {
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
@@ -203,27 +210,25 @@ fn watch(
         "without contact"
     });
     let (started, mut shown) = (Instant::now(), false);
-    let outcome = simulate(
-        &opened.system,
-        motion,
-        plan,
-        settings,
-        |Progress { time, duration }| {
-            if !shown && terminal::is_watched() && started.elapsed() > PATIENCE {
-                bar.set_draw_target(ProgressDrawTarget::stderr());
-                shown = true;
-            }
-            if shown {
-                bar.set_position((1000.0 * time / duration) as u64);
-                bar.set_message(format!("{time:.1} of {duration:.1} s"));
-            }
-            if stop.load(Ordering::Relaxed) {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        },
-    );
+    let observer = |Progress { time, duration }| {
+        if !shown && terminal::is_watched() && started.elapsed() > PATIENCE {
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+            shown = true;
+        }
+        if shown {
+            bar.set_position((1000.0 * time / duration) as u64);
+            bar.set_message(format!("{time:.1} of {duration:.1} s"));
+        }
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    let outcome = match shapes {
+        Some(shapes) => modal::simulate(&opened.system, motion, plan, settings, shapes, observer),
+        None => simulate(&opened.system, motion, plan, settings, observer),
+    };
     bar.finish_and_clear();
     outcome
 }

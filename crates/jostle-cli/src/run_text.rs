@@ -61,8 +61,9 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     }
     let (energy, work) = (&summary.energy, &summary.work);
     let accounting = format!(
-        "energy balance {:.0e} · {} steps of {:.3} ms ({} in contact{}) · {} · {} · {:.3} s",
+        "energy balance {:.0e} · {} · {} steps of {:.3} ms ({} in contact{}) · {} · {} · {:.3} s",
         energy.worst_imbalance,
+        work.solver,
         grouped(work.steps),
         work.step_s * 1e3,
         grouped(work.contact_steps),

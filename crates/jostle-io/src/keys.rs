@@ -156,7 +156,7 @@ pub const LAW_NAMES: [&str; 11] = [
 ];
 pub(crate) const LAWS: &[&str] = &LAW_NAMES;
 pub(crate) const LAW_VARIANTS: &[&str] = &["ye", "mahmoud-jankowski"];
-pub(crate) const SOLVERS: &[&str] = &["riccati", "stiffness", "product", "modal"];
+pub(crate) const SOLVERS: &[&str] = &["auto", "riccati", "stiffness", "product", "modal"];
 pub(crate) const INTEGRATORS: &[&str] = &[
     "average-acceleration",
     "newmark",
@@ -366,7 +366,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Joint, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational stiffness of the hinge between beam end and column."),
 
     default(S::Damping, "ratio", Quantity(D::Dimensionless), "0.05", "Fraction of critical damping in the modes below."),
-    default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] or [1] with fewer floors", "Lateral modes that have this ratio; \"all\" modes with solver = \"modal\" only."),
+    default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] or [1] with fewer floors", "Lateral modes that have this ratio; \"all\" modes where \"modal\" can step the buildings."),
     optional(S::Damping, "alpha", Quantity(D::Frequency), "Rayleigh coefficient on the masses, instead of ratio."),
     optional(S::Damping, "beta", Quantity(D::Time), "Rayleigh coefficient on the stiffness, instead of ratio."),
 
@@ -436,7 +436,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),
     default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Relative tolerance on the greatest contact force of a gap and on peak displacements, with automatic steps."),
     default(S::Analysis, "energy_tolerance", Quantity(D::Dimensionless), "1e-6", "Relative energy imbalance above which a run warns."),
-    default(S::Analysis, "solver", Choice(SOLVERS), "\"riccati\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, the published product of transfer matrices, or, for elastic buildings, their modes."),
+    default(S::Analysis, "solver", Choice(SOLVERS), "\"auto\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, the published product of transfer matrices, or, for elastic buildings, their modes. \"auto\" is modal for elastic buildings with automatic steps, otherwise riccati."),
     default(S::Analysis, "integrator", ChoiceOrTable(INTEGRATORS, S::Integrator), "\"average-acceleration\"", "Rule that joins displacements, velocities and accelerations over a step."),
 
     required(S::Integrator, "method", Choice(INTEGRATORS), "Name of the rule; all but average acceleration can damp the motion themselves."),

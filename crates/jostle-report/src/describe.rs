@@ -1,7 +1,7 @@
 //! The model, the analysis and the balance of the run in words and small tables.
 
 use jostle::contact::RestitutionIs;
-use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Link, Shear, Solver, Structure};
+use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Link, Shear, Structure};
 use jostle::motion::Wave;
 use jostle::summary::{BuildingSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
@@ -343,17 +343,16 @@ fn sine(period: f64) -> String {
 fn analysis(page: &Page) -> Facts {
     let work = &page.summary.work;
     let count = |n: u64| format::fixed(n as f64, 0);
-    let chosen = |step: Option<f64>| if step.is_some() { "given" } else { "automatic" };
+    let chosen = |given: bool| if given { "given" } else { "automatic" };
     let settings = &page.model.analysis;
     let mut facts: Facts = vec![
         (
             "solver",
-            match settings.solver {
-                Solver::Riccati => "Riccati transfer matrices".into(),
-                Solver::Stiffness => "direct stiffness".into(),
-                Solver::Product => "product of transfer matrices".into(),
-                Solver::Modal => "modes, exact between the points of the record".into(),
-            },
+            format!(
+                "{} ({})",
+                equations(work.solver),
+                chosen(settings.solver.is_some())
+            ),
         ),
         ("integrator", settings.integrator.to_string()),
         (
@@ -361,7 +360,7 @@ fn analysis(page: &Page) -> Facts {
             format!(
                 "{} ({})",
                 format::milliseconds(work.step_s),
-                chosen(settings.step)
+                chosen(settings.step.is_some())
             ),
         ),
     ];
@@ -371,7 +370,7 @@ fn analysis(page: &Page) -> Facts {
             format!(
                 "{} ({})",
                 format::milliseconds(step),
-                chosen(settings.contact_step)
+                chosen(settings.contact_step.is_some())
             ),
         ));
     }
@@ -411,6 +410,17 @@ fn analysis(page: &Page) -> Facts {
         ));
     }
     facts
+}
+
+/// Equations that advance a step, by their name in model files.
+fn equations(solver: &str) -> &str {
+    match solver {
+        "riccati" => "Riccati transfer matrices",
+        "stiffness" => "direct stiffness",
+        "product" => "product of transfer matrices",
+        "modal" => "modes, exact between the points of the record",
+        other => other,
+    }
 }
 
 fn energy(page: &Page) -> Facts {

@@ -134,7 +134,7 @@ fn el_centro(case: &Value) -> Vec<Row> {
     let mut motion = builtin_record("el-centro-1940-ns").expect("it is built in");
     motion.scale = number(case, "/inputs/g_in_s2") / RECORDED;
     let analysis = Analysis {
-        solver: Solver::Modal,
+        solver: Some(Solver::Modal),
         ..Analysis::default()
     };
     let plan = Plan::choose(&system, &motion, &analysis).expect("elastic buildings have modes");

@@ -350,8 +350,9 @@ pub struct Analysis {
     pub tolerance: f64,
     /// Relative energy imbalance above which a run warns, > 0 \[–\].
     pub energy_tolerance: f64,
-    /// Which equations advance a step.
-    pub solver: Solver,
+    /// Which equations advance a step; `None` takes [`Solver::Modal`] where it may, with automatic steps, and otherwise
+    /// [`Solver::Riccati`].
+    pub solver: Option<Solver>,
     /// How a step is integrated.
     pub integrator: Integrator,
 }
@@ -363,17 +364,16 @@ impl Default for Analysis {
             contact_step: None,
             tolerance: 1e-3,
             energy_tolerance: 1e-6,
-            solver: Solver::Riccati,
+            solver: None,
             integrator: Integrator::default(),
         }
     }
 }
 
 /// Which equations advance a step; all give the same answer as far as their rounding allows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
     /// Riccati transfer recursion along beams, column lines and storeys.
-    #[default]
     Riccati,
     /// Direct stiffness assembled and factorised by a general sparse library: the independent check.
     Stiffness,
@@ -382,6 +382,19 @@ pub enum Solver {
     Product,
     /// Elastic buildings by their modes, exact between the points of a record ([`crate::stepping::modal`]).
     Modal,
+}
+
+impl Solver {
+    /// As a model file spells it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Riccati => "riccati",
+            Self::Stiffness => "stiffness",
+            Self::Product => "product",
+            Self::Modal => "modal",
+        }
+    }
 }
 
 /// One fault of a model.

@@ -367,6 +367,7 @@ fn energy_summary(outcome: &Outcome) -> EnergySummary {
 fn work_summary(run: &Run) -> WorkSummary {
     let work = &run.outcome.work;
     WorkSummary {
+        solver: run.plan.solver.name(),
         steps: work.steps,
         contact_steps: work.contact_steps,
         repeated_steps: work.repeated_steps,

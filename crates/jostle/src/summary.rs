@@ -286,6 +286,8 @@ pub struct EnergySummary {
 /// Work done, and the time it took.
 #[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
 pub struct WorkSummary {
+    /// Which equations advanced the steps, as a model file spells it.
+    pub solver: &'static str,
     /// Accepted steps.
     pub steps: u64,
     /// Accepted steps with a closed contact.

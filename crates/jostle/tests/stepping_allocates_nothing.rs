@@ -48,7 +48,7 @@ fn shaking(duration: f64) -> GroundMotion {
 fn a_longer_run_allocates_no_more_often() {
     let mut model = towers();
     for solver in [Solver::Riccati, Solver::Modal] {
-        model.analysis.solver = solver;
+        model.analysis.solver = Some(solver);
         never_more_often(&model);
     }
 }

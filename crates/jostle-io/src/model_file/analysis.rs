@@ -28,10 +28,11 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
     }
     if let Some(field) = reader.get(&view, "solver") {
         analysis.solver = match reader.choice(&field, SOLVERS, &[]) {
-            Some("stiffness") => Solver::Stiffness,
-            Some("product") => Solver::Product,
-            Some("modal") => Solver::Modal,
-            _ => Solver::Riccati,
+            Some("riccati") => Some(Solver::Riccati),
+            Some("stiffness") => Some(Solver::Stiffness),
+            Some("product") => Some(Solver::Product),
+            Some("modal") => Some(Solver::Modal),
+            _ => None,
         };
     }
     if let Some(field) = reader.get(&view, "integrator") {

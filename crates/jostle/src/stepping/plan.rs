@@ -71,24 +71,25 @@ const MODAL_FEWEST_ADAPTED: f64 = 0.7;
 const FINEST: u32 = 1 << 20;
 
 impl Plan {
-    /// Chooses the steps for a system and a motion.
+    /// Chooses the steps for a system and a motion, and the solver where none is asked for.
     ///
     /// # Errors
-    /// A fixed step that cannot resolve the first period, the record or an impact.
+    /// A solver that cannot step the system; a fixed step that cannot resolve the first period, the record or an impact.
     pub fn choose(
         system: &System,
         motion: &GroundMotion,
         analysis: &Analysis,
     ) -> Result<Self, Vec<ModelFault>> {
         let mut faults = Vec::new();
-        check_solver(system, analysis, &mut faults);
+        let solver = solver_for(system, analysis);
+        check_solver(solver, system, analysis, &mut faults);
         let refinement = (analysis.tolerance / 1e-3).sqrt();
         let step = match analysis.step {
             Some(step) => {
                 check_step(step, system, motion, &mut faults);
                 step
             }
-            None if analysis.solver == Solver::Modal => modal_step(system, motion, refinement),
+            None if solver == Solver::Modal => modal_step(system, motion, refinement),
             None => automatic_step(system, motion, refinement),
         };
         let contact_steps = match analysis.contact_step {
@@ -101,7 +102,7 @@ impl Plan {
                 )
             }
             None => ContactSteps::PerImpact {
-                steps: if analysis.solver == Solver::Modal {
+                steps: if solver == Solver::Modal {
                     MODAL_STEPS_PER_IMPACT / (analysis.tolerance / 1e-3).powf(0.25)
                 } else {
                     STEPS_PER_IMPACT / refinement
@@ -116,7 +117,7 @@ impl Plan {
             step,
             contact_steps,
             integrator: analysis.integrator,
-            solver: analysis.solver,
+            solver,
         })
     }
 
@@ -228,34 +229,50 @@ impl Plan {
     }
 }
 
-/// What the solver cannot do.
-fn check_solver(system: &System, analysis: &Analysis, faults: &mut Vec<ModelFault>) {
-    let modal = analysis.solver == Solver::Modal;
-    if modal && !system.links.is_empty() {
-        faults.push(ModelFault {
-            path: "analysis.solver".into(),
-            problem: "modal cannot be used: links join the buildings, so that none has modes of its own; take solver = \"riccati\"".into(),
-        });
-    }
-    for (index, building) in system.buildings.iter().enumerate() {
-        if modal {
-            for reason in modal::refusals(building, analysis.integrator) {
-                let fault = ModelFault {
-                    path: "analysis.solver".into(),
-                    problem: format!(
-                        "modal cannot be used: {reason}; or take solver = \"riccati\""
-                    ),
-                };
-                if !faults.contains(&fault) {
-                    faults.push(fault);
-                }
-            }
-        } else if building.modal_damping.is_some() {
-            faults.push(ModelFault {
-                path: format!("building[{index}].damping.modes"),
-                problem: "\"all\" needs solver = \"modal\" under [analysis]; other solvers know Rayleigh damping of one or two modes".into(),
-            });
+/// The solver asked for, or the quickest that keeps the tolerance. Who gives steps means those of Riccati's recursion;
+/// damping in all modes is for modal stepping alone.
+fn solver_for(system: &System, analysis: &Analysis) -> Solver {
+    let usual = || {
+        let automatic = analysis.step.is_none() && analysis.contact_step.is_none();
+        let mut buildings = system.buildings.iter();
+        if buildings.any(|building| building.modal_damping.is_some())
+            || automatic && modal::refusals(system, analysis.integrator).is_empty()
+        {
+            Solver::Modal
+        } else {
+            Solver::Riccati
         }
+    };
+    analysis.solver.unwrap_or_else(usual)
+}
+
+/// What the solver cannot do.
+fn check_solver(
+    solver: Solver,
+    system: &System,
+    analysis: &Analysis,
+    faults: &mut Vec<ModelFault>,
+) {
+    let in_all_modes = |building: &BuildingSystem| building.modal_damping.is_some();
+    let damped = system.buildings.iter().position(in_all_modes);
+    if solver != Solver::Modal {
+        faults.extend(damped.map(|index| ModelFault {
+            path: format!("building[{index}].damping.modes"),
+            problem: "\"all\" needs solver = \"modal\" under [analysis], or none named there; other solvers know Rayleigh damping of one or two modes".into(),
+        }));
+        return;
+    }
+    for reason in modal::refusals(system, analysis.integrator) {
+        faults.push(match (analysis.solver, damped) {
+            (None, Some(index)) => ModelFault {
+                path: format!("building[{index}].damping.modes"),
+                problem: format!("\"all\" needs modal stepping, which cannot be used: {reason}; or name one or two modes"),
+            },
+            _ => ModelFault {
+                path: "analysis.solver".into(),
+                problem: format!("modal cannot be used: {reason}; or take solver = \"riccati\""),
+            },
+        });
     }
 }
 

@@ -23,7 +23,7 @@ fn modal(plan: &Plan) -> Plan {
 /// Automatic steps.
 fn planned(system: &System, motion: &GroundMotion, solver: Solver, tolerance: f64) -> Plan {
     let analysis = Analysis {
-        solver,
+        solver: Some(solver),
         tolerance,
         ..Analysis::default()
     };
@@ -338,7 +338,7 @@ fn every_mode_decays_with_the_ratio() {
 fn what_modes_cannot_do_is_refused() {
     let refused = |change: &dyn Fn(&mut Model)| {
         let mut model = two_frames(0.03, law(LawKind::Hertz, 1.0));
-        model.analysis.solver = Solver::Modal;
+        model.analysis.solver = Some(Solver::Modal);
         change(&mut model);
         let system = assembled(&model);
         let faults = Plan::choose(&system, &shaking(1.0), &model.analysis)
@@ -356,10 +356,51 @@ fn what_modes_cannot_do_is_refused() {
     let fault = refused(&|model| model.analysis.integrator = jostle::Integrator::hht(0.1));
     assert!(fault.problem.contains("integrator"), "{fault}");
     let fault = refused(&|model| {
-        model.analysis.solver = Solver::Riccati;
+        model.analysis.solver = Some(Solver::Riccati);
         model.buildings[0].damping = Damping::AllModes { ratio: 0.05 };
     });
     assert_eq!(fault.path, "building[0].damping.modes");
+}
+
+/// Where no solver is named, modes step whatever they can, and Riccati's recursion the rest.
+#[test]
+fn the_quickest_solver_that_may_is_chosen() {
+    let chosen = |change: &dyn Fn(&mut Model)| {
+        let mut model = two_frames(0.03, law(LawKind::Hertz, 1.0));
+        change(&mut model);
+        let system = assembled(&model);
+        Plan::choose(&system, &shaking(1.0), &model.analysis).map(|plan| plan.solver)
+    };
+    let all = || Damping::AllModes { ratio: 0.05 };
+    let modal: [&dyn Fn(&mut Model); 3] = [
+        &|_| {},
+        &|model| model.buildings[0].damping = all(),
+        // Nothing else knows this damping, whatever the steps.
+        &|model| {
+            model.buildings[0].damping = all();
+            model.analysis.step = Some(1e-3);
+        },
+    ];
+    for change in modal {
+        assert_eq!(chosen(change), Ok(Solver::Modal));
+    }
+    let riccati: [&dyn Fn(&mut Model); 5] = [
+        &|model| model.buildings[1].gravity.p_delta = true,
+        &|model| model.buildings[0].gravity.preload = true,
+        &|model| model.analysis.integrator = jostle::Integrator::hht(0.1),
+        &|model| model.analysis.step = Some(1e-3),
+        &|model| model.analysis.contact_step = Some(1e-4),
+    ];
+    for change in riccati {
+        assert_eq!(chosen(change), Ok(Solver::Riccati));
+    }
+    let faults = chosen(&|model| {
+        model.buildings[0].damping = all();
+        model.buildings[1].gravity.p_delta = true;
+    });
+    let fault = &faults.expect_err("nothing can step this")[0];
+    assert_eq!(fault.path, "building[0].damping.modes");
+    assert!(fault.problem.contains("P-Delta"), "{fault}");
 }
 
 /// A plan made by hand is held to the same, and to rest at the start.

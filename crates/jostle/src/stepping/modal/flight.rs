@@ -391,7 +391,7 @@ mod tests {
             gaps: vec![Gap::after(0, 0.02, law), Gap::after(1, 0.04, law)],
             links: Vec::new(),
             analysis: Analysis {
-                solver: Solver::Modal,
+                solver: Some(Solver::Modal),
                 ..Analysis::default()
             },
         }

@@ -27,27 +27,32 @@ use super::plan::{ContactSteps, Plan};
 use crate::history::Work;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
-use crate::system::{BuildingSystem, System};
+use crate::system::System;
 use reduced::{Rates, Reduced};
 use walk::Walk;
 
-/// Why a building cannot be stepped by its modes; empty when it can.
+/// Why buildings cannot be stepped by their modes; empty when they can.
 #[must_use]
-pub fn refusals(building: &BuildingSystem, integrator: Integrator) -> Vec<String> {
+pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
     let mut reasons = Vec::new();
-    let name = &building.name;
-    if !building.equations.springs.is_empty() {
-        reasons.push(format!("\"{name}\" can yield: leave out its hinges"));
+    if !system.links.is_empty() {
+        reasons.push("links join the buildings, so that none has modes of its own".to_owned());
     }
-    if !building.equations.plain {
-        reasons.push(format!(
-            "\"{name}\" leans on P-Delta or stands on springs, which Rayleigh damping does not act on: its modes do not damp alone"
-        ));
-    }
-    if !building.rest.is_empty() {
-        reasons.push(format!(
-            "\"{name}\" starts under its weight: leave out gravity"
-        ));
+    for building in &system.buildings {
+        let name = &building.name;
+        if !building.equations.springs.is_empty() {
+            reasons.push(format!("\"{name}\" can yield: leave out its hinges"));
+        }
+        if !building.equations.plain {
+            reasons.push(format!(
+                "\"{name}\" leans on P-Delta or stands on springs, which Rayleigh damping does not act on: its modes do not damp alone"
+            ));
+        }
+        if !building.rest.is_empty() {
+            reasons.push(format!(
+                "\"{name}\" starts under its weight: leave out gravity"
+            ));
+        }
     }
     if integrator != Integrator::default() {
         reasons.push("modes are advanced exactly: leave out the integrator".to_owned());
@@ -77,13 +82,8 @@ impl Reduction {
     /// [`StepError::Unsuited`] when modes cannot step the system, [`StepError::NotPositive`] when a building can move
     /// without resistance.
     pub fn of(system: &System, plan: &Plan) -> Result<Self, StepError> {
-        let buildings = system.buildings.iter();
-        let mut reasons = buildings.flat_map(|building| refusals(building, plan.integrator));
+        let mut reasons = refusals(system, plan.integrator).into_iter();
         if let Some(reason) = reasons.next() {
-            return Err(StepError::Unsuited { reason });
-        }
-        if !system.links.is_empty() {
-            let reason = "links join the buildings, so that none has modes of its own".to_owned();
             return Err(StepError::Unsuited { reason });
         }
         let mut work = Work::default();
