@@ -7,7 +7,7 @@ use jostle::modal::Mode;
 use jostle::model::{Hinges, Structure};
 use jostle::stepping::StepEquations;
 use jostle::system::BuildingSystem;
-use jostle::{Building, Model, Plan, RiccatiSweep, System};
+use jostle::{Building, Model, Plan, RiccatiSweep, Solver, System};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
@@ -28,7 +28,6 @@ pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
     } else if opened.input.motion.is_some() {
         let (motion, plan) = opened.plan()?;
         let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
-        let _ = writeln!(text, "  {}", plan.integrator);
         let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
     } else {
         let _ = writeln!(
@@ -362,18 +361,29 @@ fn describe_work(
     plan: &Plan,
     duration: f64,
 ) -> std::fmt::Result {
+    let modal = plan.solver == Solver::Modal;
+    if modal {
+        writeln!(text, "  modes, exact between the points of the record")?;
+    } else {
+        writeln!(text, "  {}, {}", plan.solver.name(), plan.integrator)?;
+    }
     let steps = (duration / plan.step).ceil() as u64;
-    let couplings: usize = system
-        .buildings
-        .iter()
-        .map(|building| RiccatiSweep::of(building).couplings())
-        .sum();
     writeln!(
         text,
-        "  {} steps of {:.4} ms through {duration:.2} s, more while buildings touch",
+        "  {} steps of {:.4} ms through {duration:.2} s, more while buildings touch{}",
         grouped(steps),
-        plan.step * 1e3
+        plan.step * 1e3,
+        if modal {
+            " and for rows of histories"
+        } else {
+            ""
+        }
     )?;
+    if modal {
+        return writeln!(text);
+    }
+    let sweeps = system.buildings.iter().map(RiccatiSweep::of);
+    let couplings: usize = sweeps.map(|sweep| sweep.couplings()).sum();
     writeln!(
         text,
         "  {} couplings in the factors: {} multiply-adds per solution\n",

@@ -1,7 +1,7 @@
 //! The model, the analysis and the balance of the run in words and small tables.
 
 use jostle::contact::RestitutionIs;
-use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Link, Shear, Structure};
+use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Link, Shear, Solver, Structure};
 use jostle::motion::Wave;
 use jostle::summary::{BuildingSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
@@ -354,7 +354,6 @@ fn analysis(page: &Page) -> Facts {
                 chosen(settings.solver.is_some())
             ),
         ),
-        ("integrator", settings.integrator.to_string()),
         (
             "step in free flight",
             format!(
@@ -364,6 +363,9 @@ fn analysis(page: &Page) -> Facts {
             ),
         ),
     ];
+    if work.solver != Solver::Modal.name() {
+        facts.insert(1, ("integrator", settings.integrator.to_string()));
+    }
     if let Some(step) = work.contact_step_s {
         facts.push((
             "step in contact",

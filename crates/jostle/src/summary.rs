@@ -306,7 +306,7 @@ pub struct WorkSummary {
     pub halved_steps: u64,
     /// Multiply-adds spent on the forces of contacts and links.
     pub coupling_operations: u64,
-    /// Step in free flight \[s\].
+    /// Regular step of free flight \[s\].
     pub step_s: f64,
     /// Smallest regular step in contact; `null` when nothing touched \[s\].
     pub contact_step_s: Option<f64>,

@@ -70,6 +70,8 @@ pub struct Outcome {
     pub energy: Energy,
     /// Work done.
     pub work: Work,
+    /// Regular step of free flight; `None` when the run did not begin \[s\].
+    pub free_step: Option<f64>,
     /// Smallest regular step taken in contact \[s\].
     pub contact_step: Option<f64>,
     /// State at the end.
@@ -179,6 +181,7 @@ impl Outcome {
             spring_history: None,
             energy: Energy::default(),
             work: Work::default(),
+            free_step: None,
             contact_step: None,
             state: State::at_rest(system, 0.0),
             end: RunEnd::Failed(error),

@@ -240,6 +240,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
                 coupling_operations: self.coupling.operations,
                 ..self.work
             },
+            free_step: Some(self.plan.step),
             contact_step,
             state: self.state,
             end,

@@ -437,6 +437,8 @@ fn unsuited_runs_do_not_begin() {
 fn rest_stays_rest() {
     let system = assembled(&two_frames(0.0, law(LawKind::HertzDamp, 0.65)));
     let outcome = run(&system, &still(1.0), &modal(&steps(0.01, 8)));
+    let step = outcome.free_step.expect("it ran");
+    assert_eq!(outcome.work.steps, (1.0 / step).round() as u64);
     assert!(outcome.impacts.is_empty());
     assert!(outcome.state.displacement.iter().all(|u| *u == 0.0));
     assert!(matches!(system.contacts[0].law, ForceLaw::Hertz { .. }));

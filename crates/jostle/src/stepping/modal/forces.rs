@@ -182,8 +182,7 @@ impl ForceEquations {
                 change = change.max(step.abs());
                 greatest = greatest.max(force.abs());
             }
-            // Not a number settles nowhere.
-            if !(change < f64::INFINITY) {
+            if !self.forces.iter().all(|force| force.is_finite()) {
                 return None;
             }
             let rounding = change <= ROUNDING * greatest && change >= last;
@@ -338,5 +337,7 @@ mod tests {
             assert!((contact.indentation - indentation).abs() <= 1e-17);
         }
         assert!(contacts[0].force > 1e4 && contacts[2].force == 0.0);
+        contacts[1].free = f64::NAN;
+        assert!(equations.solve(&mut contacts).is_none());
     }
 }

@@ -34,6 +34,66 @@ impl NullaryFnOnce for Combine<'_> {
     }
 }
 
+/// What loads put into damped modes over a step and these do not keep \[J\].
+pub(super) struct Unkept<'a> {
+    pub(super) damping: &'a [f64],
+    pub(super) stiffness: &'a [f64],
+    pub(super) step: f64,
+    /// q₀, q̇₀, p₀, p₁ and b, then q₁ and q̇₁, ∫q and ∫τq.
+    pub(super) of: [&'a [f64]; INPUTS],
+    pub(super) end: [&'a [f64]; 2],
+    pub(super) area: &'a [f64],
+    pub(super) moment: &'a [f64],
+}
+
+impl Unkept<'_> {
+    #[inline(always)]
+    fn of_mode(&self, i: usize) -> f64 {
+        let ([q0, v0, p0, p1, bend], [q1, v1]) = (self.of, self.end);
+        let (area, moment) = (self.area[i], self.moment[i]);
+        let turned = (p1[i] - p0[i]) * area + bend[i] * (2.0 * moment - area);
+        let put_in = p1[i] * q1[i] - p0[i] * q0[i] - turned / self.step;
+        let kinetic = v1[i] * v1[i] - v0[i] * v0[i];
+        let strain = self.stiffness[i] * (q1[i] * q1[i] - q0[i] * q0[i]);
+        if self.damping[i] > 0.0 {
+            put_in - 0.5 * (kinetic + strain)
+        } else {
+            0.0
+        }
+    }
+}
+
+impl NullaryFnOnce for Unkept<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let n = self.damping.len();
+        let ([q0, v0, p0, p1, bend], [q1, v1]) = (self.of, self.end);
+        // All of one length, so that none need be asked again.
+        let cut = Self {
+            stiffness: &self.stiffness[..n],
+            of: [&q0[..n], &v0[..n], &p0[..n], &p1[..n], &bend[..n]],
+            end: [&q1[..n], &v1[..n]],
+            area: &self.area[..n],
+            moment: &self.moment[..n],
+            ..self
+        };
+        let whole = n - n % LANES;
+        let mut lanes = [0.0; LANES];
+        for first in (0..whole).step_by(LANES) {
+            for lane in 0..LANES {
+                lanes[lane] += cut.of_mode(first + lane);
+            }
+        }
+        let mut rest = 0.0;
+        for mode in whole..n {
+            rest += cut.of_mode(mode);
+        }
+        lanes.iter().sum::<f64>() + rest
+    }
+}
+
 /// Adds so many times some lists to others.
 pub(super) struct AddUp<'a, const N: usize> {
     pub(super) factor: f64,

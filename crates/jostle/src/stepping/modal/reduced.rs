@@ -6,7 +6,7 @@ use pulp::Arch;
 
 use super::basis::{Basis, Demand};
 use super::damped::{Damped, Rules};
-use super::kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show};
+use super::kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
 use super::pushes::{Answer, Push};
 use super::response::{INPUTS, PRODUCTS, Responses};
 use crate::contact::ForceLaw;
@@ -380,17 +380,15 @@ impl Table {
         if !form[0].is_empty() {
             return reduced.arch.dispatch(Quadratic { form, of });
         }
-        let ([q0, v0, p0, p1, bend], [q1, v1]) = (of, end);
-        let modes = (0..reduced.modes()).filter(|mode| reduced.damping[*mode] > 0.0);
-        modes
-            .map(|i| {
-                let turned = (p1[i] - p0[i]) * area[i] + bend[i] * (2.0 * moment[i] - area[i]);
-                let put_in = p1[i] * q1[i] - p0[i] * q0[i] - turned / self.step;
-                let kept = v1[i] * v1[i] - v0[i] * v0[i]
-                    + reduced.stiffness[i] * (q1[i] * q1[i] - q0[i] * q0[i]);
-                put_in - 0.5 * kept
-            })
-            .sum()
+        reduced.arch.dispatch(Unkept {
+            damping: &reduced.damping,
+            stiffness: &reduced.stiffness,
+            step: self.step,
+            of,
+            end,
+            area,
+            moment,
+        })
     }
 
     /// Finds what a unit end force of a contact does, where it is not known yet.

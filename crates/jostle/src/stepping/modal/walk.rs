@@ -218,9 +218,10 @@ impl<'a> Walk<'a> {
         }
         self.work.coupling_operations = self.coupling.operations + self.equations.operations;
         let energy = self.balance();
+        let step_of = |division: u32| self.plan.step / f64::from(division);
         let contact_step = Some(self.finest_in_contact)
             .filter(|d| *d > 0)
-            .map(|d| self.plan.step / f64::from(d));
+            .map(|d| step_of(d.max(self.least_division)));
         let state = self.full_state();
         Outcome {
             impacts: self.impacts,
@@ -234,6 +235,7 @@ impl<'a> Walk<'a> {
             links: Vec::new(),
             energy,
             work: self.work,
+            free_step: Some(step_of(self.least_division)),
             contact_step,
             state,
             end,
