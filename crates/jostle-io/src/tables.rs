@@ -10,11 +10,16 @@ use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical, Z
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
+use parquet::schema::types::{ColumnPath, Type};
 
 use crate::output::{OutputError, write_atomically};
+
+/// Level of Zstandard.
+const COMPRESSION: i32 = 1;
+/// Rows from which on columns shrink by more than it costs to say how.
+const WORTH_COMPRESSING: usize = 64;
 
 /// The values of a column of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +32,25 @@ pub enum Values {
     Whole(Vec<Option<i32>>),
     /// Texts.
     Text(Vec<String>),
+}
+
+impl Values {
+    /// Number of rows, absent values included.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Real(values) => values.len(),
+            Self::Instant(values) => values.len(),
+            Self::Whole(values) => values.len(),
+            Self::Text(values) => values.len(),
+        }
+    }
+
+    /// Whether there are no rows.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
 }
 
 /// Writes the time histories: one row per instant.
@@ -396,12 +420,27 @@ fn encode_with(
     let pair = |key: &str, value: &str| KeyValue::new(key.to_owned(), value.to_owned());
     let mut pairs = vec![pair("jostle", version), pair("title", title)];
     pairs.extend(facts.iter().map(|(key, value)| pair(key, value)));
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
+    let rows = columns.first().map_or(0, |(_, values)| values.len());
+    let compression = if rows < WORTH_COMPRESSING {
+        Compression::UNCOMPRESSED
+    } else {
+        Compression::ZSTD(ZstdLevel::try_new(COMPRESSION)?)
+    };
+    // Numbers seldom repeat: looking each up in a dictionary takes as long as all the rest.
+    let mut properties = WriterProperties::builder()
+        .set_compression(compression)
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_dictionary_enabled(false)
         .set_created_by(format!("jostle {version}"))
-        .set_key_value_metadata(Some(pairs))
-        .build();
-    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
+        .set_key_value_metadata(Some(pairs));
+    for (name, values) in &columns {
+        if matches!(values, Values::Text(_)) {
+            let path = ColumnPath::new(vec![name.clone()]);
+            properties = properties.set_column_dictionary_enabled(path, true);
+        }
+    }
+    let properties = Arc::new(properties.build());
+    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), properties)?;
     let mut group = writer.next_row_group()?;
     for (_, values) in columns {
         let Some(mut column) = group.next_column()? else {

@@ -97,13 +97,7 @@ impl Table {
     fn rows(&self, py: Python<'_>) -> usize {
         match &self.columns {
             Columns::Histories(histories) => histories.bind(py).shape()[1],
-            Columns::Own(columns) => match columns.first() {
-                Some(Values::Real(values)) => values.len(),
-                Some(Values::Instant(values)) => values.len(),
-                Some(Values::Whole(values)) => values.len(),
-                Some(Values::Text(values)) => values.len(),
-                None => 0,
-            },
+            Columns::Own(columns) => columns.first().map_or(0, Values::len),
         }
     }
 }
