@@ -54,7 +54,8 @@ def run(
         without_contact: makes a second run in which they do, as the command line does for its report; the summary
             then knows the smallest gap without pounding.
         record_interval: least time between recorded instants in free flight, zero for every step (every step of a
-            closed contact is recorded); ``None`` records no histories.
+            closed contact is recorded); ``None`` records no histories. Rows are steps of modal stepping, so that its
+            last digits depend on them.
         progress: true shows a progress line; or a function that is called with the time reached and the time to
             reach [s] a few times a second.
         force: runs even where ``solver = "product"`` is expected to lose its digits.

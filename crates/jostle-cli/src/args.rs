@@ -91,7 +91,8 @@ pub(crate) struct RunArgs {
     /// Folder for the results [default: jostle-out/MODEL; with --json, none]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Neither a report nor the second run without contact that it compares with
+    /// Neither a report nor the second run without contact that it compares with; under --json without
+    /// --out no histories either
     #[arg(long)]
     pub(crate) no_report: bool,
     /// Add to the report what `jostle method` tells of these buildings

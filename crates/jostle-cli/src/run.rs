@@ -64,8 +64,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let stop = stop_on_interrupt();
     let started = Instant::now();
     // Energies are audited where histories are recorded, so that these are needed even where nobody writes them.
-    // Modal stepping audits in every step.
-    let seen = out.is_some() || plan.solver != Solver::Modal;
+    // Modal stepping audits in every step, and rows cost it steps; so that numbers do not depend on whether they are
+    // written, it goes without only where a summary is all that is wanted.
+    let seen = out.is_some() || !args.no_report || plan.solver != Solver::Modal;
     let settings = Settings {
         record_interval: Settings::default().record_interval.filter(|_| seen),
         ..Settings::default()

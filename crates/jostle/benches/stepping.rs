@@ -95,6 +95,13 @@ fn frame(storeys: usize) -> BuildingSystem {
         .remove(0)
 }
 
+/// From a model to its system, modes and pattern of the recursion included.
+#[divan::bench(args = STOREYS)]
+fn assemble(bencher: Bencher, storeys: usize) {
+    let model = row(1, storeys);
+    bencher.bench_local(|| System::assemble(&model).map(|system| system.buildings.len()));
+}
+
 #[divan::bench(args = STOREYS)]
 fn solve(bencher: Bencher, storeys: usize) {
     let building = frame(storeys);
