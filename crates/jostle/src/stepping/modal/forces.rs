@@ -158,6 +158,7 @@ impl Walk<'_> {
 pub(super) struct ForceEquations {
     /// W and V, row by row: how far and how fast a unit force of one opens another \[m/N, m/(N s)\].
     pub(super) openings: Vec<[f64; 2]>,
+    /// F of every closed contact \[N\].
     pub(super) forces: Vec<f64>,
     /// I + diag(∂f/∂δ) W + diag(∂f/∂δ̇) V.
     matrix: Vec<f64>,
