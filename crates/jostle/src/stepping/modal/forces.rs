@@ -270,6 +270,38 @@ mod tests {
     use super::*;
     use crate::contact::ForceLaw;
 
+    fn closed(law: ForceLaw, free: f64, free_rate: f64) -> Closed {
+        Closed {
+            contact: 0,
+            law,
+            memory: law.touch(0.5),
+            free,
+            free_rate,
+            rate_gain: 0.0,
+            indentation: 0.0,
+            force: 0.0,
+            start_slope: 0.0,
+            turn: None,
+            start_acceleration: 0.0,
+        }
+    }
+
+    /// A dashpot that does not pull throws the faces apart, and no force lets them touch: that is for the slower way.
+    #[test]
+    fn a_force_that_jumps_does_not_settle() {
+        let law = ForceLaw::Kelvin {
+            stiffness: 1e8,
+            damping: 4e6,
+            tension: false,
+        };
+        let mut equations = ForceEquations {
+            openings: vec![[1e-11, 1e-9]],
+            forces: vec![0.0],
+            ..ForceEquations::default()
+        };
+        assert!(equations.solve(&mut [closed(law, 1e-6, 0.4)]).is_none());
+    }
+
     #[test]
     fn elimination_exchanges_rows() {
         // x = (2, −1, 3); the first pivot is zero.
@@ -291,20 +323,8 @@ mod tests {
             stiffness: 2e9,
             damping: 0.4,
         };
-        let closed = |free: f64, free_rate: f64| Closed {
-            contact: 0,
-            law,
-            memory: law.touch(0.5),
-            free,
-            free_rate,
-            rate_gain: 0.0,
-            indentation: 0.0,
-            force: 0.0,
-            start_slope: 0.0,
-            turn: None,
-            start_acceleration: 0.0,
-        };
-        let mut contacts = [closed(4e-3, 0.3), closed(6e-3, -0.1), closed(-1e-3, -0.4)];
+        let mut contacts =
+            [(4e-3, 0.3), (6e-3, -0.1), (-1e-3, -0.4)].map(|(free, rate)| closed(law, free, rate));
         let mut equations = ForceEquations {
             openings: vec![
                 [2e-9, 3e-6],
