@@ -196,32 +196,39 @@ pub(crate) mod tests {
 
     /// Three storeys over two spans.
     pub(crate) fn frame(columns_flexible: bool) -> BuildingSystem {
+        frame_with(|frame| frame.axial.columns_flexible = columns_flexible)
+    }
+
+    /// Three storeys, two bays, members of several masses, changed at will.
+    pub(crate) fn frame_with(change: impl FnOnce(&mut Frame)) -> BuildingSystem {
         let section = |line_mass| Section {
             flexural_rigidity: 1e8,
             axial_rigidity: Some(8e9),
             line_mass,
             shear_rigidity: None,
         };
+        let mut frame = Frame {
+            storey_heights: vec![3.0; 3],
+            spans: vec![4.0, 6.0],
+            columns: vec![section(600.0); 3],
+            beams: vec![section(0.0); 3],
+            beam_mass: vec![4000.0; 3],
+            floor_mass: vec![0.0; 3],
+            column_segments: 3,
+            beam_segments: vec![4, 5],
+            axial: Axial {
+                columns_flexible: false,
+                beams_flexible: false,
+            },
+            joint: Joint {
+                rotational_stiffness: Some(5e8),
+                ..Joint::default()
+            },
+        };
+        change(&mut frame);
         let building = Building {
             name: "frame".into(),
-            structure: Structure::Frame(Frame {
-                storey_heights: vec![3.0; 3],
-                spans: vec![4.0, 6.0],
-                columns: vec![section(600.0); 3],
-                beams: vec![section(0.0); 3],
-                beam_mass: vec![4000.0; 3],
-                floor_mass: vec![0.0; 3],
-                column_segments: 3,
-                beam_segments: vec![4, 5],
-                axial: Axial {
-                    columns_flexible,
-                    beams_flexible: false,
-                },
-                joint: Joint {
-                    rotational_stiffness: Some(5e8),
-                    ..Joint::default()
-                },
-            }),
+            structure: Structure::Frame(frame),
             damping: Damping::Rayleigh {
                 alpha: 0.0,
                 beta: 0.0,

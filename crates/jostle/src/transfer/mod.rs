@@ -23,6 +23,7 @@
 //! [`digits_left`] counts.
 
 mod abreast;
+mod band;
 mod beam;
 mod condensed_beam;
 mod digits;

@@ -12,7 +12,8 @@ use std::convert::Infallible;
 
 use pulp::NullaryFnOnce;
 
-use super::abreast::Abreast;
+use super::abreast::{Abreast, Lanes};
+use super::band::Band;
 
 use crate::equations::{Equations, SparseSymmetric};
 use crate::lanes;
@@ -45,8 +46,8 @@ pub struct RiccatiSweep {
     initial_tangents: Vec<f64>,
     /// The first columns: chains abreast.
     abreast: Abreast,
-    /// The others, one behind the other.
-    runs: Vec<Run>,
+    /// The others, where they couple to their neighbours only.
+    band: Option<Band>,
 }
 
 /// Where the tangent of a spring that yields enters the step matrix.
@@ -76,9 +77,13 @@ impl Parts {
 pub struct RiccatiFactor {
     couplings: Vec<f64>,
     /// Those of chains abreast, as the passes want them.
-    laid: Vec<f64>,
-    /// Load and ends of the chains during a pass.
-    scratch: RefCell<Vec<f64>>,
+    laid: Vec<Lanes>,
+    /// Those of the band, in the same way.
+    banded: Vec<f64>,
+    /// What links of chains hold between the passes.
+    held: RefCell<Vec<Lanes>>,
+    /// Room for a vector too short for registers.
+    roomier: RefCell<Vec<f64>>,
     inverse_pivots: Vec<f64>,
     pivots: Vec<f64>,
     /// The step matrix: diagonal, and entries before it by rows.
@@ -175,7 +180,7 @@ impl RiccatiSweep {
             },
         });
         Self {
-            runs: Run::all(abreast.columns(), &starts),
+            band: Band::of(abreast.columns(), &starts, &rows),
             abreast,
             springs: springs.collect(),
             initial_tangents: equations.initial_tangents(),
@@ -256,9 +261,24 @@ impl RiccatiSweep {
 
     /// Puts the couplings of chains abreast where the passes want them.
     fn lay_out(&self, factor: &mut RiccatiFactor) {
-        self.abreast.lay_out(&factor.couplings, &mut factor.laid);
-        let ends = self.abreast.ends();
-        factor.scratch.get_mut().resize(self.mass.len() + ends, 0.0);
+        let RiccatiFactor {
+            couplings,
+            inverse_pivots,
+            laid,
+            banded,
+            held,
+            roomier,
+            ..
+        } = factor;
+        self.abreast.lay_out(couplings, inverse_pivots, laid);
+        if let Some(band) = &self.band {
+            band.lay_out(couplings, banded);
+        }
+        held.get_mut()
+            .resize(self.abreast.links(), Lanes::default());
+        if self.mass.len() < self.abreast.least_length() {
+            roomier.get_mut().resize(self.abreast.least_length(), 0.0);
+        }
     }
 
     /// L D Lᵀ of the touched rows of the matrix in `factor`; every pivot is what `accept` makes of (row, entry of the
@@ -304,6 +324,32 @@ impl RiccatiSweep {
             inverse_pivots[row] = 1.0 / pivot;
         }
         Ok(())
+    }
+}
+
+impl RiccatiSweep {
+    /// Both passes over the columns behind the chains, however they couple.
+    fn pass_one_by_one(&self, factor: &RiccatiFactor, load: &mut [f64]) {
+        let columns = self.abreast.columns()..self.mass.len();
+        for column in columns.clone() {
+            let entries = self.starts[column]..self.starts[column + 1];
+            let passed = load[column];
+            let ahead = self.rows[entries.clone()].iter();
+            for (row, coupling) in ahead.zip(&factor.couplings[entries]) {
+                load[*row as usize] -= coupling * passed;
+            }
+            load[column] = passed * factor.inverse_pivots[column];
+        }
+        for column in columns.rev() {
+            let entries = self.starts[column]..self.starts[column + 1];
+            let ahead = self.rows[entries.clone()].iter();
+            let mut sum = load[column];
+            // The nearest, which has only just been found, last.
+            for (row, coupling) in ahead.zip(&factor.couplings[entries]).rev() {
+                sum -= coupling * load[*row as usize];
+            }
+            load[column] = sum;
+        }
     }
 }
 
@@ -362,12 +408,23 @@ impl StepEquations for RiccatiSweep {
 
     #[inline]
     fn solve(&self, factor: &RiccatiFactor, load: &mut [f64]) {
-        let passes = Passes {
-            sweep: self,
-            factor,
-            load,
+        let order = load.len();
+        let pass = |load: &mut [f64]| {
+            let passes = Passes {
+                sweep: self,
+                factor,
+                load,
+            };
+            lanes::in_wide_registers(order, passes);
         };
-        lanes::in_wide_registers(self.mass.len(), passes);
+        if order < self.abreast.least_length() {
+            let mut roomier = factor.roomier.borrow_mut();
+            roomier[..order].copy_from_slice(load);
+            pass(&mut roomier);
+            load.copy_from_slice(&roomier[..order]);
+        } else {
+            pass(load);
+        }
     }
 }
 
@@ -388,141 +445,16 @@ impl NullaryFnOnce for Passes<'_> {
             factor,
             load,
         } = self;
-        let n = sweep.mass.len();
-        let mut scratch = factor.scratch.borrow_mut();
-        let (outer, load) = (load, &mut scratch[..]);
-        load[..n].copy_from_slice(&outer[..n]);
-        sweep.abreast.pass_on(&factor.laid, load);
-        for run in &sweep.runs {
-            let (rows, couplings) = run.entries(&sweep.rows, &factor.couplings);
-            match run.width {
-                0 => {}
-                1 => pass_on::<1>(run.first, rows, couplings, load),
-                2 => pass_on::<2>(run.first, rows, couplings, load),
-                3 => pass_on::<3>(run.first, rows, couplings, load),
-                4 => pass_on::<4>(run.first, rows, couplings, load),
-                5 => pass_on::<5>(run.first, rows, couplings, load),
-                6 => pass_on::<6>(run.first, rows, couplings, load),
-                width => pass_on_wide(run.first, width, rows, couplings, load),
+        let mut held = factor.held.borrow_mut();
+        sweep.abreast.pass_on(&factor.laid, load, &mut held);
+        match &sweep.band {
+            Some(band) => {
+                band.pass_on(&factor.banded, &factor.inverse_pivots, load);
+                band.gather(&factor.banded, load);
             }
+            None => sweep.pass_one_by_one(factor, load),
         }
-        for (value, inverse_pivot) in load.iter_mut().zip(&factor.inverse_pivots) {
-            *value *= inverse_pivot;
-        }
-        for run in sweep.runs.iter().rev() {
-            let (rows, couplings) = run.entries(&sweep.rows, &factor.couplings);
-            match run.width {
-                0 => {}
-                1 => gather::<1>(run.first, rows, couplings, load),
-                2 => gather::<2>(run.first, rows, couplings, load),
-                3 => gather::<3>(run.first, rows, couplings, load),
-                4 => gather::<4>(run.first, rows, couplings, load),
-                5 => gather::<5>(run.first, rows, couplings, load),
-                6 => gather::<6>(run.first, rows, couplings, load),
-                width => gather_wide(run.first, width, rows, couplings, load),
-            }
-        }
-        sweep.abreast.gather(&factor.laid, load);
-        outer[..n].copy_from_slice(&load[..n]);
-    }
-}
-
-/// Columns next to each other with equally many couplings.
-#[derive(Clone, Debug)]
-struct Run {
-    /// First column.
-    first: usize,
-    /// Couplings of every column.
-    width: usize,
-    /// Where they are in `rows` and in the couplings of a factor.
-    start: usize,
-    end: usize,
-}
-
-impl Run {
-    fn entries<'a>(&self, rows: &'a [u32], couplings: &'a [f64]) -> (&'a [u32], &'a [f64]) {
-        (
-            &rows[self.start..self.end],
-            &couplings[self.start..self.end],
-        )
-    }
-
-    /// The runs, from a column on, of a pattern whose columns begin at `starts`.
-    fn all(first: usize, starts: &[usize]) -> Vec<Self> {
-        let mut runs: Vec<Self> = Vec::new();
-        for (column, bounds) in starts.windows(2).enumerate().skip(first) {
-            let width = bounds[1] - bounds[0];
-            match runs.last_mut() {
-                Some(run) if run.width == width => run.end = bounds[1],
-                _ => runs.push(Self {
-                    first: column,
-                    width,
-                    start: bounds[0],
-                    end: bounds[1],
-                }),
-            }
-        }
-        runs
-    }
-}
-
-/// Every column passes its load on to the rows ahead of it.
-#[inline(always)]
-fn pass_on<const W: usize>(first: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
-    let columns = rows
-        .as_chunks::<W>()
-        .0
-        .iter()
-        .zip(couplings.as_chunks::<W>().0);
-    for (offset, (rows, couplings)) in columns.enumerate() {
-        let value = load[first + offset];
-        for entry in 0..W {
-            load[rows[entry] as usize] -= couplings[entry] * value;
-        }
-    }
-}
-
-fn pass_on_wide(first: usize, width: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
-    let columns = rows.chunks_exact(width).zip(couplings.chunks_exact(width));
-    for (offset, (rows, couplings)) in columns.enumerate() {
-        let value = load[first + offset];
-        for (row, coupling) in rows.iter().zip(couplings) {
-            load[*row as usize] -= coupling * value;
-        }
-    }
-}
-
-/// Every column, last first, gathers from the rows ahead of it.
-#[inline(always)]
-fn gather<const W: usize>(first: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
-    let columns = rows
-        .as_chunks::<W>()
-        .0
-        .iter()
-        .zip(couplings.as_chunks::<W>().0);
-    for (offset, (rows, couplings)) in columns.enumerate().rev() {
-        let (mut even, mut odd) = (load[first + offset], 0.0);
-        for entry in 0..W {
-            let part = couplings[entry] * load[rows[entry] as usize];
-            if entry % 2 == 0 {
-                even -= part;
-            } else {
-                odd += part;
-            }
-        }
-        load[first + offset] = even - odd;
-    }
-}
-
-fn gather_wide(first: usize, width: usize, rows: &[u32], couplings: &[f64], load: &mut [f64]) {
-    let columns = rows.chunks_exact(width).zip(couplings.chunks_exact(width));
-    for (offset, (rows, couplings)) in columns.enumerate().rev() {
-        let ahead = rows
-            .iter()
-            .zip(couplings)
-            .map(|(row, coupling)| coupling * load[*row as usize]);
-        let passed: f64 = ahead.sum();
-        load[first + offset] -= passed;
+        sweep.abreast.gather(&factor.laid, load, &mut held);
     }
 }
 
@@ -582,4 +514,76 @@ fn rows_before_diagonal(equations: &Equations) -> (Vec<usize>, Vec<(u32, Parts)>
         starts[row + 1] += starts[row];
     }
     (starts, rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::gravity::tests::frame_with;
+    use crate::model::Axial;
+
+    /// Chains in registers and joints in a band give what columns give one by one, for members of every kind, more and fewer
+    /// of them than lanes, and buildings smaller than a register.
+    #[test]
+    fn passes_in_registers_are_passes_one_by_one() {
+        let (mut ways, mut bands, mut short) = (BTreeSet::new(), 0, 0);
+        for axial in [[false, false], [true, false], [true, true]] {
+            for (storeys, bays, segments) in [
+                (1, 1, [6, 5]),
+                (1, 2, [2, 2]),
+                (2, 1, [3, 1]),
+                (3, 3, [2, 2]),
+                (4, 4, [4, 5]),
+                (2, 9, [5, 4]),
+                (3, 14, [2, 3]),
+            ] {
+                let building = frame_with(|frame| {
+                    frame.storey_heights = vec![3.0; storeys];
+                    frame.spans = (0..bays).map(|bay| 4.0 + 0.3 * f64::from(bay)).collect();
+                    frame.columns = vec![frame.columns[0]; storeys];
+                    frame.beams = vec![frame.beams[0]; storeys];
+                    frame.beam_mass = vec![4000.0; storeys];
+                    frame.floor_mass = vec![0.0; storeys];
+                    frame.column_segments = segments[0];
+                    frame.beam_segments = vec![segments[1]; bays as usize];
+                    frame.axial = Axial {
+                        columns_flexible: axial[0],
+                        beams_flexible: axial[1],
+                    };
+                });
+                let sweep = RiccatiSweep::of(&building);
+                ways.extend(sweep.abreast.reaches());
+                bands += usize::from(sweep.band.is_some());
+                let order = building.equations.len();
+                short += usize::from(order < sweep.abreast.least_length());
+                let one_by_one = RiccatiSweep {
+                    abreast: Abreast::default(),
+                    band: None,
+                    ..sweep.clone()
+                };
+                let matrix = StepMatrix::new(1.0, 4e6);
+                let tangents = building.equations.initial_tangents();
+                let load = (0..order).map(|dof| (0.7 * dof as f64).sin());
+                let answer = |sweep: &RiccatiSweep| {
+                    let mut factor = RiccatiFactor::default();
+                    let found = sweep.factorize(&matrix, &tangents, &mut factor);
+                    found.expect("a standing frame");
+                    let mut load: Vec<f64> = load.clone().collect();
+                    sweep.solve(&factor, &mut load);
+                    load
+                };
+                let (got, expected) = (answer(&sweep), answer(&one_by_one));
+                let most = expected.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+                for (got, expected) in got.iter().zip(&expected) {
+                    let case = format!("{storeys} storeys, {bays} bays, {segments:?}, {axial:?}");
+                    assert!((got - expected).abs() <= 1e-12 * most, "{case}");
+                }
+            }
+        }
+        assert_eq!(ways.len(), 4, "{ways:?}");
+        assert!(bands > 0 && bands < 21, "{bands} of 21 have a band");
+        assert!(short > 0, "none is smaller than a register");
+    }
 }
