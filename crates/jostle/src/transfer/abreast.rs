@@ -1,5 +1,6 @@
 //! Chains of displacements taken abreast: the insides of members, which meet nothing but the joints at their ends.
 
+use super::shelves::Place;
 use crate::small_keys::in_order;
 
 /// Chains taken at once.
@@ -47,8 +48,7 @@ pub(super) struct Abreast {
     firsts: Vec<u32>,
     /// Rows beyond the chains: the far ends of a group, then the near ones; the first again where chains are missing.
     ends: Vec<[u32; LANES]>,
-    /// Where what is laid out is kept.
-    places: Vec<[Place; LANES]>,
+    places: Vec<Place>,
     columns: usize,
     least_length: usize,
 }
@@ -60,15 +60,6 @@ struct Group {
     columns: usize,
     far: usize,
     chains: usize,
-}
-
-/// Where a number laid out is kept.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Place {
-    Coupling(u32),
-    InversePivot(u32),
-    Zero,
-    One,
 }
 
 /// A chain alone.
@@ -129,7 +120,7 @@ impl Abreast {
                     .get(lane)
                     .map_or(missing, |chain| chain.places[entry])
             };
-            self.places.push(std::array::from_fn(place));
+            self.places.extend((0..LANES).map(place));
         }
         let known = |lane: usize| chains.get(lane).unwrap_or(first);
         for end in 0..first.far.len() {
@@ -164,22 +155,15 @@ impl Abreast {
         self.least_length
     }
 
-    /// Lays couplings and inverse pivots out as the passes want them.
-    pub(super) fn lay_out(&self, couplings: &[f64], inverse_pivots: &[f64], laid: &mut Vec<Lanes>) {
-        let value = |place: Place| match place {
-            Place::Coupling(place) => couplings[place as usize],
-            Place::InversePivot(column) => inverse_pivots[column as usize],
-            Place::Zero => 0.0,
-            Place::One => 1.0,
-        };
-        laid.clear();
-        laid.extend(self.places.iter().map(|places| places.map(value)));
+    /// What the passes take, a register for every link of a group.
+    pub(super) fn places(&self) -> &[Place] {
+        &self.places
     }
 
     /// Every column passes its load on, the ends theirs to the joints. What columns then hold, divided by their pivots,
     /// is left in `held`.
     #[inline(always)]
-    pub(super) fn pass_on(&self, laid: &[Lanes], load: &mut [f64], held: &mut [Lanes]) {
+    pub(super) fn pass_on(&self, laid: &[f64], load: &mut [f64], held: &mut [Lanes]) {
         let mut rest = self.parts(laid, held);
         for group in &self.groups {
             let own = rest.take(group);
@@ -194,7 +178,7 @@ impl Abreast {
 
     /// Every column, last first, gathers from what is ahead of it.
     #[inline(always)]
-    pub(super) fn gather(&self, laid: &[Lanes], load: &mut [f64], held: &mut [Lanes]) {
+    pub(super) fn gather(&self, laid: &[f64], load: &mut [f64], held: &mut [Lanes]) {
         let mut rest = self.parts(laid, held);
         for group in &self.groups {
             let own = rest.take(group);
@@ -207,11 +191,11 @@ impl Abreast {
         }
     }
 
-    fn parts<'a>(&'a self, laid: &'a [Lanes], held: &'a mut [Lanes]) -> Parts<'a> {
+    fn parts<'a>(&'a self, laid: &'a [f64], held: &'a mut [Lanes]) -> Parts<'a> {
         Parts {
             firsts: &self.firsts,
             ends: &self.ends,
-            laid,
+            laid: laid.as_chunks().0,
             held,
         }
     }

@@ -1,8 +1,9 @@
 //! Displacements that couple to nothing but their next neighbours: the joints of a frame, floor by floor.
 
+use super::shelves::Place;
+
 /// Widths that loops are compiled for: what they need stays in registers.
 const WIDTHS: [usize; 4] = [4, 6, 8, 12];
-const NOWHERE: u32 = u32::MAX;
 
 /// The last columns of a factor, each with its couplings to the rows that come next; those that a matrix does not have are
 /// zero.
@@ -10,8 +11,7 @@ const NOWHERE: u32 = u32::MAX;
 pub(super) struct Band {
     width: usize,
     first: usize,
-    /// Where the couplings laid out are kept.
-    places: Vec<u32>,
+    places: Vec<Place>,
 }
 
 impl Band {
@@ -22,9 +22,10 @@ impl Band {
         let reach = |(column, place): (usize, usize)| rows[place] as usize - column;
         let widest = own().map(reach).max().unwrap_or(0);
         let width = WIDTHS.into_iter().find(|width| *width >= widest)?;
-        let mut places = vec![NOWHERE; (order - first) * width];
+        let mut places = vec![Place::Zero; (order - first) * width];
         for (column, place) in own() {
-            places[(column - first) * width + reach((column, place)) - 1] = place as u32;
+            places[(column - first) * width + reach((column, place)) - 1] =
+                Place::Coupling(place as u32);
         }
         Some(Self {
             width,
@@ -33,11 +34,9 @@ impl Band {
         })
     }
 
-    /// Lays couplings out as the passes want them.
-    pub(super) fn lay_out(&self, couplings: &[f64], laid: &mut Vec<f64>) {
-        let value = |place: &u32| couplings.get(*place as usize).copied().unwrap_or(0.0);
-        laid.clear();
-        laid.extend(self.places.iter().map(value));
+    /// What the passes take, so many couplings for every column.
+    pub(super) fn places(&self) -> &[Place] {
+        &self.places
     }
 
     /// Every column passes its load on, and is then divided by its pivot.

@@ -37,6 +37,7 @@ mod transfer_matrix;
 
 pub(crate) mod path;
 pub(crate) mod riccati;
+mod shelves;
 
 pub use beam::{BeamSegment, Heading};
 pub use digits::digits_left;

@@ -14,6 +14,7 @@ use pulp::NullaryFnOnce;
 
 use super::abreast::{Abreast, Lanes};
 use super::band::Band;
+use super::shelves::Shelves;
 
 use crate::equations::{Equations, SparseSymmetric};
 use crate::lanes;
@@ -48,6 +49,7 @@ pub struct RiccatiSweep {
     abreast: Abreast,
     /// The others, where they couple to their neighbours only.
     band: Option<Band>,
+    shelves: Shelves,
 }
 
 /// Where the tangent of a spring that yields enters the step matrix.
@@ -56,6 +58,13 @@ struct SpringPlace {
     diagonal: [Option<usize>; 2],
     /// Index among the entries before the diagonal.
     between: Option<usize>,
+}
+
+/// Entries of the step matrix at a spring: on the diagonal, and between its ends.
+#[derive(Clone, Copy, Debug, Default)]
+struct SpringEntries {
+    diagonal: [f64; 2],
+    between: f64,
 }
 
 /// What makes up an entry of the step matrix.
@@ -76,10 +85,8 @@ impl Parts {
 #[derive(Clone, Debug, Default)]
 pub struct RiccatiFactor {
     couplings: Vec<f64>,
-    /// Those of chains abreast, as the passes want them.
-    laid: Vec<Lanes>,
-    /// Those of the band, in the same way.
-    banded: Vec<f64>,
+    /// Those of chains abreast with their inverse pivots, then those of the band, as the passes take them.
+    laid: Vec<f64>,
     /// What links of chains hold between the passes.
     held: RefCell<Vec<Lanes>>,
     /// Room for a vector too short for registers.
@@ -89,6 +96,8 @@ pub struct RiccatiFactor {
     /// The step matrix: diagonal, and entries before it by rows.
     diagonal: Vec<f64>,
     before: Vec<f64>,
+    /// Its entries where springs yield, without them.
+    bare: Vec<SpringEntries>,
     /// Rows to eliminate anew.
     touched: Vec<bool>,
     work: Vec<f64>,
@@ -166,6 +175,9 @@ impl RiccatiSweep {
             .map(|dof| if parent[dof] == usize::MAX { dof } else { parent[dof] } as u32)
             .collect();
         let abreast = Abreast::of(&starts, &rows, &parent);
+        let band = Band::of(abreast.columns(), &starts, &rows);
+        let banded = band.as_ref().map_or(&[][..], Band::places);
+        let places = abreast.places().iter().chain(banded).copied();
         let springs = equations.springs.iter().map(|spring| SpringPlace {
             diagonal: spring.dofs,
             between: match spring.dofs {
@@ -180,7 +192,8 @@ impl RiccatiSweep {
             },
         });
         Self {
-            band: Band::of(abreast.columns(), &starts, &rows),
+            shelves: Shelves::of(places, rows.len(), n),
+            band,
             abreast,
             springs: springs.collect(),
             initial_tangents: equations.initial_tangents(),
@@ -224,7 +237,6 @@ impl RiccatiSweep {
             inertia.negative += usize::from(pivot < 0.0);
             Ok::<_, Infallible>(pivot)
         });
-        self.lay_out(factor);
         match never_fails {
             Ok(()) => inertia,
             Err(never) => match never {},
@@ -249,6 +261,36 @@ impl RiccatiSweep {
         factor
             .before
             .extend(before.map(|(_, parts)| parts.in_step(matrix)));
+        let entries = self.springs.iter().map(|spring| SpringEntries {
+            diagonal: spring
+                .diagonal
+                .map(|dof| dof.map_or(0.0, |dof| factor.diagonal[dof])),
+            between: spring.between.map_or(0.0, |entry| factor.before[entry]),
+        });
+        factor.bare.clear();
+        factor.bare.extend(entries);
+        self.add_springs(tangents, factor);
+        if factor.laid.is_empty() {
+            self.make_room(factor);
+        }
+    }
+
+    /// The same matrix with other springs.
+    fn recompose(&self, tangents: &[f64], factor: &mut RiccatiFactor) {
+        for (spring, bare) in self.springs.iter().zip(&factor.bare) {
+            for (dof, value) in spring.diagonal.into_iter().zip(bare.diagonal) {
+                if let Some(dof) = dof {
+                    factor.diagonal[dof] = value;
+                }
+            }
+            if let Some(entry) = spring.between {
+                factor.before[entry] = bare.between;
+            }
+        }
+        self.add_springs(tangents, factor);
+    }
+
+    fn add_springs(&self, tangents: &[f64], factor: &mut RiccatiFactor) {
         for (spring, tangent) in self.springs.iter().zip(tangents) {
             for dof in spring.diagonal.into_iter().flatten() {
                 factor.diagonal[dof] += tangent;
@@ -259,25 +301,14 @@ impl RiccatiSweep {
         }
     }
 
-    /// Puts the couplings of chains abreast where the passes want them.
-    fn lay_out(&self, factor: &mut RiccatiFactor) {
-        let RiccatiFactor {
-            couplings,
-            inverse_pivots,
-            laid,
-            banded,
-            held,
-            roomier,
-            ..
-        } = factor;
-        self.abreast.lay_out(couplings, inverse_pivots, laid);
-        if let Some(band) = &self.band {
-            band.lay_out(couplings, banded);
-        }
-        held.get_mut()
-            .resize(self.abreast.links(), Lanes::default());
+    /// For the passes.
+    fn make_room(&self, factor: &mut RiccatiFactor) {
+        factor.laid.extend_from_slice(self.shelves.blank());
+        let held = factor.held.get_mut();
+        held.resize(self.abreast.links(), Lanes::default());
         if self.mass.len() < self.abreast.least_length() {
-            roomier.get_mut().resize(self.abreast.least_length(), 0.0);
+            let roomier = factor.roomier.get_mut();
+            roomier.resize(self.abreast.least_length(), 0.0);
         }
     }
 
@@ -296,6 +327,7 @@ impl RiccatiSweep {
             before,
             touched,
             work,
+            laid,
             ..
         } = factor;
         work.fill(0.0);
@@ -318,10 +350,13 @@ impl RiccatiSweep {
                 let coupling = value * inverse_pivots[column];
                 pivot -= coupling * value;
                 couplings[position] = coupling;
+                self.shelves.put_coupling(laid, position, coupling);
             }
             let pivot = accept(row, own, pivot)?;
             pivots[row] = pivot;
             inverse_pivots[row] = 1.0 / pivot;
+            self.shelves
+                .put_inverse_pivot(laid, row, inverse_pivots[row]);
         }
         Ok(())
     }
@@ -377,20 +412,18 @@ impl StepEquations for RiccatiSweep {
     ) -> Result<(), NotPositive> {
         self.compose(matrix, tangents, factor);
         factor.touched.fill(true);
-        self.eliminate(factor, sound)?;
-        self.lay_out(factor);
-        Ok(())
+        self.eliminate(factor, sound)
     }
 
     /// Only what lies ahead of the changed springs on the transfer path is passed again.
     fn update(
         &self,
-        matrix: &StepMatrix,
+        _: &StepMatrix,
         tangents: &[f64],
         changed: &[usize],
         factor: &mut RiccatiFactor,
     ) -> Result<(), NotPositive> {
-        self.compose(matrix, tangents, factor);
+        self.recompose(tangents, factor);
         factor.touched.fill(false);
         for &spring in changed {
             for dof in self.springs[spring].diagonal.into_iter().flatten() {
@@ -401,9 +434,7 @@ impl StepEquations for RiccatiSweep {
                 }
             }
         }
-        self.eliminate(factor, sound)?;
-        self.lay_out(factor);
-        Ok(())
+        self.eliminate(factor, sound)
     }
 
     #[inline]
@@ -446,15 +477,16 @@ impl NullaryFnOnce for Passes<'_> {
             load,
         } = self;
         let mut held = factor.held.borrow_mut();
-        sweep.abreast.pass_on(&factor.laid, load, &mut held);
+        let (laid, banded) = factor.laid.split_at(sweep.abreast.places().len());
+        sweep.abreast.pass_on(laid, load, &mut held);
         match &sweep.band {
             Some(band) => {
-                band.pass_on(&factor.banded, &factor.inverse_pivots, load);
-                band.gather(&factor.banded, load);
+                band.pass_on(banded, &factor.inverse_pivots, load);
+                band.gather(banded, load);
             }
             None => sweep.pass_one_by_one(factor, load),
         }
-        sweep.abreast.gather(&factor.laid, load, &mut held);
+        sweep.abreast.gather(laid, load, &mut held);
     }
 }
 
