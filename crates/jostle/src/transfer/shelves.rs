@@ -38,7 +38,7 @@ impl Shelves {
             match place {
                 Place::Coupling(number) => shelves.couplings[number as usize] = index as u32,
                 Place::InversePivot(column) => {
-                    shelves.inverse_pivots[column as usize] = index as u32
+                    shelves.inverse_pivots[column as usize] = index as u32;
                 }
                 Place::Zero | Place::One => {}
             }
