@@ -191,16 +191,19 @@ fn hung_on_nodes(
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::model::{Axial, Building, Damping, Frame, Joint, Section, Structure};
+    use crate::model::{Axial, Building, Damping, Frame, Hinges, Joint, Section, Structure};
     use crate::skeleton::Idealisation;
 
     /// Three storeys over two spans.
     pub(crate) fn frame(columns_flexible: bool) -> BuildingSystem {
-        frame_with(|frame| frame.axial.columns_flexible = columns_flexible)
+        frame_with(|frame| {
+            frame.axial.columns_flexible = columns_flexible;
+            None
+        })
     }
 
-    /// Three storeys, two bays, members of several masses, changed at will.
-    pub(crate) fn frame_with(change: impl FnOnce(&mut Frame)) -> BuildingSystem {
+    /// Three storeys, two bays, members of several masses, changed at will, with the hinges that are returned.
+    pub(crate) fn frame_with(change: impl FnOnce(&mut Frame) -> Option<Hinges>) -> BuildingSystem {
         let section = |line_mass| Section {
             flexural_rigidity: 1e8,
             axial_rigidity: Some(8e9),
@@ -225,7 +228,7 @@ pub(crate) mod tests {
                 ..Joint::default()
             },
         };
-        change(&mut frame);
+        let hinges = change(&mut frame);
         let building = Building {
             name: "frame".into(),
             structure: Structure::Frame(frame),
@@ -235,7 +238,7 @@ pub(crate) mod tests {
             },
             base: Default::default(),
             gravity: Default::default(),
-            hinges: None,
+            hinges,
         };
         BuildingSystem::new("frame", Idealisation::of(&building))
     }

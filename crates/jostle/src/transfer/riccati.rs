@@ -554,7 +554,8 @@ mod tests {
 
     use super::*;
     use crate::gravity::tests::frame_with;
-    use crate::model::Axial;
+    use crate::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+    use crate::model::{Axial, FrameHinges, Hinges};
 
     /// Chains in registers and joints in a band give what columns give one by one, for members of every kind, more and fewer
     /// of them than lanes, and buildings smaller than a register.
@@ -573,17 +574,18 @@ mod tests {
             ] {
                 let building = frame_with(|frame| {
                     frame.storey_heights = vec![3.0; storeys];
-                    frame.spans = (0..bays).map(|bay| 4.0 + 0.3 * f64::from(bay)).collect();
+                    frame.spans = (0..bays).map(|bay| 4.0 + 0.3 * bay as f64).collect();
                     frame.columns = vec![frame.columns[0]; storeys];
                     frame.beams = vec![frame.beams[0]; storeys];
                     frame.beam_mass = vec![4000.0; storeys];
                     frame.floor_mass = vec![0.0; storeys];
                     frame.column_segments = segments[0];
-                    frame.beam_segments = vec![segments[1]; bays as usize];
+                    frame.beam_segments = vec![segments[1]; bays];
                     frame.axial = Axial {
                         columns_flexible: axial[0],
                         beams_flexible: axial[1],
                     };
+                    None
                 });
                 let sweep = RiccatiSweep::of(&building);
                 ways.extend(sweep.abreast.reaches());
@@ -602,9 +604,19 @@ mod tests {
                     let mut factor = RiccatiFactor::default();
                     let found = sweep.factorize(&matrix, &tangents, &mut factor);
                     found.expect("a standing frame");
-                    let mut load: Vec<f64> = load.clone().collect();
-                    sweep.solve(&factor, &mut load);
-                    load
+                    let mut wide: Vec<f64> = load.clone().collect();
+                    sweep.solve(&factor, &mut wide);
+                    if order >= sweep.abreast.least_length() {
+                        let mut narrow: Vec<f64> = load.clone().collect();
+                        let passes = Passes {
+                            sweep,
+                            factor: &factor,
+                            load: &mut narrow,
+                        };
+                        passes.call();
+                        assert_eq!(wide, narrow, "registers of any width, the same bits");
+                    }
+                    wide
                 };
                 let (got, expected) = (answer(&sweep), answer(&one_by_one));
                 let most = expected.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
@@ -617,5 +629,58 @@ mod tests {
         assert_eq!(ways.len(), 4, "{ways:?}");
         assert!(bands > 0 && bands < 21, "{bands} of 21 have a band");
         assert!(short > 0, "none is smaller than a register");
+    }
+
+    /// Hinges that change one after another, and back, leave the factor that the whole matrix has, to the bit.
+    #[test]
+    fn a_factor_brought_up_to_date_is_a_new_one() {
+        let building = frame_with(|frame| {
+            let corners = Corners::bilinear(1e5, 0.02);
+            let backbone = Backbone::from_forces(3e8, corners, corners).expect("sound");
+            let hinge = Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("sound");
+            let members = |count: usize| vec![vec![hinge; count]; frame.columns.len()];
+            Some(Hinges::Frame(FrameHinges {
+                columns: members(frame.spans.len() + 1),
+                beams: members(frame.spans.len()),
+            }))
+        });
+        let sweep = RiccatiSweep::of(&building);
+        let matrix = StepMatrix::new(1.02, 4e6);
+        let mut tangents = building.equations.initial_tangents();
+        let initial = tangents.clone();
+        assert_eq!(tangents.len(), 30);
+        let mut factor = RiccatiFactor::default();
+        let solution = |factor: &RiccatiFactor| {
+            let loads = 0..building.equations.len();
+            let mut load: Vec<f64> = loads.map(|dof| (0.7 * dof as f64).sin()).collect();
+            sweep.solve(factor, &mut load);
+            load
+        };
+        let sound = sweep.factorize(&matrix, &tangents, &mut factor);
+        sound.expect("a standing frame");
+        let untouched = solution(&factor);
+        for step in 0..60 {
+            // Two at a time, thirty times to yield and thirty times back.
+            let changed = [(7 * step) % 30, (7 * step + 11) % 30];
+            for spring in changed {
+                tangents[spring] = if step < 30 {
+                    0.02 * initial[spring]
+                } else {
+                    initial[spring]
+                };
+            }
+            let sound = sweep.update(&matrix, &tangents, &changed, &mut factor);
+            sound.expect("a standing frame");
+            let mut fresh = RiccatiFactor::default();
+            let sound = sweep.factorize(&matrix, &tangents, &mut fresh);
+            sound.expect("a standing frame");
+            assert_eq!(solution(&factor), solution(&fresh), "{step}");
+            assert_eq!(
+                solution(&factor) == untouched,
+                tangents == initial,
+                "{step}"
+            );
+        }
+        assert_eq!(tangents, initial);
     }
 }

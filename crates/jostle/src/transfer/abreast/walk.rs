@@ -1,0 +1,149 @@
+//! Both passes along one group of chains.
+
+use super::{LANES, Lanes};
+
+/// One group in a pass.
+pub(super) struct Walk<'a> {
+    pub(super) chains: usize,
+    pub(super) firsts: &'a [u32],
+    pub(super) far: &'a [[u32; LANES]],
+    pub(super) near: &'a [[u32; LANES]],
+    pub(super) laid: &'a [Lanes],
+    pub(super) held: &'a mut [Lanes],
+}
+
+impl Walk<'_> {
+    #[inline(always)]
+    pub(super) fn pass_on<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
+        let mut at_hand = AtHand::<BAND, NEAR>::nothing();
+        let mut blocks = self.laid.chunks_exact(1 + BAND + NEAR);
+        let (columns, ends) = self.held.split_at_mut(self.firsts.len());
+        for ((held, first), block) in columns.iter_mut().zip(self.firsts).zip(&mut blocks) {
+            *held = at_hand.pass_on(block, at(load, *first));
+        }
+        for ((held, rows), block) in ends.iter_mut().zip(self.far).zip(blocks) {
+            *held = at_hand.pass_on(block, [0.0; LANES]);
+            add(load, rows, held, self.chains);
+        }
+        for (sum, rows) in at_hand.near.iter().zip(self.near) {
+            add(load, rows, sum, self.chains);
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn gather<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
+        let mut at_hand = AtHand::<BAND, NEAR>::nothing();
+        for (values, rows) in at_hand.near.iter_mut().zip(self.near) {
+            *values = rows.map(|row| load[row as usize]);
+        }
+        let columns = self.firsts.len() * (1 + BAND + NEAR);
+        let (columns, ends) = self.laid.split_at(columns);
+        let ends = ends.chunks_exact(1 + BAND + NEAR);
+        for (rows, block) in self.far.iter().zip(ends).rev() {
+            at_hand.gather(block, rows.map(|row| load[row as usize]));
+        }
+        let blocks = columns.chunks_exact(1 + BAND + NEAR);
+        for ((held, first), block) in self.held.iter().zip(self.firsts).zip(blocks).rev() {
+            let found = at_hand.gather(block, *held);
+            put(load, *first, &found, self.chains);
+        }
+    }
+}
+
+/// What a walk has at hand.
+struct AtHand<const BAND: usize, const NEAR: usize> {
+    /// Of the links behind, nearest last: on the way forward what they hold, on the way back what they have been given so far.
+    behind: [Lanes; BAND],
+    /// Of the near ends: what they have been given so far, and on the way back what is found there.
+    near: [Lanes; NEAR],
+}
+
+impl<const BAND: usize, const NEAR: usize> AtHand<BAND, NEAR> {
+    fn nothing() -> Self {
+        Self {
+            behind: [[0.0; LANES]; BAND],
+            near: [[0.0; LANES]; NEAR],
+        }
+    }
+
+    /// Takes the load of the next link and returns what it holds, divided by its pivot.
+    #[inline(always)]
+    fn pass_on(&mut self, block: &[Lanes], load: Lanes) -> Lanes {
+        let mut sum = load;
+        for k in 0..BAND {
+            subtract(&mut sum, &block[1 + k], &self.behind[k]);
+        }
+        for end in 0..NEAR {
+            subtract(&mut self.near[end], &block[1 + BAND + end], &sum);
+        }
+        for k in 1..BAND {
+            self.behind[k - 1] = self.behind[k];
+        }
+        self.behind[BAND - 1] = sum;
+        for lane in 0..LANES {
+            sum[lane] *= block[0][lane];
+        }
+        sum
+    }
+
+    /// Takes what the next link holds and returns what is found there.
+    #[inline(always)]
+    fn gather(&mut self, block: &[Lanes], held: Lanes) -> Lanes {
+        let mut sum = held;
+        for end in 0..NEAR {
+            subtract(&mut sum, &block[1 + BAND + end], &self.near[end]);
+        }
+        for lane in 0..LANES {
+            sum[lane] += self.behind[BAND - 1][lane];
+        }
+        for k in (1..BAND).rev() {
+            self.behind[k] = self.behind[k - 1];
+            subtract(&mut self.behind[k], &block[1 + k], &sum);
+        }
+        self.behind[0] = [0.0; LANES];
+        subtract(&mut self.behind[0], &block[1], &sum);
+        sum
+    }
+}
+
+/// A register of a list from a place on.
+#[inline(always)]
+fn at(list: &[f64], first: u32) -> Lanes {
+    let mut values = [0.0; LANES];
+    let first = first as usize;
+    values.copy_from_slice(&list[first..first + LANES]);
+    values
+}
+
+/// Puts as many values as there are chains into a list, from a place on.
+#[inline(always)]
+fn put(list: &mut [f64], first: u32, values: &Lanes, chains: usize) {
+    let first = first as usize;
+    let own = &mut list[first..first + LANES];
+    if chains == LANES {
+        own.copy_from_slice(values);
+    } else {
+        for lane in 0..LANES {
+            own[lane] = if lane < chains {
+                values[lane]
+            } else {
+                own[lane]
+            };
+        }
+    }
+}
+
+/// Adds as many values as there are chains to a list.
+#[inline(always)]
+fn add(list: &mut [f64], rows: &[u32; LANES], values: &Lanes, chains: usize) {
+    for (row, value) in rows.iter().zip(values).take(chains) {
+        list[*row as usize] += value;
+    }
+}
+
+#[inline(always)]
+fn subtract(from: &mut Lanes, a: &Lanes, b: &Lanes) {
+    for lane in 0..LANES {
+        from[lane] -= a[lane] * b[lane];
+    }
+}
