@@ -60,6 +60,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         let observed = Observed {
             step,
             stiffness,
+            damping: 0.0,
             error: stiffness * step * change.abs() / 12.0 * half_cycle / strongest,
             order: 2,
         };
@@ -75,6 +76,8 @@ pub(super) struct Observed {
     pub(super) step: f64,
     /// F′ at its end \[N/m\].
     pub(super) stiffness: f64,
+    /// ∂F/∂δ̇ there, where steps must follow it \[N·s/m\].
+    pub(super) damping: f64,
     /// Error of the force over half a cycle of such steps, relative to the greatest of the gap \[–\].
     pub(super) error: f64,
     /// Power of the step with which it grows.
@@ -100,19 +103,22 @@ pub(super) fn next_division(
     let Observed {
         step,
         stiffness,
+        damping,
         error,
         order,
     } = *observed;
-    if stiffness <= 0.0 || !error.is_finite() {
+    // An overdamped contact gives way within m/c, which may be much less than half a cycle.
+    let quickest = stiffness.max(damping * damping / contact.effective_mass());
+    if quickest <= 0.0 || !error.is_finite() {
         return division;
     }
-    let half_cycle = half_cycle(contact, stiffness);
+    let half_cycle = half_cycle(contact, quickest);
     if error > tolerance && step * MOST_FINER * steps > half_cycle {
         plan.finer(division)
     } else if error * SLACK * 2.0_f64.powi(order) < tolerance
         && division > 1
         && clock.is_on_grid(division / 2)
-        && division / 2 >= plan.coarsest(contact, stiffness)
+        && !plan.is_too_coarse(division / 2, contact, stiffness)
     {
         division / 2
     } else {

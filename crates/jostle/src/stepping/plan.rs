@@ -185,6 +185,12 @@ impl Plan {
         }
     }
 
+    /// Whether steps in contact are chosen as it goes on, rather than given.
+    #[must_use]
+    pub(crate) fn chooses_contact_steps(&self) -> bool {
+        matches!(self.contact_steps, ContactSteps::PerImpact { .. })
+    }
+
     /// The next finer division.
     #[must_use]
     pub(crate) fn finer(&self, division: u32) -> u32 {

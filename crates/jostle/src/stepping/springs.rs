@@ -39,7 +39,8 @@ impl SpringTrial {
 
     /// Whether it is on the line but for rounding.
     fn fits(&self, yield_force: f64) -> bool {
-        (self.answer - self.on_line).abs() <= FIT * yield_force.max(self.answer.abs())
+        let apart = (self.answer - self.on_line).abs();
+        apart <= FIT * yield_force || apart <= FIT * self.answer.abs()
     }
 }
 

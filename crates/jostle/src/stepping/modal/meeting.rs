@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::walk::Walk;
-use crate::contact::momentum;
+use crate::contact::{ContactResponse, momentum};
 use crate::history::Impact;
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::clock::Stride;
@@ -89,6 +89,24 @@ impl Walk<'_> {
             curve.turning_points().any(|at| curve.value(at) < 0.0)
         });
         unseen.next().map(|closed| closed.contact)
+    }
+
+    /// A closed contact whose force is off from what was foreseen by more than the greatest force so far: the mean that can be
+    /// foreseen then has nothing to do with it.
+    pub(super) fn goes_unforeseen(&self) -> Option<usize> {
+        if !self.plan.chooses_contact_steps() {
+            return None;
+        }
+        let mut closed = self.coupling.closed.iter().map(|closed| closed.contact);
+        closed.find(|&index| {
+            let known = match self.phases[index] {
+                ContactPhase::Closed(episode) => episode.force.abs(),
+                ContactPhase::Open => 0.0,
+            };
+            let strongest = self.strongest[self.system.contacts[index].gap];
+            let missed = (self.trials[index].force - self.foreseen[index].end).abs();
+            missed > known.max(strongest)
+        })
     }
 
     /// Whether a contact would open at the very instant at which it closed.
@@ -389,7 +407,7 @@ impl Walk<'_> {
             // Still the slope at the end when the contact opens there.
             self.reduced.push_apart(index, slope, &mut self.jerk);
             if episode.since < start {
-                self.control_division(index, step, response.by_indentation, &episode);
+                self.control_division(index, step, &response, &episode);
             }
             if episode.advance(&law, &trial, turn) {
                 self.report_impact(index, &episode, true);
@@ -406,7 +424,14 @@ impl Walk<'_> {
     /// Foreseen motion leaves out what is of fourth order in h, and so its force at the end, by e; then the step misses
     /// h e/24 of the impulse. Over the π/(ωh) steps of half a cycle at the present contact stiffness, that is an error of
     /// the force of π e/24; four times as much is allowed for, since forces that set in as t^1.5 are off by more.
-    fn control_division(&mut self, index: usize, step: f64, stiffness: f64, episode: &Episode) {
+    fn control_division(
+        &mut self,
+        index: usize,
+        step: f64,
+        response: &ContactResponse,
+        episode: &Episode,
+    ) {
+        let stiffness = response.by_indentation;
         let contact = &self.system.contacts[index];
         let strongest = &mut self.strongest[contact.gap];
         *strongest = strongest.max(episode.peak_force);
@@ -414,6 +439,7 @@ impl Walk<'_> {
         let observed = control::Observed {
             step,
             stiffness,
+            damping: response.by_rate,
             error: PI / 6.0 * missed / *strongest,
             order: 4,
         };

@@ -25,8 +25,8 @@ use crate::system::System;
 const OBSERVED_EVERY: u64 = 256;
 /// Most rows of a history in a step of free flight.
 const MOST_ROWS: f64 = 64.0;
-/// How often a step is halved in search of an opening within it.
-const MOST_HALVINGS: usize = 6;
+/// How often a step is halved in search of an opening within it, or of forces that can be foreseen.
+const MOST_HALVINGS: usize = 12;
 /// Events without progress before a run gives up.
 const MOST_EVENTS_AT_ONCE: usize = 1000;
 
@@ -271,8 +271,9 @@ impl<'a> Walk<'a> {
             let slot = self.table_for(&stride);
             self.try_step(slot, stride.end)?;
             let Some(event) = self.first_event(stride.length) else {
-                let opening = self.opens_unseen(stride.length);
-                if let Some(contact) = opening.filter(|_| halvings < MOST_HALVINGS) {
+                let unseen = self.opens_unseen(stride.length);
+                let unseen = unseen.or_else(|| self.goes_unforeseen());
+                if let Some(contact) = unseen.filter(|_| halvings < MOST_HALVINGS) {
                     halvings += 1;
                     self.contact_division[contact] = self.plan.finer(self.division());
                     self.work.repeated_steps += 1;
