@@ -399,7 +399,7 @@ fn warnings(run: &Run) -> Vec<String> {
     let given = -energy.contact / energy.input.abs().max(f64::MIN_POSITIVE);
     if given > MOST_GIVEN {
         warnings.push(format!(
-            "contacts gave {:.1} % of the energy put in, where they should only take some: the contact step is too coarse; use contact_step = \"auto\" or a smaller one",
+            "contacts gave {:.1} % of the energy put in, where they should only take some: the contact step is too coarse; use contact_step = \"auto\", and a smaller tolerance where it already is",
             given * 100.0
         ));
     }
