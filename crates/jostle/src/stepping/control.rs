@@ -76,7 +76,7 @@ pub(super) struct Observed {
     pub(super) step: f64,
     /// F′ at its end \[N/m\].
     pub(super) stiffness: f64,
-    /// ∂F/∂δ̇ there, where steps must follow it \[N·s/m\].
+    /// ∂F/∂δ̇ there; 0 where the error is one of displacements alone, and finer steps for a dashpot gain nothing \[N·s/m\].
     pub(super) damping: f64,
     /// Error of the force over half a cycle of such steps, relative to the greatest of the gap \[–\].
     pub(super) error: f64,

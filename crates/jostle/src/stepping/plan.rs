@@ -204,8 +204,7 @@ impl Plan {
     }
 
     /// The coarsest division worth having at a contact stiffness F′ \[N/m\]: steps must still see it.
-    #[must_use]
-    pub(crate) fn coarsest(&self, contact: &Contact, slope: f64) -> u32 {
+    fn coarsest(&self, contact: &Contact, slope: f64) -> u32 {
         let ContactSteps::PerImpact { steps, .. } = self.contact_steps else {
             return 1;
         };

@@ -31,7 +31,7 @@ pub(super) struct Abreast {
 }
 
 /// Chains of so many columns and far ends, walked along together.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 struct Group {
     reach: Reach,
     columns: usize,
@@ -132,39 +132,32 @@ impl Abreast {
     /// is left in `held`.
     #[inline(always)]
     pub(super) fn pass_on(&self, laid: &[f64], load: &mut [f64], held: &mut [Lanes]) {
-        let mut rest = self.parts(laid, held);
-        for group in &self.groups {
-            let own = rest.take(group);
-            match (group.reach.band, group.reach.near) {
-                (1, 2) => own.pass_on::<1, 2>(load),
-                (1, 4) => own.pass_on::<1, 4>(load),
-                (3, 1) => own.pass_on::<3, 1>(load),
-                _ => own.pass_on::<3, 2>(load),
-            }
-        }
+        self.walk::<true>(laid, load, held);
     }
 
     /// Every column, last first, gathers from what is ahead of it.
     #[inline(always)]
     pub(super) fn gather(&self, laid: &[f64], load: &mut [f64], held: &mut [Lanes]) {
-        let mut rest = self.parts(laid, held);
-        for group in &self.groups {
-            let own = rest.take(group);
-            match (group.reach.band, group.reach.near) {
-                (1, 2) => own.gather::<1, 2>(load),
-                (1, 4) => own.gather::<1, 4>(load),
-                (3, 1) => own.gather::<3, 1>(load),
-                _ => own.gather::<3, 2>(load),
-            }
-        }
+        self.walk::<false>(laid, load, held);
     }
 
-    fn parts<'a>(&'a self, laid: &'a [f64], held: &'a mut [Lanes]) -> Parts<'a> {
-        Parts {
+    #[inline(always)]
+    fn walk<const FORWARD: bool>(&self, laid: &[f64], load: &mut [f64], held: &mut [Lanes]) {
+        let mut rest = Parts {
             firsts: &self.firsts,
             ends: &self.ends,
             laid: laid.as_chunks().0,
             held,
+        };
+        for group in &self.groups {
+            let own = rest.take(group);
+            // One for each of the reaches that chains are looked for.
+            match (group.reach.band, group.reach.near) {
+                (1, 2) => own.walk::<1, 2, FORWARD>(load),
+                (1, 4) => own.walk::<1, 4, FORWARD>(load),
+                (3, 1) => own.walk::<3, 1, FORWARD>(load),
+                _ => own.walk::<3, 2, FORWARD>(load),
+            }
         }
     }
 }

@@ -81,7 +81,7 @@ impl Parts {
     }
 }
 
-/// Pivots and couplings for one step size.
+/// Pivots and couplings of one building for one step size.
 #[derive(Clone, Debug, Default)]
 pub struct RiccatiFactor {
     couplings: Vec<f64>,
@@ -270,9 +270,6 @@ impl RiccatiSweep {
         factor.bare.clear();
         factor.bare.extend(entries);
         self.add_springs(tangents, factor);
-        if factor.laid.is_empty() {
-            self.make_room(factor);
-        }
     }
 
     /// The same matrix with other springs.
@@ -319,6 +316,9 @@ impl RiccatiSweep {
         factor: &mut RiccatiFactor,
         mut accept: impl FnMut(usize, f64, f64) -> Result<f64, E>,
     ) -> Result<(), E> {
+        if factor.laid.is_empty() {
+            self.make_room(factor);
+        }
         let RiccatiFactor {
             couplings,
             inverse_pivots,

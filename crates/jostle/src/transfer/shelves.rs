@@ -13,7 +13,7 @@ pub(super) enum Place {
 
 /// Which place every number of a factor has. Elimination puts each number there as it finds it: after a hinge has
 /// changed only those that changed with it are moved.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Shelves {
     couplings: Vec<u32>,
     inverse_pivots: Vec<u32>,

@@ -5,16 +5,33 @@ use super::{LANES, Lanes};
 /// One group in a pass.
 pub(super) struct Walk<'a> {
     pub(super) chains: usize,
+    /// First of its columns at every link.
     pub(super) firsts: &'a [u32],
+    /// Rows of its far and near ends, chain by chain.
     pub(super) far: &'a [[u32; LANES]],
     pub(super) near: &'a [[u32; LANES]],
+    /// A block for every link: inverse pivots, couplings to the links behind, farthest first, and to the near ends.
     pub(super) laid: &'a [Lanes],
+    /// What links hold between the passes.
     pub(super) held: &'a mut [Lanes],
 }
 
 impl Walk<'_> {
+    /// Passes loads on, or gathers on the way back.
     #[inline(always)]
-    pub(super) fn pass_on<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
+    pub(super) fn walk<const BAND: usize, const NEAR: usize, const FORWARD: bool>(
+        self,
+        load: &mut [f64],
+    ) {
+        if FORWARD {
+            self.pass_on::<BAND, NEAR>(load);
+        } else {
+            self.gather::<BAND, NEAR>(load);
+        }
+    }
+
+    #[inline(always)]
+    fn pass_on<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
         let mut at_hand = AtHand::<BAND, NEAR>::nothing();
         let mut blocks = self.laid.chunks_exact(1 + BAND + NEAR);
         let (columns, ends) = self.held.split_at_mut(self.firsts.len());
@@ -31,7 +48,7 @@ impl Walk<'_> {
     }
 
     #[inline(always)]
-    pub(super) fn gather<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
+    fn gather<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
         let mut at_hand = AtHand::<BAND, NEAR>::nothing();
         for (values, rows) in at_hand.near.iter_mut().zip(self.near) {
             *values = rows.map(|row| load[row as usize]);
