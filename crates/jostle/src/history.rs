@@ -272,6 +272,10 @@ pub struct Work {
     pub halved_steps: u64,
     /// Multiply-adds spent on the forces of contacts and links.
     pub coupling_operations: u64,
+    /// Shapes kept by modal stepping.
+    pub shapes: u64,
+    /// Runs repeated by modal stepping with more shapes or finer steps.
+    pub repeated_runs: u64,
 }
 
 /// What a link has borne.

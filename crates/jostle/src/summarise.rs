@@ -377,6 +377,8 @@ fn work_summary(run: &Run) -> WorkSummary {
         outer_iterations: work.outer_iterations,
         halved_steps: work.halved_steps,
         coupling_operations: work.coupling_operations,
+        shapes: work.shapes,
+        repeated_runs: work.repeated_runs,
         step_s: run.outcome.free_step.unwrap_or(run.plan.step),
         contact_step_s: run.outcome.contact_step,
         wall_s: run.wall,

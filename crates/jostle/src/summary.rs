@@ -306,6 +306,10 @@ pub struct WorkSummary {
     pub halved_steps: u64,
     /// Multiply-adds spent on the forces of contacts and links.
     pub coupling_operations: u64,
+    /// Shapes kept by modal stepping; 0 for other solvers.
+    pub shapes: u64,
+    /// Runs repeated by modal stepping with more shapes or finer steps, to keep the tolerance.
+    pub repeated_runs: u64,
     /// Regular step of free flight \[s\].
     pub step_s: f64,
     /// Smallest regular step in contact; `null` when nothing touched \[s\].

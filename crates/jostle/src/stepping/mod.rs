@@ -28,7 +28,7 @@ mod step_matrix;
 mod trial;
 
 pub use integrator::Integrator;
-pub use outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
+pub use outcome::{Accuracy, Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 pub use plan::{ContactSteps, Plan};
 pub use simulation::{simulate, simulate_from};
 pub use step_matrix::StepMatrix;

@@ -76,8 +76,19 @@ pub struct Outcome {
     pub contact_step: Option<f64>,
     /// State at the end.
     pub state: State,
+    /// How far reported peaks may be off, where that was estimated.
+    pub accuracy: Option<Accuracy>,
     /// Why the run ended.
     pub end: RunEnd,
+}
+
+/// An a-posteriori estimate of the errors of reported peaks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// What they may be off, relative to the greatest of their kind in the building \[–\].
+    pub tolerance: f64,
+    /// What they are off by estimate \[–\].
+    pub residual: f64,
 }
 
 /// Why a run ended.
@@ -184,6 +195,7 @@ impl Outcome {
             free_step: None,
             contact_step: None,
             state: State::at_rest(system, 0.0),
+            accuracy: None,
             end: RunEnd::Failed(error),
         }
     }

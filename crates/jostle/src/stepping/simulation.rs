@@ -243,6 +243,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             free_step: Some(self.plan.step),
             contact_step,
             state: self.state,
+            accuracy: None,
             end,
         }
     }

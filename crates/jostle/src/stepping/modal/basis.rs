@@ -2,10 +2,11 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
-use pulp::{Arch, Simd, WithSimd};
 
+use super::defects::{Defects, SeveralRates};
+use super::span::{RitzModes, Span};
+use crate::equations::Equations;
 use crate::lanes;
-use crate::modal::symmetric;
 use crate::stepping::NotPositive;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::RiccatiSweep;
@@ -14,22 +15,13 @@ use crate::transfer::riccati::rates::{PerRate, RATES, RateFactors};
 /// Ritz modes of one building: natural modes as far as they matter in time, and beyond them what makes its
 /// flexibility at the contacts and under the ground motion exact.
 pub(super) struct Basis {
-    /// ω², rising \[1/s²\].
-    pub(super) stiffness: Vec<f64>,
-    /// Vectors over all degrees of freedom, massless ones included, and what part every shape φ, φᵀMφ = 1, has of each
-    /// \[kg^−½\].
-    vectors: Vec<Vec<f64>>,
-    parts: Vec<Vec<f64>>,
-    /// φᵀM r \[kg^½\].
-    pub(super) participation: Vec<f64>,
+    pub(super) modes: RitzModes,
+    /// What every mode misses; `None` where these are all natural modes there are.
+    pub(super) defects: Option<Defects>,
     /// Factorisations and solutions it took.
     pub(super) factorizations: u64,
     pub(super) solves: u64,
 }
-
-/// What remains of a vector beside the others when it brings nothing new; less would be rounding, in which massless degrees
-/// of freedom no longer follow the others and are far too stiff.
-const NOTHING_NEW: f64 = 1e-4;
 
 /// Where and how closely the basis has to agree with the building.
 pub(super) struct Demand<'a> {
@@ -55,33 +47,123 @@ impl Basis {
     /// # Errors
     /// [`NotPositive`] when the building can move without deforming.
     pub(super) fn of(building: &BuildingSystem, demand: &Demand<'_>) -> Result<Self, NotPositive> {
+        if massive(building).count() <= std::env::var("ALLM").ok().and_then(|x| x.parse().ok()).unwrap_or(ALL_MODES) {
+            return Self::complete(building);
+        }
         let mut growing = Growing::of(building, demand)?;
         while !growing.is_close()? && growing.extend() {}
         growing.finished()
     }
 
+    /// All natural modes: shapes that span every motion of the masses, massless degrees of freedom following statically.
+    ///
+    /// # Errors
+    /// [`NotPositive`] when the building can move without deforming.
+    pub(super) fn complete(building: &BuildingSystem) -> Result<Self, NotPositive> {
+        let mut span = Span::empty(building);
+        let sweep = &*building.sweep;
+        let factors = sweep.factorize_at(&[at_once(&building.equations); RATES])?;
+        let masses: Vec<usize> = massive(building).collect();
+        for several in masses.chunks(RATES) {
+            let mut answers = vec![[0.0; RATES]; building.equations.len()];
+            for (lane, dof) in several.iter().enumerate() {
+                answers[*dof][lane] = 1.0;
+            }
+            sweep.solve_at(&factors, &mut answers);
+            for lane in 0..several.len() {
+                span.add(answers.iter().map(|values| values[lane]).collect());
+            }
+        }
+        Ok(Self {
+            modes: span.ritz_modes()?,
+            defects: None,
+            factorizations: 1,
+            solves: masses.len() as u64,
+        })
+    }
+
+    fn with_defects(
+        building: &BuildingSystem,
+        factors: SeveralRates,
+        span: Span<'_>,
+        [factorizations, solves]: [u64; 2],
+    ) -> Result<Self, NotPositive> {
+        let modes = span.ritz_modes()?;
+        let defects = Defects::of(building, factors, &modes);
+        Ok(Self {
+            factorizations,
+            solves: solves + modes.stiffness.len() as u64,
+            defects: Some(defects),
+            modes,
+        })
+    }
+
+    /// The same with what these modes miss added to the span; all natural modes where that is hardly fewer.
+    ///
+    /// # Errors
+    /// [`NotPositive`] as for [`Basis::of`].
+    pub(super) fn enriched(
+        &self,
+        building: &BuildingSystem,
+        modes: &[usize],
+    ) -> Result<Self, NotPositive> {
+        let Some(defects) = &self.defects else {
+            return Self::complete(building);
+        };
+        let most = massive(building).count();
+        if 3 * (self.len() + modes.len()) > 2 * most {
+            return Self::complete(building);
+        }
+        let mut span = Span::empty(building);
+        let missed = modes.iter().map(|mode| &defects.shapes[*mode]);
+        for vector in self.modes.vectors.iter().chain(missed) {
+            span.add(vector.clone());
+        }
+        let work = [self.factorizations, self.solves];
+        Self::with_defects(building, defects.factors.clone(), span, work)
+    }
+
     /// Number of shapes.
     pub(super) fn len(&self) -> usize {
-        self.stiffness.len()
+        self.modes.stiffness.len()
     }
 
     /// A linear form of every shape.
     pub(super) fn of_shapes(&self, form: impl Fn(&[f64]) -> f64) -> Vec<f64> {
-        let of_vectors: Vec<f64> = self.vectors.iter().map(|vector| form(vector)).collect();
-        let shapes = self.parts.iter();
+        let vectors = self.modes.vectors.iter();
+        let of_vectors: Vec<f64> = vectors.map(|vector| form(vector)).collect();
+        let shapes = self.modes.parts.iter();
         shapes.map(|parts| lanes::dot(parts, &of_vectors)).collect()
+    }
+
+    /// A linear form of what every shape misses; none where nothing is missed.
+    pub(super) fn of_defects(&self, form: impl Fn(&[f64]) -> f64) -> Vec<f64> {
+        let defects = self.defects.iter().flat_map(|defects| &defects.shapes);
+        defects.map(|defect| form(defect)).collect()
     }
 
     /// Adds Σ φ q to a displacement of all degrees of freedom.
     pub(super) fn expand(&self, modal: &[f64], full: &mut [f64]) {
-        let mut shares = vec![0.0; self.vectors.len()];
-        for (parts, q) in self.parts.iter().zip(modal) {
+        let RitzModes { vectors, parts, .. } = &self.modes;
+        let mut shares = vec![0.0; vectors.len()];
+        for (parts, q) in parts.iter().zip(modal) {
             lanes::add(&mut shares, *q, parts);
         }
-        for (vector, share) in self.vectors.iter().zip(shares) {
+        for (vector, share) in vectors.iter().zip(shares) {
             lanes::add(full, share, vector);
         }
     }
+}
+
+/// Most masses of a building all of whose modes are kept without asking: they cost less than finding out which matter.
+const ALL_MODES: usize = 40;
+
+/// Degrees of freedom with mass.
+fn massive(building: &BuildingSystem) -> impl Iterator<Item = usize> + '_ {
+    let masses = building.equations.mass.iter().enumerate();
+    masses
+        .filter(|(_, mass)| **mass > 0.0)
+        .map(|(dof, _)| dof)
 }
 
 /// Answers of the building itself, to compare with.
@@ -100,14 +182,8 @@ struct Growing<'a> {
     building: &'a BuildingSystem,
     demand: &'a Demand<'a>,
     sweep: &'a RiccatiSweep,
-    /// Of the last of the rates that are met.
-    last_rate: RateFactors,
-    /// M-orthonormal vectors over all degrees of freedom.
-    vectors: Vec<Vec<f64>>,
-    /// vᵀK w between them, lower triangle row by row.
-    products: Vec<Vec<f64>>,
-    /// Horizontal mass that goes with every vector \[kg^½\].
-    driven: Vec<f64>,
+    factors: SeveralRates,
+    span: Span<'a>,
     /// First vector of the last block.
     last_block: usize,
     wanted: Vec<Wanted>,
@@ -118,13 +194,15 @@ struct Growing<'a> {
 impl<'a> Growing<'a> {
     fn of(building: &'a BuildingSystem, demand: &'a Demand<'a>) -> Result<Self, NotPositive> {
         let sweep = &*building.sweep;
-        // Rates that are met come first; what is left of the lanes repeats them.
-        let asked = || demand.met.iter().chain(demand.compared).copied();
+        // Rates that are met come first; what is left of the lanes serves modes that are quicker.
+        let asked = demand.met.iter().chain(demand.compared).copied();
+        let quickest = demand.compared.iter().copied().fold(1.0, f64::max);
+        let quicker = (1..).map(|times| quickest * QUICKER.powi(times));
         let mut rates = [0.0; RATES];
-        for (lane, rate) in rates.iter_mut().zip(asked().chain(asked().cycle())) {
+        for (lane, rate) in rates.iter_mut().zip(asked.chain(quicker)) {
             *lane = rate;
         }
-        let factors = sweep.factorize_at(&rates)?;
+        let factors = SeveralRates::of(sweep, rates)?;
         let loads: Vec<Vec<f64>> = std::iter::once(building.equations.driven_mass.clone())
             .chain(demand.faces.iter().map(|face| push_on(building, *face)))
             .collect();
@@ -132,7 +210,7 @@ impl<'a> Growing<'a> {
             .iter()
             .map(|load| {
                 let mut answers: Vec<PerRate> = load.iter().map(|value| [*value; RATES]).collect();
-                sweep.solve_at(&factors, &mut answers);
+                sweep.solve_at(&factors.factors, &mut answers);
                 answers
             })
             .collect();
@@ -150,116 +228,59 @@ impl<'a> Growing<'a> {
                 .collect(),
         });
         let rates = met + demand.compared.len();
-        let mut growing = Self {
-            last_rate: factors.only(met.saturating_sub(1)),
-            wanted: wanted.collect(),
+        let wanted = wanted.collect();
+        let mut span = Span::empty(building);
+        for mode in building.lateral_modes() {
+            span.add(mode.shape.clone());
+        }
+        let mut last_block = 0;
+        for rate in 0..met {
+            last_block = span.vectors.len();
+            for answer in &answers {
+                span.add(answer.iter().map(|values| values[rate]).collect());
+            }
+        }
+        Ok(Self {
+            wanted,
             factorizations: rates as u64,
             solves: (rates * loads.len()) as u64,
+            factors,
             building,
             demand,
             sweep,
-            vectors: Vec::new(),
-            products: Vec::new(),
-            driven: Vec::new(),
-            last_block: 0,
-        };
-        for mode in building.lateral_modes() {
-            growing.add(mode.shape.clone());
-        }
-        for rate in 0..met {
-            growing.last_block = growing.vectors.len();
-            for answer in &answers {
-                growing.add(answer.iter().map(|values| values[rate]).collect());
-            }
-        }
-        Ok(growing)
+            span,
+            last_block,
+        })
     }
 
     /// One block more; false when there is nothing left to find.
     fn extend(&mut self) -> bool {
-        let mass = &self.building.equations.mass;
-        let inertia = |vector: &Vec<f64>| vector.iter().zip(mass).map(|(v, m)| v * m).collect();
-        let loads: Vec<Vec<f64>> = self.vectors[self.last_block..]
-            .iter()
-            .map(inertia)
-            .collect();
-        self.last_block = self.vectors.len();
-        self.solves += loads.len() as u64;
-        for loads in loads.chunks(RATES) {
-            let mut answers = vec![[0.0; RATES]; self.building.equations.len()];
-            for (lane, load) in loads.iter().enumerate() {
-                for (answer, value) in answers.iter_mut().zip(load) {
-                    answer[lane] = *value;
-                }
-            }
-            self.sweep.solve_at(&self.last_rate, &mut answers);
-            for lane in 0..loads.len() {
-                self.add(answers.iter().map(|values| values[lane]).collect());
-            }
+        let last_rate = self.factors.factors.only(self.demand.met.len().saturating_sub(1));
+        let answers = answers_to_inertia(
+            self.building,
+            &last_rate,
+            &self.span.vectors[self.last_block..],
+        );
+        self.last_block = self.span.vectors.len();
+        self.solves += answers.len() as u64;
+        for answer in answers {
+            self.span.add(answer);
         }
-        self.vectors.len() > self.last_block
-    }
-
-    /// Keeps what a vector has beside the others.
-    fn add(&mut self, mut vector: Vec<f64>) {
-        let equations = &self.building.equations;
-        let most = equations.mass.iter().filter(|mass| **mass > 0.0).count();
-        if self.vectors.len() == most {
-            return;
-        }
-        let length = |vector: &[f64]| lanes::wide_weighted_square(&equations.mass, vector).sqrt();
-        let before = length(&vector);
-        let strip = Strip {
-            vector: &mut vector,
-            known: &self.vectors,
-            mass: &equations.mass,
-        };
-        Arch::new().dispatch(strip);
-        let rest = length(&vector);
-        if rest <= NOTHING_NEW * before || rest.is_nan() {
-            return;
-        }
-        vector.iter_mut().for_each(|value| *value /= rest);
-        let mut stiff = vec![0.0; vector.len()];
-        equations.stiffness.multiply_add(&vector, &mut stiff);
-        self.driven
-            .push(lanes::dot(&equations.driven_mass, &vector));
-        self.vectors.push(vector);
-        let mut row = vec![0.0; self.vectors.len()];
-        let products = Products {
-            with: &stiff,
-            vectors: &self.vectors,
-            row: &mut row,
-        };
-        Arch::new().dispatch(products);
-        self.products.push(row);
-    }
-
-    /// vᵀ(K + s²M)w between all vectors; only the lower triangle is filled.
-    fn projected(&self, rate: f64) -> Mat<f64> {
-        let n = self.vectors.len();
-        let mut matrix = Mat::zeros(n, n);
-        for (i, row) in self.products.iter().enumerate() {
-            for (j, value) in row.iter().enumerate() {
-                matrix[(i, j)] = *value;
-            }
-            matrix[(i, i)] += rate * rate;
-        }
-        matrix
+        self.span.vectors.len() > self.last_block
     }
 
     /// Whether answers within the vectors are those of the building.
     fn is_close(&self) -> Result<bool, NotPositive> {
         let shown =
-            |place: &usize| -> Vec<f64> { self.vectors.iter().map(|v| v[*place]).collect() };
+            |place: &usize| -> Vec<f64> { self.span.vectors.iter().map(|v| v[*place]).collect() };
         let faces = self.demand.faces.iter().map(shown);
-        let loads: Vec<Vec<f64>> = std::iter::once(self.driven.clone()).chain(faces).collect();
+        let loads: Vec<Vec<f64>> = std::iter::once(self.span.driven.clone()).chain(faces).collect();
         let floors: Vec<Vec<f64>> = self.demand.floors.iter().map(shown).collect();
         for wanted in &self.wanted {
-            let factor = self.projected(wanted.rate).llt(Side::Lower);
+            let factor = self.span.projected(wanted.rate).llt(Side::Lower);
             let factor = factor.map_err(|_| NotPositive { dof: 0 })?;
             let mut answers =
-                Mat::from_fn(self.vectors.len(), loads.len(), |i, load| loads[load][i]);
+                Mat::from_fn(self.span.vectors.len(), loads.len(), |i, load| loads[load][i]);
             factor.solve_in_place(&mut answers);
             let columns = answers.col_iter().zip(&loads).zip(loaded(self.demand));
             let mut of_loads = columns.zip(&wanted.answers);
@@ -281,25 +302,49 @@ impl<'a> Growing<'a> {
         Ok(true)
     }
 
-    /// Ritz modes: eigenvalues and eigenvectors within the vectors.
+    /// The Ritz modes, and what each of them misses.
     fn finished(self) -> Result<Basis, NotPositive> {
-        let (stiffness, parts) = symmetric::eigen(&self.products);
-        if stiffness
-            .iter()
-            .any(|value| *value <= 0.0 || value.is_nan())
-        {
-            return Err(NotPositive { dof: 0 });
-        }
-        let participation = parts.iter().map(|parts| lanes::dot(&self.driven, parts));
-        Ok(Basis {
-            participation: participation.collect(),
-            stiffness,
-            parts,
-            vectors: self.vectors,
-            factorizations: self.factorizations,
-            solves: self.solves,
-        })
+        Basis::with_defects(self.building, self.factors, self.span, [self.factorizations, self.solves])
     }
+}
+
+/// (K + s²M)⁻¹ M v of vectors v.
+fn answers_to_inertia(
+    building: &BuildingSystem,
+    factors: &RateFactors,
+    vectors: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
+    let mass = &building.equations.mass;
+    let mut found = Vec::with_capacity(vectors.len());
+    for several in vectors.chunks(RATES) {
+        let mut answers = vec![[0.0; RATES]; mass.len()];
+        for (lane, vector) in several.iter().enumerate() {
+            for ((answer, v), m) in answers.iter_mut().zip(vector).zip(mass) {
+                answer[lane] = v * m;
+            }
+        }
+        building.sweep.solve_at(factors, &mut answers);
+        let lanes = 0..several.len();
+        found.extend(lanes.map(|lane| -> Vec<f64> {
+            answers.iter().map(|values| values[lane]).collect()
+        }));
+    }
+    found
+}
+
+/// How far apart rates stand that serve quicker modes.
+const QUICKER: f64 = 4.0;
+
+/// A rate at which stiffness does not count beside inertia \[1/s\].
+pub(super) fn at_once(equations: &Equations) -> f64 {
+    let stiffest = equations
+        .mass
+        .iter()
+        .zip(&equations.stiffness.diagonal)
+        .filter(|(mass, _)| **mass > 0.0)
+        .map(|(mass, stiffness)| stiffness / mass)
+        .fold(1.0, f64::max);
+    (1e13 * stiffest).sqrt()
 }
 
 /// The face that every load pushes: none for the ground, then one after the other.
@@ -312,49 +357,4 @@ fn push_on(building: &BuildingSystem, face: usize) -> Vec<f64> {
     let mut load = vec![0.0; building.equations.len()];
     load[face] = 1.0;
     load
-}
-
-/// Takes from a vector what it has of those already known, which are M-orthonormal (Gram and Schmidt, all at once).
-struct Strip<'a> {
-    vector: &'a mut [f64],
-    known: &'a [Vec<f64>],
-    mass: &'a [f64],
-}
-
-impl WithSimd for Strip<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self {
-            vector,
-            known,
-            mass,
-        } = self;
-        let (mut heavy, mut parts) = (vec![0.0; vector.len()], vec![0.0; known.len()]);
-        // Twice is enough.
-        for _ in 0..2 {
-            for ((heavy, value), mass) in heavy.iter_mut().zip(&*vector).zip(mass) {
-                *heavy = value * mass;
-            }
-            lanes::dots(simd, known, &heavy, &mut parts);
-            lanes::subtract_all(known, &parts, vector);
-        }
-    }
-}
-
-/// Products of a vector with many.
-struct Products<'a> {
-    with: &'a [f64],
-    vectors: &'a [Vec<f64>],
-    row: &'a mut [f64],
-}
-
-impl WithSimd for Products<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        lanes::dots(simd, self.vectors, self.with, self.row);
-    }
 }

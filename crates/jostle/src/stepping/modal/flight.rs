@@ -330,6 +330,16 @@ impl Walk<'_> {
     /// Stands at the end of so many steps of the flight.
     fn land(&mut self, steps: usize) {
         let (flight, places) = (&self.flight, self.reduced.watched());
+        let modes = self.reduced.modes();
+        let stride = flight.start[0].len();
+        for step in 0..steps {
+            let accelerations = &flight.modal[2][step * stride..][..modes];
+            if self.reached.widen(accelerations, Some(flight.step)) {
+                let (watched, ground) = (flight.watched(places, step + 1), flight.ground[step + 1]);
+                let (system, reduced) = (self.system, self.reduced);
+                self.reached.look(system, reduced, accelerations, watched, ground);
+            }
+        }
         let [q, v] = flight.state(self.reduced.modes(), steps);
         self.q[0].copy_from_slice(q);
         self.v[0].copy_from_slice(v);

@@ -7,6 +7,8 @@
 
 mod basis;
 mod damped;
+mod defects;
+mod estimate;
 mod flight;
 mod forces;
 mod kernels;
@@ -16,20 +18,22 @@ mod pushes;
 mod reduced;
 mod response;
 mod series;
+mod span;
 mod walk;
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use super::integrator::Integrator;
-use super::outcome::{Outcome, Progress, Settings, StepError};
+use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
 use super::plan::{ContactSteps, Plan};
 use crate::history::Work;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::system::System;
 use reduced::{Rates, Reduced};
-use walk::Walk;
+use estimate::Estimate;
+use walk::{Refinement, Walk};
 
 /// Why buildings cannot be stepped by their modes; empty when they can.
 #[must_use]
@@ -89,7 +93,7 @@ impl Reduction {
         let mut work = Work::default();
         let buildings = 0..system.buildings.len();
         let rates: Vec<Rates> = buildings.map(|index| rates(system, index)).collect();
-        let closeness = FLEXIBILITY_SHARE * tolerance(plan);
+        let closeness = FLEXIBILITY_SHARE * tolerance(plan).min(USUAL_TOLERANCE);
         match Reduced::of(system, &rates, closeness, &mut work) {
             Ok(reduced) => Ok(Self { reduced, work }),
             Err((building, source)) => Err(StepError::NotPositive {
@@ -117,11 +121,61 @@ pub fn simulate(
     plan: &Plan,
     settings: Settings,
     reduction: &Reduction,
-    observer: impl FnMut(Progress) -> ControlFlow<()>,
+    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
-    let (reduced, work) = (&reduction.reduced, reduction.work);
-    Walk::new(system, motion, plan, settings, reduced, work).run(observer)
+    let tolerance = tolerance(plan);
+    let mut refinement = Refinement {
+        division: 1,
+        work: reduction.work,
+    };
+    let mut enriched: Option<Reduced> = None;
+    let mut left = MOST_REPEATS;
+    loop {
+        let reduced = enriched.as_ref().unwrap_or(&reduction.reduced);
+        let walk = Walk::new(system, motion, plan, settings, reduced, refinement);
+        let (mut outcome, verdict) = walk.run(&mut observer, tolerance);
+        let Estimate { shapes, between } = verdict.estimate;
+        let residual = verdict.estimate.both();
+        if std::env::var("EST").is_ok() {
+            eprintln!("      shapes {shapes:.2e} between {between:.2e} modes {} division {}", reduced.modes(), refinement.division);
+        }
+        outcome.accuracy = Some(Accuracy {
+            tolerance,
+            residual,
+        });
+        outcome.work.shapes = reduced.modes() as u64;
+        let finer = between > 0.5 * tolerance && plan.chooses_contact_steps();
+        let more = verdict.lacking.iter().any(|modes| !modes.is_empty());
+        let within = residual <= tolerance;
+        if within || left == 0 || !(finer || more) || outcome.end != RunEnd::Completed {
+            return outcome;
+        }
+        left -= 1;
+        let mut work = Work {
+            factorizations: refinement.work.factorizations,
+            solves: refinement.work.solves,
+            repeated_runs: refinement.work.repeated_runs + 1,
+            ..Work::default()
+        };
+        if more {
+            // What a second helping does not mend takes them all.
+            let all = enriched.is_some() && work.repeated_runs > 1;
+            match reduced.enriched(system, &verdict.lacking, all, &mut work) {
+                Ok(more) => enriched = Some(more),
+                Err(_) => return outcome,
+            }
+        }
+        if finer {
+            // Errors of cubics fall with the fourth power of the step.
+            let finer = (between / (0.25 * tolerance)).sqrt().sqrt().min(8.0);
+            refinement.division *= (finer.ceil() as u32).next_power_of_two();
+        }
+        refinement.work = work;
+    }
 }
+
+/// Runs repeated with more shapes or finer steps before the errors that are left are reported.
+const MOST_REPEATS: u32 = 4;
 
 /// Whether a state is one that modal stepping can start from.
 pub(super) fn is_rest(state: &State) -> bool {

@@ -1,16 +1,16 @@
 //! All buildings in modal coordinates, one after the other.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use pulp::Arch;
 
-use super::basis::{Basis, Demand};
+use super::basis::{Basis, Demand, at_once};
 use super::damped::{Damped, Rules};
 use super::kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
 use super::pushes::{Answer, Push};
 use super::response::{INPUTS, PRODUCTS, Responses};
 use crate::contact::ForceLaw;
-use crate::equations::Equations;
 use crate::history::Work;
 use crate::lanes;
 use crate::stepping::NotPositive;
@@ -52,9 +52,12 @@ pub(super) struct ReducedBuilding {
     pub(super) shear: usize,
     /// Shapes at so many watched displacements at once, mode by mode; rows that fill up the last block are zero \[kg^−½\].
     pub(super) blocks: Vec<[f64; ROWS]>,
+    /// What a unit acceleration of every mode misses at everything watched, statically; empty where all natural modes are
+    /// kept.
+    pub(super) missed: Vec<[f64; ROWS]>,
     /// Number of degrees of freedom, and the shapes over all of them.
     size: usize,
-    basis: Basis,
+    basis: Arc<Basis>,
 }
 
 impl Reduced {
@@ -65,44 +68,9 @@ impl Reduced {
         closeness: f64,
         work: &mut Work,
     ) -> Result<Self, (usize, NotPositive)> {
-        let mut reduced = Self {
-            damping: Vec::new(),
-            stiffness: Vec::new(),
-            participation: Vec::new(),
-            buildings: Vec::new(),
-            arch: Arch::new(),
-            faces: vec![[None; 2]; system.contacts.len()],
-            pushes: Vec::new(),
-        };
-        let mut watching = 0;
+        let mut bases = Vec::with_capacity(system.buildings.len());
         for (index, building) in system.buildings.iter().enumerate() {
-            let mut watched: Vec<usize> = building
-                .floors
-                .iter()
-                .map(|floor| floor.dof - building.offset)
-                .collect();
-            let floors = watched.len();
-            let mut faces = Vec::new();
-            for (number, contact) in system.contacts.iter().enumerate() {
-                for (side, face) in contact.faces.0.iter().enumerate() {
-                    let Some(face) = face.filter(|face| face.building == index) else {
-                        continue;
-                    };
-                    let dof = face.dof - building.offset;
-                    let known = watched.iter().position(|other| *other == dof);
-                    let place = known.unwrap_or_else(|| {
-                        watched.push(dof);
-                        watched.len() - 1
-                    });
-                    reduced.faces[number][side] = Some(Shown {
-                        building: index,
-                        watched: watching + place,
-                    });
-                    if !faces.contains(&dof) {
-                        faces.push(dof);
-                    }
-                }
-            }
+            let Watched { places, faces } = Watched::of(system, index);
             let Rates { pushed, swaying } = rates[index];
             let [low, high] = COMPARED.map(|factor| factor * pushed);
             let mut met = vec![0.0, pushed];
@@ -116,7 +84,7 @@ impl Reduced {
             }
             let demand = Demand {
                 faces: &faces,
-                floors: &watched[..floors],
+                floors: &places[..building.floors.len()],
                 met: &met,
                 compared: &[high, low, 3.0 * swaying, swaying],
                 tolerance: closeness,
@@ -124,39 +92,51 @@ impl Reduced {
             let basis = Basis::of(building, &demand).map_err(|failure| (index, failure))?;
             work.factorizations += basis.factorizations;
             work.solves += basis.solves;
-            let start = reduced.stiffness.len();
-            let equations = &building.equations;
-            for stiffness in &basis.stiffness {
-                reduced.damping.push(match building.modal_damping {
-                    Some(ratio) => 2.0 * ratio * stiffness.sqrt(),
-                    None => equations.alpha + equations.beta * stiffness,
-                });
+            bases.push(Arc::new(basis));
+        }
+        Ok(Self::with_bases(system, bases))
+    }
+
+    /// The same with what some modes of every building miss added, or with all natural modes of these buildings.
+    pub(super) fn enriched(
+        &self,
+        system: &System,
+        lacking: &[Vec<usize>],
+        all: bool,
+        work: &mut Work,
+    ) -> Result<Self, (usize, NotPositive)> {
+        let mut bases = Vec::with_capacity(lacking.len());
+        for (index, (own, modes)) in self.buildings.iter().zip(lacking).enumerate() {
+            if modes.is_empty() {
+                bases.push(Arc::clone(&own.basis));
+                continue;
             }
-            reduced.stiffness.extend(&basis.stiffness);
-            reduced.participation.extend(&basis.participation);
-            let shear = basis.of_shapes(|vector| equations.base_shear(vector));
-            let shown: Vec<Vec<f64>> = watched
-                .iter()
-                .map(|&dof| basis.of_shapes(|vector| vector[dof]))
-                .chain([shear])
-                .collect();
-            let mut blocks = Vec::with_capacity(basis.len() * shown.len().div_ceil(ROWS));
-            for block in shown.chunks(ROWS) {
-                blocks.extend((0..basis.len()).map(|mode| {
-                    std::array::from_fn(|row| block.get(row).map_or(0.0, |shape| shape[mode]))
-                }));
-            }
-            let places = shown.len().div_ceil(ROWS) * ROWS;
-            reduced.buildings.push(ReducedBuilding {
-                modes: start..reduced.stiffness.len(),
-                watched: watching..watching + places,
-                floors,
-                shear: watching + shown.len() - 1,
-                blocks,
-                size: equations.len(),
-                basis,
-            });
-            watching += places;
+            let building = &system.buildings[index];
+            let basis = if all {
+                Basis::complete(building)
+            } else {
+                own.basis.enriched(building, modes)
+            };
+            let basis = basis.map_err(|failure| (index, failure))?;
+            work.factorizations += basis.factorizations;
+            work.solves += basis.solves;
+            bases.push(Arc::new(basis));
+        }
+        Ok(Self::with_bases(system, bases))
+    }
+
+    fn with_bases(system: &System, bases: Vec<Arc<Basis>>) -> Self {
+        let mut reduced = Self {
+            damping: Vec::new(),
+            stiffness: Vec::new(),
+            participation: Vec::new(),
+            buildings: Vec::new(),
+            arch: Arch::new(),
+            faces: vec![[None; 2]; system.contacts.len()],
+            pushes: Vec::new(),
+        };
+        for (index, basis) in bases.into_iter().enumerate() {
+            reduced.add_building(system, index, basis);
         }
         if reduced.modes() < FEW_MODES {
             reduced.arch = Arch::Scalar;
@@ -165,7 +145,67 @@ impl Reduced {
         reduced.pushes = contacts
             .map(|contact| Push::of(&reduced, contact))
             .collect();
-        Ok(reduced)
+        reduced
+    }
+
+    fn add_building(&mut self, system: &System, index: usize, basis: Arc<Basis>) {
+        let building = &system.buildings[index];
+        let equations = &building.equations;
+        let Watched { places, .. } = Watched::of(system, index);
+        let watching = self.watched();
+        for (faces, contact) in self.faces.iter_mut().zip(&system.contacts) {
+            for (shown, face) in faces.iter_mut().zip(&contact.faces.0) {
+                let Some(face) = face.filter(|face| face.building == index) else {
+                    continue;
+                };
+                let place = places.iter().position(|dof| *dof == face.dof - building.offset);
+                *shown = place.map(|place| Shown {
+                    building: index,
+                    watched: watching + place,
+                });
+            }
+        }
+        let start = self.stiffness.len();
+        for stiffness in &basis.modes.stiffness {
+            self.damping.push(match building.modal_damping {
+                Some(ratio) => 2.0 * ratio * stiffness.sqrt(),
+                None => equations.alpha + equations.beta * stiffness,
+            });
+        }
+        self.stiffness.extend(&basis.modes.stiffness);
+        self.participation.extend(&basis.modes.participation);
+        let shear = basis.of_shapes(|vector| equations.base_shear(vector));
+        let shown: Vec<Vec<f64>> = places
+            .iter()
+            .map(|&dof| basis.of_shapes(|vector| vector[dof]))
+            .chain([shear])
+            .collect();
+        let missed = basis.defects.as_ref().map_or_else(Vec::new, |defects| {
+            let rows = places
+                .iter()
+                .map(|&dof| basis.of_defects(|defect| defect[dof]))
+                .chain([basis.of_defects(|defect| equations.base_shear(defect))]);
+            let detuned = defects.detuned(&basis.modes, &self.damping[start..]);
+            let rows = rows.zip(&shown).map(|(mut row, shape)| {
+                for ((value, shape), detuned) in row.iter_mut().zip(shape).zip(&detuned) {
+                    *value += shape * detuned;
+                }
+                row
+            });
+            in_blocks(&rows.collect::<Vec<_>>(), basis.len())
+        });
+        let blocks = in_blocks(&shown, basis.len());
+        let rows = shown.len().div_ceil(ROWS) * ROWS;
+        self.buildings.push(ReducedBuilding {
+            modes: start..self.stiffness.len(),
+            watched: watching..watching + rows,
+            floors: building.floors.len(),
+            shear: watching + shown.len() - 1,
+            blocks,
+            missed,
+            size: equations.len(),
+            basis,
+        });
     }
 
     /// The registers at hand.
@@ -257,6 +297,43 @@ impl Reduced {
     }
 }
 
+/// Degrees of freedom of a building that are watched: its floors from the ground up, then other faces of contacts; and
+/// those that contacts push.
+struct Watched {
+    places: Vec<usize>,
+    faces: Vec<usize>,
+}
+
+impl Watched {
+    fn of(system: &System, index: usize) -> Self {
+        let building = &system.buildings[index];
+        let floors = building.floors.iter();
+        let mut places: Vec<usize> = floors.map(|floor| floor.dof - building.offset).collect();
+        let mut faces = Vec::new();
+        let all = system.contacts.iter().flat_map(|contact| contact.faces.0);
+        for face in all.flatten().filter(|face| face.building == index) {
+            let dof = face.dof - building.offset;
+            for list in [&mut places, &mut faces] {
+                if !list.contains(&dof) {
+                    list.push(dof);
+                }
+            }
+        }
+        Self { places, faces }
+    }
+}
+
+/// Rows of values of all modes, so many rows at once; those that fill up the last block are zero.
+fn in_blocks(rows: &[Vec<f64>], modes: usize) -> Vec<[f64; ROWS]> {
+    let mut blocks = Vec::with_capacity(modes * rows.len().div_ceil(ROWS));
+    for block in rows.chunks(ROWS) {
+        blocks.extend((0..modes).map(|mode| {
+            std::array::from_fn(|row| block.get(row).map_or(0.0, |values| values[mode]))
+        }));
+    }
+    blocks
+}
+
 /// How quickly things happen to a building \[1/s\].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rates {
@@ -264,18 +341,6 @@ pub(super) struct Rates {
     pub(super) pushed: f64,
     /// Frequency of its third lateral mode.
     pub(super) swaying: f64,
-}
-
-/// A rate at which stiffness does not count beside inertia \[1/s\].
-fn at_once(equations: &Equations) -> f64 {
-    let stiffest = equations
-        .mass
-        .iter()
-        .zip(&equations.stiffness.diagonal)
-        .filter(|(mass, _)| **mass > 0.0)
-        .map(|(mass, stiffness)| stiffness / mass)
-        .fold(1.0, f64::max);
-    (1e13 * stiffest).sqrt()
 }
 
 /// Exact factors of all modes for one step size, quantity by quantity.

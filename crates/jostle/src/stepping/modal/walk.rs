@@ -7,6 +7,7 @@ use super::flight::Flight;
 use super::forces::ForceEquations;
 use super::meeting::Foreseen;
 use super::peaks::{Peaks, Taken, Watched};
+use super::estimate::{Estimate, Reached};
 use super::reduced::{Reduced, StepEnergy, Table};
 use crate::history::{Energy, Impact, Work};
 use crate::lanes;
@@ -80,6 +81,37 @@ pub(super) struct Walk<'a> {
     pub(super) energy: Audit,
     pub(super) work: Work,
     pub(super) peaks: Peaks,
+    /// Greatest acceleration of every mode: of all, and in regular free steps only \[m/s²·kg^½\].
+    pub(super) reached: Reached,
+}
+
+/// Share of the tolerance below which shapes are not what is to be mended.
+const LEAST_SHARE: f64 = 0.3;
+
+/// How much finer a run is than planned, and the work done before it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Refinement {
+    /// Division of free steps.
+    pub(super) division: u32,
+    pub(super) work: Work,
+}
+
+/// What a run says of its own accuracy.
+pub(super) struct Verdict {
+    pub(super) estimate: Estimate,
+    /// Modes of every building that miss too much.
+    pub(super) lacking: Vec<Vec<usize>>,
+}
+
+/// Into how many parts free steps are divided for rows of a history.
+fn rows_per_step(plan: &Plan, settings: Settings) -> u32 {
+    settings.record_interval.map_or(1, |interval| {
+        if interval == 0.0 {
+            return 1;
+        }
+        let rows = (plan.step / interval * (1.0 - 1e-9)).clamp(1.0, MOST_ROWS);
+        (rows.ceil() as u32).next_power_of_two()
+    })
 }
 
 /// Sums that must balance; every one is exact for loads that are parabolas over a step.
@@ -114,8 +146,9 @@ impl<'a> Walk<'a> {
         plan: &'a Plan,
         settings: Settings,
         reduced: &'a Reduced,
-        work: Work,
+        refinement: Refinement,
     ) -> Self {
+        let Refinement { division, work } = refinement;
         let ground = motion.acceleration(0.0);
         let (modes, watched) = (reduced.modes(), reduced.watched());
         let pair = |n: usize| [vec![0.0; n], vec![0.0; n]];
@@ -138,13 +171,7 @@ impl<'a> Walk<'a> {
             flight: Flight::new(reduced),
             tables: vec![Table::default()],
             divisions: vec![0],
-            least_division: settings.record_interval.map_or(1, |interval| {
-                if interval == 0.0 {
-                    return 1;
-                }
-                let rows = (plan.step / interval * (1.0 - 1e-9)).clamp(1.0, MOST_ROWS);
-                (rows.ceil() as u32).next_power_of_two()
-            }),
+            least_division: division.max(rows_per_step(plan, settings)),
             rules: Rules::new(),
             clock: Clock::new(plan.step),
             time: 0.0,
@@ -173,6 +200,7 @@ impl<'a> Walk<'a> {
             energy: Audit::default(),
             work,
             peaks,
+            reached: Reached::new(reduced),
             pounding: settings.pounding == Pounding::Included,
             system,
             motion,
@@ -181,7 +209,12 @@ impl<'a> Walk<'a> {
         }
     }
 
-    pub(super) fn run(mut self, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Outcome {
+    /// To the end of the motion; with how far peaks may be off.
+    pub(super) fn run(
+        mut self,
+        observer: &mut impl FnMut(Progress) -> ControlFlow<()>,
+        tolerance: f64,
+    ) -> (Outcome, Verdict) {
         let duration = self.motion.duration;
         let energy = self.balance();
         self.take_row(true, &energy);
@@ -207,7 +240,14 @@ impl<'a> Walk<'a> {
                 break;
             }
         }
-        self.close_books(end)
+        let estimate = Estimate::of(self.reduced, self.system, &self.reached, &self.peaks);
+        let lacking = if estimate.both() > tolerance && estimate.shapes > LEAST_SHARE * tolerance {
+            let (reduced, system) = (self.reduced, self.system);
+            self.reached.lacking(reduced, system, &self.peaks, tolerance)
+        } else {
+            Vec::new()
+        };
+        (self.close_books(end), Verdict { estimate, lacking })
     }
 
     fn close_books(mut self, end: RunEnd) -> Outcome {
@@ -238,6 +278,7 @@ impl<'a> Walk<'a> {
             free_step: Some(step_of(self.least_division)),
             contact_step,
             state,
+            accuracy: None,
             end,
         }
     }
@@ -418,6 +459,8 @@ impl<'a> Walk<'a> {
         let ground = self.ground;
         self.ground[0] = self.ground[1];
         self.accelerations();
+        let free = (slot != 0 && !was_closed).then_some(step);
+        let looked_at = self.reached.widen(&self.scratch, free);
         self.jerks();
         if was_closed {
             self.finish_episodes(step, start);
@@ -426,6 +469,17 @@ impl<'a> Walk<'a> {
         self.work.steps += 1;
         self.work.contact_steps += u64::from(was_closed);
         self.look(ground, start, step);
+        if looked_at {
+            let watched = Watched {
+                u: &self.u[0],
+                rate: &self.rate[0],
+                acceleration: &self.acceleration[0],
+                loose: &self.loose[0],
+            };
+            let (system, reduced) = (self.system, self.reduced);
+            let ground = self.ground[0];
+            self.reached.look(system, reduced, &self.scratch, watched, ground);
+        }
         let energy = self.balance();
         self.take_row(was_closed, &energy);
     }

@@ -1,0 +1,237 @@
+//! How far reported peaks may be off: what the shapes of a run miss, and what cubics between its steps cut off.
+
+use super::kernels::{ROWS, Show};
+use super::peaks::{Peaks, Watched};
+use super::reduced::{Reduced, ReducedBuilding};
+use crate::history::FloorPeaks;
+use crate::system::System;
+
+/// Kinds of peaks of a building: displacements, drifts, total accelerations, base shear.
+const KINDS: usize = 4;
+
+/// What a run has shown of its own errors so far.
+#[derive(Clone, Debug)]
+pub(super) struct Reached {
+    /// Greatest acceleration of every mode in free steps, times the fourth power of their length \[m·s²·kg^½\].
+    free: Vec<f64>,
+    /// The same in all steps, as it is \[m/s²·kg^½\].
+    all: Vec<f64>,
+    /// Of every floor: displacement, drift, acceleration and, of the lowest, base shear.
+    floors: Vec<Vec<[Widened; KINDS]>>,
+    /// Accelerations times ω², and what both miss.
+    quickened: Vec<f64>,
+    missed: [Vec<f64>; 2],
+    until_look: u32,
+}
+
+/// Greatest size of a quantity, and of the same with what it misses added.
+#[derive(Clone, Copy, Debug, Default)]
+struct Widened {
+    known: f64,
+    with_missed: f64,
+}
+
+impl Widened {
+    fn widen(&mut self, value: f64, missed: f64) {
+        self.known = self.known.max(value.abs());
+        self.with_missed = self.with_missed.max(value.abs() + missed.abs());
+    }
+
+    /// By how much the peak may be off.
+    fn off(&self) -> f64 {
+        self.with_missed - self.known
+    }
+}
+
+/// Steps between one look at what is missed and the next.
+const LOOK_EVERY: u32 = 4;
+
+impl Reached {
+    pub(super) fn new(reduced: &Reduced) -> Self {
+        let modes = reduced.modes();
+        let floors = |own: &ReducedBuilding| vec![[Widened::default(); KINDS]; own.floors];
+        Self {
+            free: vec![0.0; modes],
+            all: vec![0.0; modes],
+            floors: reduced.buildings.iter().map(floors).collect(),
+            quickened: vec![0.0; modes],
+            missed: [(); 2].map(|()| vec![0.0; reduced.watched()]),
+            until_look: 1,
+        }
+    }
+
+    /// Takes in the modal accelerations at the end of a step; `free`: its length, if it was a free one. Whether what
+    /// is missed should be looked at.
+    pub(super) fn widen(&mut self, accelerations: &[f64], free: Option<f64>) -> bool {
+        if let Some(step) = free {
+            let power = (step * step) * (step * step);
+            for (free, a) in self.free.iter_mut().zip(accelerations) {
+                *free = free.max(a.abs() * power);
+            }
+        }
+        for (all, a) in self.all.iter_mut().zip(accelerations) {
+            *all = all.max(a.abs());
+        }
+        self.until_look -= 1;
+        if self.until_look == 0 {
+            self.until_look = LOOK_EVERY;
+            return true;
+        }
+        false
+    }
+
+    /// Takes in what is missed at an instant.
+    pub(super) fn look(
+        &mut self,
+        system: &System,
+        reduced: &Reduced,
+        accelerations: &[f64],
+        watched: Watched<'_>,
+        ground: f64,
+    ) {
+        let quickened = self.quickened.iter_mut().zip(accelerations);
+        for ((quick, a), k) in quickened.zip(&reduced.stiffness) {
+            *quick = a * k;
+        }
+        for (index, own) in reduced.buildings.iter().enumerate() {
+            if own.missed.is_empty() {
+                continue;
+            }
+            let (modes, places) = (own.modes.clone(), own.watched.clone());
+            let [slow, quick] = &mut self.missed;
+            let (slow, quick) = (&mut slow[places.clone()], &mut quick[places.clone()]);
+            reduced.arch().dispatch(Show {
+                blocks: &own.missed,
+                modal: [&accelerations[modes.clone()], &self.quickened[modes]],
+                watched: [&mut *slow, &mut *quick],
+            });
+            let (u, a) = (&watched.u[places.clone()], &watched.acceleration[places]);
+            let mut below = (0.0, 0.0);
+            let shear = own.shear - own.watched.start;
+            for (at, widened) in self.floors[index].iter_mut().enumerate() {
+                let height = system.buildings[index].floors[at].storey_height;
+                widened[0].widen(u[at], slow[at]);
+                widened[1].widen((u[at] - below.0) / height, (slow[at] - below.1) / height);
+                widened[2].widen(a[at] + ground, quick[at]);
+                below = (u[at], slow[at]);
+            }
+            if let Some(first) = self.floors[index].first_mut() {
+                first[3].widen(u[shear], slow[shear]);
+            }
+        }
+    }
+}
+
+impl Reached {
+    /// Modes of every building whose defects are a part worth adding of errors beyond a tolerance.
+    pub(super) fn lacking(
+        &self,
+        reduced: &Reduced,
+        system: &System,
+        peaks: &Peaks,
+        tolerance: f64,
+    ) -> Vec<Vec<usize>> {
+        let of_building = |index: usize| {
+            let own = &reduced.buildings[index];
+            let scales = scales(&peaks.floors[index], peaks.base_shear[index]);
+            let floors = &system.buildings[index].floors;
+            let share = |mode: usize| {
+                let missed = |place: usize| own.of_blocks(&own.missed, place, mode);
+                let (mut most, mut below) = (0.0_f64, 0.0);
+                for (place, floor) in floors.iter().enumerate() {
+                    let missed = missed(place);
+                    let drift = (missed - below) / floor.storey_height;
+                    let quick = missed * reduced.stiffness[own.modes.start + mode];
+                    let kinds = [missed / scales[0], drift / scales[1], quick / scales[2]];
+                    most = kinds.into_iter().fold(most, |most, kind| most.max(kind.abs()));
+                    below = missed;
+                }
+                let shear = missed(own.shear - own.watched.start) / scales[3];
+                most.max(shear.abs()) * self.all[own.modes.start + mode]
+            };
+            if own.missed.is_empty() {
+                return Vec::new();
+            }
+            let modes = 0..own.modes.len();
+            modes.filter(|mode| share(*mode) > WORTH_ADDING * tolerance).collect()
+        };
+        (0..reduced.buildings.len()).map(of_building).collect()
+    }
+}
+
+/// Share of the tolerance from which what a mode misses is added to the shapes.
+const WORTH_ADDING: f64 = 0.1;
+
+/// Estimated errors of peaks, each relative to the greatest of its kind in the building; the greatest of all \[–\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Estimate {
+    /// By shapes that are left out.
+    pub(super) shapes: f64,
+    /// By cubics between the ends of steps.
+    pub(super) between: f64,
+}
+
+impl Estimate {
+    /// Both together; they have nothing to do with each other.
+    pub(super) fn both(&self) -> f64 {
+        self.shapes.hypot(self.between)
+    }
+
+    pub(super) fn of(
+        reduced: &Reduced,
+        system: &System,
+        reached: &Reached,
+        peaks: &Peaks,
+    ) -> Self {
+        let mut worst = Self::default();
+        for (index, building) in system.buildings.iter().enumerate() {
+            let own = &reduced.buildings[index];
+            let scales = scales(&peaks.floors[index], peaks.base_shear[index]);
+            let modes = own.modes.clone();
+            let shape = |place: usize, mode: usize| own.of_blocks(&own.blocks, place, mode);
+            let k = |mode: usize| reduced.stiffness[modes.start + mode];
+            let free = |mode: usize| reached.free[modes.start + mode] * k(mode) / 384.0;
+            let sum = |term: &dyn Fn(usize) -> f64| {
+                let squares = (0..modes.len()).map(|mode| (term(mode) * free(mode)).powi(2));
+                squares.sum::<f64>().sqrt()
+            };
+            let mut between = [0.0_f64; KINDS];
+            for (place, floor) in building.floors.iter().enumerate() {
+                let drift = |mode: usize| {
+                    let below = if place == 0 { 0.0 } else { shape(place - 1, mode) };
+                    (shape(place, mode) - below) / floor.storey_height
+                };
+                between[0] = between[0].max(sum(&|mode| shape(place, mode)));
+                between[1] = between[1].max(sum(&drift));
+                between[2] = between[2].max(sum(&|mode| k(mode) * shape(place, mode)));
+            }
+            between[3] = sum(&|mode| shape(own.shear - own.watched.start, mode));
+            for kind in 0..KINDS {
+                let floors = reached.floors[index].iter();
+                let off = floors.map(|floor| floor[kind].off()).fold(0.0, f64::max);
+                let raise = |to: &mut f64, value: f64| *to = to.max(value / scales[kind]);
+                raise(&mut worst.shapes, off);
+                raise(&mut worst.between, between[kind]);
+            }
+        }
+        worst
+    }
+}
+
+/// The greatest of every kind in a building.
+fn scales(floors: &[FloorPeaks], shear: f64) -> [f64; KINDS] {
+    let most = |of: fn(&FloorPeaks) -> f64| floors.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);
+    [
+        most(|f| f.displacement_max.value.max(-f.displacement_min.value)),
+        most(|f| f.storey_drift),
+        most(|f| f.total_acceleration),
+        shear.max(f64::MIN_POSITIVE),
+    ]
+}
+
+impl ReducedBuilding {
+    /// Value of one of its modes at a watched place.
+    fn of_blocks(&self, blocks: &[[f64; ROWS]], place: usize, mode: usize) -> f64 {
+        blocks[place / ROWS * self.modes.len() + mode][place % ROWS]
+    }
+}
