@@ -1,6 +1,7 @@
 //! What a closed contact goes through in one step, however the buildings are stepped.
 
 use super::events::{Cubic, bisect};
+use super::impacts::TOGETHER;
 use super::trial::ContactTrial;
 use crate::contact::ForceLaw;
 use crate::history::Extreme;
@@ -75,6 +76,8 @@ impl Episode {
             law.remember(turn.value, 0.0, &mut self.memory);
         }
         law.remember(trial.indentation, trial.rate, &mut self.memory);
-        trial.indentation <= 0.0 && trial.rate <= 0.0 && !law.jumps_at_release()
+        // Faces that are apart and come back have parted within the step: what follows is another impact.
+        let apart = trial.rate <= 0.0 || trial.indentation < -TOGETHER;
+        trial.indentation <= 0.0 && apart && !law.jumps_at_release()
     }
 }

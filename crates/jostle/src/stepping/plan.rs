@@ -39,12 +39,15 @@ pub enum ContactSteps {
 const STEPS_PER_FIRST_PERIOD: f64 = 400.0;
 /// Free-flight steps per third lateral period, at a tolerance of 1e-3.
 const STEPS_PER_THIRD_PERIOD: f64 = 120.0;
+/// Share of the tolerance that the response of a mode at resonance may use up as steps move its frequency.
+const RESONANCE_SHARE: f64 = 0.5;
 /// Free-flight steps per period of an analytic ground motion, at a tolerance of 1e-3.
 const STEPS_PER_MOTION_PERIOD: f64 = 100.0;
 /// Steps per elastic impact, at a tolerance of 1e-3.
 const STEPS_PER_IMPACT: f64 = 60.0;
-/// Share of the tolerance that the contact itself may use up; the rest is for what leads up to it.
-const CONTACT_SHARE: f64 = 0.5;
+/// Share of the tolerance that the force of a single impact may use up: what one impact is off, many later ones multiply.
+const CONTACT_SHARE: f64 = 0.1;
+pub(super) const MODAL_CONTACT_SHARE: f64 = 0.05;
 /// Steps per half cycle of a contact that remain however weak it is.
 const FEWEST_ADAPTED: f64 = 10.0;
 /// How much finer steps begin where the force starts steeply.
@@ -64,7 +67,7 @@ const MODAL_STEPS_PER_MOTION_PERIOD: f64 = 150.0;
 /// And where nothing else limits it \[s\].
 const LONGEST_MODAL_STEP: f64 = 0.05;
 /// Steps per elastic impact of modal stepping, at a tolerance of 1e-3.
-const MODAL_STEPS_PER_IMPACT: f64 = 20.0;
+const MODAL_STEPS_PER_IMPACT: f64 = 36.0;
 /// And per half cycle of a contact however weak it is, relative to these.
 const MODAL_FEWEST_ADAPTED: f64 = 0.7;
 /// Finest division of a free-flight step.
@@ -107,7 +110,12 @@ impl Plan {
                 } else {
                     STEPS_PER_IMPACT / refinement
                 },
-                tolerance: CONTACT_SHARE * analysis.tolerance,
+                tolerance: analysis.tolerance
+                    * if solver == Solver::Modal {
+                        MODAL_CONTACT_SHARE
+                    } else {
+                        CONTACT_SHARE
+                    },
             },
         };
         if !faults.is_empty() {
@@ -321,6 +329,23 @@ fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f6
     }
     if let Some(period) = motion.period() {
         step = step.min(refinement * period / STEPS_PER_MOTION_PERIOD);
+    }
+    // Average acceleration moves every frequency by (ωh)²/12.
+    for building in &system.buildings {
+        let equations = &building.equations;
+        if !equations.springs.is_empty() {
+            continue;
+        }
+        for mode in building.lateral_modes() {
+            let omega = mode.circular_frequency;
+            let damping = 0.5 * (equations.alpha / omega + equations.beta * omega);
+            // At resonance that counts 1/(2ζ) times, if the motion lasts for so many cycles.
+            let cycles = 0.5 / damping.max(1.0 / (omega * motion.duration));
+            let largest = mode.floors.iter().fold(0.0, |most: f64, floor| most.max(floor.abs()));
+            let share = (mode.participation * largest).min(1.0);
+            let most = 12.0 * RESONANCE_SHARE * 1e-3 / (cycles * share);
+            step = step.min(refinement * most.sqrt() / omega);
+        }
     }
     // Steps must land on the points of a record, where its slope changes.
     match motion.step() {

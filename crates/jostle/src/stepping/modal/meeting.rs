@@ -161,6 +161,13 @@ impl Walk<'_> {
             Crossing::Downwards => trial.indentation <= TOGETHER && trial.rate < 0.0,
         };
         let tried = self.tables[0].step;
+        if let Some(contact) = self.opens_unseen(tried) {
+            let finer = self.plan.finer(self.division());
+            if finer > self.contact_division[contact] && self.plan.chooses_contact_steps() {
+                self.contact_division[contact] = finer;
+                return Ok(false);
+            }
+        }
         self.accept(0, self.clock.after(tried));
         if reached {
             self.read_contacts();

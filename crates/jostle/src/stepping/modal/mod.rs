@@ -26,7 +26,7 @@ use std::ops::ControlFlow;
 
 use super::integrator::Integrator;
 use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
-use super::plan::{ContactSteps, Plan};
+use super::plan::{ContactSteps, MODAL_CONTACT_SHARE, Plan};
 use crate::history::Work;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
@@ -105,10 +105,10 @@ impl Reduction {
     }
 }
 
-/// What a run may be off; half of it is for contacts.
+/// What a run may be off.
 fn tolerance(plan: &Plan) -> f64 {
     match plan.contact_steps {
-        ContactSteps::PerImpact { tolerance, .. } => 2.0 * tolerance,
+        ContactSteps::PerImpact { tolerance, .. } => tolerance / MODAL_CONTACT_SHARE,
         ContactSteps::Fixed(_) => USUAL_TOLERANCE,
     }
 }
