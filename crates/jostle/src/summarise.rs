@@ -9,11 +9,11 @@ use crate::member_end::{ductility, end_stiffnesses};
 use crate::model::{Gap, Model};
 use crate::motion::GroundMotion;
 use crate::skeleton::SpringPlace;
-use crate::stepping::{Outcome, Plan, RunEnd};
+use crate::stepping::{Accuracy, Outcome, Plan, RunEnd};
 use crate::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
-    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, SpringSummary, Summary,
-    WorkSummary,
+    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SpringSummary,
+    Summary, WorkSummary,
 };
 use crate::system::{BuildingSystem, System};
 
@@ -73,6 +73,7 @@ impl Summary {
                 .map(|index| link_summary(index, run))
                 .collect(),
             energy: energy_summary(outcome),
+            promise: promise_summary(run),
             work: work_summary(run),
             ended_early: match &outcome.end {
                 RunEnd::Completed => None,
@@ -364,6 +365,16 @@ fn energy_summary(outcome: &Outcome) -> EnergySummary {
     }
 }
 
+fn promise_summary(run: &Run) -> PromiseSummary {
+    let accuracy = run.outcome.accuracy;
+    PromiseSummary {
+        tolerance: run.plan.tolerance(),
+        met: accuracy.map(|accuracy| accuracy.residual <= accuracy.tolerance),
+        residual: accuracy.map(|accuracy| accuracy.residual),
+        sensitive_from_s: accuracy.and_then(|accuracy| accuracy.sensitive_from),
+    }
+}
+
 fn work_summary(run: &Run) -> WorkSummary {
     let work = &run.outcome.work;
     WorkSummary {
@@ -405,7 +416,29 @@ fn warnings(run: &Run) -> Vec<String> {
             given * 100.0
         ));
     }
+    warnings.extend(run.outcome.accuracy.iter().flat_map(accuracy_warnings));
     warnings
+}
+
+/// What a run says of its own accuracy.
+fn accuracy_warnings(accuracy: &Accuracy) -> impl Iterator<Item = String> + use<> {
+    let Accuracy {
+        tolerance,
+        residual,
+        sensitive_from,
+        ..
+    } = *accuracy;
+    let missed = (residual > tolerance).then(|| {
+        format!(
+            "the tolerance of {tolerance:.0e} is not met: peaks may be {residual:.1e} off by estimate, as they are sensitive to the steps; use step = \"auto\", and a smaller tolerance where it already is"
+        )
+    });
+    let sensitive = sensitive_from.map(|from| {
+        format!(
+            "sensitive from t = {from:.3} s: contacts are made or missed there within the tolerance of {tolerance:.0e}, and later impacts and peaks depend on them; what comes before holds"
+        )
+    });
+    missed.into_iter().chain(sensitive)
 }
 
 /// Energy that contacts may give, relative to the input, by the error of the steps.

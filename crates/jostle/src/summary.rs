@@ -19,6 +19,8 @@ pub struct Summary {
     pub links: Vec<LinkSummary>,
     /// Energies at the end.
     pub energy: EnergySummary,
+    /// Whether reported peaks hold the tolerance.
+    pub promise: PromiseSummary,
     /// Work done.
     pub work: WorkSummary,
     /// Whether the run reached the end of the motion, and why not.
@@ -281,6 +283,21 @@ pub struct EnergySummary {
     pub imbalance: f64,
     /// Greatest imbalance over time, relative to the greatest energy until then \[–\].
     pub worst_imbalance: f64,
+}
+
+/// Whether the errors of all reported peaks, relative to the greatest of their kind in the building or gap, stay within the
+/// tolerance.
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
+pub struct PromiseSummary {
+    /// What peaks may be off \[–\].
+    pub tolerance: f64,
+    /// Whether the estimate stays within the tolerance; `null` where there is none, as for buildings that yield.
+    pub met: Option<bool>,
+    /// Estimated error of the least accurate peak: of shapes left out and of values between steps in modal stepping, of
+    /// frequencies moved by the steps otherwise; `null` where it is not estimated \[–\].
+    pub residual: Option<f64>,
+    /// Instant from which answers hang on contacts made or missed within the tolerance; `null` if they do not \[s\].
+    pub sensitive_from_s: Option<f64>,
 }
 
 /// Work done, and the time it took.

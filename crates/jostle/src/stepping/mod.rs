@@ -21,6 +21,7 @@ pub mod modal;
 mod outcome;
 mod plan;
 mod recorder;
+mod sensitivity;
 mod settle;
 mod simulation;
 mod springs;
@@ -30,6 +31,7 @@ mod trial;
 pub use integrator::Integrator;
 pub use outcome::{Accuracy, Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 pub use plan::{ContactSteps, Plan};
+pub use sensitivity::find_sensitivity;
 pub use simulation::{simulate, simulate_from};
 pub use step_matrix::StepMatrix;
 

@@ -89,6 +89,12 @@ pub struct Accuracy {
     pub tolerance: f64,
     /// What they are off by estimate \[–\].
     pub residual: f64,
+    /// First instant at which a contact was made or missed by less than the tolerance; only modal stepping looks for it
+    /// \[s\].
+    pub doubtful_from: Option<f64>,
+    /// Instant from which answers hang on contacts made or missed within the tolerance, where
+    /// [`find_sensitivity`](super::find_sensitivity) has found one \[s\].
+    pub sensitive_from: Option<f64>,
 }
 
 /// Why a run ended.

@@ -41,13 +41,17 @@ const STEPS_PER_FIRST_PERIOD: f64 = 400.0;
 const STEPS_PER_THIRD_PERIOD: f64 = 120.0;
 /// Share of the tolerance that the response of a mode at resonance may use up as steps move its frequency.
 const RESONANCE_SHARE: f64 = 0.5;
+/// No mode asks for shorter steps than this share of a radian, at a tolerance of 1e-3.
+const SHORTEST_OF_MODE: f64 = 0.01;
 /// Free-flight steps per period of an analytic ground motion, at a tolerance of 1e-3.
 const STEPS_PER_MOTION_PERIOD: f64 = 100.0;
 /// Steps per elastic impact, at a tolerance of 1e-3.
 const STEPS_PER_IMPACT: f64 = 60.0;
+/// Tolerance that fixed steps stand for \[–\].
+pub(super) const USUAL_TOLERANCE: f64 = 1e-3;
 /// Share of the tolerance that the force of a single impact may use up: what one impact is off, many later ones multiply.
 const CONTACT_SHARE: f64 = 0.1;
-pub(super) const MODAL_CONTACT_SHARE: f64 = 0.05;
+const MODAL_CONTACT_SHARE: f64 = 0.05;
 /// Steps per half cycle of a contact that remain however weak it is.
 const FEWEST_ADAPTED: f64 = 10.0;
 /// How much finer steps begin where the force starts steeply.
@@ -126,6 +130,33 @@ impl Plan {
             contact_steps,
             integrator: analysis.integrator,
             solver,
+        })
+    }
+
+    /// What reported peaks may be off, relative to the greatest of their kind; 1e-3 where contact steps are fixed \[–\].
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        match self.contact_steps {
+            ContactSteps::PerImpact { tolerance, .. } if self.solver == Solver::Modal => {
+                tolerance / MODAL_CONTACT_SHARE
+            }
+            ContactSteps::PerImpact { tolerance, .. } => tolerance / CONTACT_SHARE,
+            ContactSteps::Fixed(_) => USUAL_TOLERANCE,
+        }
+    }
+
+    /// How far peaks may be off because average acceleration slows every mode down; `None` where buildings yield, whose
+    /// modes change, or another integrator is asked for \[–\].
+    #[must_use]
+    pub(crate) fn frequency_error(&self, system: &System, motion: &GroundMotion) -> Option<f64> {
+        let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
+        let known = self.integrator == Integrator::default();
+        let known = known && !system.buildings.iter().any(yields);
+        known.then(|| {
+            let buildings = system.buildings.iter();
+            let all = buildings.flat_map(|building| frequency_errors(building, motion));
+            let worst = all.map(|(coefficient, _)| coefficient).fold(0.0, f64::max);
+            worst * self.step * self.step
         })
     }
 
@@ -332,19 +363,12 @@ fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f6
     }
     // Average acceleration moves every frequency by (ωh)²/12.
     for building in &system.buildings {
-        let equations = &building.equations;
-        if !equations.springs.is_empty() {
+        if !building.equations.springs.is_empty() {
             continue;
         }
-        for mode in building.lateral_modes() {
-            let omega = mode.circular_frequency;
-            let damping = 0.5 * (equations.alpha / omega + equations.beta * omega);
-            // At resonance that counts 1/(2ζ) times, if the motion lasts for so many cycles.
-            let cycles = 0.5 / damping.max(1.0 / (omega * motion.duration));
-            let largest = mode.floors.iter().fold(0.0, |most: f64, floor| most.max(floor.abs()));
-            let share = (mode.participation * largest).min(1.0);
-            let most = 12.0 * RESONANCE_SHARE * 1e-3 / (cycles * share);
-            step = step.min(refinement * most.sqrt() / omega);
+        for (coefficient, omega) in frequency_errors(building, motion) {
+            let most = RESONANCE_SHARE * 1e-3 / coefficient;
+            step = step.min(refinement * most.sqrt().max(SHORTEST_OF_MODE / omega));
         }
     }
     // Steps must land on the points of a record, where its slope changes.
@@ -352,6 +376,25 @@ fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f6
         Some(record_step) => record_step / (record_step / step - 1e-9).ceil().max(1.0),
         None => step,
     }
+}
+
+/// Of every lateral mode: error of its share of the response per squared step, and its circular frequency. Average
+/// acceleration moves a frequency by (ωh)²/12; at resonance that counts 1/(2ζ) times, if the motion lasts for so many cycles.
+fn frequency_errors<'a>(
+    building: &'a BuildingSystem,
+    motion: &GroundMotion,
+) -> impl Iterator<Item = (f64, f64)> + use<'a> {
+    let equations = &building.equations;
+    let duration = motion.duration;
+    building.lateral_modes().map(move |mode| {
+        let omega = mode.circular_frequency;
+        let damping = 0.5 * (equations.alpha / omega + equations.beta * omega);
+        let cycles = 0.5 / damping.max(1.0 / (omega * duration));
+        let floors = mode.floors.iter();
+        let largest = floors.fold(0.0, |most: f64, floor| most.max(floor.abs()));
+        let share = (mode.participation * largest).min(1.0);
+        (omega * omega / 12.0 * cycles * share, omega)
+    })
 }
 
 fn check_step(step: f64, system: &System, motion: &GroundMotion, faults: &mut Vec<ModelFault>) {

@@ -14,7 +14,7 @@ use super::joints::Joints;
 use super::kernels::Advance;
 use super::links::Links;
 use super::modal;
-use super::outcome::{Outcome, Pounding, Progress, RunEnd, Settings, StepError};
+use super::outcome::{Accuracy, Outcome, Pounding, Progress, RunEnd, Settings, StepError};
 use super::plan::Plan;
 use super::recorder::Recorder;
 use super::springs::YieldingSprings;
@@ -225,6 +225,13 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         let contact_step = Some(self.finest_in_contact)
             .filter(|d| *d > 0)
             .map(|d| self.plan.step / f64::from(d));
+        let residual = self.plan.frequency_error(self.system, self.motion);
+        let accuracy = residual.map(|residual| Accuracy {
+            tolerance: self.plan.tolerance(),
+            residual,
+            doubtful_from: None,
+            sensitive_from: None,
+        });
         Outcome {
             impacts: self.impacts,
             floors: std::mem::take(&mut self.recorder.floors),
@@ -243,7 +250,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             free_step: Some(self.plan.step),
             contact_step,
             state: self.state,
-            accuracy: None,
+            accuracy,
             end,
         }
     }

@@ -47,7 +47,7 @@ impl Basis {
     /// # Errors
     /// [`NotPositive`] when the building can move without deforming.
     pub(super) fn of(building: &BuildingSystem, demand: &Demand<'_>) -> Result<Self, NotPositive> {
-        if massive(building).count() <= std::env::var("ALLM").ok().and_then(|x| x.parse().ok()).unwrap_or(ALL_MODES) {
+        if massive(building).count() <= ALL_MODES {
             return Self::complete(building);
         }
         let mut growing = Growing::of(building, demand)?;
@@ -161,9 +161,7 @@ const ALL_MODES: usize = 40;
 /// Degrees of freedom with mass.
 fn massive(building: &BuildingSystem) -> impl Iterator<Item = usize> + '_ {
     let masses = building.equations.mass.iter().enumerate();
-    masses
-        .filter(|(_, mass)| **mass > 0.0)
-        .map(|(dof, _)| dof)
+    masses.filter(|(_, mass)| **mass > 0.0).map(|(dof, _)| dof)
 }
 
 /// Answers of the building itself, to compare with.
@@ -181,7 +179,6 @@ const QUIET: f64 = 1e-2;
 struct Growing<'a> {
     building: &'a BuildingSystem,
     demand: &'a Demand<'a>,
-    sweep: &'a RiccatiSweep,
     factors: SeveralRates,
     span: Span<'a>,
     /// First vector of the last block.
@@ -247,7 +244,6 @@ impl<'a> Growing<'a> {
             factors,
             building,
             demand,
-            sweep,
             span,
             last_block,
         })
@@ -255,7 +251,10 @@ impl<'a> Growing<'a> {
 
     /// One block more; false when there is nothing left to find.
     fn extend(&mut self) -> bool {
-        let last_rate = self.factors.factors.only(self.demand.met.len().saturating_sub(1));
+        let last_rate = self
+            .factors
+            .factors
+            .only(self.demand.met.len().saturating_sub(1));
         let answers = answers_to_inertia(
             self.building,
             &last_rate,
@@ -274,13 +273,16 @@ impl<'a> Growing<'a> {
         let shown =
             |place: &usize| -> Vec<f64> { self.span.vectors.iter().map(|v| v[*place]).collect() };
         let faces = self.demand.faces.iter().map(shown);
-        let loads: Vec<Vec<f64>> = std::iter::once(self.span.driven.clone()).chain(faces).collect();
+        let loads: Vec<Vec<f64>> = std::iter::once(self.span.driven.clone())
+            .chain(faces)
+            .collect();
         let floors: Vec<Vec<f64>> = self.demand.floors.iter().map(shown).collect();
         for wanted in &self.wanted {
             let factor = self.span.projected(wanted.rate).llt(Side::Lower);
             let factor = factor.map_err(|_| NotPositive { dof: 0 })?;
-            let mut answers =
-                Mat::from_fn(self.span.vectors.len(), loads.len(), |i, load| loads[load][i]);
+            let mut answers = Mat::from_fn(self.span.vectors.len(), loads.len(), |i, load| {
+                loads[load][i]
+            });
             factor.solve_in_place(&mut answers);
             let columns = answers.col_iter().zip(&loads).zip(loaded(self.demand));
             let mut of_loads = columns.zip(&wanted.answers);
@@ -304,7 +306,12 @@ impl<'a> Growing<'a> {
 
     /// The Ritz modes, and what each of them misses.
     fn finished(self) -> Result<Basis, NotPositive> {
-        Basis::with_defects(self.building, self.factors, self.span, [self.factorizations, self.solves])
+        Basis::with_defects(
+            self.building,
+            self.factors,
+            self.span,
+            [self.factorizations, self.solves],
+        )
     }
 }
 
@@ -325,9 +332,9 @@ fn answers_to_inertia(
         }
         building.sweep.solve_at(factors, &mut answers);
         let lanes = 0..several.len();
-        found.extend(lanes.map(|lane| -> Vec<f64> {
-            answers.iter().map(|values| values[lane]).collect()
-        }));
+        found.extend(
+            lanes.map(|lane| -> Vec<f64> { answers.iter().map(|values| values[lane]).collect() }),
+        );
     }
     found
 }

@@ -30,7 +30,11 @@ impl SeveralRates {
         // The slowest stands for all that is slower: modes below it have next to no defects.
         let far = |lane: usize| {
             let rate = self.rates[lane];
-            if rate > 0.0 { (rate / frequency).ln().abs() } else { f64::INFINITY }
+            if rate > 0.0 {
+                (rate / frequency).ln().abs()
+            } else {
+                f64::INFINITY
+            }
         };
         let lanes = 0..RATES;
         lanes

@@ -143,7 +143,9 @@ impl Reached {
                     let drift = (missed - below) / floor.storey_height;
                     let quick = missed * reduced.stiffness[own.modes.start + mode];
                     let kinds = [missed / scales[0], drift / scales[1], quick / scales[2]];
-                    most = kinds.into_iter().fold(most, |most, kind| most.max(kind.abs()));
+                    most = kinds
+                        .into_iter()
+                        .fold(most, |most, kind| most.max(kind.abs()));
                     below = missed;
                 }
                 let shear = missed(own.shear - own.watched.start) / scales[3];
@@ -153,7 +155,9 @@ impl Reached {
                 return Vec::new();
             }
             let modes = 0..own.modes.len();
-            modes.filter(|mode| share(*mode) > WORTH_ADDING * tolerance).collect()
+            modes
+                .filter(|mode| share(*mode) > WORTH_ADDING * tolerance)
+                .collect()
         };
         (0..reduced.buildings.len()).map(of_building).collect()
     }
@@ -177,12 +181,7 @@ impl Estimate {
         self.shapes.hypot(self.between)
     }
 
-    pub(super) fn of(
-        reduced: &Reduced,
-        system: &System,
-        reached: &Reached,
-        peaks: &Peaks,
-    ) -> Self {
+    pub(super) fn of(reduced: &Reduced, system: &System, reached: &Reached, peaks: &Peaks) -> Self {
         let mut worst = Self::default();
         for (index, building) in system.buildings.iter().enumerate() {
             let own = &reduced.buildings[index];
@@ -198,7 +197,11 @@ impl Estimate {
             let mut between = [0.0_f64; KINDS];
             for (place, floor) in building.floors.iter().enumerate() {
                 let drift = |mode: usize| {
-                    let below = if place == 0 { 0.0 } else { shape(place - 1, mode) };
+                    let below = if place == 0 {
+                        0.0
+                    } else {
+                        shape(place - 1, mode)
+                    };
                     (shape(place, mode) - below) / floor.storey_height
                 };
                 between[0] = between[0].max(sum(&|mode| shape(place, mode)));

@@ -263,7 +263,8 @@ impl Walk<'_> {
             !self.pounding
                 || (0..self.phases.len()).all(|index| {
                     let closing = |list: &[f64]| self.reduced.closing(index, list);
-                    let width = self.system.contacts[index].width;
+                    // Near misses are for single steps, which look at them.
+                    let width = self.system.contacts[index].width - self.doubt(index);
                     Cubic::new(
                         closing(then.u) - width,
                         closing(then.rate),
@@ -337,7 +338,8 @@ impl Walk<'_> {
             if self.reached.widen(accelerations, Some(flight.step)) {
                 let (watched, ground) = (flight.watched(places, step + 1), flight.ground[step + 1]);
                 let (system, reduced) = (self.system, self.reduced);
-                self.reached.look(system, reduced, accelerations, watched, ground);
+                self.reached
+                    .look(system, reduced, accelerations, watched, ground);
             }
         }
         let [q, v] = flight.state(self.reduced.modes(), steps);
@@ -363,6 +365,7 @@ mod tests {
 
     use super::*;
     use crate::history::Work;
+    use crate::stepping::modal::walk::Refinement;
     use crate::stepping::modal::{Rates, rates};
     use crate::{
         Analysis, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome, Plan,
@@ -423,9 +426,14 @@ mod tests {
             record_interval,
             ..Settings::default()
         };
-        let mut walk = Walk::new(&system, &motion, &plan, settings, &reduced, work);
+        let refinement = Refinement {
+            tolerance: plan.tolerance(),
+            division: 1,
+            work,
+        };
+        let mut walk = Walk::new(&system, &motion, &plan, settings, &reduced, refinement);
         walk.flight.ahead = most;
-        walk.run(|_| ControlFlow::Continue(()))
+        walk.run(&mut |_| ControlFlow::Continue(())).0
     }
 
     #[test]

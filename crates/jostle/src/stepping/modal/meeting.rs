@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::walk::Walk;
-use crate::contact::{ContactResponse, momentum};
+use crate::contact::{ContactResponse, ForceLaw, momentum};
 use crate::history::Impact;
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::clock::Stride;
@@ -198,6 +198,7 @@ impl Walk<'_> {
 
     fn open(&mut self, index: usize) {
         self.phases[index] = ContactPhase::Open;
+        self.clearance[index] = 0.0;
         self.open_steps[index] = 0;
     }
 
@@ -260,6 +261,7 @@ impl Walk<'_> {
     fn close(&mut self, index: usize) {
         let contact = &self.system.contacts[index];
         let rate = self.trials[index].rate.max(0.0);
+        self.doubt_touch(index, rate);
         let mut episode =
             Episode::new(self.time, rate.max(SLOWEST_IMPACT), contact.law.touch(rate));
         episode.force = contact.law.onset(rate);
@@ -336,7 +338,7 @@ impl Walk<'_> {
     fn foresee(&self, index: usize, episode: &Episode, step: f64) -> Foreseen {
         let contact = &self.system.contacts[index];
         let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
-        let start = closing(&self.u) - contact.width;
+        let start = closing(&self.u) - self.system.contacts[index].width;
         let (rate, acceleration) = (closing(&self.rate), closing(&self.acceleration));
         let driven = self.reduced.closing(index, self.peaks.driven());
         let jerk = closing(&self.loose) - driven * (self.ground[1] - self.ground[0]) / step;
@@ -457,6 +459,52 @@ impl Walk<'_> {
             control::next_division(self.plan, contact, &observed, *division, &self.clock)
         };
         self.finest_in_contact = self.finest_in_contact.max(*division);
+    }
+
+    /// How far from touching an event of a contact may be made or missed within the tolerance \[m\].
+    pub(super) fn doubt(&self, index: usize) -> f64 {
+        self.tolerance
+            * self.system.contacts[index]
+                .width
+                .max(self.peaks.closing[index].value)
+    }
+
+    /// Notes a touch that is hardly one: faces that turn back before they are far in, that were hardly apart before, or
+    /// that stay together because they are too slow to bounce.
+    fn doubt_touch(&mut self, index: usize, rate: f64) {
+        let doubt = self.doubt(index);
+        let acceleration = self.reduced.closing(index, &self.acceleration[0]);
+        let turns = acceleration < 0.0 && rate * rate < -2.0 * acceleration * doubt;
+        let law = &self.system.contacts[index].law;
+        let rests = matches!(law, ForceLaw::Restitution { .. });
+        if turns || rests || self.clearance[index] < doubt {
+            self.doubtful_from.get_or_insert(self.time);
+        }
+    }
+
+    /// Notes faces that nearly touched, or nearly parted, in the tried step.
+    pub(super) fn doubt_turns(&mut self, step: f64) {
+        for index in 0..self.phases.len() {
+            let (then, now) = (
+                self.reduced.closing(index, &self.rate[0]),
+                self.trials[index].rate,
+            );
+            if self.is_open(index) {
+                let clear = -self.trials[index].indentation;
+                self.clearance[index] = self.clearance[index].max(clear);
+            }
+            if then * now >= 0.0 {
+                continue;
+            }
+            let curve = self.indentation_curve(index, step);
+            let nearest = curve
+                .turning_points()
+                .map(|at| curve.value(at).abs())
+                .fold(f64::INFINITY, f64::min);
+            if nearest < self.doubt(index) {
+                self.doubtful_from.get_or_insert(self.time);
+            }
+        }
     }
 
     /// Lists an episode as an impact, if it was one.

@@ -26,13 +26,13 @@ use std::ops::ControlFlow;
 
 use super::integrator::Integrator;
 use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
-use super::plan::{ContactSteps, MODAL_CONTACT_SHARE, Plan};
+use super::plan::{Plan, USUAL_TOLERANCE};
 use crate::history::Work;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::system::System;
-use reduced::{Rates, Reduced};
 use estimate::Estimate;
+use reduced::{Rates, Reduced};
 use walk::{Refinement, Walk};
 
 /// Why buildings cannot be stepped by their modes; empty when they can.
@@ -68,8 +68,6 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
 const TYPICAL_SPEED: f64 = 0.5;
 /// Share of the tolerance that flexibilities may be off.
 const FLEXIBILITY_SHARE: f64 = 0.1;
-/// Tolerance that fixed steps stand for \[–\].
-const USUAL_TOLERANCE: f64 = 1e-3;
 
 /// The shapes that stand for the buildings of a system. They depend on buildings, on where these meet and by which law,
 /// and on the tolerance; not on the widths of gaps nor on motions, so that runs of many of these may share them.
@@ -93,7 +91,7 @@ impl Reduction {
         let mut work = Work::default();
         let buildings = 0..system.buildings.len();
         let rates: Vec<Rates> = buildings.map(|index| rates(system, index)).collect();
-        let closeness = FLEXIBILITY_SHARE * tolerance(plan).min(USUAL_TOLERANCE);
+        let closeness = FLEXIBILITY_SHARE * plan.tolerance().min(USUAL_TOLERANCE);
         match Reduced::of(system, &rates, closeness, &mut work) {
             Ok(reduced) => Ok(Self { reduced, work }),
             Err((building, source)) => Err(StepError::NotPositive {
@@ -102,14 +100,6 @@ impl Reduction {
                 source,
             }),
         }
-    }
-}
-
-/// What a run may be off.
-fn tolerance(plan: &Plan) -> f64 {
-    match plan.contact_steps {
-        ContactSteps::PerImpact { tolerance, .. } => tolerance / MODAL_CONTACT_SHARE,
-        ContactSteps::Fixed(_) => USUAL_TOLERANCE,
     }
 }
 
@@ -123,8 +113,9 @@ pub fn simulate(
     reduction: &Reduction,
     mut observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
-    let tolerance = tolerance(plan);
+    let tolerance = plan.tolerance();
     let mut refinement = Refinement {
+        tolerance,
         division: 1,
         work: reduction.work,
     };
@@ -132,22 +123,23 @@ pub fn simulate(
     let mut left = MOST_REPEATS;
     loop {
         let reduced = enriched.as_ref().unwrap_or(&reduction.reduced);
-        let walk = Walk::new(system, motion, plan, settings, reduced, refinement);
-        let (mut outcome, verdict) = walk.run(&mut observer, tolerance);
-        let Estimate { shapes, between } = verdict.estimate;
+        let run = Walk::new(system, motion, plan, settings, reduced, refinement);
+        let (mut outcome, verdict) = run.run(&mut observer);
+        let between = verdict.estimate.between;
         let residual = verdict.estimate.both();
-        if std::env::var("EST").is_ok() {
-            eprintln!("      shapes {shapes:.2e} between {between:.2e} modes {} division {}", reduced.modes(), refinement.division);
-        }
+        outcome.work.shapes = reduced.modes() as u64;
         outcome.accuracy = Some(Accuracy {
             tolerance,
             residual,
+            doubtful_from: verdict.doubtful_from,
+            sensitive_from: None,
         });
-        outcome.work.shapes = reduced.modes() as u64;
+        if outcome.end != RunEnd::Completed {
+            return outcome;
+        }
         let finer = between > 0.5 * tolerance && plan.chooses_contact_steps();
         let more = verdict.lacking.iter().any(|modes| !modes.is_empty());
-        let within = residual <= tolerance;
-        if within || left == 0 || !(finer || more) || outcome.end != RunEnd::Completed {
+        if residual <= tolerance || left == 0 || !(finer || more) {
             return outcome;
         }
         left -= 1;

@@ -158,7 +158,9 @@ impl Reduced {
                 let Some(face) = face.filter(|face| face.building == index) else {
                     continue;
                 };
-                let place = places.iter().position(|dof| *dof == face.dof - building.offset);
+                let place = places
+                    .iter()
+                    .position(|dof| *dof == face.dof - building.offset);
                 *shown = place.map(|place| Shown {
                     building: index,
                     watched: watching + place,

@@ -3,11 +3,11 @@
 use std::ops::ControlFlow;
 
 use super::damped::Rules;
+use super::estimate::{Estimate, Reached};
 use super::flight::Flight;
 use super::forces::ForceEquations;
 use super::meeting::Foreseen;
 use super::peaks::{Peaks, Taken, Watched};
-use super::estimate::{Estimate, Reached};
 use super::reduced::{Reduced, StepEnergy, Table};
 use crate::history::{Energy, Impact, Work};
 use crate::lanes;
@@ -81,8 +81,13 @@ pub(super) struct Walk<'a> {
     pub(super) energy: Audit,
     pub(super) work: Work,
     pub(super) peaks: Peaks,
-    /// Greatest acceleration of every mode: of all, and in regular free steps only \[m/s²·kg^½\].
     pub(super) reached: Reached,
+    /// How far every open contact has opened since it was closed; infinite before it ever was \[m\].
+    pub(super) clearance: Vec<f64>,
+    /// Relative tolerance of peaks \[–\].
+    pub(super) tolerance: f64,
+    /// First instant at which a contact was made or missed by less than the tolerance \[s\].
+    pub(super) doubtful_from: Option<f64>,
 }
 
 /// Share of the tolerance below which shapes are not what is to be mended.
@@ -91,6 +96,8 @@ const LEAST_SHARE: f64 = 0.3;
 /// How much finer a run is than planned, and the work done before it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refinement {
+    /// Relative tolerance of peaks \[–\].
+    pub(super) tolerance: f64,
     /// Division of free steps.
     pub(super) division: u32,
     pub(super) work: Work,
@@ -101,6 +108,8 @@ pub(super) struct Verdict {
     pub(super) estimate: Estimate,
     /// Modes of every building that miss too much.
     pub(super) lacking: Vec<Vec<usize>>,
+    /// First instant at which a contact was made or missed by less than the tolerance \[s\].
+    pub(super) doubtful_from: Option<f64>,
 }
 
 /// Into how many parts free steps are divided for rows of a history.
@@ -148,7 +157,11 @@ impl<'a> Walk<'a> {
         reduced: &'a Reduced,
         refinement: Refinement,
     ) -> Self {
-        let Refinement { division, work } = refinement;
+        let Refinement {
+            division,
+            work,
+            tolerance,
+        } = refinement;
         let ground = motion.acceleration(0.0);
         let (modes, watched) = (reduced.modes(), reduced.watched());
         let pair = |n: usize| [vec![0.0; n], vec![0.0; n]];
@@ -201,6 +214,9 @@ impl<'a> Walk<'a> {
             work,
             peaks,
             reached: Reached::new(reduced),
+            clearance: vec![f64::INFINITY; contacts],
+            tolerance,
+            doubtful_from: None,
             pounding: settings.pounding == Pounding::Included,
             system,
             motion,
@@ -213,8 +229,8 @@ impl<'a> Walk<'a> {
     pub(super) fn run(
         mut self,
         observer: &mut impl FnMut(Progress) -> ControlFlow<()>,
-        tolerance: f64,
     ) -> (Outcome, Verdict) {
+        let tolerance = self.tolerance;
         let duration = self.motion.duration;
         let energy = self.balance();
         self.take_row(true, &energy);
@@ -243,11 +259,18 @@ impl<'a> Walk<'a> {
         let estimate = Estimate::of(self.reduced, self.system, &self.reached, &self.peaks);
         let lacking = if estimate.both() > tolerance && estimate.shapes > LEAST_SHARE * tolerance {
             let (reduced, system) = (self.reduced, self.system);
-            self.reached.lacking(reduced, system, &self.peaks, tolerance)
+            self.reached
+                .lacking(reduced, system, &self.peaks, tolerance)
         } else {
             Vec::new()
         };
-        (self.close_books(end), Verdict { estimate, lacking })
+        let doubtful_from = self.doubtful_from;
+        let verdict = Verdict {
+            estimate,
+            lacking,
+            doubtful_from,
+        };
+        (self.close_books(end), verdict)
     }
 
     fn close_books(mut self, end: RunEnd) -> Outcome {
@@ -438,6 +461,7 @@ impl<'a> Walk<'a> {
         let step = self.tables[slot].step;
         let was_closed = !self.coupling.closed.is_empty();
         let start = self.time;
+        self.doubt_turns(step);
         if was_closed {
             self.gather_episodes(step);
         }
@@ -478,7 +502,8 @@ impl<'a> Walk<'a> {
             };
             let (system, reduced) = (self.system, self.reduced);
             let ground = self.ground[0];
-            self.reached.look(system, reduced, &self.scratch, watched, ground);
+            self.reached
+                .look(system, reduced, &self.scratch, watched, ground);
         }
         let energy = self.balance();
         self.take_row(was_closed, &energy);

@@ -1,0 +1,161 @@
+//! What a change of the gaps much smaller than the tolerance does to a run: whether its answers hang on a contact that is
+//! just made or just missed.
+
+use std::ops::ControlFlow;
+
+use super::outcome::{Outcome, Progress, RunEnd, Settings};
+use super::plan::Plan;
+use super::simulation::simulate;
+use crate::history::{FloorPeaks, Impact};
+use crate::motion::GroundMotion;
+use crate::system::{BuildingSystem, System};
+
+/// By how much gaps are changed, in tolerances of their greatest closing.
+const CHANGE: f64 = 0.1;
+
+/// Most impacts that are trusted not to multiply small errors.
+const FEW_IMPACTS: usize = 12;
+
+/// Finds the instant from which the answers of a run hang on contacts made or missed within the tolerance, and notes it in
+/// the outcome.
+///
+/// Each gap is made wider by a tenth of the tolerance of its greatest closing and the run is repeated. If reported peaks
+/// change by more than the tolerance, relative to the greatest of their kind in the building or gap, the runs part at the
+/// first impact that differs by as much. Runs with a dozen impacts at most, none of them in doubt, are not repeated; nor
+/// are those of buildings that yield.
+pub fn find_sensitivity(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    outcome: &mut Outcome,
+    observer: impl FnMut(Progress) -> ControlFlow<()>,
+) {
+    let found = sensitive_from(system, motion, plan, outcome, observer);
+    if let Some(accuracy) = &mut outcome.accuracy {
+        accuracy.sensitive_from = found;
+    }
+}
+
+fn sensitive_from(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    outcome: &Outcome,
+    observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Option<f64> {
+    let tolerance = plan.tolerance();
+    let doubtful = outcome.accuracy.and_then(|accuracy| accuracy.doubtful_from);
+    let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
+    if outcome.end != RunEnd::Completed
+        || outcome.impacts.is_empty()
+        || system.buildings.iter().any(yields)
+        || (doubtful.is_none() && outcome.impacts.len() <= FEW_IMPACTS)
+    {
+        return None;
+    }
+    let mut wider = system.clone();
+    for (contact, closing) in wider.contacts.iter_mut().zip(&outcome.closing) {
+        contact.width += CHANGE * tolerance * contact.width.max(closing.value);
+    }
+    let settings = Settings {
+        record_interval: None,
+        ..Settings::default()
+    };
+    let other = simulate(&wider, motion, plan, settings, observer);
+    if other.end != RunEnd::Completed {
+        return None;
+    }
+    let runs = [outcome, &other];
+    if change_of_peaks(system, runs) <= tolerance {
+        return None;
+    }
+    let parted = (0..system.contacts.len())
+        .filter_map(|contact| parted_at(system, runs, contact, tolerance))
+        .min_by(f64::total_cmp);
+    let first = outcome.impacts.iter().map(|impact| impact.start);
+    parted.or(doubtful).or(first.min_by(f64::total_cmp))
+}
+
+/// Greatest difference of peaks, relative to the greatest of its kind in the building or gap \[–\].
+fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
+    let kinds: [fn(&FloorPeaks) -> f64; 4] = [
+        |floor| floor.displacement_max.value,
+        |floor| floor.displacement_min.value,
+        |floor| floor.storey_drift,
+        |floor| floor.total_acceleration,
+    ];
+    let mut worst = 0.0_f64;
+    for (index, (a_floors, b_floors)) in a.floors.iter().zip(&b.floors).enumerate() {
+        let shears = [a.base_shear[index], b.base_shear[index]];
+        worst = worst.max(relative([shears].into_iter()));
+        for kind in kinds {
+            let pairs = a_floors.iter().zip(b_floors);
+            worst = worst.max(relative(pairs.map(|(a, b)| [kind(a), kind(b)])));
+        }
+    }
+    let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
+    for gap in 0..gaps {
+        let contacts = 0..system.contacts.len();
+        let own = contacts.filter(|contact| system.contacts[*contact].gap == gap);
+        let own: Vec<usize> = own.collect();
+        let both = |of: fn(&Outcome, usize) -> f64| own.iter().map(move |c| [of(a, *c), of(b, *c)]);
+        worst = worst.max(relative(both(peak_force)));
+        worst = worst.max(relative(both(impulse)));
+    }
+    worst
+}
+
+fn relative(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let (mut greatest, mut change) = (0.0_f64, 0.0_f64);
+    for [a, b] in pairs {
+        greatest = greatest.max(a.abs()).max(b.abs());
+        change = change.max((a - b).abs());
+    }
+    if greatest > 0.0 {
+        change / greatest
+    } else {
+        0.0
+    }
+}
+
+fn impacts(outcome: &Outcome, contact: usize) -> impl Iterator<Item = &Impact> {
+    let own = move |impact: &&Impact| impact.contact == contact;
+    outcome.impacts.iter().filter(own)
+}
+
+fn peak_force(outcome: &Outcome, contact: usize) -> f64 {
+    impacts(outcome, contact).fold(0.0, |most, impact| most.max(impact.peak_force))
+}
+
+fn impulse(outcome: &Outcome, contact: usize) -> f64 {
+    impacts(outcome, contact).fold(0.0, |sum, impact| sum + impact.impulse)
+}
+
+/// When the first impacts of a contact differ in force or impulse by more than the tolerance of the greatest of its gap.
+fn parted_at(
+    system: &System,
+    [a, b]: [&Outcome; 2],
+    contact: usize,
+    tolerance: f64,
+) -> Option<f64> {
+    let gap = system.contacts[contact].gap;
+    let all = a
+        .impacts
+        .iter()
+        .filter(|impact| system.contacts[impact.contact].gap == gap);
+    let greatest = all.fold([0.0_f64; 2], |[force, impulse], impact| {
+        [force.max(impact.peak_force), impulse.max(impact.impulse)]
+    });
+    let (mut first, mut second) = (impacts(a, contact), impacts(b, contact));
+    loop {
+        let (one, other) = match (first.next(), second.next()) {
+            (Some(one), Some(other)) => (one, other),
+            (one, other) => return one.or(other).map(|impact| impact.start),
+        };
+        let force = (one.peak_force - other.peak_force).abs() > tolerance * greatest[0];
+        let impulse = (one.impulse - other.impulse).abs() > tolerance * greatest[1];
+        if force || impulse {
+            return Some(one.start.min(other.start));
+        }
+    }
+}
