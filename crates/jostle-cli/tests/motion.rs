@@ -307,3 +307,64 @@ fn mistakes_name_the_remedy() {
         assert!(!folder.path().join("x.csv").exists(), "nothing is written");
     }
 }
+
+#[test]
+fn a_folder_names_the_records_in_it() {
+    let folder = folder();
+    let record = "NPTS= 2, DT= .01 SEC\n1 0.5\n";
+    std::fs::create_dir(folder.path().join("set")).expect("a folder");
+    for name in ["b.at2", "a.at2"] {
+        std::fs::write(folder.path().join("set").join(name), record).expect("a record");
+    }
+    std::fs::write(folder.path().join("set/readme.txt"), "not a record\n").expect("a text");
+    let said = |name: &str| {
+        let output = jostle(folder.path(), &["motion", "show", name]);
+        assert_eq!(output.status.code(), Some(2), "{}", complained(&output));
+        complained(&output)
+    };
+    assert_eq!(
+        said("set"),
+        "error: set: is a folder, not a record; give one of the records in it: a.at2, b.at2\n"
+    );
+    std::fs::create_dir(folder.path().join("empty")).expect("a folder");
+    assert_eq!(
+        said("empty"),
+        "error: empty: is a folder, not a record; there is no record in it\n"
+    );
+    for number in 0..9 {
+        let name = format!("c{number}.at2");
+        std::fs::write(folder.path().join("set").join(name), record).expect("a record");
+    }
+    let text = said("set");
+    assert!(text.ends_with("c4.at2, c5.at2, …\n"), "{text}");
+}
+
+#[cfg(unix)]
+#[test]
+fn endless_files_are_read_to_their_limit_only() {
+    let folder = folder();
+    let said = |arguments: &[&str]| {
+        let output = jostle(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{}", complained(&output));
+        complained(&output)
+    };
+    assert_eq!(
+        said(&["motion", "show", "/dev/zero"]),
+        "error: /dev/zero: has more than 64 MiB, the most that a record may have; cut the record, or export one component as columns of text\n"
+    );
+    let text = said(&["run", "/dev/zero"]);
+    assert!(text.contains("more than 16 MiB"), "{text}");
+    let text = said(&[
+        "motion",
+        "synth",
+        "spectrum",
+        "--target",
+        "/dev/zero",
+        "-o",
+        "wave.csv",
+    ]);
+    assert!(
+        text.contains("larger than a spectrum can be (1 MiB)"),
+        "{text}"
+    );
+}
