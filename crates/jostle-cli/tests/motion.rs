@@ -368,3 +368,42 @@ fn endless_files_are_read_to_their_limit_only() {
         "{text}"
     );
 }
+
+#[test]
+fn pulses_have_the_peak_velocity_asked_for() {
+    let folder = folder();
+    for shape in [
+        "mavroeidis",
+        "makris-a",
+        "makris-b",
+        "makris-c1",
+        "makris-c2",
+    ] {
+        let output = jostle(
+            folder.path(),
+            &[
+                "motion",
+                "synth",
+                "pulse",
+                "--shape",
+                shape,
+                "--velocity",
+                "0.8 m/s",
+                "--period",
+                "1.5 s",
+                "-o",
+                "pulse.csv",
+                "--force",
+            ],
+        );
+        assert!(output.status.success(), "{}", complained(&output));
+        let text = printed(&output);
+        assert!(text.ends_with("PGV 0.8000 m/s\n"), "{text}");
+        let shown = json_of(folder.path(), &["motion", "show", "pulse.csv", "--json"]);
+        assert!(
+            near(&shown["pgv_m_s"], 0.8, 1e-6),
+            "{shape}: {}",
+            shown["pgv_m_s"]
+        );
+    }
+}

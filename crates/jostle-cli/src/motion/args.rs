@@ -289,7 +289,7 @@ pub(crate) struct SynthPulseArgs {
     /// mavroeidis, makris-a, makris-b, makris-c1, makris-c2, …
     #[arg(long)]
     pub(crate) shape: String,
-    /// Amplitude of the velocity
+    /// Peak velocity
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) velocity: String,
     /// Period of the pulse
