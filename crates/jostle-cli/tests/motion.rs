@@ -407,3 +407,69 @@ fn pulses_have_the_peak_velocity_asked_for() {
         );
     }
 }
+
+#[test]
+fn sets_are_judged_by_the_rules_of_their_code() {
+    let folder = folder();
+    let codes = [
+        (
+            "en1998",
+            &["--code", "en1998", "--ground", "B", "--ag", "0.2 g"][..],
+            3,
+        ),
+        (
+            "asce7",
+            &["--code", "asce7", "--sds", "1.0 g", "--sd1", "0.6 g"][..],
+            11,
+        ),
+    ];
+    for (name, code, count) in codes {
+        let file = format!("{name}.csv");
+        let mut make = vec!["motion", "synth", "spectrum", "-o", &file];
+        make.extend(code);
+        let made = jostle(folder.path(), &make);
+        assert!(made.status.success(), "{}", complained(&made));
+        let judge = |motions: usize, more: &[&str]| {
+            let set = vec![&file[..]; motions].join(",");
+            let mut arguments = vec!["motion", "select", "--artificial", &set];
+            arguments.extend(["--periods", "0.8,0.25"]);
+            arguments.extend(code);
+            arguments.extend(more);
+            jostle(folder.path(), &arguments)
+        };
+        let good = judge(count, &[]);
+        assert_eq!(good.status.code(), Some(0), "{}", printed(&good));
+        let few = judge(count - 1, &["--json"]);
+        assert_eq!(few.status.code(), Some(1));
+        let json: Value = serde_json::from_str(&printed(&few)).expect("nothing but JSON");
+        assert_eq!(json["passes"], false);
+        assert_eq!(
+            (&json["enough"], &json["mean_suffices"]),
+            (&false.into(), &true.into())
+        );
+        assert!(
+            json.get("base_shear_agrees").is_none(),
+            "a rule of GB 50011: {json}"
+        );
+        let weak = judge(count, &["--pga", "0.1 g", "--html", "page.html"]);
+        assert_eq!(weak.status.code(), Some(1));
+        let text = printed(&weak);
+        let page = std::fs::read_to_string(folder.path().join("page.html")).expect("a page");
+        for written in [&text, &page] {
+            assert!(!written.contains("GB 50011"), "{written}");
+            let clause = if name == "en1998" {
+                "3.2.3.1.2(4)c"
+            } else {
+                "16.2.3"
+            };
+            assert!(written.contains(clause), "{written}");
+        }
+        let said = complained(&weak);
+        let wanted = if name == "en1998" {
+            "error: the set does not meet EN 1998-1, clause 3.2.3.1.2(4): 2 of 3 rules\n"
+        } else {
+            "error: the set does not meet ASCE 7, section 16.2: 1 of 2 rules\n"
+        };
+        assert_eq!(said, wanted);
+    }
+}

@@ -17,7 +17,7 @@ pub(crate) enum MotionCommand {
     /// Make an artificial motion
     #[command(subcommand)]
     Synth(SynthCommand),
-    /// Check a set of motions as GB 50011, clause 5.1.2, asks
+    /// Check a set of motions by the rules of the code [exit code 1 if it does not meet them]
     Select(SelectArgs),
 }
 
@@ -331,7 +331,7 @@ pub(crate) struct SelectArgs {
     /// Artificial motions: built-in names or files
     #[arg(long, value_delimiter = ',')]
     pub(crate) artificial: Vec<String>,
-    /// Main periods of the structure in s
+    /// Main periods of the structure in s; the longest is T1
     #[arg(long, value_delimiter = ',', required = true)]
     pub(crate) periods: Vec<String>,
     /// Effective mass ratio of each period [default: equal ones]
