@@ -394,12 +394,12 @@ fn families_that_are_not_read_are_named() {
     );
     assert_eq!(
         refused(&bhrc),
-        ": this is a BHRC file (Iran Strong Motion Network); copy the values of one component into a file of their own and say format = \"columns\" with unit and step; volume 1 is in unit = \"g/10\", and the step is the duration over the number of points less one"
+        ": this is a BHRC file (Iran Strong Motion Network); copy the values of one component, one on a line, into a file of their own and say its unit and step beside record (volume 1: unit = \"g/10\", and the duration over the number of points less one)"
     );
     let unam = "\n\n\n\n\n\n     ARCHIVO ESTANDAR DE ACELERACION\n\nNOMBRE DE LA ESTACION : X\n";
     assert_eq!(
         refused(unam),
-        ": this is an accelerogram in the standard format of UNAM (Mexico); copy the three columns below the header into a file of their own and say unit = \"gal\", step (INTERVALO DE MUESTREO) and column beside record"
+        ": this is an accelerogram in the standard format of UNAM (Mexico); copy the three columns below the header into a file of their own and say unit = \"gal\", column = 1 (to 3) and step (INTERVALO DE MUESTREO) beside record"
     );
     let numbered = |first: &str| {
         let rest: String = (2..=14)
@@ -413,7 +413,7 @@ fn families_that_are_not_read_are_named() {
     ] {
         assert_eq!(
             refused(&numbered(first)),
-            ": this is a file of the University of Southern California (USC); take the same record as AT2 from PEER, or copy the accelerations of one component into a file of columns and say unit and step"
+            ": this is a file of the University of Southern California (USC); take the same record as AT2 from PEER, or copy the accelerations of one component, one on a line, into a file of their own and say its unit and step beside record"
         );
     }
 }

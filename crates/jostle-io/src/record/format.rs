@@ -161,7 +161,7 @@ fn check_family(bytes: &[u8]) -> Result<(), RecordError> {
     let (what, remedy) = if line(1).starts_with("* VOL") && line(7).starts_with("COMP") {
         (
             "a BHRC file (Iran Strong Motion Network)",
-            "copy the values of one component into a file of their own and say format = \"columns\" with unit and step; volume 1 is in unit = \"g/10\", and the step is the duration over the number of points less one",
+            "copy the values of one component, one on a line, into a file of their own and say its unit and step beside record (volume 1: unit = \"g/10\", and the duration over the number of points less one)",
         )
     } else if lines
         .iter()
@@ -169,12 +169,12 @@ fn check_family(bytes: &[u8]) -> Result<(), RecordError> {
     {
         (
             "an accelerogram in the standard format of UNAM (Mexico)",
-            "copy the three columns below the header into a file of their own and say unit = \"gal\", step (INTERVALO DE MUESTREO) and column beside record",
+            "copy the three columns below the header into a file of their own and say unit = \"gal\", column = 1 (to 3) and step (INTERVALO DE MUESTREO) beside record",
         )
     } else if is_usc(&lines) {
         (
             "a file of the University of Southern California (USC)",
-            "take the same record as AT2 from PEER, or copy the accelerations of one component into a file of columns and say unit and step",
+            "take the same record as AT2 from PEER, or copy the accelerations of one component, one on a line, into a file of their own and say its unit and step beside record",
         )
     } else {
         return Ok(());

@@ -204,7 +204,7 @@ fn eight_on(lines: &Lines<'_>, count: usize) -> Fixed {
     let length = next.map_or(0, |line| line.text.len());
     let on_line = count.clamp(1, 8);
     let width = length / on_line;
-    if length % on_line == 0 && (7..=15).contains(&width) {
+    if length.is_multiple_of(on_line) && (7..=15).contains(&width) {
         Fixed::reals(8, width)
     } else {
         Fixed::reals(8, 10)
