@@ -12,7 +12,8 @@ use clap::{Parser, Subcommand};
     version,
     about = "What happens when neighbouring buildings hit each other in an earthquake",
     after_help = "Quantities carry units: --pga 220cm/s2, --pga 0.35g, --gap 100mm.\n\
-                  Exit codes: 0 done, 1 the analysis failed, 2 the input is wrong, 130 stopped by Ctrl-C."
+                  Exit codes: 0 done, 1 the analysis failed or a set of motions does not meet its code,\n\
+                  2 the input is wrong, 130 stopped by Ctrl-C."
 )]
 pub(crate) struct Args {
     #[command(subcommand)]

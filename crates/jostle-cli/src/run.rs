@@ -78,27 +78,20 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let shapes = shapes.as_ref();
     let outcome = watch(&opened, &motion, &plan, settings, shapes, &stop);
     let wall = started.elapsed().as_secs_f64();
-    let twin =
-        (!args.no_report && !opened.system.contacts.is_empty() && outcome.end == RunEnd::Completed)
-            .then(|| {
-                let settings = Settings {
-                    pounding: Pounding::Excluded,
-                    ..settings
-                };
-                watch(&opened, &motion, &plan, settings, shapes, &stop)
-            })
-            .filter(|twin| twin.end == RunEnd::Completed);
-
     let model = &opened.input.model;
-    let summary = Summary::of(&Run {
-        model,
-        system: &opened.system,
-        motion: &motion,
-        plan: &plan,
-        outcome: &outcome,
-        without_contact: twin.as_ref(),
-        wall,
-    });
+    let sum_up = |without_contact| {
+        Summary::of(&Run {
+            model,
+            system: &opened.system,
+            motion: &motion,
+            plan: &plan,
+            outcome: &outcome,
+            without_contact,
+            wall,
+        })
+    };
+    let mut summary = sum_up(None);
+    // Before the run without contact, so that nothing is lost if that one is ended by force.
     if let (Some(out), Some(history)) = (&out, &outcome.history) {
         jostle_io::write_history_parquet(&out.join("history.parquet"), model, &summary, history)?;
         jostle_io::write_impacts_parquet(&out.join("impacts.parquet"), &summary)?;
@@ -106,8 +99,26 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             let path = out.join("hinges.parquet");
             jostle_io::write_hinges_parquet(&path, &opened.system, &outcome, &summary)?;
         }
+        jostle_io::write_summary_json(&out.join("summary.json"), &summary)?;
+    }
+
+    let compares =
+        !args.no_report && !opened.system.contacts.is_empty() && outcome.end == RunEnd::Completed;
+    let without = compares.then(|| {
+        let settings = Settings {
+            pounding: Pounding::Excluded,
+            ..settings
+        };
+        watch(&opened, &motion, &plan, settings, shapes, &stop)
+    });
+    let twin = without.as_ref().filter(|run| run.end == RunEnd::Completed);
+    if let Some(run) = &without {
+        summary = sum_up(twin);
+        summary.notes.extend(not_compared(run, motion.duration));
+    }
+    if let (Some(out), Some(history)) = (&out, &outcome.history) {
         if !args.no_report {
-            let without_contact = twin.as_ref().and_then(|twin| twin.history.as_ref());
+            let without_contact = twin.and_then(|twin| twin.history.as_ref());
             let sections = reinforced(&opened);
             let methods = if args.method {
                 method::survey(&opened.system)?
@@ -129,7 +140,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
                 jostle_report::render(&page).as_bytes(),
             )?;
         }
-        jostle_io::write_summary_json(&out.join("summary.json"), &summary)?;
+        if without.is_some() {
+            jostle_io::write_summary_json(&out.join("summary.json"), &summary)?;
+        }
     }
     if args.json {
         terminal::print(&jostle_io::summary_json(&summary))?;
@@ -137,7 +150,32 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         let report = out.as_deref().map(|out| result(out, args.no_report));
         terminal::print(&run_text::describe(&summary, report.as_deref()))?;
     }
-    ending(&outcome.end, out.as_deref())
+    ending(&outcome.end, out.as_deref())?;
+    match without.map(|run| run.end) {
+        Some(RunEnd::Stopped) => {
+            let kept = out.map_or_else(String::new, |out| format!(" and is in {}", out.display()));
+            terminal::remark(&format!(
+                "stopped in the run without contact; the run with contact is complete{kept}"
+            ));
+            Err(Failure::Stopped)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Why nothing is compared with a run without contact, if it did not reach its end.
+fn not_compared(without: &Outcome, duration: f64) -> Option<String> {
+    let reason = match &without.end {
+        RunEnd::Completed => return None,
+        RunEnd::Stopped => format!(
+            "was interrupted at t = {:.3} s of {duration:.3} s",
+            without.state.time
+        ),
+        RunEnd::Failed(error) => format!("failed: {error}"),
+    };
+    Some(format!(
+        "the run without contact {reason}; nothing is compared with it"
+    ))
 }
 
 /// Reinforced sections of the model, alike ones told once.

@@ -262,6 +262,60 @@ fn interrupt_keeps_what_was_computed() {
     );
 }
 
+#[cfg(unix)]
+#[test]
+fn interrupt_without_contact_keeps_the_finished_run() {
+    let folder = folder();
+    let paper = jostle_io::model_text("paper").expect("the example");
+    let slow =
+        "[analysis]\nstep = \"2e-5 s\"\ncontact_step = \"2e-5 s\"\n\n[motion]\nduration = \"3 s\"";
+    let model = paper.replacen("[motion]", slow, 1);
+    std::fs::write(folder.path().join("slow.toml"), model).expect("a file");
+    let mut run = command(folder.path(), &["run", "slow.toml", "--out", "r"]);
+    let mut child = run
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    // What the run with contact found is written before the other one begins.
+    while !folder.path().join("r/summary.json").exists() {
+        assert_eq!(
+            child.try_wait().expect("a status"),
+            None,
+            "it ended too early"
+        );
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(
+        kill.is_ok_and(|status| status.success()),
+        "the signal is sent"
+    );
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(130), "{}", complained(&output));
+    assert_eq!(
+        complained(&output),
+        "stopped in the run without contact; the run with contact is complete and is in r\n"
+    );
+    let summary = summary_of(&folder.path().join("r"));
+    assert!(summary["ended_early"].is_null(), "{summary}");
+    let notes = summary["notes"].as_array().expect("notes");
+    assert!(
+        notes.iter().any(|note| {
+            let note = note.as_str().unwrap_or_default();
+            note.starts_with("the run without contact was interrupted at t = ")
+                && note.ends_with(" s of 3.000 s; nothing is compared with it")
+        }),
+        "{notes:?}"
+    );
+    assert!(printed(&output).contains("the run without contact was interrupted"));
+    for name in ["history.parquet", "impacts.parquet", "report.html"] {
+        assert!(folder.path().join("r").join(name).exists(), "{name}");
+    }
+}
+
 #[test]
 fn method_shows_where_the_product_fails_and_riccati_does_not() {
     let folder = folder();

@@ -307,3 +307,169 @@ fn mistakes_name_the_remedy() {
         assert!(!folder.path().join("x.csv").exists(), "nothing is written");
     }
 }
+
+#[test]
+fn a_folder_names_the_records_in_it() {
+    let folder = folder();
+    let record = "NPTS= 2, DT= .01 SEC\n1 0.5\n";
+    std::fs::create_dir(folder.path().join("set")).expect("a folder");
+    for name in ["b.at2", "a.at2"] {
+        std::fs::write(folder.path().join("set").join(name), record).expect("a record");
+    }
+    std::fs::write(folder.path().join("set/readme.txt"), "not a record\n").expect("a text");
+    let said = |name: &str| {
+        let output = jostle(folder.path(), &["motion", "show", name]);
+        assert_eq!(output.status.code(), Some(2), "{}", complained(&output));
+        complained(&output)
+    };
+    assert_eq!(
+        said("set"),
+        "error: set: is a folder, not a record; give one of the records in it: a.at2, b.at2\n"
+    );
+    std::fs::create_dir(folder.path().join("empty")).expect("a folder");
+    assert_eq!(
+        said("empty"),
+        "error: empty: is a folder, not a record; there is no record in it\n"
+    );
+    for number in 0..9 {
+        let name = format!("c{number}.at2");
+        std::fs::write(folder.path().join("set").join(name), record).expect("a record");
+    }
+    let text = said("set");
+    assert!(text.ends_with("c4.at2, c5.at2, …\n"), "{text}");
+}
+
+#[cfg(unix)]
+#[test]
+fn endless_files_are_read_to_their_limit_only() {
+    let folder = folder();
+    let said = |arguments: &[&str]| {
+        let output = jostle(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{}", complained(&output));
+        complained(&output)
+    };
+    assert_eq!(
+        said(&["motion", "show", "/dev/zero"]),
+        "error: /dev/zero: has more than 64 MiB, the most that a record may have; cut the record, or export one component as columns of text\n"
+    );
+    let text = said(&["run", "/dev/zero"]);
+    assert!(text.contains("more than 16 MiB"), "{text}");
+    let text = said(&[
+        "motion",
+        "synth",
+        "spectrum",
+        "--target",
+        "/dev/zero",
+        "-o",
+        "wave.csv",
+    ]);
+    assert!(
+        text.contains("larger than a spectrum can be (1 MiB)"),
+        "{text}"
+    );
+}
+
+#[test]
+fn pulses_have_the_peak_velocity_asked_for() {
+    let folder = folder();
+    for shape in [
+        "mavroeidis",
+        "makris-a",
+        "makris-b",
+        "makris-c1",
+        "makris-c2",
+    ] {
+        let output = jostle(
+            folder.path(),
+            &[
+                "motion",
+                "synth",
+                "pulse",
+                "--shape",
+                shape,
+                "--velocity",
+                "0.8 m/s",
+                "--period",
+                "1.5 s",
+                "-o",
+                "pulse.csv",
+                "--force",
+            ],
+        );
+        assert!(output.status.success(), "{}", complained(&output));
+        let text = printed(&output);
+        assert!(text.ends_with("PGV 0.8000 m/s\n"), "{text}");
+        let shown = json_of(folder.path(), &["motion", "show", "pulse.csv", "--json"]);
+        assert!(
+            near(&shown["pgv_m_s"], 0.8, 1e-6),
+            "{shape}: {}",
+            shown["pgv_m_s"]
+        );
+    }
+}
+
+#[test]
+fn sets_are_judged_by_the_rules_of_their_code() {
+    let folder = folder();
+    let codes = [
+        (
+            "en1998",
+            &["--code", "en1998", "--ground", "B", "--ag", "0.2 g"][..],
+            3,
+        ),
+        (
+            "asce7",
+            &["--code", "asce7", "--sds", "1.0 g", "--sd1", "0.6 g"][..],
+            11,
+        ),
+    ];
+    for (name, code, count) in codes {
+        let file = format!("{name}.csv");
+        let mut make = vec!["motion", "synth", "spectrum", "-o", &file];
+        make.extend(code);
+        let made = jostle(folder.path(), &make);
+        assert!(made.status.success(), "{}", complained(&made));
+        let judge = |motions: usize, more: &[&str]| {
+            let set = vec![&file[..]; motions].join(",");
+            let mut arguments = vec!["motion", "select", "--artificial", &set];
+            arguments.extend(["--periods", "0.8,0.25"]);
+            arguments.extend(code);
+            arguments.extend(more);
+            jostle(folder.path(), &arguments)
+        };
+        let good = judge(count, &[]);
+        assert_eq!(good.status.code(), Some(0), "{}", printed(&good));
+        let few = judge(count - 1, &["--json"]);
+        assert_eq!(few.status.code(), Some(1));
+        let json: Value = serde_json::from_str(&printed(&few)).expect("nothing but JSON");
+        assert_eq!(json["passes"], false);
+        assert_eq!(
+            (&json["enough"], &json["mean_suffices"]),
+            (&false.into(), &true.into())
+        );
+        assert!(
+            json.get("base_shear_agrees").is_none(),
+            "a rule of GB 50011: {json}"
+        );
+        let weak = judge(count, &["--pga", "0.1 g", "--html", "page.html"]);
+        assert_eq!(weak.status.code(), Some(1));
+        let text = printed(&weak);
+        let page = std::fs::read_to_string(folder.path().join("page.html")).expect("a page");
+        for written in [&text, &page] {
+            assert!(!written.contains("GB 50011"), "{written}");
+            let clause = if name == "en1998" {
+                "3.2.3.1.2(4)c"
+            } else {
+                "16.2.3"
+            };
+            assert!(written.contains(clause), "{written}");
+        }
+        let said = complained(&weak);
+        let wanted = if name == "en1998" {
+            "error: the set does not meet EN 1998-1, clause 3.2.3.1.2(4): 2 of 3 rules\n"
+        } else {
+            "error: the set does not meet ASCE 7, section 16.2: 1 of 2 rules\n"
+        };
+        assert_eq!(said, wanted);
+    }
+}

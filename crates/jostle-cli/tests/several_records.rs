@@ -143,7 +143,10 @@ fn a_study_says_of_its_records_what_the_command_says() {
         "--json",
     ];
     arguments.extend(CODE);
-    let mut command = json_of(place.path(), &arguments);
+    let output = jostle(place.path(), &arguments);
+    // The set does not meet the clause.
+    assert_eq!(output.status.code(), Some(1), "{}", complained(&output));
+    let mut command: Value = serde_json::from_str(&printed(&output)).expect("nothing but JSON");
     let checked = selection_of(place.path());
     let mut ours = checked["structures"][0].clone();
     assert_eq!(checked["passes"], command["passes"]);

@@ -3,6 +3,7 @@
 //! Parsers take text or bytes and never panic; only [`read_model_file`], [`read_record`] and the writers touch a
 //! path. Everything that leaves this crate is in SI.
 
+mod bounded;
 mod builtin;
 mod fault;
 mod json_tree;

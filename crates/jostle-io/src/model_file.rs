@@ -27,6 +27,7 @@ use std::sync::Arc;
 
 use jostle::{GroundMotion, Model, ModelFault};
 
+use crate::bounded::read_at_most;
 use crate::fault::{Fault, InputError};
 use crate::keys::Section;
 use crate::motion_spec::{MotionError, MotionSource, MotionSpec, Scaling};
@@ -102,11 +103,8 @@ pub(crate) fn read_text(path: &Path) -> Result<(String, String), InputError> {
     let name = path.display().to_string();
     let unreadable =
         |error: std::io::Error| InputError::whole(&name, format!("cannot be read: {error}"), None);
-    let size = std::fs::metadata(path).map_err(unreadable)?.len();
-    if size > tree::LARGEST_FILE as u64 {
-        return Err(tree::too_large(&name, size));
-    }
-    let bytes = std::fs::read(path).map_err(unreadable)?;
+    let bytes = read_at_most(path, tree::LARGEST_FILE).map_err(unreadable)?;
+    let bytes = bytes.ok_or_else(|| tree::too_large(&name))?;
     let text = tree::decode(&name, &bytes)?.to_owned();
     Ok((name, text))
 }

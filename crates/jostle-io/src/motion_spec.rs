@@ -326,7 +326,7 @@ fn find_record(
         return Ok(motion);
     }
     let path = base.join(name);
-    if !path.is_file() {
+    if !path.exists() {
         return Err(MotionError::NotFound {
             name: name.to_owned(),
             nearest: similar_names(name, &path),

@@ -82,7 +82,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Selection,
         "Study file: `[selection]`",
-        "Whether the records serve for time-history analysis: GB 50011, clause 5.1.2.",
+        "Whether the records are suitable for time-history analysis, by the rules of the code of the spectrum.",
     ),
 ];
 

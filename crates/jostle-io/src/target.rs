@@ -7,6 +7,7 @@ use jostle_motion::{
     TargetKind, TargetSpectrum,
 };
 
+use crate::bounded::read_at_most;
 use crate::quantity::{Dimension, parse_quantity, shorten};
 
 /// Codes that are known.
@@ -64,7 +65,7 @@ pub enum TargetError {
 }
 
 /// Most bytes of a file of points.
-const LARGEST_FILE: u64 = 1 << 20;
+const LARGEST_FILE: usize = 1 << 20;
 
 impl TargetWords {
     /// The spectrum that the words choose.
@@ -237,10 +238,8 @@ pub fn read_target_file(path: &Path) -> Result<TargetSpectrum, TargetError> {
         problem,
     };
     let unreadable = |error: std::io::Error| fault(format!(": cannot be read: {error}"));
-    if std::fs::metadata(path).map_err(unreadable)?.len() > LARGEST_FILE {
-        return Err(fault(": is larger than a spectrum can be (1 MiB)".into()));
-    }
-    let bytes = std::fs::read(path).map_err(unreadable)?;
+    let bytes = read_at_most(path, LARGEST_FILE).map_err(unreadable)?;
+    let bytes = bytes.ok_or_else(|| fault(": is larger than a spectrum can be (1 MiB)".into()))?;
     let text = String::from_utf8_lossy(&bytes);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     parse_target(&stem, &text).map_err(fault)

@@ -95,7 +95,7 @@ pub(crate) const LARGEST_FILE: usize = 16 << 20;
 /// Decodes the bytes of a model file, without a byte-order mark.
 pub(crate) fn decode<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, InputError> {
     if bytes.len() > LARGEST_FILE {
-        return Err(too_large(name, bytes.len() as u64));
+        return Err(too_large(name));
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let valid = bytes.get(..error.valid_up_to()).unwrap_or_default();
@@ -110,12 +110,9 @@ pub(crate) fn decode<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, InputEr
 }
 
 /// The error for a file of more than [`LARGEST_FILE`].
-pub(crate) fn too_large(name: &str, bytes: u64) -> InputError {
-    let problem = format!(
-        "the file has {} MiB; a model file may have at most 16 MiB",
-        bytes >> 20
-    );
-    InputError::whole(name, problem, None)
+pub(crate) fn too_large(name: &str) -> InputError {
+    let problem = "the file has more than 16 MiB, the most that a model file may have";
+    InputError::whole(name, problem.to_owned(), None)
 }
 
 /// Parses a text whose root must be a table.

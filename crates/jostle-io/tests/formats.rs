@@ -386,6 +386,114 @@ fn wrapped_files_say_what_they_are() {
 }
 
 #[test]
+fn families_that_are_not_read_are_named() {
+    let refused = |text: &str| error(text.as_bytes(), &RecordOptions::default());
+    let bhrc = format!(
+        "* VOL1DS  RECORD NO:1234-01/1\nINSTRUMENT = SSA-2\n\n\nL\n\nCOMP L\nSOMEWHERE Station 30.1 50.2\n{}",
+        "1 2\n".repeat(9)
+    );
+    assert_eq!(
+        refused(&bhrc),
+        ": this is a BHRC file (Iran Strong Motion Network); copy the values of one component, one on a line, into a file of their own and say its unit and step beside record (volume 1: unit = \"g/10\", and the duration over the number of points less one)"
+    );
+    let unam = "\n\n\n\n\n\n     ARCHIVO ESTANDAR DE ACELERACION\n\nNOMBRE DE LA ESTACION : X\n";
+    assert_eq!(
+        refused(unam),
+        ": this is an accelerogram in the standard format of UNAM (Mexico); copy the three columns below the header into a file of their own and say unit = \"gal\", column = 1 (to 3) and step (INTERVALO DE MUESTREO) beside record"
+    );
+    let numbered = |first: &str| {
+        let rest: String = (2..=14)
+            .map(|line| format!("{:<72}{line:>2}\n", "TEXT"))
+            .collect();
+        format!("{first}\n{rest}")
+    };
+    for first in [
+        "PAGE 1 OF UNCORRECTED ACCELEROGRAM DATA OF SOMEWHERE",
+        "CORRECTED ACCELEROGRAM",
+    ] {
+        assert_eq!(
+            refused(&numbered(first)),
+            ": this is a file of the University of Southern California (USC); take the same record as AT2 from PEER, or copy the accelerations of one component, one on a line, into a file of their own and say its unit and step beside record"
+        );
+    }
+}
+
+#[test]
+fn fill_bytes_behind_a_text_are_left_out() {
+    for fixture in fixture::all(100).into_iter().filter(|f| f.text) {
+        let right = parse_record(&fixture.bytes, &fixture.options).ok();
+        assert!(right.is_some(), "{}", fixture.name);
+        for fill in [&b"\x1a\x1a\x1a"[..], b"\r\n\x1a", b"\0\0\0\0\r\n\0"] {
+            let filled = [&fixture.bytes[..], fill].concat();
+            let read = parse_record(&filled, &fixture.options);
+            assert_eq!(read.ok(), right, "{} with {fill:?}", fixture.name);
+        }
+        // In the midst of the text such a byte is damage.
+        let mut broken = fixture.bytes.clone();
+        let middle = broken.len() / 2;
+        broken.insert(middle, 0);
+        assert!(
+            parse_record(&broken, &fixture.options).is_err(),
+            "{}",
+            fixture.name
+        );
+    }
+}
+
+#[test]
+fn a_corrected_volume_must_have_its_peak_where_the_header_says() {
+    let text = String::from_utf8(by_name("csmip v2").bytes).unwrap_or_default();
+    let moved = text.replace("at   0.300   sec", "at   0.200   sec");
+    assert_ne!(moved, text);
+    assert_eq!(
+        error(moved.as_bytes(), &by_name("csmip v2").options),
+        ":18: the peak of the values does not stand at 0.2 s, where the header has it; one of them is damaged (read as CSMIP)"
+    );
+}
+
+#[test]
+fn a_sac_step_is_freed_from_the_rounding_of_one_time() {
+    for name in ["sac little-endian", "sac big-endian"] {
+        let fixture = by_name(name);
+        let with_step = |step: f32| {
+            let mut bytes = fixture.bytes.clone();
+            let word = if name.ends_with("big-endian") {
+                step.to_be_bytes()
+            } else {
+                step.to_le_bytes()
+            };
+            bytes[..4].copy_from_slice(&word);
+            parse_record(&bytes, &fixture.options).map(|record| record.step)
+        };
+        // The difference of the last two times in 32 bits, 0.99 s and 0.98 s.
+        let rounded = 0.99_f32 - 0.98_f32;
+        assert_ne!(rounded, 0.01);
+        assert_eq!(with_step(rounded).ok(), Some(0.01), "{name}");
+        // A clock that runs differently is no rounding.
+        assert_eq!(with_step(0.010_000_5).ok(), Some(0.010_000_5), "{name}");
+        assert!(with_step(0.0101).is_err(), "{name}");
+    }
+}
+
+#[test]
+fn smc_pairs_are_interpolated_only_when_asked() {
+    let fixture = by_name("smc, film");
+    let text = String::from_utf8(fixture.bytes).unwrap_or_default();
+    let moved = text.replacen(" 2.0500E-1", " 2.0900E-1", 1);
+    assert_ne!(moved, text);
+    assert_eq!(
+        error(moved.as_bytes(), &RecordOptions::default()),
+        ":30: the times of this uncorrected record are not equally spaced (steps between 0.001 s and 0.009 s); use the corrected record (volume 2), or say step = \"0.005 s\" beside record to have it interpolated linearly"
+    );
+    let options = RecordOptions {
+        step: Some(0.01),
+        ..RecordOptions::default()
+    };
+    let record = parse_record(moved.as_bytes(), &options).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((record.step, record.acceleration.len()), (0.01, 50));
+}
+
+#[test]
 fn film_times_are_interpolated_only_when_asked() {
     let fixture = by_name("csmip v1, film");
     let text = String::from_utf8(fixture.bytes).unwrap_or_default();

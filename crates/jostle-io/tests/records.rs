@@ -95,6 +95,21 @@ fn wrong_at2_files_name_the_line() {
 }
 
 #[test]
+fn an_at2_header_with_two_steps_is_asked_about() {
+    let text = format!("{HEADER}NPTS=   2, DT= 4 .0050 SEC,\n1 0.5\n");
+    assert_refused(
+        &text,
+        ":4: the header gives 4 and 0.005 as the time step; correct the line, or say the right one with step = \"0.005 s\" beside record",
+    );
+    let options = RecordOptions {
+        step: Some(0.005),
+        ..RecordOptions::default()
+    };
+    let record = parse_with(&text, &options).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((record.step, record.acceleration.len()), (0.005, 2));
+}
+
+#[test]
 fn columns_of_text_are_read() {
     let wanted = [0.0, 0.5 * G, -0.25 * G];
     for text in [
@@ -173,6 +188,26 @@ fn unequal_steps_name_the_line_but_rounding_is_forgiven() {
         record.step, 0.0125,
         "0.013, 0.025, 0.038, … are rounded times"
     );
+}
+
+#[test]
+fn times_rounded_to_32_bits_are_equal_steps() {
+    let rows = |step: f32, keep: &dyn Fn(u16) -> bool| -> String {
+        let rows = (0..9600).filter(|i| keep(*i));
+        rows.map(|i| format!("{:.6} {}\n", 0.375 + f32::from(i) * step, i % 2))
+            .collect()
+    };
+    for step in [0.025_f32, 0.005, 0.01, 0.0125] {
+        let text = format!("# unit = gal\n{}", rows(step, &|_| true));
+        let record = parse(&text).unwrap_or_else(|e| panic!("{step}: {e}"));
+        let wanted: f64 = step.to_string().parse().unwrap_or_default();
+        assert_eq!(record.step, wanted);
+        assert_eq!(record.acceleration.len(), 9600);
+    }
+    // A lost line shows all the same.
+    let lost = format!("# unit = gal\n{}", rows(0.025, &|i| i != 7000));
+    let error = parse(&lost).expect_err("a line is missing");
+    assert!(error.starts_with(":7002: time 175.4"), "{error}");
 }
 
 #[test]

@@ -31,7 +31,10 @@ pub use intensity::{Measures, husid, measures};
 pub use oscillator::Oscillator;
 pub use peaks::{Extreme, Response, peak_responses};
 pub use scaling::{MatchAt, match_factor};
-pub use selection::{Candidate, MainPeriod, Origin, SelectionCheck, check_selection};
+pub use selection::{
+    Candidate, MainPeriod, Origin, RuleKind, SelectionCheck, SelectionCode, SelectionRule,
+    check_selection,
+};
 pub use spectrum::{Reading, ResponseSpectrum, SpectrumCurve, response_spectrum, spaced_periods};
 pub use synthesis::{
     Envelope, GroundFilter, Makris, MatchSettings, Matched, Mavroeidis, PulseShape, RECIPES,

@@ -192,12 +192,16 @@ byId("zoom-out").addEventListener("click", () => view.zoom(2));
 byId("zoom-all").addEventListener("click", () => view.whole());
 const zoomImpact = byId("zoom-impact");
 zoomImpact.hidden = !groups.length;
+/** Stops at the peak force of an impact, with the impact filling the charts. */
+function showImpact({ start, end, at }) {
+  const length = Math.max(end - start, 1e-3);
+  player.pause();
+  seek(at);
+  view.show(start - 0.6 * length, end + 0.6 * length);
+}
 zoomImpact.addEventListener("click", () => {
-  const distance = (group) => Math.abs(group.at - player.time);
-  const nearest = groups.reduce((best, group) => (distance(group) < distance(best) ? group : best));
-  const length = Math.max(nearest.end - nearest.start, 1e-3);
-  seek(nearest.at);
-  view.show(nearest.start - 0.6 * length, nearest.end + 0.6 * length);
+  const distance = ({ start, end }) => Math.max(start - player.time, player.time - end, 0);
+  showImpact(groups.reduce((best, group) => (distance(group) < distance(best) ? group : best)));
 });
 
 const exaggeration = byId("exaggeration");
@@ -287,8 +291,7 @@ table?.querySelectorAll("th").forEach((head, column) => {
 table?.tBodies[0].addEventListener("click", (event) => {
   const row = event.target.closest("tr");
   if (!row) return;
-  seek(parsePrinted(row.cells[1].textContent) + 5e-5);
-  zoomImpact.click();
+  showImpact({ start: Number(row.dataset.start), end: Number(row.dataset.end), at: Number(row.dataset.at) });
 });
 
 for (const button of document.querySelectorAll("button.unfold")) {

@@ -1,8 +1,8 @@
 //! Sets of ground motions held against a code: a page of their own, and sections for the page of a study.
 
 use jostle_motion::{
-    Candidate, MainPeriod, MotionFault, Origin, Reading, SelectionCheck, TargetSpectrum,
-    response_spectrum, spaced_periods,
+    Candidate, MainPeriod, MotionFault, Origin, Reading, RuleKind, SelectionCheck, SelectionRule,
+    TargetSpectrum, response_spectrum, spaced_periods,
 };
 use maud::{Markup, html};
 use serde_json::json;
@@ -101,9 +101,9 @@ pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
     spectra.push(
         json!({ "label": "mean", "periods": periods, "psa": digits(&found.mean), "bold": true }),
     );
-    for (label, factor) in [("code", 1.0), ("code ±20 %", 0.8), ("", 1.2)] {
+    for (label, factor) in std::iter::once(&("code", 1.0)).chain(page.check.code.bounds()) {
         let values: Vec<f64> = found.code.iter().map(|a| factor * a).collect();
-        let dashed = factor != 1.0;
+        let dashed = *factor != 1.0;
         spectra.push(json!({ "label": label, "periods": periods, "psa": digits(&values), "dashed": dashed, "code": true }));
     }
     let marks: Vec<f64> = page.periods.iter().map(|main| main.period).collect();
@@ -113,10 +113,11 @@ pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
         "ground": { "time": empty(), "values": empty() },
         "spectra": spectra, "marks": marks,
     });
+    let clause = page.check.code.clause();
     let verdict = if page.check.passes() {
-        "The set meets what is checked of GB 50011, clause 5.1.2."
+        format!("The set meets what is checked of {clause}.")
     } else {
-        "The set does not meet GB 50011, clause 5.1.2."
+        format!("The set does not meet {clause}.")
     };
     let body = html! {
         p.verdict { (verdict) }
@@ -155,9 +156,10 @@ pub fn selection_sections(
     let mut sections = vec![Section {
         title: "Selection of ground motions".into(),
         remark: format!(
-            "{}, {} % damping. {scaling} Base shears are estimated from the elastic modes; the clause asks for those of the time histories.",
+            "{}, {} % damping. {scaling} {}",
             target.name(),
-            format::plain(100.0 * damping, 3)
+            format::plain(100.0 * damping, 3),
+            remarks(structures)
         ),
         charts: vec![chart(&spectra, set, structures)],
         table: Some(verdicts(structures)),
@@ -173,6 +175,22 @@ pub fn selection_sections(
         ..Section::default()
     }));
     Ok(sections)
+}
+
+/// What a reader of the verdicts must know.
+fn remarks(structures: &[CheckedStructure]) -> String {
+    let checks = structures.iter().map(|structure| &structure.check);
+    let estimated = checks.clone().any(|c| c.met(RuleKind::BaseShear).is_some());
+    let mut all: Vec<&str> = Vec::new();
+    if estimated {
+        all.push("Base shears are estimated from the elastic modes; the clause asks for those of the time histories.");
+    }
+    for note in checks.flat_map(|check| &check.notes) {
+        if !all.contains(note) {
+            all.push(note);
+        }
+    }
+    all.join(" ")
 }
 
 fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) -> Chart {
@@ -196,8 +214,12 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
         .collect();
     all.push(series("mean", mean, 1.0, Stroke::Heavy, colour));
     all.push(series("code", code, 1.0, Stroke::Line, colour + 1));
-    all.push(series("code ±20 %", code, 0.8, Stroke::Dashed, colour + 1));
-    all.push(series("", code, 1.2, Stroke::Dashed, colour + 1));
+    let bounds = structures
+        .first()
+        .map(|structure| structure.check.code.bounds());
+    for (name, factor) in bounds.unwrap_or_default() {
+        all.push(series(name, code, *factor, Stroke::Dashed, colour + 1));
+    }
     all.extend(structures.iter().enumerate().map(|(i, structure)| {
         let means = structure.periods.iter().zip(&structure.check.mean);
         Series {
@@ -227,7 +249,10 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
 
 /// What is asked and whether it is met, a column for each structure.
 fn verdicts(structures: &[CheckedStructure]) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut heads = vec!["GB 50011, clause 5.1.2".to_owned()];
+    let clause = structures
+        .first()
+        .map(|structure| structure.check.code.clause());
+    let mut heads = vec![clause.unwrap_or_default().to_owned()];
     heads.extend(
         structures
             .iter()
@@ -237,15 +262,18 @@ fn verdicts(structures: &[CheckedStructure]) -> (Vec<String>, Vec<Vec<String>>) 
             }),
     );
     heads.push("asks for".into());
-    let each: Vec<[Rule; 4]> = structures
+    let each: Vec<&[SelectionRule]> = structures
         .iter()
-        .map(|structure| rules(&structure.check))
+        .map(|structure| &structure.check.rules[..])
         .collect();
     let rows = each.first().map_or(Vec::new(), |first| {
-        let row = |(i, rule): (usize, &Rule)| {
-            let mut row = vec![rule.about.clone()];
+        let row = |(i, rule): (usize, &SelectionRule)| {
+            // What is found may differ between structures.
+            let mut found: Vec<&str> = each.iter().map(|rules| &rules[i].found[..]).collect();
+            found.dedup();
+            let mut row = vec![found.join("; ")];
             row.extend(each.iter().map(|rules| verdict(rules[i].met).to_owned()));
-            row.push(rule.asked.to_owned());
+            row.push(asked(rule));
             row
         };
         first.iter().enumerate().map(row).collect()
@@ -283,42 +311,8 @@ fn numbers(set: &[Candidate], structure: &CheckedStructure) -> (Vec<String>, Vec
     (heads, rows)
 }
 
-/// A rule of the clause.
-struct Rule {
-    met: bool,
-    about: String,
-    asked: &'static str,
-}
-
-fn rules(check: &SelectionCheck) -> [Rule; 4] {
-    let [natural, artificial] = check.counts;
-    let rule = |met: bool, about: &str, asked| Rule {
-        met,
-        about: about.to_owned(),
-        asked,
-    };
-    [
-        rule(
-            check.enough,
-            &format!("{natural} recorded and {artificial} artificial"),
-            "at least two recorded and one artificial; of seven or more, at least five recorded",
-        ),
-        rule(
-            check.mean_agrees,
-            "mean spectrum",
-            "within 20 % of the code at the main periods",
-        ),
-        rule(
-            check.base_shear_agrees,
-            "base shear, estimated from the modes",
-            "each within 65 to 135 %, their mean within 80 to 120 % of the code; to be confirmed with the time histories of the structure",
-        ),
-        rule(
-            check.long_enough,
-            "effective duration",
-            "from the first to the last tenth of the peak, at least five times the longest main period",
-        ),
-    ]
+fn asked(rule: &SelectionRule) -> String {
+    format!("{} ({})", rule.asked, rule.clause)
 }
 
 fn verdict(met: bool) -> &'static str {
@@ -351,13 +345,14 @@ fn mean_shear(check: &SelectionCheck) -> f64 {
 fn rules_table(check: &SelectionCheck) -> Markup {
     html! {
         div.scroll { table { tbody {
-            @for rule in rules(check) {
+            @for rule in &check.rules {
                 tr {
                     td style="vertical-align: top" { b { (verdict(rule.met)) } }
-                    td style="white-space: normal" { (rule.about) ": " (rule.asked) }
+                    td style="white-space: normal" { (rule.found) ": " (asked(rule)) }
                 }
             }
         } } }
+        @for note in &check.notes { p.quiet { (note) } }
     }
 }
 

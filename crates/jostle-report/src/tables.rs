@@ -58,7 +58,7 @@ pub(crate) fn impacts(page: &Page) -> Markup {
                     } }
                     tbody {
                         @for (i, (gap, contact, impact)) in rows.iter().enumerate() {
-                            tr.beyond[i >= FIRST_ROWS] {
+                            tr.beyond[i >= FIRST_ROWS] data-start=(impact.start_s) data-end=(impact.end_s) data-at=(impact.peak_force_at_s) {
                                 td { @if several { (gap.between[0]) "–" (gap.between[1]) ", " } (place(contact)) }
                                 @for value in cells(impact) { td.number { (value) } }
                             }

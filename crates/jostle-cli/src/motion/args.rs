@@ -17,7 +17,7 @@ pub(crate) enum MotionCommand {
     /// Make an artificial motion
     #[command(subcommand)]
     Synth(SynthCommand),
-    /// Check a set of motions as GB 50011, clause 5.1.2, asks
+    /// Check a set of motions by the rules of the code [exit code 1 if it does not meet them]
     Select(SelectArgs),
 }
 
@@ -289,7 +289,7 @@ pub(crate) struct SynthPulseArgs {
     /// mavroeidis, makris-a, makris-b, makris-c1, makris-c2, …
     #[arg(long)]
     pub(crate) shape: String,
-    /// Amplitude of the velocity
+    /// Peak velocity
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) velocity: String,
     /// Period of the pulse
@@ -331,7 +331,7 @@ pub(crate) struct SelectArgs {
     /// Artificial motions: built-in names or files
     #[arg(long, value_delimiter = ',')]
     pub(crate) artificial: Vec<String>,
-    /// Main periods of the structure in s
+    /// Main periods of the structure in s; the longest is T1
     #[arg(long, value_delimiter = ',', required = true)]
     pub(crate) periods: Vec<String>,
     /// Effective mass ratio of each period [default: equal ones]

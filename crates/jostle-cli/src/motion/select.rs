@@ -1,4 +1,4 @@
-//! `jostle motion select`: whether a set of motions serves for time-history analysis.
+//! `jostle motion select`: whether a set of motions is suitable for time-history analysis.
 
 use std::fmt::Write;
 
@@ -55,14 +55,29 @@ pub(super) fn select(args: &SelectArgs) -> Result<(), Failure> {
         write_atomically(path, render_selection(&page).map_err(wrong)?.as_bytes())?;
     }
     if args.json {
-        return terminal::print(&format!("{:#}", selection_json(&set, &check, &periods)));
+        terminal::print(&format!("{:#}", selection_json(&set, &check, &periods)))?;
+        return verdict(&check);
     }
     let mut text = format!("{}\n", styled(BOLD, &target.name()));
     describe(&mut text, &set, &check, &periods);
     if let Some(path) = &args.html {
         let _ = writeln!(text, "\n{}", path.display());
     }
-    terminal::print(&text)
+    terminal::print(&text)?;
+    verdict(&check)
+}
+
+/// A set that does not meet its code ends the command as a failed analysis does.
+fn verdict(check: &SelectionCheck) -> Result<(), Failure> {
+    if check.passes() {
+        return Ok(());
+    }
+    let unmet = check.rules.iter().filter(|rule| !rule.met).count();
+    Err(Failure::Analysis(format!(
+        "the set does not meet {}: {unmet} of {} rules",
+        check.code.clause(),
+        check.rules.len()
+    )))
 }
 
 fn main_periods(args: &SelectArgs) -> Result<Vec<MainPeriod>, Failure> {
@@ -108,14 +123,20 @@ fn describe(text: &mut String, set: &[Candidate], check: &SelectionCheck, period
     }
     let mean = check.base_shear.iter().sum::<f64>() / set.len() as f64;
     let _ = writeln!(text, "{mean:12.3}\n");
-    let [natural, artificial] = check.counts;
-    for (good, rule) in [
-        (check.enough, format!("{natural} recorded and {artificial} artificial: at least 2 and 1, or 5 and 1 of seven")),
-        (check.mean_agrees, "mean spectrum within 20 % of the code at the main periods".to_owned()),
-        (check.base_shear_agrees, "base shear of each within 65–135 %, of the mean within 80–120 % (estimated from the modes)".to_owned()),
-        (check.long_enough, "effective duration at least five times the longest main period".to_owned()),
-    ] {
-        let verdict = if good { "yes".to_owned() } else { styled(LOUD, "no ") };
-        let _ = writeln!(text, "  {verdict}  {rule}");
+    let _ = writeln!(text, "  {}", check.code.clause());
+    for rule in &check.rules {
+        let verdict = if rule.met {
+            "yes".to_owned()
+        } else {
+            styled(LOUD, "no ")
+        };
+        let _ = writeln!(
+            text,
+            "  {verdict}  {}: {} ({})",
+            rule.found, rule.asked, rule.clause
+        );
+    }
+    for note in &check.notes {
+        let _ = writeln!(text, "       {note}");
     }
 }

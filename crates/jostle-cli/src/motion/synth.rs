@@ -3,8 +3,8 @@
 use jostle_io::Dimension;
 use jostle_motion::{
     Envelope, GroundFilter, Makris, MatchSettings, Matched, Mavroeidis, PulseShape, RECIPES,
-    SineSettings, StochasticSettings, TargetSpectrum, match_spectrum, near_fault_pulse, recipe,
-    spectrum_compatible, stochastic,
+    SineSettings, StochasticSettings, TargetSpectrum, match_spectrum, measures, near_fault_pulse,
+    recipe, spectrum_compatible, stochastic,
 };
 
 use super::args::{
@@ -143,9 +143,10 @@ fn pulse(args: &SynthPulseArgs) -> Result<(), Failure> {
     let name = format!("{} pulse, {}, {}", args.shape, args.velocity, args.period);
     write(&args.wave.out, args.wave.force, &name, &motion)?;
     terminal::print(&format!(
-        "{}: {}",
+        "{}: {}, PGV {:.4} m/s",
         args.wave.out.display(),
-        in_short(&motion)
+        in_short(&motion),
+        measures(&motion).map_err(wrong)?.pgv.value
     ))
 }
 

@@ -1,6 +1,7 @@
 //! PEER AT2 records: a short header whose last line gives the number of values and the step, then values in
 //! free format.
 
+use super::RecordOptions;
 use super::channel::Direction;
 use super::contents::{Contents, Scale, Trace};
 use super::error::RecordError;
@@ -13,7 +14,7 @@ use crate::quantity::shorten;
 ///
 /// # Errors
 /// [`RecordError`] when the header cannot be understood or the number of values is another one.
-pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
+pub(crate) fn read(bytes: &[u8], options: &RecordOptions) -> Result<Contents, RecordError> {
     let mut lines = Lines::new(bytes);
     let mut contents = Contents::new(RecordFormat::At2, Scale::Loose);
     let mut unit = None;
@@ -27,10 +28,21 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
             .ok_or(no_header)?;
         let content = line.text.trim();
         if content.to_ascii_uppercase().contains("NPTS") {
-            let (stated, step) = count_and_step(content).ok_or_else(|| RecordError::Header {
+            let (stated, steps) = count_and_step(content).ok_or_else(|| RecordError::Header {
                 line: line.number,
                 found: shorten(content),
             })?;
+            let step = match steps[..] {
+                [step] => Some(step),
+                // The options come before what the file says.
+                _ if options.step.is_some() => None,
+                _ => {
+                    return Err(RecordError::SeveralSteps {
+                        line: line.number,
+                        steps,
+                    });
+                }
+            };
             break (line.number, stated, step);
         }
         if line.number == 2 {
@@ -64,7 +76,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
         name: String::new(),
         direction: Direction::Unknown,
         unit,
-        step: Some(step),
+        step,
         values,
         lines: map,
         peak: None,
@@ -72,27 +84,38 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
     Ok(contents)
 }
 
-/// Number of values and step from `NPTS= 4000, DT= .0100 SEC` or `4164 0.0100 NPTS, DT`.
-fn count_and_step(content: &str) -> Option<(usize, f64)> {
+/// Number of values and step from `NPTS= 4000, DT= .0100 SEC` or `4164 0.0100 NPTS, DT`. Damaged headers such as
+/// `DT= 4 .0050 SEC` give several steps.
+fn count_and_step(content: &str) -> Option<(usize, Vec<f64>)> {
     let upper = content.to_ascii_uppercase();
     let after = |key: &str| {
         let rest = upper.split_once(key)?.1.trim_start();
-        let rest = rest.strip_prefix(['=', ':'])?.trim_start();
-        let token = rest.split(|c: char| c.is_whitespace() || c == ',').next()?;
-        Some(token.to_owned())
+        Some(rest.strip_prefix(['=', ':'])?.trim_start())
     };
-    let (count, step) = match (after("NPTS"), after("DT")) {
-        (Some(count), Some(step)) => (count, step),
+    let (counts, steps) = match (after("NPTS"), after("DT")) {
+        (Some(counts), Some(steps)) => (counts, steps),
         _ => {
-            let mut tokens = upper.split(|c: char| c.is_whitespace() || c == ',');
-            let mut next = || tokens.by_ref().find(|token| !token.is_empty());
-            (next()?.to_owned(), next()?.to_owned())
+            let [count, step] = upper.trim_start().splitn(2, is_gap).collect::<Vec<_>>()[..] else {
+                return None;
+            };
+            (count, step)
         }
     };
     // A few files print the count as a decimal number.
-    let count = count.trim_end_matches('.').parse().ok()?;
-    let step: f64 = step.trim_end_matches("SEC").parse().ok()?;
-    (step.is_finite() && step > 0.0).then_some((count, step))
+    let count = words(counts).next()?.trim_end_matches('.').parse().ok()?;
+    let steps: Vec<f64> = words(steps)
+        .map_while(|word| word.trim_end_matches("SEC").parse().ok())
+        .collect();
+    let good = |step: &f64| step.is_finite() && *step > 0.0;
+    (!steps.is_empty() && steps.iter().all(good)).then_some((count, steps))
+}
+
+fn is_gap(c: char) -> bool {
+    c.is_whitespace() || c == ','
+}
+
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(is_gap).filter(|word| !word.is_empty())
 }
 
 /// The unit of `… IN UNITS OF G. FILTER POINTS …` or `The units are (g)`.

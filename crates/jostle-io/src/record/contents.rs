@@ -235,7 +235,8 @@ fn step(
                 stated: format!("{stated} s"),
             });
         }
-        (_, stated, wanted) => stated.or(wanted),
+        // Within the tolerance above, the step asked for has the digits that the header lost.
+        (_, stated, wanted) => wanted.or(stated),
     }
     .ok_or(RecordError::StepUnknown)
 }

@@ -10,10 +10,15 @@ pub enum RecordError {
     #[error(": cannot be read: {0}")]
     Io(#[from] std::io::Error),
     /// More bytes than any record needs.
-    #[error(": the file has {mebibytes} MiB; a record may have at most 64 MiB")]
-    TooLarge {
-        /// Size.
-        mebibytes: usize,
+    #[error(
+        ": has more than 64 MiB, the most that a record may have; cut the record, or export one component as columns of text"
+    )]
+    TooLarge,
+    /// A folder where a record was expected.
+    #[error(": is a folder, not a record; {}", inside(.records))]
+    Folder {
+        /// Names of records in it, as far as they are named, and one more if there are more.
+        records: Vec<String>,
     },
     /// Neither text nor a binary format that is read.
     #[error(
@@ -127,6 +132,18 @@ pub enum RecordError {
         line: usize,
         /// The text.
         found: String,
+    },
+    /// A header with more than one time step.
+    #[error(
+        ":{line}: the header gives {} as the time step; correct the line, or say the right one with step = \"{} s\" beside record",
+        steps.iter().map(|step| format!("{step}")).collect::<Vec<_>>().join(" and "),
+        steps.last().copied().unwrap_or_default()
+    )]
+    SeveralSteps {
+        /// Line, from 1.
+        line: usize,
+        /// Steps, at least two \[s\].
+        steps: Vec<f64>,
     },
     /// A unit asked for that is none of acceleration.
     #[error(": unit = \"{found}\" is not an acceleration; say \"g\" or \"cm/s2\", for example")]
@@ -337,6 +354,24 @@ pub enum RecordError {
         /// Largest number of the file.
         largest: f64,
     },
+}
+
+/// What a folder holds, in words.
+fn inside(records: &[String]) -> String {
+    match records {
+        [] => "there is no record in it".to_owned(),
+        [one] => format!("give the record in it: {one}"),
+        several => {
+            let named = several.iter().take(super::NAMED_RECORDS);
+            let more = if several.len() > super::NAMED_RECORDS {
+                ", …"
+            } else {
+                ""
+            };
+            let named: Vec<_> = named.map(String::as_str).collect();
+            format!("give one of the records in it: {}{more}", named.join(", "))
+        }
+    }
 }
 
 /// `:12`, or nothing where lines mean nothing.

@@ -16,6 +16,8 @@ pub(crate) struct Fixed {
     pub(crate) real: bool,
     /// Blank columns behind a number.
     gap: usize,
+    /// Reals of this magnitude and above may stand without their point.
+    whole_from: f64,
 }
 
 /// Numbers read in fixed columns.
@@ -31,6 +33,7 @@ impl Fixed {
             width,
             real: true,
             gap: 0,
+            whole_from: f64::INFINITY,
         }
     }
 
@@ -40,6 +43,7 @@ impl Fixed {
             width,
             real: false,
             gap: 0,
+            whole_from: f64::INFINITY,
         }
     }
 
@@ -48,6 +52,15 @@ impl Fixed {
         Self {
             width: self.width + 1,
             gap: 1,
+            ..self
+        }
+    }
+
+    /// The same, for programs that print reals from this magnitude on without decimals, so that they fit their
+    /// columns.
+    pub(crate) const fn whole_from(self, magnitude: f64) -> Self {
+        Self {
+            whole_from: magnitude,
             ..self
         }
     }
@@ -80,6 +93,7 @@ impl Fixed {
             width: width.trim().parse().ok()?,
             real: !inner[letter..].starts_with('I'),
             gap: 0,
+            whole_from: f64::INFINITY,
         };
         let sane = (1..=40).contains(&fixed.per_line) && (1..=40).contains(&fixed.width);
         sane.then_some(fixed)
@@ -155,15 +169,19 @@ impl Fixed {
             let whole = field.len() == self.width - self.gap
                 && digits.bytes().all(plain)
                 && gap.trim().is_empty();
-            let pointed = digits.contains('.') == self.real;
             if read == 0 && !whole && digits.contains(char::is_alphabetic) {
                 // The text that follows the numbers.
                 return Ok(0);
             }
-            if !whole || !pointed {
+            if !whole {
                 return Err(bad(digits.trim()));
             }
-            values.push(number(line, digits)?);
+            let value = number(line, digits)?;
+            let pointed = digits.contains('.') == self.real;
+            if !pointed && (!self.real || value.abs() < self.whole_from) {
+                return Err(bad(digits.trim()));
+            }
+            values.push(value);
             read += 1;
             rest = after;
         }

@@ -1,9 +1,11 @@
 //! The formats of records, and how to tell them apart by what a file contains.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use super::error::RecordError;
-use super::lines::Lines;
+use super::header::find_phrase;
+use super::lines::{Lines, without_fill};
 use super::{miniseed, sac};
 
 /// A format of ground-motion records.
@@ -98,8 +100,10 @@ impl RecordFormat {
         if sac::is_sac(bytes) {
             return Ok(Self::Sac);
         }
-        check_text(bytes)?;
-        Ok(detect_text(bytes))
+        let text = without_fill(bytes);
+        check_text(text)?;
+        check_family(text)?;
+        Ok(detect_text(text))
     }
 }
 
@@ -142,6 +146,61 @@ pub(crate) fn check_text(bytes: &[u8]) -> Result<(), RecordError> {
         return Err(RecordError::Binary);
     }
     Ok(())
+}
+
+/// Refuses text formats that are known by name but not read.
+///
+/// Layouts: the readers `bhrc`, `unam` and `usc` of gmprocess (USGS).
+fn check_family(bytes: &[u8]) -> Result<(), RecordError> {
+    let lines: Vec<_> = Lines::new(bytes)
+        .take(FAMILY_LINES)
+        .map(|line| line.text)
+        .collect();
+    let line = |number: usize| lines.get(number - 1).map_or("", |text| text.as_ref());
+    let has = |text: &str, phrase| find_phrase(text, phrase).is_some();
+    let (what, remedy) = if line(1).starts_with("* VOL") && line(7).starts_with("COMP") {
+        (
+            "a BHRC file (Iran Strong Motion Network)",
+            "copy the values of one component, one on a line, into a file of their own and say its unit and step beside record (volume 1: unit = \"g/10\", and the duration over the number of points less one)",
+        )
+    } else if lines
+        .iter()
+        .any(|text| has(text, "archivo estandar de aceleracion"))
+    {
+        (
+            "an accelerogram in the standard format of UNAM (Mexico)",
+            "copy the three columns below the header into a file of their own and say unit = \"gal\", column = 1 (to 3) and step (INTERVALO DE MUESTREO) beside record",
+        )
+    } else if is_usc(&lines) {
+        (
+            "a file of the University of Southern California (USC)",
+            "take the same record as AT2 from PEER, or copy the accelerations of one component, one on a line, into a file of their own and say its unit and step beside record",
+        )
+    } else {
+        return Ok(());
+    };
+    Err(RecordError::Wrapped { what, remedy })
+}
+
+/// Lines in which these families name themselves.
+const FAMILY_LINES: usize = 14;
+
+/// Volumes of USC look like those of CSMIP, with the number of the line in columns 73 and 74.
+fn is_usc(lines: &[Cow<'_, str>]) -> bool {
+    let first = lines.first().map_or("", AsRef::as_ref);
+    let start = if find_phrase(first, "of uncorrected accelerogram data of").is_some() {
+        1
+    } else if find_phrase(first, "corrected accelerogram").is_some() {
+        2
+    } else {
+        return false;
+    };
+    let numbered = |text: &Cow<'_, str>| {
+        let number = text.get(72..).map(|rest| rest.get(..2).unwrap_or(rest));
+        number.is_some_and(|number| number.trim().parse::<u8>().is_ok())
+    };
+    let header = lines.get(start..start + 12).unwrap_or_default();
+    !header.is_empty() && header.iter().all(numbered)
 }
 
 /// Lines that can tell a format.

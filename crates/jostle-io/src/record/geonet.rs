@@ -13,6 +13,9 @@ use super::lines::{Lines, printed};
 
 const FORMAT: RecordFormat = RecordFormat::GeoNet;
 const TEXT_LINES: usize = 16;
+/// From this value on, numbers are printed without decimals, as six characters must do \[mm/s²\].
+const WHOLE_FROM: f64 = 1e4;
+const REALS: Fixed = Fixed::reals(10, 8).whole_from(WHOLE_FROM);
 /// Channels at most.
 const MOST_CHANNELS: usize = 64;
 
@@ -68,7 +71,7 @@ fn component(lines: &mut Lines<'_>, text: &[String]) -> Result<Trace, RecordErro
     let first = lines.number() + 1 - TEXT_LINES;
     let integers = Fixed::integers(10, 8).read(lines, 40, FORMAT)?.values;
     let reals_line = lines.number() + 1;
-    let reals = Fixed::reals(10, 8).read(lines, 60, FORMAT)?.values;
+    let reals = REALS.read(lines, 60, FORMAT)?.values;
     let counts = [integers[33], integers[34], integers[35]];
     if counts.iter().any(|count| !(0.0..1e9).contains(count)) {
         let problem = "integers 34 to 36 are no numbers of samples";
@@ -77,10 +80,10 @@ fn component(lines: &mut Lines<'_>, text: &[String]) -> Result<Trace, RecordErro
     let step = reals[25];
     check_text(text, first, step, counts[0])?;
 
-    let block = Fixed::reals(10, 8).read(lines, counts[0] as usize, FORMAT)?;
+    let block = REALS.read(lines, counts[0] as usize, FORMAT)?;
     // Velocities and displacements are only checked to be there.
     for count in &counts[1..] {
-        Fixed::reals(10, 8).read(lines, *count as usize, FORMAT)?;
+        REALS.read(lines, *count as usize, FORMAT)?;
     }
     let line = first + 13;
     let peak = find_phrase(&text[13], "acceleration:")
@@ -88,7 +91,12 @@ fn component(lines: &mut Lines<'_>, text: &[String]) -> Result<Trace, RecordErro
         .and_then(printed)
         .map(|(value, digit)| Peak {
             value,
-            digit,
+            digit: if value.abs() < WHOLE_FROM {
+                digit
+            } else {
+                // Rounded to whole numbers.
+                digit + 0.5
+            },
             line,
             // Times leave out what was put before the record for filtering.
             time: word_after(&text[13], "at")

@@ -86,6 +86,16 @@ impl<'t> Iterator for Lines<'t> {
     }
 }
 
+/// A text without the bytes that old systems put behind it: Ctrl-Z (0x1A) marks the end of a DOS file, NUL fills
+/// its last block. Such bytes anywhere else stay, and are refused.
+pub(crate) fn without_fill(bytes: &[u8]) -> &[u8] {
+    let is_fill = |byte: &u8| matches!(byte, 0 | 0x1a);
+    let text = |byte: &u8| !is_fill(byte) && !byte.is_ascii_whitespace();
+    let end = bytes.iter().rposition(text).map_or(0, |last| last + 1);
+    let fill = bytes[end..].iter().position(is_fill);
+    fill.map_or(bytes, |at| &bytes[..end + at])
+}
+
 /// A finite number; Fortran exponents (`1.5D-3`) and decimal commas are understood.
 pub(crate) fn number(line: usize, text: &str) -> Result<f64, RecordError> {
     let parsed = text.parse::<f64>();
@@ -114,6 +124,14 @@ pub(crate) fn last_digit(text: &str) -> f64 {
 pub(crate) fn printed(text: &str) -> Option<(f64, f64)> {
     let value = text.parse::<f64>().ok().filter(|value| value.is_finite())?;
     Some((value, last_digit(text)))
+}
+
+/// The number of fewest digits within `uncertainty` of a value: 0.02 for 0.019999999.
+pub(crate) fn simplest(value: f64, uncertainty: f64) -> f64 {
+    (0..15)
+        .filter_map(|digits| format!("{value:.digits$e}").parse::<f64>().ok())
+        .find(|rounded| (rounded - value).abs() <= uncertainty)
+        .unwrap_or(value)
 }
 
 /// On which line a value stands, stored as runs of lines with equally many values.

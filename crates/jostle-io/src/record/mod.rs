@@ -12,6 +12,7 @@ mod cosmos;
 mod csmip;
 mod error;
 mod esm;
+mod film;
 mod fixed;
 mod format;
 mod geonet;
@@ -30,6 +31,7 @@ pub use error::RecordError;
 pub use format::RecordFormat;
 pub(crate) use units::acceleration_unit;
 
+use crate::bounded::read_at_most;
 use contents::Contents;
 
 /// Equally spaced ground accelerations; the first value is at time zero.
@@ -201,9 +203,34 @@ fn info(contents: &Contents, channels: Vec<Channel>, chosen: Option<usize>) -> R
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
-    let size = usize::try_from(std::fs::metadata(path)?.len()).unwrap_or(usize::MAX);
-    check_size(size)?;
-    Ok(std::fs::read(path)?)
+    if path.is_dir() {
+        return Err(RecordError::Folder {
+            records: records_in(path)?,
+        });
+    }
+    read_at_most(path, LARGEST_FILE)?.ok_or(RecordError::TooLarge)
+}
+
+/// Files of a folder looked at for records, and records named in a message.
+const FOLDER_FILES: usize = 100;
+const NAMED_RECORDS: usize = 8;
+
+/// Names of files in a folder that can be read as records, in order; one more than are named if there are more.
+fn records_in(folder: &Path) -> Result<Vec<String>, RecordError> {
+    let mut paths: Vec<_> = std::fs::read_dir(folder)?
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| path.is_file())
+        .take(10_000)
+        .collect();
+    paths.sort();
+    let readable = |path: &std::path::PathBuf| {
+        let bytes = read_at_most(path, LARGEST_FILE).ok().flatten();
+        bytes.is_some_and(|bytes| parse_info(&bytes, &RecordOptions::default()).is_ok())
+    };
+    let name = |path: std::path::PathBuf| Some(path.file_name()?.to_string_lossy().into_owned());
+    let records = paths.into_iter().take(FOLDER_FILES).filter(readable);
+    Ok(records.filter_map(name).take(NAMED_RECORDS + 1).collect())
 }
 
 fn parse_contents(bytes: &[u8], options: &RecordOptions) -> Result<Contents, RecordError> {
@@ -212,17 +239,21 @@ fn parse_contents(bytes: &[u8], options: &RecordOptions) -> Result<Contents, Rec
         Some(format) => format,
         None => RecordFormat::detect(bytes)?,
     };
-    if !matches!(format, RecordFormat::MiniSeed | RecordFormat::Sac) {
-        format::check_text(bytes)?;
-    }
+    let bytes = if matches!(format, RecordFormat::MiniSeed | RecordFormat::Sac) {
+        bytes
+    } else {
+        let text = lines::without_fill(bytes);
+        format::check_text(text)?;
+        text
+    };
     let contents = match format {
-        RecordFormat::At2 => at2::read(bytes),
+        RecordFormat::At2 => at2::read(bytes, options),
         RecordFormat::Columns => columns::read(bytes, options),
         RecordFormat::Cosmos => cosmos::read(bytes),
         RecordFormat::Csmip => csmip::read(bytes, options),
         RecordFormat::Knet => knet::read(bytes),
         RecordFormat::Esm => esm::read(bytes),
-        RecordFormat::Smc => smc::read(bytes),
+        RecordFormat::Smc => smc::read(bytes, options),
         RecordFormat::GeoNet => geonet::read(bytes),
         RecordFormat::Afad => afad::read(bytes),
         RecordFormat::MiniSeed => miniseed::read(bytes),
@@ -234,9 +265,7 @@ fn parse_contents(bytes: &[u8], options: &RecordOptions) -> Result<Contents, Rec
 
 fn check_size(size: usize) -> Result<(), RecordError> {
     if size > LARGEST_FILE {
-        return Err(RecordError::TooLarge {
-            mebibytes: size >> 20,
-        });
+        return Err(RecordError::TooLarge);
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use super::contents::{Contents, Scale, Trace};
 use super::error::RecordError;
 use super::format::RecordFormat;
 use super::header::{agree, malformed};
-use super::lines::LineMap;
+use super::lines::{LineMap, simplest};
 
 const FORMAT: RecordFormat = RecordFormat::Sac;
 const HEADER: usize = 632;
@@ -134,7 +134,8 @@ pub(crate) fn read(bytes: &[u8], options: &RecordOptions) -> Result<Contents, Re
         });
     }
     let step = header.real(word::DELTA).filter(|step| *step > 0.0);
-    let mut step = step.ok_or_else(|| bad("the header states no step (DELTA)".into()))?;
+    let step = step.ok_or_else(|| bad("the header states no step (DELTA)".into()))?;
+    let mut step = freed_from_rounding(&header, points, step);
     if footer > 0 {
         // Version 7 repeats the step with sixteen digits.
         let at = data.len() - FOOTER;
@@ -189,6 +190,29 @@ pub(crate) fn read(bytes: &[u8], options: &RecordOptions) -> Result<Contents, Re
         peak: None,
     });
     Ok(contents)
+}
+
+/// The step of B, E and NPTS where DELTA differs from it by no more than the rounding of one 32-bit time: programs
+/// that keep times compute DELTA as the difference of two of them. Over many steps that rounding is divided by their
+/// number.
+fn freed_from_rounding(header: &Header<'_>, points: usize, step: f64) -> f64 {
+    let (Some(begin), Some(end), true) = (
+        header.real(word::BEGIN),
+        header.real(word::END),
+        points >= 2,
+    ) else {
+        return step;
+    };
+    let intervals = (points - 1) as f64;
+    let mean = (end - begin) / intervals;
+    let rounding = f64::from(f32::EPSILON) * begin.abs().max(end.abs());
+    let agrees = (step - mean).abs() <= rounding / intervals + f64::from(f32::EPSILON) * step;
+    let rounded = (step - mean).abs() <= 1.01 * rounding;
+    if agrees || !rounded {
+        step
+    } else {
+        simplest(mean, rounding / intervals)
+    }
 }
 
 /// Only evenly spaced accelerations, or what may be such, are a record.

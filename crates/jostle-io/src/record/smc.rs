@@ -3,9 +3,11 @@
 //! Layout: USGS National Strong-Motion Program, "SMC- and BBF-format data files". Accelerations are in cm/s² by
 //! definition; values fill columns of ten and run together.
 
+use super::RecordOptions;
 use super::channel::Direction;
 use super::contents::{Contents, Peak, Scale, Trace, named_unit};
 use super::error::RecordError;
+use super::film::Film;
 use super::fixed::Fixed;
 use super::format::RecordFormat;
 use super::header::{malformed, word_after};
@@ -18,7 +20,7 @@ const TEXT_LINES: usize = 11;
 /// Reals above this are not stated.
 const UNKNOWN: f64 = 1e38;
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
+pub(crate) fn read(bytes: &[u8], options: &RecordOptions) -> Result<Contents, RecordError> {
     let mut lines = Lines::new(bytes);
     let text: Vec<String> = (&mut lines)
         .take(TEXT_LINES)
@@ -55,17 +57,29 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
         }
     }
     let points = count(17, "the number of values")?;
-    let rate = real(2).filter(|rate| *rate > 0.0).ok_or_else(|| {
-        let problem = "real 2 states no samples per second: values at unequal times cannot be used";
-        malformed(FORMAT, reals_line, problem)
-    })?;
-    let block = Fixed::reals(8, 10).read(&mut lines, points, FORMAT)?;
+    let extremes = [(real(29), real(30)), (real(31), real(32))];
+    let mut peak = peak(&text, extremes, reals_line + 5);
+    let fixed = Fixed::reals(8, 10);
+    let (step, block) = match real(2).filter(|rate| *rate > 0.0) {
+        Some(rate) => (1.0 / rate, fixed.read(&mut lines, points, FORMAT)?),
+        // Without samples per second, the values are pairs of time and acceleration.
+        None => {
+            if points % 2 == 1 {
+                let problem = "real 2 states no samples per second, and the number of values is odd: these are no pairs of time and acceleration";
+                return Err(malformed(FORMAT, reals_line, problem));
+            }
+            let film = Film::read(&mut lines, points / 2, fixed, FORMAT)?;
+            // Interpolation may cut the peak.
+            if let Some(peak) = peak.take() {
+                film.check_peak(peak, FORMAT)?;
+            }
+            film.equally_spaced(options)?
+        }
+    };
     if let Some(line) = lines.find(|line| !line.text.is_empty()) {
         let problem = "more values than integer 17 announces";
         return Err(malformed(FORMAT, line.number, problem));
     }
-    let extremes = [(real(29), real(30)), (real(31), real(32))];
-    let peak = peak(&text, extremes, reals_line + 5);
 
     let mut contents = Contents::new(FORMAT, Scale::Stated);
     contents.station = station(&text);
@@ -85,7 +99,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
         name: word_after(&text[5], "component")
             .map_or_else(|| format!("{azimuth:.0}"), str::to_owned),
         unit: named_unit("cm/s2"),
-        step: Some(1.0 / rate),
+        step: Some(step),
         values: block.values,
         lines: block.lines,
         peak,

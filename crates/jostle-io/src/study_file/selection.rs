@@ -9,7 +9,7 @@ use crate::model_file::read_spectrum;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
-/// What the records of a study are held against (GB 50011-2010 (2016), clause 5.1.2).
+/// What the records of a study are held against; the rules are those of the code of the spectrum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelectionWanted {
     /// Spectrum of the code.

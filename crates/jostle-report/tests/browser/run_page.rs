@@ -152,6 +152,44 @@ fn impacts_sort_and_unfold() {
 }
 
 #[test]
+fn a_row_of_the_impact_table_shows_its_impact() {
+    for run in [two_frames(0.1), row_of_three()] {
+        let Some(page) = open(&run, 1280, 900) else {
+            return;
+        };
+        // The greatest forces first: rows have to keep their impact when they are sorted.
+        page.value("document.querySelectorAll('#impact-table th button')[3].click()");
+        let contacts = run.summary.gaps.iter().flat_map(|gap| &gap.contacts);
+        let mut impacts: Vec<_> = contacts.flat_map(|contact| &contact.impacts).collect();
+        impacts.sort_by(|a, b| b.peak_force_n.total_cmp(&a.peak_force_n));
+        // The instants of the player have three decimals.
+        let rounding = 5.1e-4;
+        page.value("document.getElementById('play').click()");
+        for (row, impact) in impacts.iter().enumerate().take(30) {
+            page.value(&format!(
+                "document.querySelectorAll('#impact-table tbody tr')[{row}].cells[2].click()"
+            ));
+            let clock = page.clock();
+            assert!(
+                (clock - impact.peak_force_at_s).abs() <= rounding,
+                "row {row} jumps to {clock} s; its peak force is at {} s",
+                impact.peak_force_at_s
+            );
+            assert!(
+                impact.start_s <= clock + rounding && clock - rounding <= impact.end_s,
+                "row {row} at {clock} s"
+            );
+            let flashes = "[...document.querySelectorAll('#scene .flash')].filter(c => c.style.display !== 'none' && Number(c.style.opacity) > 0.85).length";
+            assert!(page.number(flashes) >= 1.0, "row {row} shows no contact");
+            let force = page.text("document.getElementById('force-now').textContent");
+            assert!(force.ends_with("kN"), "row {row}: {force:?}");
+        }
+        page.picture("row-clicked");
+        page.assert_content();
+    }
+}
+
+#[test]
 fn marks_and_loops_follow_the_clock() {
     let Some(page) = open(&yielding(), 1180, 900) else {
         return;

@@ -1,4 +1,4 @@
-//! Whether the records of a study serve for time-history analysis: GB 50011-2010 (2016), clause 5.1.2.
+//! Whether the records of a study are suitable for time-history analysis, by the code of their spectrum.
 
 use jostle::{GroundMotion, System, Wave};
 use jostle_io::{
@@ -6,7 +6,8 @@ use jostle_io::{
     Values, selection_json, write_atomically,
 };
 use jostle_motion::{
-    Accelerogram, Candidate, MainPeriod, MotionFault, Origin, check_selection, recipe,
+    Accelerogram, Candidate, MainPeriod, MotionFault, Origin, SelectionCode, check_selection,
+    recipe,
 };
 use jostle_report::{CheckedStructure, Section, selection_sections};
 use serde_json::json;
@@ -135,13 +136,16 @@ impl Results<'_> {
                     .filter(|structure| !structure.check.passes())
                     .map(|structure| &structure.name[..])
                     .collect();
+                let clause = SelectionCode::of(&wanted.target).clause();
                 self.said.push(match &failed[..] {
-                    [] => "The records meet what is checked of GB 50011, clause 5.1.2.".to_owned(),
-                    [""] => "The records do not meet GB 50011, clause 5.1.2.".to_owned(),
-                    names => format!(
-                        "The records do not meet GB 50011, clause 5.1.2, for {}.",
-                        names.join(", ")
-                    ),
+                    [] => format!("The records meet what is checked of {clause}."),
+                    [""] => format!("The records do not meet {clause}."),
+                    names => {
+                        format!(
+                            "The records do not meet {clause}, for {}.",
+                            names.join(", ")
+                        )
+                    }
                 });
                 Ok(sections)
             }

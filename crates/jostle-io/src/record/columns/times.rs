@@ -1,7 +1,11 @@
 //! Columns of printed times, and the step between them.
 
 use crate::record::error::RecordError;
-use crate::record::lines::{LineMap, last_digit, number};
+use crate::record::lines::{LineMap, last_digit, number, simplest};
+
+/// Rounding of a time that was computed in 32-bit reals, over its magnitude: two units of the last place, as
+/// begin + i·step has two roundings \[–\].
+const SINGLE: f64 = 2.0 * f32::EPSILON as f64;
 
 /// Printed times: equally spaced, but for the rounding of their last digit.
 #[derive(Default)]
@@ -60,23 +64,37 @@ impl Times {
         }
         let intervals = (count - 1) as f64;
         let step = (last - self.first) / intervals;
-        // Times printed too coarsely to tell a rounded step from a lost line must be exact.
-        let rounding = |digit: f64| {
-            if digit <= 0.25 * step {
-                0.51 * digit
+        // Times rounded too coarsely to tell a rounded step from a lost line must be exact.
+        let fine = |rounding: f64| {
+            if rounding <= 0.13 * step {
+                rounding
             } else {
                 0.0
             }
         };
-        let ends = rounding(self.digit(count - 1)) + rounding(self.digit(0));
+        let printed = |i: usize| fine(0.51 * self.digit(i));
+        let single = |i: usize| fine(SINGLE * self.values[i].abs()) + printed(i);
+        let precise = self.equal_steps(step, &printed);
+        // Many programs keep times in 32 bits and print digits that these do not have.
+        let ends = match precise {
+            Ok(ends) => ends,
+            Err(unequal) => self.equal_steps(step, &single).map_err(|_| unequal)?,
+        };
+        Ok(simplest(step, (ends / intervals).max(1e-12 * step)))
+    }
+
+    /// What rounding may have changed between the ends \[s\], if every time is a whole number of steps after the
+    /// first, but for its own `rounding` and that of the ends.
+    fn equal_steps(&self, step: f64, rounding: &dyn Fn(usize) -> f64) -> Result<f64, RecordError> {
+        let ends = rounding(self.values.len() - 1) + rounding(0);
         for (i, time) in self.values.iter().enumerate() {
             let expected = self.first + i as f64 * step;
-            let allowed = ends + rounding(self.digit(i)) + 1e-6 * step + 1e-9 * time.abs();
+            let allowed = ends + rounding(i) + 1e-6 * step + 1e-9 * time.abs();
             if (time - expected).abs() > allowed {
                 return Err(self.culprit(i, expected));
             }
         }
-        Ok(simplest(step, (ends / intervals).max(1e-12 * step)))
+        Ok(ends)
     }
 
     /// The first time that does not continue the first step, rather than the one at `index`, which only
@@ -94,12 +112,4 @@ impl Times {
             expected: simplest(expected, 1e-9 * expected.abs()),
         }
     }
-}
-
-/// The number of fewest digits within `uncertainty` of a value: 0.02 for 0.019999999.
-fn simplest(value: f64, uncertainty: f64) -> f64 {
-    (0..15)
-        .filter_map(|digits| format!("{value:.digits$e}").parse::<f64>().ok())
-        .find(|rounded| (rounded - value).abs() <= uncertainty)
-        .unwrap_or(value)
 }

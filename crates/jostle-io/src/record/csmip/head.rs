@@ -118,7 +118,9 @@ impl Head {
         let (value, digit) = word_after(text, phrase)
             .and_then(printed)
             .ok_or_else(missing)?;
-        let time = word_after(text, "at").map(|word| word.trim_end_matches("sec."));
+        // Behind the phrase: "acceleration" has letters in common with "at".
+        let behind = find_phrase(text, phrase).map_or("", |at| &text[at..]);
+        let time = word_after(behind, "at").map(|word| word.trim_end_matches("sec."));
         Ok(Peak {
             value,
             digit,
@@ -175,9 +177,9 @@ impl BlockHeader {
         let (Some(count), Some(step)) = (count, step.filter(|step: &f64| *step > 0.0)) else {
             return Err(expected());
         };
-        // Old files say (UNITS: …) and are printed as (8F10.3); all others name their format.
+        // Old files say (UNITS: …) and print eight numbers on a line; all others name their format.
         let old = find_phrase(&text, "(units:").is_some();
-        let fixed = Fixed::parse(&text).or(old.then_some(Fixed::reals(8, 10)));
+        let fixed = Fixed::parse(&text).or_else(|| old.then(|| eight_on(lines, count)));
         let fixed = fixed.ok_or_else(|| {
             bad("the line states no format of the values, such as (8f10.6)".into())
         })?;
@@ -193,6 +195,19 @@ impl BlockHeader {
     pub(super) fn unit(&self) -> Result<(String, f64), RecordError> {
         let unit = word_after(&self.text, "units:").or_else(|| word_after(&self.text, "sec, in"));
         unit_of(unit.unwrap_or(""), self.line)
+    }
+}
+
+/// Eight numbers on a line, in columns as wide as the next line shows: 10 for cm/s², 9 for g.
+fn eight_on(lines: &Lines<'_>, count: usize) -> Fixed {
+    let next = lines.clone().next();
+    let length = next.map_or(0, |line| line.text.len());
+    let on_line = count.clamp(1, 8);
+    let width = length / on_line;
+    if length.is_multiple_of(on_line) && (7..=15).contains(&width) {
+        Fixed::reals(8, width)
+    } else {
+        Fixed::reals(8, 10)
     }
 }
 

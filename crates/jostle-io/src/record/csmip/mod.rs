@@ -5,22 +5,23 @@
 //!
 //! Layout: Shakal and Huang (1985), "Standard tape format for CSMIP strong-motion data tapes", report OSMS 85-03.
 
-mod film;
 mod head;
 
 use crate::quantity::shorten;
 use crate::record::RecordOptions;
 use crate::record::contents::{Contents, Peak, Scale, Trace};
 use crate::record::error::RecordError;
+use crate::record::film::Film;
 use crate::record::fixed::Fixed;
 use crate::record::format::RecordFormat;
 use crate::record::header::{agree, find_phrase, malformed, word_after};
 use crate::record::lines::{Line, Lines};
 
-use film::Film;
 use head::{BlockHeader, Head, unit_of};
 
 const FORMAT: RecordFormat = RecordFormat::Csmip;
+/// Five pairs of time and acceleration on a line of film.
+const FILM: Fixed = Fixed::reals(10, 7);
 const MOST_CHANNELS: usize = 256;
 
 pub(crate) fn read(bytes: &[u8], options: &RecordOptions) -> Result<Contents, RecordError> {
@@ -69,9 +70,12 @@ fn end<'t>(lines: &mut Lines<'t>) -> Result<Option<Line<'t>>, RecordError> {
     }
 }
 
+/// Above equally spaced accelerations.
+const EQUAL_POINTS: &str = "points of accel data";
+
 /// The three blocks of a corrected record; velocities and displacements are only checked to be there.
 fn corrected(lines: &mut Lines<'_>, head: &Head) -> Result<Trace, RecordError> {
-    let accelerations = BlockHeader::read(lines, "points of accel data", "accelerations")?;
+    let accelerations = BlockHeader::read(lines, EQUAL_POINTS, "accelerations")?;
     let unit = accelerations.unit()?;
     let peak = head.peak("Peak acceleration =")?;
     let step = accelerations.step;
@@ -103,8 +107,9 @@ fn corrected(lines: &mut Lines<'_>, head: &Head) -> Result<Trace, RecordError> {
     Ok(head.trace(unit, step, peak, block))
 }
 
-/// Equally spaced values below `13200 Accelerogram points at 200 pts/sec in units of g . Format: (8f9.6)`, or
-/// pairs of time and acceleration without such a line.
+/// Equally spaced values below `13200 Accelerogram points at 200 pts/sec in units of g . Format: (8f9.6)` or
+/// `12001 POINTS OF ACCEL DATA EQUALLY SPACED AT .005 SEC.  (UNITS: G)`, or pairs of time and acceleration without
+/// such a line.
 fn uncorrected(
     lines: &mut Lines<'_>,
     head: &Head,
@@ -151,31 +156,36 @@ fn uncorrected(
             .ok_or_else(|| bad("the line states no format of the values, such as (8f9.6)"))?;
         let unit = unit_of(word_after(&title, "units of").unwrap_or(""), number)?;
         if let Some(length) = length {
-            // Of all values, or of the intervals between them, in thousandths of a second.
-            let whole = count as f64 / rate;
-            let between = whole - 1.0 / rate;
-            let found = if (length - between).abs() < (length - whole).abs() {
-                between
-            } else {
-                whole
-            };
-            agree(
-                FORMAT,
-                text_line,
-                "the record length in s",
-                length,
-                found,
-                1.1e-3,
-            )?;
+            check_length(text_line, length, count, 1.0 / rate)?;
         }
         let block = fixed.read(lines, count, FORMAT)?;
         let peak = peak_in(peak, &unit);
         return Ok(head.trace(unit, 1.0 / rate, peak, block));
     }
 
+    if find_phrase(&title, EQUAL_POINTS).is_some() {
+        let header = BlockHeader::read(lines, EQUAL_POINTS, "accelerations")?;
+        let (points, stated) = (count as f64, header.count as f64);
+        agree(
+            FORMAT,
+            header.line,
+            "the number of values",
+            points,
+            stated,
+            0.0,
+        )?;
+        if let Some(length) = length {
+            check_length(text_line, length, count, header.step)?;
+        }
+        let unit = header.unit()?;
+        let block = header.fixed.read(lines, count, FORMAT)?;
+        let peak = peak_in(peak, &unit);
+        return Ok(head.trace(unit, header.step, peak, block));
+    }
+
     let (units, units_line) = head.find("units of").unwrap_or(("", head.first_line));
     let unit = unit_of(word_after(units, "sec and").unwrap_or(""), units_line)?;
-    let film = Film::read(lines, count, FORMAT)?;
+    let film = Film::read(lines, count, FILM, FORMAT)?;
     if let Some(length) = length {
         agree(
             FORMAT,
@@ -193,6 +203,25 @@ fn uncorrected(
     // Interpolation may cut the peak; it has been compared above.
     trace.peak = None;
     Ok(trace)
+}
+
+/// The stated length is that of all values, or of the intervals between them, in thousandths of a second.
+fn check_length(line: usize, stated: f64, count: usize, step: f64) -> Result<(), RecordError> {
+    let whole = count as f64 * step;
+    let between = whole - step;
+    let found = if (stated - between).abs() < (stated - whole).abs() {
+        between
+    } else {
+        whole
+    };
+    agree(
+        FORMAT,
+        line,
+        "the record length in s",
+        stated,
+        found,
+        1.1e-3,
+    )
 }
 
 /// The maximum of the text is in g, also where the values are in g/10.

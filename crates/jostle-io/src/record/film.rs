@@ -20,14 +20,15 @@ pub(crate) struct Film {
 const TIME_DIGIT: f64 = 1e-3;
 
 impl Film {
-    /// Reads so many pairs, in five pairs of (F7.3) on a line.
+    /// Reads so many pairs, printed in these columns.
     pub(crate) fn read(
         lines: &mut Lines<'_>,
         count: usize,
+        fixed: Fixed,
         format: RecordFormat,
     ) -> Result<Self, RecordError> {
         let first_line = lines.number() + 1;
-        let block = Fixed::reals(10, 7).read(lines, 2 * count.min(1 << 30), format)?;
+        let block = fixed.read(lines, 2 * count.min(1 << 30), format)?;
         let mut times = block.values.iter().step_by(2).enumerate();
         let mut before = f64::NEG_INFINITY;
         if let Some((at, time)) =
