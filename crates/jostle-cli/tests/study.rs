@@ -454,3 +454,121 @@ fn the_studies_that_come_with_the_program_are_valid() {
     }
     assert!(count >= 3, "{count} studies");
 }
+
+/// The names of the buildings in the summary of a case.
+fn buildings_of(out: &Path, case: u64) -> Vec<String> {
+    let path = out.join(format!("runs/case-{case:010}/summary.json"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+    let summary: serde_json::Value =
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}"));
+    let buildings = summary["buildings"].as_array().cloned().unwrap_or_default();
+    let names = buildings.iter().filter_map(|one| one["name"].as_str());
+    names.map(str::to_owned).collect()
+}
+
+/// A single case belongs to the results in its folder: their model, not the one that the study file names.
+#[test]
+fn a_single_case_has_the_model_of_its_folder() {
+    let folder = workplace(5);
+    let other = TOWERS
+        .replace("\"A\"", "\"North\"")
+        .replace("\"B\"", "\"South\"");
+    std::fs::write(folder.path().join("other.toml"), other).expect("written");
+    let run = |arguments: &[&str]| {
+        let output = jostle(folder.path(), arguments);
+        let said = common::complained(&output);
+        assert!(output.status.success(), "{arguments:?}: {said}");
+    };
+    run(&[
+        "study",
+        "study.toml",
+        "--base",
+        "other.toml",
+        "--out",
+        "my out",
+    ]);
+    run(&["study", "study.toml", "--out", "my out", "--case", "3"]);
+    let out = folder.path().join("my out");
+    assert_eq!(buildings_of(&out, 3), ["North", "South"]);
+
+    // A ready-made study by its name, in the folder that it has by default.
+    run(&["study", "tornado", "--base", "other.toml"]);
+    run(&["study", "tornado", "--case", "2"]);
+    let ready = folder.path().join("jostle-out/tornado");
+    assert_eq!(buildings_of(&ready, 2), ["North", "South"]);
+
+    // The command that the report prints works as it stands, also when the study file is gone.
+    std::fs::remove_file(folder.path().join("study.toml")).expect("removed");
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a report");
+    let command = page.split("<code>").find_map(|rest| {
+        let (command, _) = rest.split_once("</code>")?;
+        command
+            .contains("--case NUMBER")
+            .then(|| command.to_owned())
+    });
+    let command = command.expect("a command").replace("NUMBER", "17");
+    let program = command.replacen("jostle", &format!("'{}'", env!("CARGO_BIN_EXE_jostle")), 1);
+    let script = Command::new("sh")
+        .current_dir(folder.path())
+        .args(["-c", &program])
+        .output()
+        .expect("a shell");
+    assert!(
+        script.status.success(),
+        "{command}: {}",
+        common::complained(&script)
+    );
+    assert_eq!(buildings_of(&out, 17), ["North", "South"]);
+
+    // Another model in the same folder is refused, and the refusal names the model of the folder.
+    let refused = jostle(
+        folder.path(),
+        &["study", "tornado", "--base", "towers.toml", "--case", "2"],
+    );
+    assert_eq!(refused.status.code(), Some(2));
+    let said = common::complained(&refused);
+    assert!(
+        said.contains("the model has changed") && said.contains("other.toml"),
+        "{said}"
+    );
+}
+
+/// A part of another study, and one that a power cut has emptied, are said on standard error and computed again.
+#[test]
+fn foreign_and_empty_parts_are_said_and_computed_again() {
+    let folder = workplace(8);
+    let run = |arguments: &[&str]| {
+        let output = jostle(folder.path(), arguments);
+        assert!(output.status.success(), "{}", common::complained(&output));
+        (common::printed(&output), common::complained(&output))
+    };
+    let study = ["study", "study.toml", "--no-report", "--out"];
+    run(&[&study[..], &["a"]].concat());
+    let expected = table(folder.path().join("a"));
+    let text = std::fs::read_to_string(folder.path().join("study.toml")).expect("a study");
+    std::fs::write(
+        folder.path().join("second.toml"),
+        format!("{text}\n# another\n"),
+    )
+    .expect("written");
+    run(&["study", "second.toml", "--no-report", "--out", "b"]);
+    let part = "cases/part-0000000016.parquet";
+    std::fs::copy(
+        folder.path().join("b").join(part),
+        folder.path().join("a").join(part),
+    )
+    .expect("copied");
+    let (printed, said) = run(&[&study[..], &["a"]].concat());
+    assert!(said.contains("belongs to another study"), "{said}");
+    assert!(printed.contains("(16 now"), "{printed}");
+    assert!(table(folder.path().join("a")) == expected);
+    std::fs::write(folder.path().join("a").join(part), "").expect("written");
+    let (_, said) = run(&[&study[..], &["a"]].concat());
+    assert!(
+        said.contains("is empty") && said.contains("computed again"),
+        "{said}"
+    );
+    assert!(table(folder.path().join("a")) == expected);
+    let (_, said) = run(&[&study[..], &["a"]].concat());
+    assert!(!said.contains("computed again"), "{said}");
+}

@@ -124,6 +124,11 @@ impl ModelTree {
         }
     }
 
+    /// Whether the tree is a part of this text.
+    pub(crate) fn is_of(&self, source: &Arc<Source>) -> bool {
+        Arc::ptr_eq(&self.source, source)
+    }
+
     /// The text that was parsed.
     #[must_use]
     pub fn text(&self) -> &str {

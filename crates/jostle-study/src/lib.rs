@@ -22,6 +22,7 @@ mod study;
 
 pub use case::{CaseError, Prepared, Ran, Workshop};
 pub use critical_gap::{CriticalGap, GapError, GapSettings, RuleGap, critical_gaps};
+pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};
 pub use layout::{Column, Kind, Layout, Named};
 pub use ready_made::{ready_made, ready_made_names};

@@ -414,7 +414,8 @@ fn hashes(file: &StudyFile, _workshop: &Workshop) -> (String, String) {
     (hex(&all.finalize()), model)
 }
 
-fn hex(bytes: &[u8]) -> String {
+/// Bytes as lower-case digits.
+pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().fold(String::new(), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
         text

@@ -16,7 +16,7 @@ use std::path::Path;
 use jostle_io::{FactorValues, Values, write_atomically, write_values_parquet};
 use jostle_report::{Section, StudyPage, render_study};
 
-use crate::dataset::{Table, part_path, read_columns};
+use crate::dataset::{Table, read_columns};
 use crate::layout::Kind;
 use crate::runner::run_folder;
 use crate::study::{Study, StudyError};
@@ -225,7 +225,8 @@ impl Results<'_> {
             failures: failures.collect(),
             failed,
             runs: runs.collect(),
-            command: format!("jostle study {}", study.file.name()),
+            // The folder knows its study and its model, wherever these came from.
+            command: format!("jostle study {}", words::argument(self.folder)),
             files: self.files,
         }
     }
@@ -261,9 +262,7 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
     writeln!(writer, "{}", quoted.join(",")).map_err(|error| unwritable(&error))?;
     for number in 0..study.parts() {
         let mut table = Table::default();
-        let source = part_path(folder, study.part(number).start);
-        crate::dataset::read_part(&source, &names, &mut table)
-            .map_err(|error| unwritable(&error))?;
+        crate::dataset::read_part(study, folder, number, &names, &mut table)?;
         for row in 0..table.rows {
             let cells = names.iter().map(|name| match table.numbers.get(*name) {
                 Some(values) => values

@@ -1,5 +1,7 @@
 //! Columns in words and in the units that people read.
 
+use std::path::Path;
+
 use jostle_io::{DesignKind, Factor, FactorValues};
 use jostle_report::Axis;
 
@@ -88,4 +90,15 @@ pub(super) fn factor(factor: &Factor) -> (String, String) {
         values
     };
     (factor.name.clone(), values)
+}
+
+/// A path as an argument that a shell takes for one.
+pub(super) fn argument(path: &Path) -> String {
+    let text = path.display().to_string();
+    let plain = |c: char| c.is_alphanumeric() || matches!(c, '/' | '\\' | '.' | '_' | '-' | ':');
+    if text.chars().all(plain) && !text.starts_with('-') {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
 }
