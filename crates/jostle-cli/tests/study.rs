@@ -572,3 +572,49 @@ fn foreign_and_empty_parts_are_said_and_computed_again() {
     let (_, said) = run(&[&study[..], &["a"]].concat());
     assert!(!said.contains("computed again"), "{said}");
 }
+
+/// A ready-made study of shear buildings: every key and its range are listed, and its middle is a run of the model.
+#[test]
+fn a_ready_made_study_varies_around_the_model() {
+    let folder = workplace(1);
+    let done = jostle(
+        folder.path(),
+        &["study", "tornado", "--base", "towers.toml", "--out", "out"],
+    );
+    let said = common::complained(&done);
+    assert!(done.status.success(), "{said}");
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
+    for listed in [
+        "gap[*].width: × 0.5 … 1.5 (uniform); in the model 20 mm",
+        "building[0].stiffness: ×",
+        "building[1].mass: ×",
+        "building[*].damping.ratio: 0.0",
+    ] {
+        assert!(said.contains(listed), "{listed} is missing in {said}");
+        assert!(page.contains(listed), "{listed} is missing in the report");
+    }
+    let rows = std::fs::read_to_string(folder.path().join("out/cases.csv")).expect("a table");
+    let mut lines = rows.lines();
+    let heads: Vec<&str> = lines.next().expect("heads").split(',').collect();
+    let middle: Vec<&str> = lines.next().expect("a row").split(',').collect();
+    let number = |name: &str| {
+        let at = heads.iter().position(|head| *head == name);
+        middle[at.unwrap_or_else(|| panic!("no column {name}"))]
+            .parse::<f64>()
+            .ok()
+    };
+    let run = jostle(
+        folder.path(),
+        &["run", "towers.toml", "--json", "--no-report"],
+    );
+    let summary: serde_json::Value =
+        serde_json::from_slice(&run.stdout).unwrap_or_else(|error| panic!("{error}"));
+    let gap = &summary["gaps"][0];
+    assert!(gap["impact_count"].as_u64() > Some(0));
+    assert_eq!(number("impact_count"), gap["impact_count"].as_f64());
+    let forces = (number("peak_force_n"), gap["peak_force_n"].as_f64());
+    let (Some(found), Some(expected)) = forces else {
+        panic!("{forces:?}");
+    };
+    assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+}

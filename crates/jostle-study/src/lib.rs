@@ -19,6 +19,7 @@ pub mod sampling;
 mod single;
 pub mod statistics;
 mod study;
+mod varied;
 
 pub use case::{CaseError, Prepared, Ran, Workshop};
 pub use critical_gap::{CriticalGap, GapError, GapSettings, RuleGap, critical_gaps};
@@ -31,3 +32,4 @@ pub use row::{Row, Status};
 pub use runner::{Done, Progress, RunSettings, run, run_folder};
 pub use single::run_case;
 pub use study::{Study, StudyError};
+pub use varied::{Varied, varied};

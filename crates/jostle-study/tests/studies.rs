@@ -449,9 +449,10 @@ values = [[9e7], [9e7, 9e7, 9e7]]
 #[test]
 fn ready_made_studies_are_valid() {
     for name in jostle_study::ready_made_names() {
-        let text = jostle_study::ready_made(name).unwrap_or_default();
-        let file = StudyFile::parse(name, text, Format::Toml, Path::new(""), None);
-        let study = Study::new(file.unwrap_or_else(|error| panic!("{error}")));
+        let (file, notes) =
+            jostle_study::ready_made(name, None).unwrap_or_else(|error| panic!("{error}"));
+        assert!(notes.is_empty(), "{name}: {notes:?}");
+        let study = Study::new(file);
         let study = study.unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(study.design.cases > 1, "{name}");
     }

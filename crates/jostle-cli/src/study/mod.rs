@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use jostle_io::{ModelTree, StudyFile};
 use jostle_study::{
-    Done, RunSettings, Study, StudyError, of_folder, run, run_case, run_folder, settle,
+    Done, RunSettings, Study, StudyError, of_folder, run, run_case, run_folder, settle, varied,
 };
 
 use crate::failure::Failure;
@@ -131,12 +131,10 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
         })?;
         return Ok((known, args.out.clone().unwrap_or_else(|| path.clone())));
     }
-    let ready = path
-        .to_str()
-        .filter(|_| !path.exists())
-        .and_then(|name| Some((name, jostle_study::ready_made(name)?)));
+    let named = path.to_str().filter(|_| !path.exists());
+    let ready = named.filter(|name| jostle_study::ready_made_names().contains(name));
     let name = match (ready, path.file_stem()) {
-        (Some((name, _)), _) => name.to_owned(),
+        (Some(name), _) => name.to_owned(),
         (None, Some(stem)) => stem.to_string_lossy().into_owned(),
         (None, None) => "study".to_owned(),
     };
@@ -150,7 +148,7 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
         && let Some(known) = of_folder(&out)?
     {
         let same = match ready {
-            Some((name, _)) => known.file.name() == name,
+            Some(name) => known.file.name() == name,
             None => std::fs::read_to_string(path).is_ok_and(|text| text == known.file.text()),
         };
         if same {
@@ -158,13 +156,13 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
         }
     }
     let base = args.base.as_deref().map(ModelTree::find).transpose()?;
-    let file = match ready {
-        Some((name, text)) => {
-            StudyFile::parse(name, text, jostle_io::Format::Toml, Path::new(""), base)?
-        }
-        None => StudyFile::load(path, base)?,
+    let (file, notes) = match ready {
+        Some(name) => jostle_study::ready_made(name, base)?,
+        None => (StudyFile::load(path, base)?, Vec::new()),
     };
-    Ok((Study::new(file)?, out))
+    let mut study = Study::new(file)?;
+    study.warnings.extend(notes);
+    Ok((study, out))
 }
 
 fn headline(study: &Study) -> String {
@@ -175,12 +173,16 @@ fn headline(study: &Study) -> String {
         String::new()
     };
     let inputs: Vec<&str> = study.layout.inputs.iter().map(|c| &c.name[..]).collect();
-    format!(
+    let mut text = format!(
         "{}: {}{seed}, over {}",
         terminal::styled(terminal::BOLD, &study.file.title),
         counted_grouped(study.design.cases, "case"),
         inputs.join(", ")
-    )
+    );
+    for one in varied(study) {
+        text += &format!("\n  {}", one.text());
+    }
+    text
 }
 
 fn description(study: &Study) -> String {

@@ -20,6 +20,7 @@ use crate::dataset::{Table, read_columns};
 use crate::layout::Kind;
 use crate::runner::run_folder;
 use crate::study::{Study, StudyError};
+use crate::varied::varied;
 
 /// Columns that every page uses.
 const ALWAYS: [&str; 7] = [
@@ -198,7 +199,11 @@ impl Results<'_> {
         if study.file.design.samples.is_some() {
             facts.push(("seed".into(), study.file.design.seed.to_string()));
         }
-        facts.extend(study.file.factors.iter().map(words::factor));
+        facts.extend(
+            varied(study)
+                .into_iter()
+                .map(|one| (one.name.clone(), one.text())),
+        );
         let runs = study.file.histories.iter().filter_map(|case| {
             let choices = study.design.choices(*case, &study.file.factors);
             let what: Vec<String> = study
