@@ -179,13 +179,13 @@ impl Manifest {
     fn difference(&self, other: &Self) -> String {
         if self.format != other.format || self.jostle != other.jostle {
             "it was computed by another version of jostle".to_owned()
-        } else if self.study != other.study {
-            "the study file has changed".to_owned()
         } else if self.model != other.model {
             format!(
                 "the model has changed; the folder was made with the base model {}",
                 self.origin.model_name
             )
+        } else if self.study != other.study {
+            "the study file has changed".to_owned()
         } else {
             "a record has changed".to_owned()
         }
