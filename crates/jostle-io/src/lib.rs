@@ -4,6 +4,7 @@
 //! path. Everything that leaves this crate is in SI.
 
 mod builtin;
+mod csv;
 mod fault;
 mod json_tree;
 mod keys;
@@ -33,6 +34,7 @@ pub use builtin::{
     BUILTIN_RECORDS, BuiltinRecord, builtin_model, builtin_motions, builtin_record, model_names,
     model_text,
 };
+pub use csv::csv_field;
 pub use fault::{Fault, InputError};
 pub use keys::LAW_NAMES;
 pub use model_file::{

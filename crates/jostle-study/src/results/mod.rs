@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::Path;
 
-use jostle_io::{FactorValues, Values, write_atomically, write_values_parquet};
+use jostle_io::{FactorValues, Values, csv_field, write_atomically, write_values_parquet};
 use jostle_report::{Section, StudyPage, render_study};
 
 use crate::dataset::{Table, read_columns};
@@ -263,7 +263,7 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
     let part = path.with_extension("csv.part");
     let file = std::fs::File::create(&part).map_err(|error| unwritable(&error))?;
     let mut writer = std::io::BufWriter::new(file);
-    let quoted: Vec<String> = names.iter().map(|name| quote(name)).collect();
+    let quoted: Vec<String> = names.iter().map(|name| csv_field(name)).collect();
     writeln!(writer, "{}", quoted.join(",")).map_err(|error| unwritable(&error))?;
     for number in 0..study.parts() {
         let mut table = Table::default();
@@ -277,7 +277,7 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
                     .map_or(String::new(), |value| value.to_string()),
                 None => {
                     let texts = table.texts.get(*name);
-                    quote(
+                    csv_field(
                         texts
                             .and_then(|texts| texts.get(row))
                             .map_or("", |text| text),
@@ -293,15 +293,6 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
     std::fs::rename(&part, &path).map_err(|error| unwritable(&error))
 }
 
-/// A text as a field of CSV (RFC 4180).
-fn quote(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
 fn csv(columns: &[(String, Values)]) -> String {
     let length = |values: &Values| match values {
         Values::Real(values) => values.len(),
@@ -313,9 +304,9 @@ fn csv(columns: &[(String, Values)]) -> String {
         Values::Real(values) => values[row].to_string(),
         Values::Instant(values) => values[row].map_or(String::new(), |value| value.to_string()),
         Values::Whole(values) => values[row].map_or(String::new(), |value| value.to_string()),
-        Values::Text(values) => quote(&values[row]),
+        Values::Text(values) => csv_field(&values[row]),
     };
-    let heads: Vec<String> = columns.iter().map(|(name, _)| quote(name)).collect();
+    let heads: Vec<String> = columns.iter().map(|(name, _)| csv_field(name)).collect();
     let mut text = heads.join(",") + "\n";
     for row in 0..columns.first().map_or(0, |(_, values)| length(values)) {
         let cells: Vec<String> = columns
