@@ -618,3 +618,172 @@ fn a_ready_made_study_varies_around_the_model() {
     };
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
 }
+
+/// A file of comma-separated values: rows of fields, without their quotes.
+fn fields(text: &str) -> Vec<Vec<String>> {
+    let (mut rows, mut row, mut field) = (Vec::new(), Vec::new(), String::new());
+    let (mut quoted, mut letters) = (false, text.chars().peekable());
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' if quoted && letters.peek() == Some(&'"') => {
+                field.push('"');
+                letters.next();
+            }
+            '"' => quoted = !quoted,
+            ',' if !quoted => row.push(std::mem::take(&mut field)),
+            '\n' if !quoted => {
+                row.push(std::mem::take(&mut field));
+                rows.push(std::mem::take(&mut row));
+            }
+            other => field.push(other),
+        }
+    }
+    rows
+}
+
+/// Zero demands are said where they are left out, and kept by the modified cloud.
+#[test]
+fn a_cloud_says_which_demands_it_leaves_out() {
+    let folder = workplace(1);
+    let text = |method: &str| {
+        format!(
+            r#"base = "towers.toml"
+[[vary]]
+name = "gap"
+path = "gap[0].width"
+distribution = {{ kind = "uniform", from = "5 mm", to = "60 mm" }}
+[[vary]]
+name = "pga"
+path = "motion.pga"
+distribution = {{ kind = "lognormal", median = "2 m/s2", dispersion = 0.5 }}
+[design]
+kind = "sobol"
+samples = 128
+seed = 7
+[[fragility]]
+intensity = "pga_m_s2"
+demand = "peak_force_n"
+threshold = "0.5 MN"
+method = "{method}"
+"#
+        )
+    };
+    let mut middle = Vec::new();
+    for method in ["cloud", "modified-cloud"] {
+        std::fs::write(folder.path().join("c.toml"), text(method)).expect("written");
+        let done = jostle(folder.path(), &["study", "c.toml", "--out", method]);
+        assert!(done.status.success(), "{}", common::complained(&done));
+        let out = folder.path().join(method);
+        let table = std::fs::read_to_string(out.join("fragility.csv")).expect("a table");
+        let rows = fields(&table);
+        let value = |name: &str| {
+            let at = rows[0].iter().position(|head| head == name);
+            rows[1][at.unwrap_or_else(|| panic!("no column {name}"))].clone()
+        };
+        let cases = std::fs::read_to_string(out.join("cases.csv")).expect("a table");
+        let cases = fields(&cases);
+        let force = cases[0].iter().position(|head| head == "peak_force_n");
+        let zeros = cases[1..]
+            .iter()
+            .filter(|row| force.is_some_and(|at| row[at] == "0"))
+            .count();
+        assert!(zeros > 20, "{zeros}");
+        assert_eq!(value("zero_demands"), zeros.to_string());
+        assert_eq!(value("cases"), "128");
+        middle.push(value("median_pga_m_s2").parse::<f64>().unwrap_or(f64::NAN));
+        let page = std::fs::read_to_string(out.join("report.html")).expect("a report");
+        let printed = common::printed(&done);
+        let sentence = format!("{zeros} of 128 demands are zero");
+        let said = method == "cloud";
+        assert_eq!(printed.contains(&sentence), said, "{printed}");
+        assert_eq!(page.contains(&sentence), said);
+        assert_eq!(value("remark").contains("left out"), said, "{table}");
+        assert_eq!(value("nonzero_alpha1").is_empty(), said, "{table}");
+    }
+    assert!(
+        middle[1] > 1.05 * middle[0],
+        "{middle:?}: without zeros the curve is too high"
+    );
+}
+
+/// Names that a spreadsheet would take for formulas are texts in every file of comma-separated values.
+#[test]
+fn names_reach_no_spreadsheet_as_formulas() {
+    let folder = temporary();
+    let model = TOWERS
+        .replace("\"A\"", "\"=HYPERLINK(1)\"")
+        .replace("\"B\"", "\"@SUM(A1), B\"")
+        .replace(
+            "storey_height = \"3 m\"\n[[gap]]",
+            "storey_height = \"3 m\"\nhinges = { rule = \"bilinear\", yield = [\"5 mm\", \"5 mm\"], post_yield = 0.1 }\n[[gap]]",
+        );
+    std::fs::write(folder.path().join("towers.toml"), model).expect("written");
+    let study = r#"base = "towers.toml"
+[[vary]]
+name = "-1+1"
+path = "gap[0].width"
+values = ["5 mm", "10 mm", "20 mm"]
+[[vary]]
+name = "+cmd"
+path = "title"
+values = ["=1+1", "-2", "@x"]
+[[fragility]]
+intensity = "pga_m_s2"
+by = ["+cmd"]
+[[ida]]
+intensity = "pga_m_s2"
+demand = "peak_force_n"
+"#;
+    std::fs::write(folder.path().join("s.toml"), study).expect("written");
+    for arguments in [
+        &["study", "s.toml", "--out", "out"][..],
+        &["pushover", "towers.toml", "--out", "out"],
+        &["motion", "convert", "el-centro", "out/motion.csv"],
+    ] {
+        let done = jostle(folder.path(), arguments);
+        assert!(
+            done.status.success(),
+            "{arguments:?}: {}",
+            common::complained(&done)
+        );
+    }
+    let mut seen = Vec::new();
+    for entry in std::fs::read_dir(folder.path().join("out"))
+        .into_iter()
+        .flatten()
+        .flatten()
+    {
+        let path = entry.path();
+        if path.extension().is_none_or(|extension| extension != "csv") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("a table");
+        for field in fields(&text).iter().flatten() {
+            let formula = field.starts_with(['=', '+', '-', '@', '\t', '\r']);
+            assert!(
+                !formula || field.parse::<f64>().is_ok(),
+                "{path:?}: {field}"
+            );
+        }
+        seen.push(entry.file_name().to_string_lossy().into_owned());
+    }
+    seen.sort();
+    assert_eq!(
+        seen,
+        [
+            "cases.csv",
+            "fragility-curves.csv",
+            "fragility.csv",
+            "ida.csv",
+            "motion.csv",
+            "pushover.csv"
+        ]
+    );
+    let cases = std::fs::read_to_string(folder.path().join("out/cases.csv")).expect("a table");
+    assert!(
+        cases.contains("'-1+1")
+            && cases.contains("'=1+1")
+            && cases.contains("\"'@SUM(A1), B.period_s\""),
+        "{cases}"
+    );
+}
