@@ -20,6 +20,7 @@ from ._errors import (
     JostleWarning,
     ModelError,
     ModelWarning,
+    StudyWarning,
 )
 from ._jostle import __version__
 from ._matrices import Matrices
@@ -63,6 +64,7 @@ __all__ = [
     "Spectrum",
     "Study",
     "StudyResult",
+    "StudyWarning",
     "Table",
     "__version__",
     "collide",

@@ -74,5 +74,9 @@ class ModelWarning(JostleWarning):
     """A model is valid but may not be meant."""
 
 
+class StudyWarning(JostleWarning):
+    """A folder of results held a file that is damaged or belongs elsewhere; it was set aside, as the text says."""
+
+
 class InterruptedWarning(JostleWarning):
     """Ctrl-C stopped a run; the result holds what was computed until then."""

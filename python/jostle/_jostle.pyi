@@ -201,6 +201,7 @@ class Study:
         shard: int = 0,
         shards: int = 1,
         observer: Callable[[float, float], object] | None = None,
+        remark: Callable[[str], object] | None = None,
     ) -> tuple[int, int, int, int, bool]: ...
     def finish(self, folder: str | os.PathLike[str]) -> str: ...
     def read_columns(

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from . import _jostle
-from ._errors import AnalysisError, ModelError, ModelWarning
+from ._errors import AnalysisError, ModelError, ModelWarning, StudyWarning
 from ._model import Model
 from ._progress import Observer, ProgressLine
 from ._tree import text_of
@@ -140,7 +140,8 @@ class Study:
         report: bool = True,
     ) -> StudyResult:
         """Runs what is not finished in a folder. The same call goes on where an earlier one stopped, whatever
-        stopped it. Ctrl-C raises ``KeyboardInterrupt`` within a second; finished cases stay.
+        stopped it. Ctrl-C raises ``KeyboardInterrupt`` within a second; finished cases stay. Finished parts are verified:
+        one that is damaged or belongs elsewhere is moved to ``set-aside`` with a ``StudyWarning``, and computed again.
 
         Args:
             out: folder of the results; with a client, one that all workers see.
@@ -169,7 +170,7 @@ class Study:
                     raise ModelError(f"shard: expected (i, n) with i from 1 to n, found {shard}")
                 if jobs is not None and jobs < 1:
                     raise ModelError(f"jobs: must be at least 1, found {jobs}")
-                self._core.run(folder, jobs, index - 1, of, observer)
+                self._core.run(folder, jobs, index - 1, of, observer, _remark)
         result = StudyResult(self, Path(folder))
         if report and result.complete:
             self._core.finish(folder)
@@ -375,7 +376,14 @@ def _base_of(model: Model) -> _Base:
 
 def _compute(study: Study, folder: str, part: int, parts: int) -> int:
     """One part, on a worker: as many shares as parts."""
-    return study._core.run(folder, 1, part, parts, None)[1]
+    return study._core.run(folder, 1, part, parts, None, _remark)[1]
+
+
+def _remark(text: str) -> None:
+    """Warns of what a run found in its folder."""
+    import warnings
+
+    warnings.warn(text, StudyWarning, stacklevel=4)
 
 
 def _rebuild(name: str, text: str, is_json: bool, folder: str, base: _Base | None) -> Study:

@@ -454,3 +454,336 @@ fn the_studies_that_come_with_the_program_are_valid() {
     }
     assert!(count >= 3, "{count} studies");
 }
+
+/// The names of the buildings in the summary of a case.
+fn buildings_of(out: &Path, case: u64) -> Vec<String> {
+    let path = out.join(format!("runs/case-{case:010}/summary.json"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+    let summary: serde_json::Value =
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}"));
+    let buildings = summary["buildings"].as_array().cloned().unwrap_or_default();
+    let names = buildings.iter().filter_map(|one| one["name"].as_str());
+    names.map(str::to_owned).collect()
+}
+
+/// A single case belongs to the results in its folder: their model, not the one that the study file names.
+#[test]
+fn a_single_case_has_the_model_of_its_folder() {
+    let folder = workplace(5);
+    let other = TOWERS
+        .replace("\"A\"", "\"North\"")
+        .replace("\"B\"", "\"South\"");
+    std::fs::write(folder.path().join("other.toml"), other).expect("written");
+    let run = |arguments: &[&str]| {
+        let output = jostle(folder.path(), arguments);
+        let said = common::complained(&output);
+        assert!(output.status.success(), "{arguments:?}: {said}");
+    };
+    run(&[
+        "study",
+        "study.toml",
+        "--base",
+        "other.toml",
+        "--out",
+        "my out",
+    ]);
+    run(&["study", "study.toml", "--out", "my out", "--case", "3"]);
+    let out = folder.path().join("my out");
+    assert_eq!(buildings_of(&out, 3), ["North", "South"]);
+
+    // A ready-made study by its name, in the folder that it has by default.
+    run(&["study", "tornado", "--base", "other.toml"]);
+    run(&["study", "tornado", "--case", "2"]);
+    let ready = folder.path().join("jostle-out/tornado");
+    assert_eq!(buildings_of(&ready, 2), ["North", "South"]);
+
+    // The command that the report prints works as it stands, also when the study file is gone.
+    std::fs::remove_file(folder.path().join("study.toml")).expect("removed");
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a report");
+    let command = page.split("<code>").find_map(|rest| {
+        let (command, _) = rest.split_once("</code>")?;
+        command
+            .contains("--case NUMBER")
+            .then(|| command.to_owned())
+    });
+    let command = command.expect("a command").replace("NUMBER", "17");
+    let program = command.replacen("jostle", &format!("'{}'", env!("CARGO_BIN_EXE_jostle")), 1);
+    let script = Command::new("sh")
+        .current_dir(folder.path())
+        .args(["-c", &program])
+        .output()
+        .expect("a shell");
+    assert!(
+        script.status.success(),
+        "{command}: {}",
+        common::complained(&script)
+    );
+    assert_eq!(buildings_of(&out, 17), ["North", "South"]);
+
+    // Another model in the same folder is refused, and the refusal names the model of the folder.
+    let refused = jostle(
+        folder.path(),
+        &["study", "tornado", "--base", "towers.toml", "--case", "2"],
+    );
+    assert_eq!(refused.status.code(), Some(2));
+    let said = common::complained(&refused);
+    assert!(
+        said.contains("the model has changed") && said.contains("other.toml"),
+        "{said}"
+    );
+}
+
+/// A part of another study, and one that a power cut has emptied, are said on standard error and computed again.
+#[test]
+fn foreign_and_empty_parts_are_said_and_computed_again() {
+    let folder = workplace(8);
+    let run = |arguments: &[&str]| {
+        let output = jostle(folder.path(), arguments);
+        assert!(output.status.success(), "{}", common::complained(&output));
+        (common::printed(&output), common::complained(&output))
+    };
+    let study = ["study", "study.toml", "--no-report", "--out"];
+    run(&[&study[..], &["a"]].concat());
+    let expected = table(folder.path().join("a"));
+    let text = std::fs::read_to_string(folder.path().join("study.toml")).expect("a study");
+    std::fs::write(
+        folder.path().join("second.toml"),
+        format!("{text}\n# another\n"),
+    )
+    .expect("written");
+    run(&["study", "second.toml", "--no-report", "--out", "b"]);
+    let part = "cases/part-0000000016.parquet";
+    std::fs::copy(
+        folder.path().join("b").join(part),
+        folder.path().join("a").join(part),
+    )
+    .expect("copied");
+    let (printed, said) = run(&[&study[..], &["a"]].concat());
+    assert!(said.contains("belongs to another study"), "{said}");
+    assert!(printed.contains("(16 now"), "{printed}");
+    assert!(table(folder.path().join("a")) == expected);
+    std::fs::write(folder.path().join("a").join(part), "").expect("written");
+    let (_, said) = run(&[&study[..], &["a"]].concat());
+    assert!(
+        said.contains("is empty") && said.contains("computed again"),
+        "{said}"
+    );
+    assert!(table(folder.path().join("a")) == expected);
+    let (_, said) = run(&[&study[..], &["a"]].concat());
+    assert!(!said.contains("computed again"), "{said}");
+}
+
+/// A ready-made study of shear buildings: every key and its range are listed, and its middle is a run of the model.
+#[test]
+fn a_ready_made_study_varies_around_the_model() {
+    let folder = workplace(1);
+    let done = jostle(
+        folder.path(),
+        &["study", "tornado", "--base", "towers.toml", "--out", "out"],
+    );
+    let said = common::complained(&done);
+    assert!(done.status.success(), "{said}");
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
+    for listed in [
+        "gap[*].width: × 0.5 … 1.5 (uniform); in the model 20 mm",
+        "building[0].stiffness: ×",
+        "building[1].mass: ×",
+        "building[*].damping.ratio: 0.0",
+    ] {
+        assert!(said.contains(listed), "{listed} is missing in {said}");
+        assert!(page.contains(listed), "{listed} is missing in the report");
+    }
+    let rows = std::fs::read_to_string(folder.path().join("out/cases.csv")).expect("a table");
+    let mut lines = rows.lines();
+    let heads: Vec<&str> = lines.next().expect("heads").split(',').collect();
+    let middle: Vec<&str> = lines.next().expect("a row").split(',').collect();
+    let number = |name: &str| {
+        let at = heads.iter().position(|head| *head == name);
+        middle[at.unwrap_or_else(|| panic!("no column {name}"))]
+            .parse::<f64>()
+            .ok()
+    };
+    let run = jostle(
+        folder.path(),
+        &["run", "towers.toml", "--json", "--no-report"],
+    );
+    let summary: serde_json::Value =
+        serde_json::from_slice(&run.stdout).unwrap_or_else(|error| panic!("{error}"));
+    let gap = &summary["gaps"][0];
+    assert!(gap["impact_count"].as_u64() > Some(0));
+    assert_eq!(number("impact_count"), gap["impact_count"].as_f64());
+    let forces = (number("peak_force_n"), gap["peak_force_n"].as_f64());
+    let (Some(found), Some(expected)) = forces else {
+        panic!("{forces:?}");
+    };
+    assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+}
+
+/// A file of comma-separated values: rows of fields, without their quotes.
+fn fields(text: &str) -> Vec<Vec<String>> {
+    let (mut rows, mut row, mut field) = (Vec::new(), Vec::new(), String::new());
+    let (mut quoted, mut letters) = (false, text.chars().peekable());
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' if quoted && letters.peek() == Some(&'"') => {
+                field.push('"');
+                letters.next();
+            }
+            '"' => quoted = !quoted,
+            ',' if !quoted => row.push(std::mem::take(&mut field)),
+            '\n' if !quoted => {
+                row.push(std::mem::take(&mut field));
+                rows.push(std::mem::take(&mut row));
+            }
+            other => field.push(other),
+        }
+    }
+    rows
+}
+
+/// Zero demands are said where they are left out, and kept by the modified cloud.
+#[test]
+fn a_cloud_says_which_demands_it_leaves_out() {
+    let folder = workplace(1);
+    let text = |method: &str| {
+        format!(
+            r#"base = "towers.toml"
+[[vary]]
+name = "gap"
+path = "gap[0].width"
+distribution = {{ kind = "uniform", from = "5 mm", to = "60 mm" }}
+[[vary]]
+name = "pga"
+path = "motion.pga"
+distribution = {{ kind = "lognormal", median = "2 m/s2", dispersion = 0.5 }}
+[design]
+kind = "sobol"
+samples = 128
+seed = 7
+[[fragility]]
+intensity = "pga_m_s2"
+demand = "peak_force_n"
+threshold = "0.5 MN"
+method = "{method}"
+"#
+        )
+    };
+    let mut middle = Vec::new();
+    for method in ["cloud", "modified-cloud"] {
+        std::fs::write(folder.path().join("c.toml"), text(method)).expect("written");
+        let done = jostle(folder.path(), &["study", "c.toml", "--out", method]);
+        assert!(done.status.success(), "{}", common::complained(&done));
+        let out = folder.path().join(method);
+        let table = std::fs::read_to_string(out.join("fragility.csv")).expect("a table");
+        let rows = fields(&table);
+        let value = |name: &str| {
+            let at = rows[0].iter().position(|head| head == name);
+            rows[1][at.unwrap_or_else(|| panic!("no column {name}"))].clone()
+        };
+        let cases = std::fs::read_to_string(out.join("cases.csv")).expect("a table");
+        let cases = fields(&cases);
+        let force = cases[0].iter().position(|head| head == "peak_force_n");
+        let zeros = cases[1..]
+            .iter()
+            .filter(|row| force.is_some_and(|at| row[at] == "0"))
+            .count();
+        assert!(zeros > 20, "{zeros}");
+        assert_eq!(value("zero_demands"), zeros.to_string());
+        assert_eq!(value("cases"), "128");
+        middle.push(value("median_pga_m_s2").parse::<f64>().unwrap_or(f64::NAN));
+        let page = std::fs::read_to_string(out.join("report.html")).expect("a report");
+        let printed = common::printed(&done);
+        let sentence = format!("{zeros} of 128 demands are zero");
+        let said = method == "cloud";
+        assert_eq!(printed.contains(&sentence), said, "{printed}");
+        assert_eq!(page.contains(&sentence), said);
+        assert_eq!(value("remark").contains("left out"), said, "{table}");
+        assert_eq!(value("nonzero_alpha1").is_empty(), said, "{table}");
+    }
+    assert!(
+        middle[1] > 1.05 * middle[0],
+        "{middle:?}: without zeros the curve is too high"
+    );
+}
+
+/// Names that a spreadsheet would take for formulas are texts in every file of comma-separated values.
+#[test]
+fn names_reach_no_spreadsheet_as_formulas() {
+    let folder = temporary();
+    let model = TOWERS
+        .replace("\"A\"", "\"=HYPERLINK(1)\"")
+        .replace("\"B\"", "\"@SUM(A1), B\"")
+        .replace(
+            "storey_height = \"3 m\"\n[[gap]]",
+            "storey_height = \"3 m\"\nhinges = { rule = \"bilinear\", yield = [\"5 mm\", \"5 mm\"], post_yield = 0.1 }\n[[gap]]",
+        );
+    std::fs::write(folder.path().join("towers.toml"), model).expect("written");
+    let study = r#"base = "towers.toml"
+[[vary]]
+name = "-1+1"
+path = "gap[0].width"
+values = ["5 mm", "10 mm", "20 mm"]
+[[vary]]
+name = "+cmd"
+path = "title"
+values = ["=1+1", "-2", "@x"]
+[[fragility]]
+intensity = "pga_m_s2"
+by = ["+cmd"]
+[[ida]]
+intensity = "pga_m_s2"
+demand = "peak_force_n"
+"#;
+    std::fs::write(folder.path().join("s.toml"), study).expect("written");
+    for arguments in [
+        &["study", "s.toml", "--out", "out"][..],
+        &["pushover", "towers.toml", "--out", "out"],
+        &["motion", "convert", "el-centro", "out/motion.csv"],
+    ] {
+        let done = jostle(folder.path(), arguments);
+        assert!(
+            done.status.success(),
+            "{arguments:?}: {}",
+            common::complained(&done)
+        );
+    }
+    let mut seen = Vec::new();
+    for entry in std::fs::read_dir(folder.path().join("out"))
+        .into_iter()
+        .flatten()
+        .flatten()
+    {
+        let path = entry.path();
+        if path.extension().is_none_or(|extension| extension != "csv") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("a table");
+        for field in fields(&text).iter().flatten() {
+            let formula = field.starts_with(['=', '+', '-', '@', '\t', '\r']);
+            assert!(
+                !formula || field.parse::<f64>().is_ok(),
+                "{path:?}: {field}"
+            );
+        }
+        seen.push(entry.file_name().to_string_lossy().into_owned());
+    }
+    seen.sort();
+    assert_eq!(
+        seen,
+        [
+            "cases.csv",
+            "fragility-curves.csv",
+            "fragility.csv",
+            "ida.csv",
+            "motion.csv",
+            "pushover.csv"
+        ]
+    );
+    let cases = std::fs::read_to_string(folder.path().join("out/cases.csv")).expect("a table");
+    assert!(
+        cases.contains("'-1+1")
+            && cases.contains("'=1+1")
+            && cases.contains("\"'@SUM(A1), B.period_s\""),
+        "{cases}"
+    );
+}

@@ -138,7 +138,7 @@ pub(crate) const DESIGNS: &[&str] = &[
 pub(crate) const SAMPLINGS: &[&str] = &["latin-hypercube", "sobol", "random"];
 pub(crate) const DISTRIBUTIONS: &[&str] = &["uniform", "normal", "lognormal"];
 pub(crate) const SPACINGS: &[&str] = &["linear", "log"];
-pub(crate) const FRAGILITY_METHODS: &[&str] = &["stripes", "cloud"];
+pub(crate) const FRAGILITY_METHODS: &[&str] = &["stripes", "cloud", "modified-cloud"];
 pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear"];
 /// Spellings of the contact laws.
 pub const LAW_NAMES: [&str; 11] = [
@@ -493,7 +493,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Fragility, "demand", Text, "\"impact_count\"", "Column with the demand."),
     default(S::Fragility, "threshold", Kind::Any, "0", "The event is a demand above this."),
     optional(S::Fragility, "by", Kind::Any, "Factors for each of whose values a curve of its own is fitted."),
-    default(S::Fragility, "method", Choice(FRAGILITY_METHODS), "\"stripes\"", "Maximum likelihood of outcomes, or regression of logarithms."),
+    default(S::Fragility, "method", Choice(FRAGILITY_METHODS), "\"stripes\"", "Maximum likelihood of outcomes; regression of logarithms; the same with logistic regressions for demands of zero and for collapse."),
     default(S::Fragility, "bootstrap", Count, "500", "Resampled fits for the confidence band."),
     default(S::Fragility, "confidence", Quantity(D::Dimensionless), "0.9", "Confidence of the band."),
 

@@ -5,6 +5,7 @@
 
 mod bounded;
 mod builtin;
+mod csv;
 mod fault;
 mod json_tree;
 mod keys;
@@ -34,6 +35,7 @@ pub use builtin::{
     BUILTIN_RECORDS, BuiltinRecord, builtin_model, builtin_motions, builtin_record, model_names,
     model_text,
 };
+pub use csv::csv_field;
 pub use fault::{Fault, InputError};
 pub use keys::LAW_NAMES;
 pub use model_file::{
@@ -60,8 +62,8 @@ pub use study_file::{
     StudyFile,
 };
 pub use tables::{
-    Values, history_names, impact_columns, write_columns_parquet, write_hinges_parquet,
-    write_history_parquet, write_impacts_parquet, write_values_parquet,
+    Values, encode_values_parquet, history_names, impact_columns, write_columns_parquet,
+    write_hinges_parquet, write_history_parquet, write_impacts_parquet, write_values_parquet,
 };
 pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
 pub use templates::{TEMPLATE_NAMES, template};

@@ -124,6 +124,11 @@ impl ModelTree {
         }
     }
 
+    /// Whether the tree is a part of this text.
+    pub(crate) fn is_of(&self, source: &Arc<Source>) -> bool {
+        Arc::ptr_eq(&self.source, source)
+    }
+
     /// The text that was parsed.
     #[must_use]
     pub fn text(&self) -> &str {
@@ -160,6 +165,16 @@ impl ModelTree {
     /// [`PathError`] when there is nothing, or no number.
     pub fn multiply(&mut self, path: &str, factor: f64) -> Result<(), PathError> {
         self.change(path, &Change::Multiply(factor))
+    }
+
+    /// The values at a path, in the order of the file: several where the path says `[*]`, none where nothing stands.
+    #[must_use]
+    pub fn values(&self, path: &str) -> Vec<TreeValue> {
+        let mut found = Vec::new();
+        if let Ok(parts) = parts(path) {
+            collect(&self.root, &parts, &mut found);
+        }
+        found
     }
 
     /// The records that the file lists for a run to choose from; empty if it names one, or none.
@@ -302,6 +317,27 @@ fn walk(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Resul
         (Part::Key(key), _) => Err(format!(
             "{here} is a single value and has no {key}; write a table in the model file first"
         )),
+    }
+}
+
+/// Adds the values at a path below a node.
+fn collect(node: &Node, parts: &[Part], into: &mut Vec<TreeValue>) {
+    let Some((part, rest)) = parts.split_first() else {
+        into.extend(TreeValue::of(node));
+        return;
+    };
+    let below: Vec<&Node> = match (part, &node.value) {
+        (Part::Key(key), Value::Table(table)) => table.get(key).into_iter().collect(),
+        (Part::Key(key), Value::List(list)) => {
+            let named = list.iter().find(|entry| name_of(entry) == *key);
+            named.into_iter().collect()
+        }
+        (Part::Index(index), Value::List(list)) => list.get(*index).into_iter().collect(),
+        (Part::Every, Value::List(list)) => list.iter().collect(),
+        _ => Vec::new(),
+    };
+    for node in below {
+        collect(node, rest, into);
     }
 }
 

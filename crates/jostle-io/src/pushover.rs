@@ -6,6 +6,8 @@ use jostle::hysteresis::Stage;
 use jostle::statics::{Bilinear, PushEnd, PushPoint, PushedBuilding, Pushover};
 use serde_json::{Value, json};
 
+use crate::csv::csv_field;
+
 /// Every corner of every curve as a row. A building of fewer storeys leaves the columns of the others empty.
 #[must_use]
 pub fn pushover_csv(pushed: &[PushedBuilding]) -> String {
@@ -25,7 +27,7 @@ pub fn pushover_csv(pushed: &[PushedBuilding]) -> String {
                 let _ = write!(
                     text,
                     "{},{},{index},{},{},{},{}",
-                    quoted(&one.building.name),
+                    csv_field(&one.building.name),
                     curve.settings.direction.name(),
                     point.roof,
                     curve.drift(point),
@@ -40,20 +42,11 @@ pub fn pushover_csv(pushed: &[PushedBuilding]) -> String {
                 let events: Vec<String> = events
                     .map(|event| format!("{} {}", one.place(event.spring), event.kind.name()))
                     .collect();
-                let _ = writeln!(text, ",{}", quoted(&events.join("; ")));
+                let _ = writeln!(text, ",{}", csv_field(&events.join("; ")));
             }
         }
     }
     text
-}
-
-/// A field of a CSV file, in quotes where it needs them (RFC 4180).
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
 }
 
 /// Everything about the curves, as JSON with a final line break.

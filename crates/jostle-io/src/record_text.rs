@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::csv::csv_remark;
 use crate::quantity::STANDARD_GRAVITY;
 
 /// A PEER AT2 file in g, eight digits, five values a line.
@@ -25,7 +26,7 @@ pub fn at2_text(name: &str, step: f64, acceleration: &[f64]) -> String {
 /// Columns of time and acceleration in m/s², with all digits, under a header that says unit and step.
 #[must_use]
 pub fn csv_text(name: &str, step: f64, acceleration: &[f64]) -> String {
-    let name = one_line(name);
+    let name = csv_remark(&one_line(name));
     let mut text =
         format!("# {name}\n# unit = m/s2\n# step = {step} s\ntime_s,acceleration_m_s2\n");
     for (i, value) in acceleration.iter().enumerate() {

@@ -157,6 +157,12 @@ impl StudyFile {
         &self.source.name
     }
 
+    /// Whether the base model is written out in the file.
+    #[must_use]
+    pub fn has_own_model(&self) -> bool {
+        self.base.is_of(&self.source)
+    }
+
     /// A fault at a factor of the file.
     #[must_use]
     pub fn fault(&self, factor: usize, problem: impl Into<String>) -> InputError {

@@ -186,12 +186,24 @@ pub fn write_values_parquet(
     facts: &[(&str, String)],
     columns: Vec<(String, Values)>,
 ) -> Result<(), OutputError> {
-    let bytes = encode_with(env!("CARGO_PKG_VERSION"), title, facts, columns);
-    let bytes = bytes.map_err(|error| OutputError::Encoding {
+    let bytes = encode_values_parquet(title, facts, columns);
+    let bytes = bytes.map_err(|reason| OutputError::Encoding {
         path: path.to_owned(),
-        reason: error.to_string(),
+        reason,
     })?;
     write_atomically(path, &bytes)
+}
+
+/// The bytes that [`write_values_parquet`] writes. The last of the facts is the last text of the file's own notes.
+///
+/// # Errors
+/// Why the columns cannot be encoded.
+pub fn encode_values_parquet(
+    title: &str,
+    facts: &[(&str, String)],
+    columns: Vec<(String, Values)>,
+) -> Result<Vec<u8>, String> {
+    encode_with(env!("CARGO_PKG_VERSION"), title, facts, columns).map_err(|error| error.to_string())
 }
 
 /// Writes what can crack and yield: one row per hinge or storey spring, building by building, touched or not.

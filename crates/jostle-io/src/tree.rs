@@ -25,6 +25,16 @@ impl Format {
             _ => Self::Toml,
         }
     }
+
+    /// JSON for texts that begin with a brace or a comment of JSON, which no TOML does.
+    #[must_use]
+    pub fn of_text(text: &str) -> Self {
+        if text.trim_start().starts_with(['{', '/']) {
+            Self::Json
+        } else {
+            Self::Toml
+        }
+    }
 }
 
 /// A value and the bytes it covers.

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use jostle::separation::JointSystem;
 use jostle_io::{Format, InputError, ModelTree, StudyFile};
-use jostle_study::dataset::{part_path, read_columns};
+use jostle_study::dataset::{missing_parts, read_columns};
 use jostle_study::{GapError, GapSettings, Progress, RunSettings, StudyError};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
 use pyo3::prelude::*;
@@ -106,16 +106,18 @@ impl Study {
         self.0.file.design.seed
     }
 
-    /// Numbers of the parts that are not finished in a folder.
-    fn missing(&self, folder: PathBuf) -> Vec<u64> {
-        (0..self.0.parts())
-            .filter(|part| !part_path(&folder, self.0.part(*part).start).exists())
-            .collect()
+    /// Numbers of the parts that a folder does not hold: not finished, damaged, or of another study.
+    fn missing(&self, py: Python<'_>, folder: PathBuf) -> Vec<u64> {
+        py.detach(|| missing_parts(&self.0, &folder))
     }
 
     /// Runs what is not finished; returns cases finished, cases computed, cases to finish, failed cases, and whether
-    /// every part of the whole study is there.
-    #[pyo3(signature = (folder, jobs=None, shard=0, shards=1, observer=None))]
+    /// every part of the whole study is there. `remark` is called with what the user should know about the folder.
+    #[pyo3(signature = (folder, jobs=None, shard=0, shards=1, observer=None, remark=None))]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "they are those of the Python function"
+    )]
     fn run(
         &self,
         py: Python<'_>,
@@ -124,6 +126,7 @@ impl Study {
         shard: u64,
         shards: u64,
         observer: Option<Py<PyAny>>,
+        remark: Option<Py<PyAny>>,
     ) -> PyResult<(u64, u64, u64, u64, bool)> {
         let study = Arc::clone(&self.0);
         let settings = RunSettings {
@@ -133,15 +136,20 @@ impl Study {
         };
         let halt = AtomicBool::new(false);
         let latest: Mutex<Option<Progress>> = Mutex::new(None);
+        let remarks: Mutex<Vec<String>> = Mutex::default();
         let mut stopped: Option<PyErr> = None;
         let done = py.detach(|| {
             std::thread::scope(|scope| {
                 let work = scope.spawn(|| {
                     let stop = || halt.load(Ordering::Relaxed);
+                    let keep = |text: &str| {
+                        let mut remarks = remarks.lock().unwrap_or_else(PoisonError::into_inner);
+                        remarks.push(text.to_owned());
+                    };
                     let note = |progress: Progress| {
                         *latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress);
                     };
-                    jostle_study::run(&study, &folder, &settings, &stop, &note)
+                    jostle_study::run(&study, &folder, &settings, &stop, &note, &keep)
                 });
                 // Signals reach Python in its own thread only.
                 while !work.is_finished() {
@@ -162,6 +170,11 @@ impl Study {
                 work.join()
             })
         });
+        if let Some(remark) = remark {
+            for text in remarks.into_inner().unwrap_or_else(PoisonError::into_inner) {
+                remark.call1(py, (text,))?;
+            }
+        }
         if let Some(error) = stopped {
             return Err(error);
         }

@@ -19,9 +19,11 @@ pub mod sampling;
 mod single;
 pub mod statistics;
 mod study;
+mod varied;
 
 pub use case::{CaseError, Prepared, Ran, Workshop};
 pub use critical_gap::{CriticalGap, GapError, GapSettings, RuleGap, critical_gaps};
+pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};
 pub use layout::{Column, Kind, Layout, Named};
 pub use ready_made::{ready_made, ready_made_names};
@@ -30,3 +32,4 @@ pub use row::{Row, Status};
 pub use runner::{Done, Progress, RunSettings, run, run_folder};
 pub use single::run_case;
 pub use study::{Study, StudyError};
+pub use varied::{Varied, varied};

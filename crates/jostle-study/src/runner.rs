@@ -9,10 +9,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use jostle_io::write_values_parquet;
-
 use crate::case::{self, Workshop};
-use crate::dataset::{Claim, Journal, Manifest, journal_path, part_path};
+use crate::dataset::{
+    Claim, Journal, PartFault, cases_of, journal_path, keep_copy, part_path, set_aside, settle,
+    strangers, verify, write_part,
+};
 use crate::row::{Row, Status};
 use crate::study::{Study, StudyError};
 
@@ -66,6 +67,9 @@ const LOOK_UP: Duration = Duration::from_millis(50);
 
 /// Runs what is not finished yet. `stop` is asked often; what is finished by then stays.
 ///
+/// Every finished part is verified: its checksum, its study and the numbers of its cases. A file that fails is moved
+/// to `set-aside/`, `remark` says so in one sentence or two, and its cases are computed again.
+///
 /// # Errors
 /// [`StudyError::Folder`] when the folder holds another study, [`StudyError::Output`] when nothing more can be written.
 pub fn run(
@@ -74,10 +78,24 @@ pub fn run(
     settings: &RunSettings,
     stop: &(dyn Fn() -> bool + Sync),
     progress: &(dyn Fn(Progress) + Sync),
+    remark: &(dyn Fn(&str) + Sync),
 ) -> Result<Done, StudyError> {
     let workshop = Workshop::default();
     let compute = |case: u64| compute(study, folder, &workshop, case, stop);
-    run_with(study, folder, settings, stop, progress, &compute)
+    let hooks = Hooks {
+        stop,
+        progress,
+        remark,
+    };
+    run_with(study, folder, settings, hooks, &compute)
+}
+
+/// What a run asks and reports while it is under way.
+#[derive(Clone, Copy)]
+pub(crate) struct Hooks<'a> {
+    pub(crate) stop: &'a (dyn Fn() -> bool + Sync),
+    pub(crate) progress: &'a (dyn Fn(Progress) + Sync),
+    pub(crate) remark: &'a (dyn Fn(&str) + Sync),
 }
 
 /// The same for any way of computing a case; `None` when it was stopped.
@@ -85,11 +103,10 @@ pub(crate) fn run_with(
     study: &Study,
     folder: &Path,
     settings: &RunSettings,
-    stop: &(dyn Fn() -> bool + Sync),
-    progress: &(dyn Fn(Progress) + Sync),
+    hooks: Hooks<'_>,
     compute: &(dyn Fn(u64) -> Result<Option<Row>, StudyError> + Sync),
 ) -> Result<Done, StudyError> {
-    Manifest::settle(study, folder)?;
+    settle(study, folder)?;
     let parts: VecDeque<u64> = (0..study.parts())
         .filter(|part| part % settings.shards == settings.shard)
         .collect();
@@ -108,9 +125,9 @@ pub(crate) fn run_with(
         cases,
         error: Mutex::new(None),
         halt: AtomicBool::new(false),
-        stop,
-        progress,
+        hooks,
     };
+    work.clear_strangers()?;
     let threads = settings.jobs.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -121,12 +138,11 @@ pub(crate) fn run_with(
     if let Some(error) = lock(&work.error).take() {
         return Err(error);
     }
-    let complete =
-        (0..study.parts()).all(|part| part_path(folder, study.part(part).start).exists());
+    let complete = work.is_complete(settings)?;
     Ok(Done {
         progress: work.now(),
         failed: work.failed.load(Ordering::Relaxed),
-        stopped: stop() && !complete,
+        stopped: (hooks.stop)() && !complete,
         complete,
     })
 }
@@ -153,8 +169,7 @@ struct Work<'a> {
     error: Mutex<Option<StudyError>>,
     /// An error has occurred: nobody begins anything more.
     halt: AtomicBool,
-    stop: &'a (dyn Fn() -> bool + Sync),
-    progress: &'a (dyn Fn(Progress) + Sync),
+    hooks: Hooks<'a>,
 }
 
 /// What is still to be dealt out.
@@ -213,7 +228,7 @@ impl Work<'_> {
     }
 
     fn report(&self) {
-        (self.progress)(self.now());
+        (self.hooks.progress)(self.now());
     }
 
     fn fail(&self, error: StudyError) {
@@ -225,7 +240,7 @@ impl Work<'_> {
     fn next(&self) -> Option<(Arc<Part>, u64)> {
         let mut queue = lock(&self.queue);
         loop {
-            if self.halt.load(Ordering::Relaxed) || (self.stop)() {
+            if self.halt.load(Ordering::Relaxed) || (self.hooks.stop)() {
                 return None;
             }
             if let Some(part) = &queue.current {
@@ -261,34 +276,36 @@ impl Work<'_> {
         }
     }
 
-    /// Claims a part.
+    /// Claims a part, unless it is finished. A file in its place that is not this part is set aside.
     fn open(&self, number: u64) -> Result<Opened, StudyError> {
         let cases = self.study.part(number);
-        let path = part_path(self.folder, cases.start);
         let journal_path = journal_path(self.folder, cases.start);
-        if path.exists() {
-            // Left behind by a process that was killed between writing the part and this.
-            if journal_path.exists()
-                && let Ok(Claim::Ours(journal, _)) =
-                    Journal::claim(&journal_path, &self.study.fingerprint)
-            {
-                journal
-                    .remove()
-                    .map_err(|error| unwritable(&journal_path, &error))?;
-            }
-            return Ok(Opened::Finished);
-        }
-        let claimed = Journal::claim(&journal_path, &self.study.fingerprint);
-        let (journal, known) = match claimed.map_err(|error| unwritable(&journal_path, &error))? {
-            Claim::Ours(journal, rows) => (journal, rows),
-            Claim::Taken => return Ok(Opened::Taken),
-        };
-        // It may have been finished between the first look and the claim.
-        if path.exists() {
+        let remove = |journal: Journal| {
             journal
                 .remove()
-                .map_err(|error| unwritable(&journal_path, &error))?;
+                .map_err(|error| unwritable(&journal_path, &error))
+        };
+        let first_look = verify(self.study, self.folder, number);
+        if first_look.is_ok() && !journal_path.exists() {
             return Ok(Opened::Finished);
+        }
+        let (journal, known) = match (self.claim(number)?, &first_look) {
+            // Left behind by a process that was killed between writing the part and removing its journal.
+            (Claim::Ours(journal, _), Ok(_)) => {
+                remove(journal)?;
+                return Ok(Opened::Finished);
+            }
+            (Claim::Taken, Ok(_)) => return Ok(Opened::Finished),
+            (Claim::Taken, Err(_)) => return Ok(Opened::Taken),
+            (Claim::Ours(journal, rows), Err(_)) => (journal, rows),
+        };
+        // It may have been finished between the first look and the claim.
+        match verify(self.study, self.folder, number) {
+            Ok(_) => {
+                remove(journal)?;
+                return Ok(Opened::Finished);
+            }
+            Err(fault) => self.clear(number, &fault, "computed again")?,
         }
         let mut rows: Vec<Option<Row>> = cases.clone().map(|_| None).collect();
         for row in known {
@@ -350,10 +367,7 @@ impl Work<'_> {
             .into_iter()
             .flatten()
             .collect();
-        let path = part_path(self.folder, self.study.part(part.number).start);
-        let facts = [("study_sha256", self.study.fingerprint.clone())];
-        let columns = self.study.layout.columns(&rows);
-        write_values_parquet(&path, &self.study.file.title, &facts, columns)?;
+        write_part(self.study, self.folder, part.number, &rows)?;
         if let Some(journal) = inner.journal.take() {
             let path = journal.path().to_owned();
             journal
@@ -361,6 +375,91 @@ impl Work<'_> {
                 .map_err(|error| unwritable(&path, &error))?;
         }
         Ok(())
+    }
+
+    /// Claims the journal of a part; that of another study is kept.
+    fn claim(&self, number: u64) -> Result<Claim, StudyError> {
+        let path = journal_path(self.folder, self.study.part(number).start);
+        let keep = |bytes: &[u8]| {
+            let kept = keep_copy(self.folder, &path, "other-study", bytes)?;
+            self.remark(&format!(
+                "{} belongs to another study, or its beginning is damaged. It was kept as {}; {} are computed again.",
+                path.display(),
+                kept.display(),
+                cases_of(self.study, number)
+            ));
+            Ok(())
+        };
+        Journal::claim(&path, &self.study.fingerprint, &keep)
+            .map_err(|error| unwritable(&path, &error))
+    }
+
+    /// Sets aside the file of a part that is not this part, and says why and what becomes of its cases.
+    fn clear(&self, number: u64, fault: &PartFault, what_now: &str) -> Result<(), StudyError> {
+        let path = part_path(self.folder, self.study.part(number).start);
+        let Some(label) = fault.label() else {
+            return match fault {
+                PartFault::Unreadable(error) => Err(unwritable(&path, error)),
+                _ => Ok(()),
+            };
+        };
+        let moved = set_aside(self.folder, &path, label);
+        if let Some(now) = moved.map_err(|error| unwritable(&path, &error))? {
+            self.remark(&format!(
+                "{} {fault}. It was moved to {}; {} are {what_now}.",
+                path.display(),
+                now.display(),
+                cases_of(self.study, number)
+            ));
+        }
+        Ok(())
+    }
+
+    /// Sets aside Parquet files among the parts that are none of this study's: readers of all files would mix them in.
+    fn clear_strangers(&self) -> Result<(), StudyError> {
+        for path in strangers(self.study, self.folder) {
+            let moved = set_aside(self.folder, &path, "no-part");
+            if let Some(now) = moved.map_err(|error| unwritable(&path, &error))? {
+                self.remark(&format!(
+                    "{} is no part of this study. It was moved to {}, because programs that read cases/*.parquet would mix it in.",
+                    path.display(),
+                    now.display()
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether every part of the whole study is there. Parts of other shares are verified once all are there.
+    fn is_complete(&self, settings: &RunSettings) -> Result<bool, StudyError> {
+        let there = |part: u64| part_path(self.folder, self.study.part(part).start).exists();
+        if !(0..self.study.parts()).all(there) {
+            return Ok(false);
+        }
+        let others =
+            (0..self.study.parts()).filter(|part| part % settings.shards != settings.shard);
+        for part in others {
+            if verify(self.study, self.folder, part).is_ok() {
+                continue;
+            }
+            if let Claim::Ours(journal, rows) = self.claim(part)? {
+                if let Err(fault) = verify(self.study, self.folder, part) {
+                    let what_now = "missing: run the share that they belong to once more";
+                    self.clear(part, &fault, what_now)?;
+                }
+                if rows.is_empty() {
+                    let path = journal.path().to_owned();
+                    journal
+                        .remove()
+                        .map_err(|error| unwritable(&path, &error))?;
+                }
+            }
+        }
+        Ok((0..self.study.parts()).all(there))
+    }
+
+    fn remark(&self, text: &str) {
+        (self.hooks.remark)(text);
     }
 }
 
@@ -442,6 +541,14 @@ range = { from = 0.01, to = 0.5, count = 50 }
             .unwrap_or_else(|error| panic!("{error}"))
     }
 
+    fn hooks<'a>(stop: &'a (dyn Fn() -> bool + Sync)) -> Hooks<'a> {
+        Hooks {
+            stop,
+            progress: &|_| {},
+            remark: &|_| {},
+        }
+    }
+
     fn quick(study: &Study, case: u64) -> Row {
         let mut row = case::blank(study, case);
         row.reason = format!("made up for case {case}");
@@ -460,14 +567,7 @@ range = { from = 0.01, to = 0.5, count = 50 }
             jobs: Some(3),
             ..RunSettings::default()
         };
-        let done = run_with(
-            &study,
-            folder.path(),
-            &settings,
-            &|| false,
-            &|_| {},
-            &compute,
-        );
+        let done = run_with(&study, folder.path(), &settings, hooks(&|| false), &compute);
         let done = done.unwrap_or_else(|error| panic!("{error}"));
         assert_eq!((done.failed, done.progress.finished), (1, 50));
         assert!(done.complete);
@@ -500,10 +600,10 @@ range = { from = 0.01, to = 0.5, count = 50 }
             Ok(Some(quick(&study, case)))
         };
         let stop = || counted.load(Ordering::Relaxed) >= 23;
-        let done = run_with(&study, folder.path(), &one, &stop, &|_| {}, &compute);
+        let done = run_with(&study, folder.path(), &one, hooks(&stop), &compute);
         assert!(done.is_ok_and(|done| done.stopped && !done.complete));
         let first = counted.swap(0, Ordering::Relaxed);
-        let done = run_with(&study, folder.path(), &one, &|| false, &|_| {}, &compute);
+        let done = run_with(&study, folder.path(), &one, hooks(&|| false), &compute);
         assert!(done.is_ok_and(|done| done.complete));
         assert_eq!(first, 23);
         assert_eq!(counted.load(Ordering::Relaxed), 50 - 23);

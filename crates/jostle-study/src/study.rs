@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use jostle::Settings;
-use jostle_io::{FactorValues, InputError, ModelTree, MotionSource, PathError, StudyFile};
+use jostle_io::{Factor, FactorValues, InputError, ModelTree, MotionSource, PathError, StudyFile};
 use sha2::{Digest, Sha256};
 
 use crate::case::{CaseError, Workshop};
@@ -205,20 +205,26 @@ impl Study {
 fn tree(file: &StudyFile, choices: &[Choice]) -> Result<ModelTree, PathError> {
     let mut tree = file.base.clone();
     for (factor, choice) in file.factors.iter().zip(choices) {
-        if let (true, Choice::Listed(index)) = (factor.from_model, choice) {
-            tree.keep_record(*index);
-            continue;
-        }
-        let (value, number, _) = value_of(factor, choice);
-        for path in &factor.paths {
-            if factor.multiplies {
-                tree.multiply(path, number.unwrap_or(1.0))?;
-            } else {
-                tree.set(path, &value)?;
-            }
-        }
+        put(&mut tree, factor, choice)?;
     }
     Ok(tree)
+}
+
+/// Puts the value of a factor into a model file.
+fn put(tree: &mut ModelTree, factor: &Factor, choice: &Choice) -> Result<(), PathError> {
+    if let (true, Choice::Listed(index)) = (factor.from_model, choice) {
+        tree.keep_record(*index);
+        return Ok(());
+    }
+    let (value, number, _) = value_of(factor, choice);
+    for path in &factor.paths {
+        if factor.multiplies {
+            tree.multiply(path, number.unwrap_or(1.0))?;
+        } else {
+            tree.set(path, &value)?;
+        }
+    }
+    Ok(())
 }
 
 /// What trying the entries of the lists brought to light.
@@ -230,7 +236,17 @@ struct Trial {
 impl Trial {
     fn of(file: &StudyFile, workshop: &Workshop) -> Result<Self, StudyError> {
         let usual = usual(file);
-        let mut errors: Vec<InputError> = Vec::new();
+        // A path that leads nowhere is the fault of its factor alone, although no case can be read with it.
+        let astray = file.factors.iter().zip(&usual).enumerate();
+        let astray = astray.filter_map(|(index, (factor, choice))| {
+            let mut tree = file.base.clone();
+            let error = put(&mut tree, factor, choice).err()?;
+            Some(file.fault(index, error.to_string()))
+        });
+        let mut errors: Vec<InputError> = astray.collect();
+        if !errors.is_empty() {
+            return Err(StudyError::Input(errors));
+        }
         let mut first: Option<(Vec<Named>, Vec<String>)> = None;
         let mut results: Vec<Vec<Named>> = Vec::new();
         // Factors whose values change the columns, and the values that do.
@@ -336,7 +352,7 @@ fn usual(file: &StudyFile) -> Vec<Choice> {
 }
 
 /// A value of a factor: a quantile, or an entry of its list.
-fn at(factor: &jostle_io::Factor, p: f64, entry: usize) -> Choice {
+fn at(factor: &Factor, p: f64, entry: usize) -> Choice {
     match &factor.values {
         FactorValues::Listed(_) => Choice::Listed(entry),
         FactorValues::Drawn(distribution) => {
@@ -346,7 +362,7 @@ fn at(factor: &jostle_io::Factor, p: f64, entry: usize) -> Choice {
 }
 
 /// The values of a factor to try.
-fn tried(factor: &jostle_io::Factor) -> Vec<Choice> {
+fn tried(factor: &Factor) -> Vec<Choice> {
     match &factor.values {
         FactorValues::Listed(levels) => {
             let step = levels.len().div_ceil(MOST_TRIED).max(1);
@@ -414,7 +430,8 @@ fn hashes(file: &StudyFile, _workshop: &Workshop) -> (String, String) {
     (hex(&all.finalize()), model)
 }
 
-fn hex(bytes: &[u8]) -> String {
+/// Bytes as lower-case digits.
+pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().fold(String::new(), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
         text

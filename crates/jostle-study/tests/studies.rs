@@ -58,7 +58,8 @@ values = ["100 cm/s2", "0.2 g", 3.0, "400 gal", 4.5]
 "#;
 
 fn go(study: &Study, folder: &Path, settings: &RunSettings) -> Done {
-    run(study, folder, settings, &|| false, &|_| {}).unwrap_or_else(|error| panic!("{error}"))
+    run(study, folder, settings, &|| false, &|_| {}, &|_| {})
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn jobs(jobs: usize) -> RunSettings {
@@ -125,7 +126,7 @@ fn threads_shards_and_interruptions_leave_no_trace() {
         let count = |progress: jostle_study::Progress| {
             begun.store(progress.computed, Ordering::Relaxed);
         };
-        let done = run(&study, folder.path(), &jobs(3), &stop, &count);
+        let done = run(&study, folder.path(), &jobs(3), &stop, &count, &|_| {});
         let done = done.unwrap_or_else(|error| panic!("{error}"));
         computed += done.progress.computed;
         assert_eq!(done.complete, limit == u64::MAX);
@@ -301,7 +302,7 @@ fn a_folder_belongs_to_one_study() {
     let folder = temporary();
     go(&study(GRID), folder.path(), &jobs(1));
     let other = study(&GRID.replace("count = 10", "count = 9"));
-    match run(&other, folder.path(), &jobs(1), &|| false, &|_| {}) {
+    match run(&other, folder.path(), &jobs(1), &|| false, &|_| {}, &|_| {}) {
         Err(StudyError::Folder(text)) => {
             assert!(text.contains("the study file has changed"), "{text}");
         }
@@ -315,7 +316,14 @@ fn parts_without_a_manifest_are_not_taken_for_ours() {
     go(&study(GRID), folder.path(), &jobs(1));
     std::fs::remove_file(folder.path().join("manifest.json"))
         .unwrap_or_else(|error| panic!("{error}"));
-    match run(&study(GRID), folder.path(), &jobs(1), &|| false, &|_| {}) {
+    match run(
+        &study(GRID),
+        folder.path(),
+        &jobs(1),
+        &|| false,
+        &|_| {},
+        &|_| {},
+    ) {
         Err(StudyError::Folder(text)) => assert!(text.contains("no manifest.json"), "{text}"),
         other => panic!("{other:?}"),
     }
@@ -441,9 +449,10 @@ values = [[9e7], [9e7, 9e7, 9e7]]
 #[test]
 fn ready_made_studies_are_valid() {
     for name in jostle_study::ready_made_names() {
-        let text = jostle_study::ready_made(name).unwrap_or_default();
-        let file = StudyFile::parse(name, text, Format::Toml, Path::new(""), None);
-        let study = Study::new(file.unwrap_or_else(|error| panic!("{error}")));
+        let (file, notes) =
+            jostle_study::ready_made(name, None).unwrap_or_else(|error| panic!("{error}"));
+        assert!(notes.is_empty(), "{name}: {notes:?}");
+        let study = Study::new(file);
         let study = study.unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(study.design.cases > 1, "{name}");
     }

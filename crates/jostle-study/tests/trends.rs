@@ -36,6 +36,7 @@ values = {GAPS:?}
         &RunSettings::default(),
         &|| false,
         &|_| {},
+        &|_| {},
     );
     let done = done.unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((done.failed, done.complete), (0, true));

@@ -56,6 +56,11 @@ impl Bar {
         }
     }
 
+    /// Prints a remark above the bar.
+    pub(super) fn remark(&self, text: &str) {
+        self.bar.suspend(|| terminal::remark(text));
+    }
+
     pub(super) fn finish(&self) {
         self.bar.finish_and_clear();
     }

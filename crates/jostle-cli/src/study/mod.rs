@@ -7,7 +7,9 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use jostle_io::{ModelTree, StudyFile};
-use jostle_study::{Done, RunSettings, Study, StudyError, run, run_case, run_folder};
+use jostle_study::{
+    Done, RunSettings, Study, StudyError, of_folder, run, run_case, run_folder, settle, varied,
+};
 
 use crate::failure::Failure;
 use crate::numbers::{counted_grouped, grouped};
@@ -24,7 +26,7 @@ const RESULTS: &str = "jostle-out";
                   jostle study gap-sweep --base model.toml"
 )]
 pub(crate) struct StudyArgs {
-    /// Study file (TOML or JSON), or the name of a ready-made study
+    /// Study file (TOML or JSON), the name of a ready-made study, or a folder of results to go on with
     study: PathBuf,
     /// Another base model: a file, or the name of a built-in example
     #[arg(long, value_name = "MODEL")]
@@ -62,21 +64,13 @@ fn shard(text: &str) -> Result<(u64, u64), String> {
 }
 
 pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
-    let (file, name) = open(args)?;
-    let study = Study::new(file)?;
-    for warning in &study.warnings {
-        terminal::remark(&format!(
-            "{} {warning}",
-            terminal::styled(terminal::LOUD, "warning:")
-        ));
+    let (study, out) = open(args)?;
+    for text in &study.warnings {
+        terminal::remark(&warning(text));
     }
     if args.check {
         return terminal::print(&description(&study));
     }
-    let out = args
-        .out
-        .clone()
-        .unwrap_or_else(|| Path::new(RESULTS).join(&name));
     std::fs::create_dir_all(&out).map_err(|error| {
         Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
     })?;
@@ -94,9 +88,9 @@ pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
     };
     let started = Instant::now();
     let bar = bar::Bar::new();
-    let done = run(&study, &out, &settings, &stop, &|progress| {
-        bar.show(progress);
-    });
+    let show = |progress| bar.show(progress);
+    let remark = |text: &str| bar.remark(&warning(text));
+    let done = run(&study, &out, &settings, &stop, &show, &remark);
     bar.finish();
     let done = done?;
     terminal::print(&outcome(
@@ -115,24 +109,60 @@ pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The study file, and a name for its results.
-fn open(args: &StudyArgs) -> Result<(StudyFile, String), Failure> {
+fn warning(text: &str) -> String {
+    format!("{} {text}", terminal::styled(terminal::LOUD, "warning:"))
+}
+
+/// The study, and the folder for its results.
+fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
     let path = &args.study;
-    let ready = path
-        .to_str()
-        .filter(|_| !path.exists())
-        .and_then(|name| Some((name, jostle_study::ready_made(name)?)));
-    let base = args.base.as_deref().map(ModelTree::find).transpose()?;
-    if let Some((name, text)) = ready {
-        let file = StudyFile::parse(name, text, jostle_io::Format::Toml, Path::new(""), base)?;
-        return Ok((file, name.to_owned()));
+    if path.is_dir() {
+        if args.base.is_some() {
+            return Err(Failure::Input(format!(
+                "--base: {} is a folder of results, which has its base model in its manifest.json; leave --base out",
+                path.display()
+            )));
+        }
+        let known = of_folder(path)?.ok_or_else(|| {
+            Failure::Input(format!(
+                "{} is a folder without a manifest.json; name a study file, or a folder of results",
+                path.display()
+            ))
+        })?;
+        return Ok((known, args.out.clone().unwrap_or_else(|| path.clone())));
     }
-    let file = StudyFile::load(path, base)?;
-    let name = path.file_stem().map_or_else(
-        || "study".to_owned(),
-        |stem| stem.to_string_lossy().into_owned(),
-    );
-    Ok((file, name))
+    let named = path.to_str().filter(|_| !path.exists());
+    let ready = named.filter(|name| jostle_study::ready_made_names().contains(name));
+    let name = match (ready, path.file_stem()) {
+        (Some(name), _) => name.to_owned(),
+        (None, Some(stem)) => stem.to_string_lossy().into_owned(),
+        (None, None) => "study".to_owned(),
+    };
+    let out = args
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new(RESULTS).join(name));
+    // A single case belongs to the results in the folder: it has their base model.
+    if !args.case.is_empty()
+        && args.base.is_none()
+        && let Some(known) = of_folder(&out)?
+    {
+        let same = match ready {
+            Some(name) => known.file.name() == name,
+            None => std::fs::read_to_string(path).is_ok_and(|text| text == known.file.text()),
+        };
+        if same {
+            return Ok((known, out));
+        }
+    }
+    let base = args.base.as_deref().map(ModelTree::find).transpose()?;
+    let (file, notes) = match ready {
+        Some(name) => jostle_study::ready_made(name, base)?,
+        None => (StudyFile::load(path, base)?, Vec::new()),
+    };
+    let mut study = Study::new(file)?;
+    study.warnings.extend(notes);
+    Ok((study, out))
 }
 
 fn headline(study: &Study) -> String {
@@ -143,12 +173,16 @@ fn headline(study: &Study) -> String {
         String::new()
     };
     let inputs: Vec<&str> = study.layout.inputs.iter().map(|c| &c.name[..]).collect();
-    format!(
+    let mut text = format!(
         "{}: {}{seed}, over {}",
         terminal::styled(terminal::BOLD, &study.file.title),
         counted_grouped(study.design.cases, "case"),
         inputs.join(", ")
-    )
+    );
+    for one in varied(study) {
+        text += &format!("\n  {}", one.text());
+    }
+    text
 }
 
 fn description(study: &Study) -> String {
@@ -168,13 +202,14 @@ fn single(
     out: &Path,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<(), Failure> {
+    if let Some(case) = args.case.iter().find(|case| **case >= study.design.cases) {
+        return Err(Failure::Input(format!(
+            "--case: there is no case {case}; there are {}, counted from 0",
+            grouped(study.design.cases)
+        )));
+    }
+    settle(study, out)?;
     for &case in &args.case {
-        if case >= study.design.cases {
-            return Err(Failure::Input(format!(
-                "--case: there is no case {case}; there are {}, counted from 0",
-                grouped(study.design.cases)
-            )));
-        }
         let folder = run_folder(out, case);
         if !run_case(study, case, &folder, stop)? {
             return Err(Failure::Stopped);

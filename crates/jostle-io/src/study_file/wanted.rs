@@ -30,8 +30,10 @@ pub struct FragilityWanted {
 pub enum FragilityMethod {
     /// Maximum likelihood of the outcomes.
     MultipleStripe,
-    /// Straight line through the logarithms of demand and intensity.
+    /// Straight line through the logarithms of demand and intensity; demands of zero are left out.
     Cloud,
+    /// The same, with logistic regressions for demands of zero and for collapse.
+    ModifiedCloud,
 }
 
 /// Curves of demand over intensity, one for each record or whatever else varies.
@@ -93,6 +95,7 @@ fn fragility(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<FragilityWant
     let method = match reader.get(&view, "method") {
         Some(field) => match reader.choice(&field, FRAGILITY_METHODS, &[])? {
             "cloud" => FragilityMethod::Cloud,
+            "modified-cloud" => FragilityMethod::ModifiedCloud,
             _ => FragilityMethod::MultipleStripe,
         },
         None => FragilityMethod::MultipleStripe,
@@ -113,10 +116,10 @@ fn fragility(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<FragilityWant
         None => 0.9,
     };
     let (threshold, method) = (threshold?, method);
-    if method == FragilityMethod::Cloud && threshold <= 0.0 {
+    if method != FragilityMethod::MultipleStripe && threshold <= 0.0 {
         *reader.bad(
             field,
-            "the cloud method needs a threshold greater than zero",
+            "the cloud methods need a threshold greater than zero",
         ) = Some(
             "add demand = \"closing_peak_m\" and threshold = \"50 mm\", or method = \"stripes\""
                 .into(),

@@ -29,8 +29,13 @@ pub(crate) struct Journal {
 const HEAD: usize = 64;
 
 impl Journal {
-    /// Claims a part for the study with this fingerprint of 64 characters.
-    pub(crate) fn claim(path: &Path, fingerprint: &str) -> std::io::Result<Claim> {
+    /// Claims a part for the study with this fingerprint of 64 characters. `keep` gets the journal of another study
+    /// before it is written anew.
+    pub(crate) fn claim(
+        path: &Path,
+        fingerprint: &str,
+        keep: &dyn Fn(&[u8]) -> std::io::Result<()>,
+    ) -> std::io::Result<Claim> {
         let mut file = OpenOptions::new()
             .read(true)
             .write(true)
@@ -47,6 +52,9 @@ impl Journal {
         let (rows, good) = if bytes.get(..HEAD) == Some(fingerprint.as_bytes()) {
             records(&bytes)
         } else {
+            if bytes.len() > HEAD {
+                keep(&bytes)?;
+            }
             (Vec::new(), 0)
         };
         // A record that was half written when the process died is cut off.
@@ -74,7 +82,11 @@ impl Journal {
 
     /// Removes the journal of a part that is finished, and gives up the claim.
     pub(crate) fn remove(self) -> std::io::Result<()> {
-        std::fs::remove_file(&self.path)
+        match std::fs::remove_file(&self.path) {
+            // Another process removed it before this one got the lock.
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
+            other => other,
+        }
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -122,7 +134,7 @@ mod tests {
     }
 
     fn ours(path: &Path) -> (Journal, Vec<Row>) {
-        match Journal::claim(path, &"a".repeat(64)) {
+        match Journal::claim(path, &"a".repeat(64), &|_| Ok(())) {
             Ok(Claim::Ours(journal, rows)) => (journal, rows),
             Ok(Claim::Taken) => panic!("taken"),
             Err(error) => panic!("{error}"),
@@ -172,12 +184,22 @@ mod tests {
         journal
             .append(&row(0))
             .unwrap_or_else(|error| panic!("{error}"));
-        let second = Journal::claim(&path, &"a".repeat(64));
+        let second = Journal::claim(&path, &"a".repeat(64), &|_| Ok(()));
         assert!(matches!(second, Ok(Claim::Taken)), "claimed twice");
         drop(journal);
-        match Journal::claim(&path, &"b".repeat(64)) {
+        let before = std::fs::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let kept = std::cell::RefCell::new(Vec::new());
+        let keep = |bytes: &[u8]| {
+            kept.borrow_mut().extend_from_slice(bytes);
+            Ok(())
+        };
+        match Journal::claim(&path, &"b".repeat(64), &keep) {
             Ok(Claim::Ours(_, rows)) => assert!(rows.is_empty(), "rows of another study"),
             _ => panic!("the claim was not given up"),
         }
+        assert!(
+            *kept.borrow() == before,
+            "the rows of the other study are kept"
+        );
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use jostle_io::{FactorValues, write_atomically};
+use jostle_io::{FactorValues, Format, ModelTree, StudyFile, write_atomically};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -32,9 +32,23 @@ pub(crate) struct Manifest {
     /// The study and its model, to run it again.
     study: String,
     model: String,
+    /// Where they were read from; no part of what a study is.
+    #[serde(default)]
+    origin: Origin,
 }
 
-const FORMAT: u32 = 1;
+/// Where a study and its model were read from: names for messages, and folders from which records are looked for.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Origin {
+    study_name: String,
+    study_folder: PathBuf,
+    model_name: String,
+    model_folder: PathBuf,
+    /// Whether the model is written out in the study.
+    model_in_study: bool,
+}
+
+const FORMAT: u32 = 2;
 
 impl Manifest {
     pub(crate) fn of(study: &Study) -> Self {
@@ -71,6 +85,13 @@ impl Manifest {
                 .collect(),
             study: file.text().to_owned(),
             model: file.base.text().to_owned(),
+            origin: Origin {
+                study_name: file.name().to_owned(),
+                study_folder: absolute(&file.folder),
+                model_name: file.base.name().to_owned(),
+                model_folder: absolute(file.base.base()),
+                model_in_study: file.has_own_model(),
+            },
         }
     }
 
@@ -78,66 +99,152 @@ impl Manifest {
         folder.join("manifest.json")
     }
 
-    /// Makes the folder ready for the study, or makes sure that it holds this one.
-    pub(crate) fn settle(study: &Study, folder: &Path) -> Result<(), StudyError> {
-        let wrong = |path: &Path, error: &dyn std::fmt::Display| {
-            StudyError::Output(format!("{}: {error}", path.display()))
-        };
-        for inner in ["cases", "under-way"] {
-            let path = folder.join(inner);
-            std::fs::create_dir_all(&path).map_err(|error| wrong(&path, &error))?;
-        }
+    /// The manifest of a folder; `None` without one.
+    fn load(folder: &Path) -> Result<Option<Self>, StudyError> {
         let path = Self::path(folder);
-        let own = Self::of(study);
-        let mut found = std::fs::read(&path);
-        if found.is_err() && has_parts(folder) {
-            // Another process may have begun in between.
-            found = std::fs::read(&path);
-            if found.is_err() {
-                return Err(StudyError::Folder(format!(
-                    "{} has parts of a table but no manifest.json that tells of what study; choose another folder with --out",
-                    folder.display()
-                )));
-            }
-        }
-        match found {
-            Ok(bytes) => {
-                let known: Self = serde_json::from_slice(&bytes)
-                    .map_err(|error| StudyError::Folder(format!("{}: {error}", path.display())))?;
-                if known == own {
-                    return Ok(());
-                }
-                Err(StudyError::Folder(format!(
-                    "{} holds {}: {}; choose another folder with --out, or remove this one",
-                    folder.display(),
-                    if known.study_sha256 == own.study_sha256 {
-                        "results of another kind"
-                    } else {
-                        "another study"
-                    },
-                    known.difference(&own)
-                )))
-            }
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                let text = serde_json::to_string_pretty(&own).unwrap_or_default() + "\n";
-                write_atomically(&path, text.as_bytes())?;
-                Ok(())
-            }
-            Err(error) => Err(wrong(&path, &error)),
-        }
+        let bytes = match std::fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(StudyError::Output(format!("{}: {error}", path.display()))),
+        };
+        let manifest = serde_json::from_slice(&bytes).map_err(|error| {
+            StudyError::Folder(format!(
+                "{} is damaged: {error}; choose another folder with --out, or move the manifest and the folder cases away",
+                path.display()
+            ))
+        })?;
+        Ok(Some(manifest))
     }
 
-    fn difference(&self, other: &Self) -> &'static str {
-        if self.format != other.format || self.jostle != other.jostle {
-            "it was computed by another version of jostle"
-        } else if self.study != other.study {
-            "the study file has changed"
-        } else if self.model != other.model {
-            "the model has changed"
+    /// The study that the folder holds, read from the texts kept in the manifest.
+    fn study(&self, folder: &Path) -> Result<Study, StudyError> {
+        let origin = &self.origin;
+        if self.format != FORMAT || self.jostle != env!("CARGO_PKG_VERSION") {
+            return Err(StudyError::Folder(format!(
+                "{} was computed by another version of jostle ({})",
+                folder.display(),
+                self.jostle
+            )));
+        }
+        let base = if origin.model_in_study {
+            None
         } else {
-            "a record has changed"
+            let format = Format::of_text(&self.model);
+            let folder = &origin.model_folder;
+            Some(ModelTree::parse(
+                &origin.model_name,
+                &self.model,
+                format,
+                folder,
+            )?)
+        };
+        let format = Format::of_text(&self.study);
+        let file = StudyFile::parse(
+            &origin.study_name,
+            &self.study,
+            format,
+            &origin.study_folder,
+            base,
+        )?;
+        let study = Study::new(file)?;
+        let own = Self::of(&study);
+        if self.is_same(&own) {
+            return Ok(study);
+        }
+        Err(self.refusal(&own, folder))
+    }
+
+    /// Whether two manifests are about the same study, wherever it was read from.
+    fn is_same(&self, other: &Self) -> bool {
+        let other = Self {
+            origin: self.origin.clone(),
+            ..other.clone()
+        };
+        *self == other
+    }
+
+    fn refusal(&self, own: &Self, folder: &Path) -> StudyError {
+        StudyError::Folder(format!(
+            "{} holds {}: {}; choose another folder with --out, or remove this one",
+            folder.display(),
+            if self.study_sha256 == own.study_sha256 {
+                "results of another kind"
+            } else {
+                "another study"
+            },
+            self.difference(own)
+        ))
+    }
+
+    fn difference(&self, other: &Self) -> String {
+        if self.format != other.format || self.jostle != other.jostle {
+            "it was computed by another version of jostle".to_owned()
+        } else if self.model != other.model {
+            format!(
+                "the model has changed; the folder was made with the base model {}",
+                self.origin.model_name
+            )
+        } else if self.study != other.study {
+            "the study file has changed".to_owned()
+        } else {
+            "a record has changed".to_owned()
         }
     }
+}
+
+/// Makes a folder ready for a study, or makes sure that it holds this one.
+///
+/// # Errors
+/// [`StudyError::Folder`] when it holds another study, [`StudyError::Output`] when it cannot be written.
+pub fn settle(study: &Study, folder: &Path) -> Result<(), StudyError> {
+    for inner in ["cases", "under-way"] {
+        let path = folder.join(inner);
+        std::fs::create_dir_all(&path)
+            .map_err(|error| StudyError::Output(format!("{}: {error}", path.display())))?;
+    }
+    let own = Manifest::of(study);
+    let mut found = Manifest::load(folder)?;
+    if found.is_none() && has_parts(folder) {
+        // Another process may have begun in between.
+        found = Manifest::load(folder)?;
+        if found.is_none() {
+            return Err(StudyError::Folder(format!(
+                "{} has parts of a table but no manifest.json that says of what study; choose another folder with --out",
+                folder.display()
+            )));
+        }
+    }
+    match found {
+        Some(known) if known.is_same(&own) => Ok(()),
+        Some(known) => Err(known.refusal(&own, folder)),
+        None => {
+            let text = serde_json::to_string_pretty(&own).unwrap_or_default() + "\n";
+            write_atomically(&Manifest::path(folder), text.as_bytes())?;
+            Ok(())
+        }
+    }
+}
+
+/// The study whose results a folder holds, with its model, as the manifest of the folder has them; `None` without a
+/// manifest.
+///
+/// # Errors
+/// [`StudyError`] when the manifest is damaged, or when a record of the study is gone or has changed.
+pub fn of_folder(folder: &Path) -> Result<Option<Study>, StudyError> {
+    match Manifest::load(folder)? {
+        Some(manifest) => manifest.study(folder).map(Some),
+        None => Ok(None),
+    }
+}
+
+/// A path that means the same from any folder.
+fn absolute(path: &Path) -> PathBuf {
+    let here = if path == Path::new("") {
+        Path::new(".")
+    } else {
+        path
+    };
+    std::path::absolute(here).unwrap_or_else(|_| path.to_owned())
 }
 
 /// Whether a folder holds finished parts.

@@ -2,14 +2,18 @@
 
 mod journal;
 mod manifest;
+mod part;
 mod reading;
+mod set_aside;
 
 use std::path::{Path, PathBuf};
 
 pub(crate) use journal::{Claim, Journal};
-pub(crate) use manifest::Manifest;
+pub use manifest::{of_folder, settle};
+pub(crate) use part::{PartFault, cases_of, verify, write as write_part};
 pub(crate) use reading::read_part;
-pub use reading::{Table, read_columns};
+pub use reading::{Table, missing_parts, read_columns};
+pub(crate) use set_aside::{keep_copy, set_aside, strangers};
 
 /// Where the parts of a table of cases lie.
 #[must_use]

@@ -1,14 +1,14 @@
 //! Reading columns of a study back.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::Path;
 
+use bytes::Bytes;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
-use super::part_path;
+use super::{PartFault, part_path, verify};
 use crate::study::{Study, StudyError};
 
 /// Columns of a study, case by case.
@@ -33,24 +33,45 @@ impl Table {
 /// Reads columns of all parts, in the order of the cases.
 ///
 /// # Errors
-/// [`StudyError::Output`] when a part is absent or cannot be read.
+/// [`StudyError::Output`] when a part is absent, damaged, or not of this study.
 pub fn read_columns(study: &Study, folder: &Path, wanted: &[&str]) -> Result<Table, StudyError> {
     let mut table = Table::default();
     for part in 0..study.parts() {
-        let path = part_path(folder, study.part(part).start);
-        read_part(&path, wanted, &mut table)
-            .map_err(|error| StudyError::Output(format!("{}: {error}", path.display())))?;
+        read_part(study, folder, part, wanted, &mut table)?;
     }
     Ok(table)
 }
 
-/// Adds the rows of a part to a table.
+/// Numbers of the parts that a folder does not hold: absent, damaged, or not of this study.
+#[must_use]
+pub fn missing_parts(study: &Study, folder: &Path) -> Vec<u64> {
+    (0..study.parts())
+        .filter(|part| verify(study, folder, *part).is_err())
+        .collect()
+}
+
+/// Verifies a part and adds its rows to a table.
 pub(crate) fn read_part(
-    path: &Path,
+    study: &Study,
+    folder: &Path,
+    part: u64,
+    wanted: &[&str],
+    table: &mut Table,
+) -> Result<(), StudyError> {
+    let path = part_path(folder, study.part(part).start);
+    let wrong =
+        |fault: &dyn std::fmt::Display| StudyError::Output(format!("{} {fault}", path.display()));
+    let bytes = verify(study, folder, part).map_err(|fault| wrong(&fault))?;
+    read_rows(&bytes, wanted, table).map_err(|error| wrong(&PartFault::Damaged(error.to_string())))
+}
+
+/// Adds the rows of a Parquet file to a table.
+pub(super) fn read_rows(
+    bytes: &Bytes,
     wanted: &[&str],
     table: &mut Table,
 ) -> Result<(), ParquetError> {
-    let reader = SerializedFileReader::new(File::open(path)?)?;
+    let reader = SerializedFileReader::new(bytes.clone())?;
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);

@@ -6,7 +6,10 @@ use jostle_io::{FragilityMethod, FragilityWanted, Values};
 use jostle_report::{Axis, Chart, Section, Series, Stroke};
 
 use super::{Results, words};
-use crate::statistics::{Band, FitError, Lognormal, bootstrap_band, fit_cloud, fit_lognormal};
+use crate::statistics::{
+    Band, CloudFit, Curve, FitError, Logistic, ModifiedCloud, bootstrap_band, fit_cloud,
+    fit_lognormal, fit_modified_cloud,
+};
 use crate::study::StudyError;
 
 /// Points at which curves are drawn.
@@ -15,10 +18,14 @@ const POINTS: usize = 60;
 /// One fitted curve.
 struct Fitted {
     name: String,
-    curve: Result<Lognormal, FitError>,
+    curve: Result<Curve, FitError>,
+    /// What a cloud was fitted by.
+    parts: Option<ModifiedCloud>,
     band: Option<Band>,
     cases: usize,
     events: usize,
+    /// Cases whose demand is zero.
+    zeros: usize,
     stripes: Vec<[f64; 2]>,
     grid: Vec<f64>,
 }
@@ -52,7 +59,9 @@ impl Results<'_> {
                 "probabilities and bands, point by point",
                 points(wanted, &fitted),
             )?;
-            sections.push(section(wanted, &fitted));
+            let left_out = left_out(wanted, &fitted);
+            self.said.extend(left_out.clone());
+            sections.push(section(wanted, &fitted, left_out.as_deref()));
         }
         Ok(sections)
     }
@@ -70,7 +79,7 @@ impl Results<'_> {
                 continue;
             };
             // A building that collapses exceeds every demand.
-            let d = if collapsed && wanted.method == FragilityMethod::MultipleStripe {
+            let d = if collapsed && wanted.method != FragilityMethod::Cloud {
                 Some(f64::INFINITY)
             } else {
                 demand[case]
@@ -82,13 +91,18 @@ impl Results<'_> {
         }
         let all: Vec<(f64, f64)> = records.values().flatten().copied().collect();
         let threshold = wanted.threshold;
-        let fit = |data: &[(f64, f64)]| match wanted.method {
-            FragilityMethod::MultipleStripe => {
-                let outcomes: Vec<(f64, bool)> =
-                    data.iter().map(|(x, d)| (*x, *d > threshold)).collect();
-                fit_lognormal(&outcomes)
+        let fit = |data: &[(f64, f64)]| -> Result<Curve, FitError> {
+            match wanted.method {
+                FragilityMethod::MultipleStripe => {
+                    let outcomes: Vec<(f64, bool)> =
+                        data.iter().map(|(x, d)| (*x, *d > threshold)).collect();
+                    fit_lognormal(&outcomes).map(Curve::from)
+                }
+                FragilityMethod::Cloud => fit_cloud(data)?.fragility(threshold).map(Curve::from),
+                FragilityMethod::ModifiedCloud => fit_modified_cloud(data)?
+                    .fragility(threshold)
+                    .map(Curve::from),
             }
-            FragilityMethod::Cloud => fit_cloud(data).and_then(|fit| fit.fragility(threshold)),
         };
         let curve = fit(&all);
         let most = all.iter().map(|(x, _)| *x).fold(0.0, f64::max);
@@ -117,10 +131,37 @@ impl Results<'_> {
             band: band.flatten(),
             cases: all.len(),
             events: all.iter().filter(|(_, d)| *d > threshold).count(),
+            zeros: all.iter().filter(|(_, d)| *d <= 0.0).count(),
+            parts: cloud_parts(wanted.method, &all),
             stripes: stripes(&all, threshold),
             grid,
         }
     }
+}
+
+/// What the cloud methods fit; of the plain one there is only the line.
+fn cloud_parts(method: FragilityMethod, data: &[(f64, f64)]) -> Option<ModifiedCloud> {
+    match method {
+        FragilityMethod::MultipleStripe => None,
+        FragilityMethod::Cloud => fit_cloud(data).ok().map(|cloud| ModifiedCloud {
+            nonzero: None,
+            collapse: None,
+            cloud,
+        }),
+        FragilityMethod::ModifiedCloud => fit_modified_cloud(data).ok(),
+    }
+}
+
+/// What the plain cloud leaves out, in a sentence; `None` if it is nothing.
+fn left_out(wanted: &FragilityWanted, fitted: &[Fitted]) -> Option<String> {
+    let zeros: usize = fitted.iter().map(|one| one.zeros).sum();
+    let cases: usize = fitted.iter().map(|one| one.cases).sum();
+    (wanted.method == FragilityMethod::Cloud && zeros > 0).then(|| {
+        format!(
+            "Fragility of {}: {zeros} of {cases} demands are zero or less and have no logarithm. The method cloud leaves them out, so that its curve holds for cases with demand only and is too high for all; method = \"modified-cloud\" keeps them.",
+            wanted.demand
+        )
+    })
 }
 
 /// Shares of events at intensities that at least five cases have in common.
@@ -178,13 +219,13 @@ fn parameters(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Value
         ("events".into(), whole(&|one| one.events)),
         (
             format!("median_{unit}"),
-            real(&|one| one.curve.ok().map(|c| c.median)),
+            real(&|one| one.curve.ok().map(|c| c.equivalent().median)),
         ),
         (format!("median_low_{unit}"), real(&limit(0, 0))),
         (format!("median_high_{unit}"), real(&limit(0, 1))),
         (
             "dispersion".into(),
-            real(&|one| one.curve.ok().map(|c| c.dispersion)),
+            real(&|one| one.curve.ok().map(|c| c.equivalent().dispersion)),
         ),
         ("dispersion_low".into(), real(&limit(1, 0))),
         ("dispersion_high".into(), real(&limit(1, 1))),
@@ -193,15 +234,52 @@ fn parameters(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Value
             Values::Text(
                 fitted
                     .iter()
-                    .map(|one| {
-                        one.curve
-                            .err()
-                            .map_or(String::new(), |error| error.to_string())
+                    .map(|one| match one.curve {
+                        Err(error) => error.to_string(),
+                        Ok(_) if wanted.method == FragilityMethod::Cloud && one.zeros > 0 => {
+                            format!("{} demands of zero or less are left out", one.zeros)
+                        }
+                        Ok(_) => String::new(),
                     })
                     .collect(),
             ),
         ),
+        ("zero_demands".into(), whole(&|one| one.zeros)),
+        (
+            "cloud_ln_a".into(),
+            real(&|one| Some(cloud(one)?.intercept)),
+        ),
+        ("cloud_b".into(), real(&|one| Some(cloud(one)?.slope))),
+        ("cloud_beta".into(), real(&|one| Some(cloud(one)?.scatter))),
+        (
+            "nonzero_alpha0".into(),
+            real(&|one| Some(nonzero(one)?.intercept)),
+        ),
+        (
+            "nonzero_alpha1".into(),
+            real(&|one| Some(nonzero(one)?.slope)),
+        ),
+        (
+            "collapse_alpha0".into(),
+            real(&|one| Some(collapse(one)?.intercept)),
+        ),
+        (
+            "collapse_alpha1".into(),
+            real(&|one| Some(collapse(one)?.slope)),
+        ),
     ]
+}
+
+fn cloud(one: &Fitted) -> Option<CloudFit> {
+    one.parts.map(|parts| parts.cloud)
+}
+
+fn nonzero(one: &Fitted) -> Option<Logistic> {
+    one.parts.and_then(|parts| parts.nonzero)
+}
+
+fn collapse(one: &Fitted) -> Option<Logistic> {
+    one.parts.and_then(|parts| parts.collapse)
 }
 
 fn points(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Values)> {
@@ -226,7 +304,7 @@ fn points(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Values)> 
     ]
 }
 
-fn section(wanted: &FragilityWanted, fitted: &[Fitted]) -> Section {
+fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) -> Section {
     let (x, size) = words::axis(&wanted.intensity);
     let (demand, demand_size) = words::axis(&wanted.demand);
     let event = if wanted.demand == "impact_count" && wanted.threshold == 0.0 {
@@ -285,8 +363,21 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted]) -> Section {
         FragilityMethod::Cloud => {
             "Lognormal curves from a straight line through the logarithms of demand and intensity (cloud); dots are observed shares."
         }
+        FragilityMethod::ModifiedCloud => {
+            "Straight line through the logarithms of demand and intensity for the cases with demand, times the logistic probability of a demand at all, with a logistic probability of collapse (modified cloud analysis, Jalayer et al. 2017). Median: the intensity at one half; β: half the logarithm of the ratio of the intensities at Φ(1) and Φ(−1). Dots are observed shares."
+        }
     };
-    let heads = ["", "cases", "events", "median", "limits", "β", "limits"].map(str::to_owned);
+    let heads = [
+        "",
+        "cases",
+        "zero demand",
+        "events",
+        "median",
+        "limits",
+        "β",
+        "limits",
+    ];
+    let heads = heads.map(str::to_owned);
     let rows = fitted.iter().map(|one| {
         let mut row = vec![
             if one.name.is_empty() {
@@ -295,10 +386,12 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted]) -> Section {
                 one.name.clone()
             },
             one.cases.to_string(),
+            one.zeros.to_string(),
             one.events.to_string(),
         ];
         match (&one.curve, &one.band) {
             (Ok(curve), band) => {
+                let curve = curve.equivalent();
                 row.push(format!("{:.4} {}", size * curve.median, x.unit));
                 row.push(band.as_ref().map_or("–".into(), |band| {
                     format!(
@@ -319,9 +412,10 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted]) -> Section {
     Section {
         title: format!("Fragility: {event}"),
         remark: format!(
-            "{method} Bands hold {:.0} % of {} resampled fits.",
+            "{method} Bands hold {:.0} % of {} resampled fits.{}",
             100.0 * wanted.confidence,
-            wanted.bootstrap
+            wanted.bootstrap,
+            left_out.map_or(String::new(), |text| format!(" {text}"))
         ),
         table: Some((heads.to_vec(), rows.collect())),
         charts: vec![Chart {

@@ -32,6 +32,8 @@ impl Results<'_> {
                         let label = &levels[*entry].label;
                         if factor.name.ends_with("record") || factor.name == "motion" {
                             label.clone()
+                        } else if factor.multiplies {
+                            format!("{} × {label}", factor.name)
                         } else {
                             format!("{} {label}", factor.name)
                         }

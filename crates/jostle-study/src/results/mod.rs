@@ -13,13 +13,14 @@ use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::Path;
 
-use jostle_io::{FactorValues, Values, write_atomically, write_values_parquet};
+use jostle_io::{FactorValues, Values, csv_field, write_atomically, write_values_parquet};
 use jostle_report::{Section, StudyPage, render_study};
 
-use crate::dataset::{Table, part_path, read_columns};
+use crate::dataset::{Table, read_columns};
 use crate::layout::Kind;
 use crate::runner::run_folder;
 use crate::study::{Study, StudyError};
+use crate::varied::varied;
 
 /// Columns that every page uses.
 const ALWAYS: [&str; 7] = [
@@ -198,7 +199,11 @@ impl Results<'_> {
         if study.file.design.samples.is_some() {
             facts.push(("seed".into(), study.file.design.seed.to_string()));
         }
-        facts.extend(study.file.factors.iter().map(words::factor));
+        facts.extend(
+            varied(study)
+                .into_iter()
+                .map(|one| (one.name.clone(), one.text())),
+        );
         let runs = study.file.histories.iter().filter_map(|case| {
             let choices = study.design.choices(*case, &study.file.factors);
             let what: Vec<String> = study
@@ -225,7 +230,8 @@ impl Results<'_> {
             failures: failures.collect(),
             failed,
             runs: runs.collect(),
-            command: format!("jostle study {}", study.file.name()),
+            // The folder knows its study and its model, wherever these came from.
+            command: format!("jostle study {}", words::argument(self.folder)),
             files: self.files,
         }
     }
@@ -257,13 +263,11 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
     let part = path.with_extension("csv.part");
     let file = std::fs::File::create(&part).map_err(|error| unwritable(&error))?;
     let mut writer = std::io::BufWriter::new(file);
-    let quoted: Vec<String> = names.iter().map(|name| quote(name)).collect();
+    let quoted: Vec<String> = names.iter().map(|name| csv_field(name)).collect();
     writeln!(writer, "{}", quoted.join(",")).map_err(|error| unwritable(&error))?;
     for number in 0..study.parts() {
         let mut table = Table::default();
-        let source = part_path(folder, study.part(number).start);
-        crate::dataset::read_part(&source, &names, &mut table)
-            .map_err(|error| unwritable(&error))?;
+        crate::dataset::read_part(study, folder, number, &names, &mut table)?;
         for row in 0..table.rows {
             let cells = names.iter().map(|name| match table.numbers.get(*name) {
                 Some(values) => values
@@ -273,7 +277,7 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
                     .map_or(String::new(), |value| value.to_string()),
                 None => {
                     let texts = table.texts.get(*name);
-                    quote(
+                    csv_field(
                         texts
                             .and_then(|texts| texts.get(row))
                             .map_or("", |text| text),
@@ -289,15 +293,6 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
     std::fs::rename(&part, &path).map_err(|error| unwritable(&error))
 }
 
-/// A text as a field of CSV (RFC 4180).
-fn quote(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
 fn csv(columns: &[(String, Values)]) -> String {
     let length = |values: &Values| match values {
         Values::Real(values) => values.len(),
@@ -309,9 +304,9 @@ fn csv(columns: &[(String, Values)]) -> String {
         Values::Real(values) => values[row].to_string(),
         Values::Instant(values) => values[row].map_or(String::new(), |value| value.to_string()),
         Values::Whole(values) => values[row].map_or(String::new(), |value| value.to_string()),
-        Values::Text(values) => quote(&values[row]),
+        Values::Text(values) => csv_field(&values[row]),
     };
-    let heads: Vec<String> = columns.iter().map(|(name, _)| quote(name)).collect();
+    let heads: Vec<String> = columns.iter().map(|(name, _)| csv_field(name)).collect();
     let mut text = heads.join(",") + "\n";
     for row in 0..columns.first().map_or(0, |(_, values)| length(values)) {
         let cells: Vec<String> = columns

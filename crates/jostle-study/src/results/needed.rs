@@ -76,7 +76,9 @@ impl Results<'_> {
     pub(super) fn needed_gap(&mut self) -> Option<Section> {
         let (right, up) = self.plane()?;
         let is_width = |path: &String| path.ends_with(".width");
-        if !self.study.file.factors[right].paths.iter().any(is_width) {
+        let factor = &self.study.file.factors[right];
+        // Multiples of widths are no widths.
+        if factor.multiplies || !factor.paths.iter().any(is_width) {
             return None;
         }
         let (gaps, intensities) = (self.input(right), self.input(up));

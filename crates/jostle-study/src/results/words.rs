@@ -1,6 +1,8 @@
 //! Columns in words and in the units that people read.
 
-use jostle_io::{DesignKind, Factor, FactorValues};
+use std::path::Path;
+
+use jostle_io::DesignKind;
 use jostle_report::Axis;
 
 /// Endings of column names: the size of the unit that people read, and its name.
@@ -53,39 +55,13 @@ pub(super) fn design(kind: DesignKind) -> &'static str {
     }
 }
 
-/// A factor and its values in words.
-pub(super) fn factor(factor: &Factor) -> (String, String) {
-    let values = match &factor.values {
-        FactorValues::Listed(levels) => match &levels[..] {
-            [only] => only.label.clone(),
-            [first, second] => format!("{}, {}", first.label, second.label),
-            [first, .., last] if levels.len() > 4 => {
-                format!("{} values, {} … {}", levels.len(), first.label, last.label)
-            }
-            all => {
-                let labels: Vec<&str> = all.iter().map(|level| &level.label[..]).collect();
-                labels.join(", ")
-            }
-        },
-        FactorValues::Drawn(drawn) => {
-            let unit = &drawn.unit;
-            let text = match drawn.shape {
-                jostle_io::Shape::Uniform { from, to } => format!("uniform, {from} … {to} {unit}"),
-                jostle_io::Shape::Normal { mean, deviation } => {
-                    format!("normal, {mean} ± {deviation} {unit}")
-                }
-                jostle_io::Shape::LogNormal { median, dispersion } => {
-                    format!("lognormal, median {median} {unit}, β {dispersion:.3}")
-                }
-            };
-            text.trim_end().to_owned()
-        }
-    };
-    let values = values.replace(" ,", ",");
-    let values = if factor.multiplies {
-        format!("× {values}")
+/// A path as an argument that a shell takes for one.
+pub(super) fn argument(path: &Path) -> String {
+    let text = path.display().to_string();
+    let plain = |c: char| c.is_alphanumeric() || matches!(c, '/' | '\\' | '.' | '_' | '-' | ':');
+    if text.chars().all(plain) && !text.starts_with('-') {
+        text
     } else {
-        values
-    };
-    (factor.name.clone(), values)
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
 }

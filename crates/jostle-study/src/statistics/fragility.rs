@@ -1,5 +1,6 @@
 //! Lognormal fragility by maximum likelihood.
 
+use super::binary::{Link, regress};
 use crate::sampling::{normal_cdf, normal_quantile};
 
 /// P(event | x) = Φ(ln(x/θ)/β).
@@ -55,6 +56,18 @@ pub enum FitError {
         /// Least intensity with it.
         above: f64,
     },
+    /// The same of a logistic regression: the intensities of both outcomes do not overlap.
+    #[error(
+        "{what}: none up to {below:.6} and all from {above:.6} on, so that there is no scatter for a logistic regression; the chance of it turns from 0 to 1 in between"
+    )]
+    NoOverlap {
+        /// What happens or not.
+        what: &'static str,
+        /// Greatest intensity without it.
+        below: f64,
+        /// Least intensity with it.
+        above: f64,
+    },
     /// The event becomes rarer with the intensity.
     #[error("the event does not become likelier with the intensity")]
     Falling,
@@ -62,9 +75,6 @@ pub enum FitError {
     #[error("the likelihood has no greatest value that could be found")]
     NoMaximum,
 }
-
-/// Iterations of the search.
-const MOST_STEPS: usize = 200;
 
 /// Fits θ and β to outcomes (intensity, event) by maximum likelihood,
 ///
@@ -77,117 +87,11 @@ const MOST_STEPS: usize = 200;
 /// # Errors
 /// [`FitError`] when no unique maximum exists.
 pub fn fit_lognormal(outcomes: &[(f64, bool)]) -> Result<Lognormal, FitError> {
-    let used: Vec<(f64, bool)> = outcomes
-        .iter()
-        .filter(|(x, _)| *x > 0.0 && x.is_finite())
-        .map(|(x, event)| (x.ln(), *event))
-        .collect();
-    let events = used.iter().filter(|(_, event)| *event).count();
-    if used.len() < 3 {
-        return Err(FitError::TooFew { cases: used.len() });
-    }
-    if events == 0 || events == used.len() {
-        return Err(FitError::OneSided {
-            events,
-            cases: used.len(),
-        });
-    }
-    let without = used.iter().filter(|(_, event)| !*event).map(|(x, _)| *x);
-    let with = used.iter().filter(|(_, event)| *event).map(|(x, _)| *x);
-    let (below, above) = (
-        without.fold(f64::NEG_INFINITY, f64::max),
-        with.fold(f64::INFINITY, f64::min),
-    );
-    if below < above {
-        return Err(FitError::Separated {
-            below: below.exp(),
-            above: above.exp(),
-        });
-    }
-    // Standardised abscissas keep the equations well conditioned.
-    let n = used.len() as f64;
-    let mean = used.iter().map(|(x, _)| x).sum::<f64>() / n;
-    let spread = (used.iter().map(|(x, _)| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
-    if spread <= 1e-12 {
-        return Err(FitError::TooFew { cases: 1 });
-    }
-    let standard: Vec<(f64, bool)> = used
-        .iter()
-        .map(|(x, event)| ((x - mean) / spread, *event))
-        .collect();
-    let [a, b] = probit(&standard).ok_or(FitError::NoMaximum)?;
-    if b <= 1e-9 {
-        return Err(FitError::Falling);
-    }
+    let [a, b] = regress(outcomes, Link::Probit)?;
     Ok(Lognormal {
-        median: (mean - spread * a / b).exp(),
-        dispersion: spread / b,
+        median: (-a / b).exp(),
+        dispersion: 1.0 / b,
     })
-}
-
-/// ln Φ(z), also far below zero.
-fn ln_cdf(z: f64) -> f64 {
-    if z > -30.0 {
-        normal_cdf(z).ln()
-    } else {
-        -0.5 * z * z - (-z).ln() - 0.5 * (2.0 * std::f64::consts::PI).ln()
-    }
-}
-
-fn likelihood(data: &[(f64, bool)], [a, b]: [f64; 2]) -> f64 {
-    data.iter()
-        .map(|(x, event)| {
-            let z = a + b * x;
-            ln_cdf(if *event { z } else { -z })
-        })
-        .sum()
-}
-
-/// Greatest likelihood of P = Φ(a + b x).
-fn probit(data: &[(f64, bool)]) -> Option<[f64; 2]> {
-    let events = data.iter().filter(|(_, event)| *event).count() as f64;
-    let mut p = [normal_quantile(events / data.len() as f64), 0.0];
-    let mut value = likelihood(data, p);
-    for _ in 0..MOST_STEPS {
-        let (mut slope, mut information) = ([0.0; 2], [0.0; 3]);
-        for (x, event) in data {
-            let z = p[0] + p[1] * x;
-            // φ/Φ and φ/(1 − Φ) by logarithms: no division of zero by zero in the tails.
-            let ln_density = -0.5 * z * z - 0.5 * (2.0 * std::f64::consts::PI).ln();
-            let ratio = |sign: f64| (ln_density - ln_cdf(sign * z)).exp();
-            let score = if *event { ratio(1.0) } else { -ratio(-1.0) };
-            let weight = ratio(1.0) * ratio(-1.0);
-            slope[0] += score;
-            slope[1] += score * x;
-            information[0] += weight;
-            information[1] += weight * x;
-            information[2] += weight * x * x;
-        }
-        let determinant = information[0] * information[2] - information[1] * information[1];
-        if determinant.is_nan() || determinant <= 0.0 {
-            return None;
-        }
-        let step = [
-            (information[2] * slope[0] - information[1] * slope[1]) / determinant,
-            (information[0] * slope[1] - information[1] * slope[0]) / determinant,
-        ];
-        let mut share = 1.0;
-        loop {
-            let tried = [p[0] + share * step[0], p[1] + share * step[1]];
-            let reached = likelihood(data, tried);
-            if reached >= value || share < 1e-10 {
-                p = tried;
-                value = reached;
-                break;
-            }
-            share *= 0.5;
-        }
-        let moved = share * step[0].abs().max(step[1].abs());
-        if moved < 1e-11 * (1.0 + p[0].abs() + p[1].abs()) {
-            return p.iter().all(|x| x.is_finite()).then_some(p);
-        }
-    }
-    None
 }
 
 #[cfg(test)]

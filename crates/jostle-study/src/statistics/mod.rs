@@ -1,12 +1,17 @@
 //! What many cases say together.
 
+mod binary;
 mod cloud;
+mod curve;
 mod fragility;
+mod modified_cloud;
 mod resample;
 mod sensitivity;
 
 pub use cloud::{CloudFit, fit_cloud};
+pub use curve::Curve;
 pub use fragility::{FitError, Lognormal, fit_lognormal};
+pub use modified_cloud::{Logistic, MixedCurve, ModifiedCloud, fit_modified_cloud};
 pub(crate) use resample::percentile;
 pub use resample::{Band, bootstrap_band};
 pub use sensitivity::{ElementaryEffects, SobolIndex, elementary_effects, sobol_indices};

@@ -1,6 +1,7 @@
 //! Confidence bands by the bootstrap (Efron 1979).
 
-use super::fragility::{FitError, Lognormal};
+use super::curve::Curve;
+use super::fragility::FitError;
 use crate::sampling::Stream;
 
 /// A band around a fitted curve, point by point.
@@ -23,15 +24,15 @@ const BOOTSTRAP: u64 = 6;
 /// Draws whole groups with replacement (all cases of a record belong together: they are not independent), fits each
 /// resample, and takes the percentiles in between which `confidence` of the curves lie. `None` when fewer than half
 /// of the resamples, or fewer than ten, could be fitted.
-pub fn bootstrap_band<T: Copy>(
+pub fn bootstrap_band<T: Copy, C: Into<Curve>>(
     groups: &[Vec<T>],
     resamples: usize,
     confidence: f64,
     seed: u64,
     at: &[f64],
-    fit: impl Fn(&[T]) -> Result<Lognormal, FitError>,
+    fit: impl Fn(&[T]) -> Result<C, FitError>,
 ) -> Option<Band> {
-    let mut curves: Vec<Lognormal> = Vec::new();
+    let mut curves: Vec<Curve> = Vec::new();
     for number in 0..resamples {
         let mut stream = Stream::new(seed, BOOTSTRAP, number as u64);
         let mut sample: Vec<T> = Vec::new();
@@ -39,7 +40,7 @@ pub fn bootstrap_band<T: Copy>(
             let drawn = stream.below(groups.len() as u64) as usize;
             sample.extend(&groups[drawn]);
         }
-        curves.extend(fit(&sample));
+        curves.extend(fit(&sample).map(Into::into));
     }
     if curves.len() < 10 || 2 * curves.len() < resamples {
         return None;
@@ -57,8 +58,18 @@ pub fn bootstrap_band<T: Copy>(
         low: bands.iter().map(|band| band[0]).collect(),
         high: bands.iter().map(|band| band[1]).collect(),
         fitted: curves.len(),
-        median: limits(curves.iter().map(|curve| curve.median).collect()),
-        dispersion: limits(curves.iter().map(|curve| curve.dispersion).collect()),
+        median: limits(
+            curves
+                .iter()
+                .map(|curve| curve.equivalent().median)
+                .collect(),
+        ),
+        dispersion: limits(
+            curves
+                .iter()
+                .map(|curve| curve.equivalent().dispersion)
+                .collect(),
+        ),
     })
 }
 
@@ -77,7 +88,7 @@ pub(crate) fn percentile(sorted: &[f64], share: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::fit_lognormal;
+    use crate::statistics::{Lognormal, fit_lognormal};
 
     /// Of 200 samples from a known curve, the 90 % band of the median should hold the truth in about 180.
     #[test]

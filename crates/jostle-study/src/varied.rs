@@ -1,0 +1,133 @@
+//! What a study varies, in words: every key, its range, and what stands in the model.
+
+use jostle_io::{DesignKind, Distribution, FactorValues, Level, Shape, TreeValue};
+
+use crate::sampling::quantile;
+use crate::study::Study;
+
+/// Entries of a list or values of a model that are written out.
+const MOST_SHOWN: usize = 4;
+/// Between these probabilities lies what is called the range of a distribution without ends.
+const RANGE: [f64; 2] = [0.05, 0.95];
+
+/// A factor in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Varied {
+    /// Its name.
+    pub name: String,
+    /// The keys of the model, separated by commas.
+    pub keys: String,
+    /// Its values: `10 mm … 30 mm, 5 values`, or `× 0.5 … 1.5 (uniform)`.
+    pub range: String,
+    /// What stands there in the base model; empty if nothing does.
+    pub own: String,
+}
+
+impl Varied {
+    /// Keys, values, and what stands in the model, in one line.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let own = if self.own.is_empty() {
+            "not stated in the model".to_owned()
+        } else {
+            format!("in the model {}", self.own)
+        };
+        format!("{}: {}; {own}", self.keys, self.range)
+    }
+}
+
+/// What a study varies, factor by factor.
+#[must_use]
+pub fn varied(study: &Study) -> Vec<Varied> {
+    let file = &study.file;
+    let ends = match file.design.kind {
+        DesignKind::OneAtATime => file.design.quantiles,
+        _ => RANGE,
+    };
+    let one = |factor: &jostle_io::Factor| {
+        let values = match &factor.values {
+            FactorValues::Listed(levels) => listed(levels),
+            FactorValues::Drawn(drawn) => distributed(drawn, ends),
+        };
+        let mut own: Vec<String> = Vec::new();
+        for value in factor.paths.iter().flat_map(|path| file.base.values(path)) {
+            let text = match &value {
+                TreeValue::List(list) => {
+                    let all: Vec<String> = list.iter().map(ToString::to_string).collect();
+                    format!("[{}]", shortened(&all, ", "))
+                }
+                other => other.to_string(),
+            };
+            if !own.contains(&text) {
+                own.push(text);
+            }
+        }
+        Varied {
+            name: factor.name.clone(),
+            keys: shortened(&factor.paths, ", "),
+            range: if factor.multiplies {
+                format!("× {values}")
+            } else {
+                values
+            },
+            own: shortened(&own, ", "),
+        }
+    };
+    file.factors.iter().map(one).collect()
+}
+
+fn listed(levels: &[Level]) -> String {
+    let labels: Vec<String> = levels.iter().map(|level| level.label.clone()).collect();
+    match &labels[..] {
+        [first, .., last] if labels.len() > MOST_SHOWN => {
+            format!("{first} … {last} ({} values)", labels.len())
+        }
+        _ => labels.join(", "),
+    }
+}
+
+fn distributed(drawn: &Distribution, ends: [f64; 2]) -> String {
+    let unit = &drawn.unit;
+    let [from, to] = ends.map(|p| quantile(drawn, p));
+    let [low, high] = ends.map(|p| 100.0 * p);
+    let shares = format!("{low:.0} to {high:.0} %");
+    let text = match drawn.shape {
+        Shape::Uniform { from, to } => format!("{from} … {to} {unit} (uniform)"),
+        Shape::Normal { mean, deviation } => format!(
+            "{} … {} {unit} ({shares} of a normal distribution, {} ± {})",
+            short(from),
+            short(to),
+            short(mean),
+            short(deviation)
+        ),
+        Shape::LogNormal { median, dispersion } => format!(
+            "{} … {} {unit} ({shares} of a lognormal distribution, median {}, β {})",
+            short(from),
+            short(to),
+            short(median),
+            short(dispersion)
+        ),
+    };
+    text.replace("  ", " ")
+}
+
+/// A number of any size with four digits.
+fn short(number: f64) -> String {
+    let text = format!("{number:.3e}");
+    let plain = text.parse::<f64>().unwrap_or(number);
+    if (1e-3..1e5).contains(&plain.abs()) {
+        plain.to_string()
+    } else {
+        text.replace(".000e", "e")
+    }
+}
+
+/// The first of several texts, and the last.
+fn shortened(texts: &[String], between: &str) -> String {
+    match texts {
+        [first, second, .., last] if texts.len() > MOST_SHOWN => {
+            format!("{first}{between}{second} … {last}")
+        }
+        _ => texts.join(between),
+    }
+}
