@@ -25,6 +25,7 @@ mod check;
 mod check_row;
 mod contact_points;
 mod element;
+mod finite;
 mod lanes;
 mod member_end;
 mod row;
