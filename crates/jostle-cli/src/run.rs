@@ -15,7 +15,7 @@ use jostle_report::{Page, ReinforcedSection};
 
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
-use crate::open::{Opened, open};
+use crate::open::Opened;
 use crate::{method, run_text, terminal};
 
 /// Where results go when nothing else is said.
@@ -24,7 +24,7 @@ const RESULTS: &str = "jostle-out";
 const PATIENCE: Duration = Duration::from_millis(500);
 
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
-    let mut opened = open(args.model.model.as_deref(), &args.model.overrides()?)?;
+    let mut opened = args.model.open()?;
     if let Some(solver) = args.solver {
         opened.input.model.analysis.solver = match solver {
             SolverName::Auto => None,
@@ -34,13 +34,12 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             SolverName::Modal => Some(Solver::Modal),
         };
     }
-    for warning in &opened.input.warnings {
-        terminal::remark(&format!(
-            "{} {warning}",
-            terminal::styled(terminal::LOUD, "warning:")
-        ));
-    }
+    opened.warn();
     let (motion, plan) = opened.plan()?;
+    if let Some(warning) = opened.input.unusual_motion(&motion) {
+        terminal::warn(&warning);
+        opened.input.warnings.push(warning);
+    }
     if let Err(refusal) = plan
         .check_digits(&opened.system)
         .map_err(|error| error.to_string())
@@ -49,10 +48,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             let problem = format!("{refusal}; --force runs it all the same");
             return Err(opened.input.fault("analysis.solver", problem).into());
         }
-        terminal::remark(&format!(
-            "{} {refusal}",
-            terminal::styled(terminal::LOUD, "warning:")
-        ));
+        terminal::warn(&refusal);
     }
     let out = folder(args, &opened);
     if let Some(out) = &out {
@@ -90,7 +86,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             .filter(|twin| twin.end == RunEnd::Completed);
 
     let model = &opened.input.model;
-    let summary = Summary::of(&Run {
+    let mut summary = Summary::of(&Run {
         model,
         system: &opened.system,
         motion: &motion,
@@ -99,6 +95,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         without_contact: twin.as_ref(),
         wall,
     });
+    opened.input.add_notes(&mut summary);
     if let (Some(out), Some(history)) = (&out, &outcome.history) {
         jostle_io::write_history_parquet(&out.join("history.parquet"), model, &summary, history)?;
         jostle_io::write_impacts_parquet(&out.join("impacts.parquet"), &summary)?;
@@ -135,6 +132,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         terminal::print(&jostle_io::summary_json(&summary))?;
     } else {
         let report = out.as_deref().map(|out| result(out, args.no_report));
+        // Warnings of the model are on standard error already.
+        let warnings = &opened.input.warnings;
+        summary.notes.retain(|note| !warnings.contains(note));
         terminal::print(&run_text::describe(&summary, report.as_deref()))?;
     }
     ending(&outcome.end, out.as_deref())

@@ -109,7 +109,7 @@ fn heed(py: Python<'_>, observer: Option<&Py<PyAny>>, progress: Progress) -> PyR
 impl Run {
     fn summary(&self, without_contact: Option<&Self>) -> Summary {
         let twin = without_contact.map(|run| &run.outcome);
-        Summary::of(&jostle::Run {
+        let mut summary = Summary::of(&jostle::Run {
             model: &self.model.input.model,
             system: &self.model.system,
             motion: &self.motion,
@@ -117,7 +117,9 @@ impl Run {
             outcome: &self.outcome,
             without_contact: twin.filter(|twin| twin.end == RunEnd::Completed),
             wall: self.wall,
-        })
+        });
+        self.model.input.add_notes(&mut summary);
+        summary
     }
 
     fn page(&self, py: Python<'_>, without_contact: Option<&Self>) -> PyResult<String> {
