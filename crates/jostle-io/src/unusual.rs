@@ -77,7 +77,6 @@ pub(crate) const INDENTATION: f64 = 0.05;
 const IMPACT_SPEED: f64 = 0.5;
 
 /// Ranges of the keys of a model file.
-
 #[rustfmt::skip]
 pub(crate) const RANGES: &[Range] = &[
     PEAK_ACCELERATION,
@@ -379,7 +378,8 @@ fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
             })
             .fold(0.0, f64::max);
         let bumper = matches!(gap.law.kind, LawKind::Rubber(_));
-        if storey > 0.0 && duration > 0.5 * storey && !bumper {
+        // Half a swing of a storey, twice as long because the storey is only an estimate.
+        if storey > 0.0 && duration > storey && !bumper {
             found.push((
                 format!("gap[{index}].stiffness"),
                 format!(

@@ -43,7 +43,8 @@ pub(crate) fn of_contacts(system: &System) -> Vec<ModelFault> {
         let duration = contact.law.elastic_duration(mass, IMPACT_SPEED);
         let path = format!("gap[{}].stiffness", contact.gap);
         let known = faults.last().is_some_and(|fault| fault.path == path);
-        if !(duration.is_finite() && duration > 0.0) && !known {
+        let usable = duration.is_finite() && duration > 0.0;
+        if !usable && !known {
             faults.push(ModelFault {
                 path,
                 problem: format!(
