@@ -83,6 +83,9 @@ pub(crate) struct ModelArgs {
     /// Another ground motion: a built-in name or a file
     #[arg(long, value_name = "RECORD")]
     pub(crate) record: Option<String>,
+    /// Accept values outside their usual ranges, as accept_unusual = true of the model file
+    #[arg(long)]
+    pub(crate) accept_unusual: bool,
 }
 
 #[derive(Debug, clap::Args)]

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::modal::Mode;
-use jostle::model::{Hinges, Structure};
+use jostle::model::{Damping, Hinges, Structure, usual_damping_modes};
 use jostle::stepping::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{Building, Model, Plan, RiccatiSweep, Solver, System};
@@ -12,21 +12,24 @@ use jostle::{Building, Model, Plan, RiccatiSweep, Solver, System};
 use crate::args::ModelArgs;
 use crate::failure::Failure;
 use crate::numbers::{counted, grouped, mm};
-use crate::open::{Opened, open};
+use crate::open::Opened;
 use crate::terminal::{self, BOLD, LOUD, styled};
 
 pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
-    let opened = open(args.model.as_deref(), &args.overrides()?)?;
+    let opened = args.open()?;
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = describe(&mut text, &opened.input.model, &opened.system);
     for warning in &opened.input.warnings {
-        let _ = writeln!(text, "{} {warning}", styled(LOUD, "note:"));
+        let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
     }
     if !opened.input.records().is_empty() {
         text += &records(&opened)?;
     } else if opened.input.motion.is_some() {
         let (motion, plan) = opened.plan()?;
+        if let Some(warning) = opened.input.unusual_motion(&motion) {
+            let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+        }
         let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
         let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
     } else {
@@ -55,6 +58,14 @@ fn records(opened: &Opened) -> Result<String, Failure> {
             grouped((motion.duration / plan.step).ceil() as u64),
             plan.step * 1e3
         );
+        if let Some(warning) = input.unusual_motion(&motion) {
+            let _ = writeln!(
+                text,
+                "{} {}: {warning}",
+                styled(LOUD, "warning:"),
+                motion.name
+            );
+        }
     }
     let _ = writeln!(
         text,
@@ -78,7 +89,8 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
                 format!("shear building, {}", counted(shear.mass.len(), "storey"))
             }
         };
-        describe_building(text, building, &kind)?;
+        let damping = &model.buildings[index].damping;
+        describe_building(text, building, damping, &kind)?;
         for line in special(&model.buildings[index]) {
             writeln!(text, "  {line}")?;
         }
@@ -199,7 +211,12 @@ fn height(height: f64, floors: [Option<usize>; 2], between: &[Option<usize>; 2])
     format!("{height:.2}{column}")
 }
 
-fn describe_building(text: &mut String, building: &BuildingSystem, kind: &str) -> std::fmt::Result {
+fn describe_building(
+    text: &mut String,
+    building: &BuildingSystem,
+    damping: &Damping,
+    kind: &str,
+) -> std::fmt::Result {
     let equations = &building.equations;
     let skeleton = &building.idealisation.skeleton;
     let lumps = skeleton.nodes.iter().filter(|node| node.mass > 0.0).count();
@@ -214,14 +231,51 @@ fn describe_building(text: &mut String, building: &BuildingSystem, kind: &str) -
     let periods: Vec<String> = building
         .lateral_modes()
         .take(5)
-        .map(|mode: &Mode| format!("{:.4}", mode.period()))
+        .map(|mode: &Mode| decimals(mode.period(), 4))
         .collect();
     writeln!(text, "  lateral periods {} s", periods.join(", "))?;
-    writeln!(
-        text,
-        "  Rayleigh damping α = {:.5} 1/s, β = {:.6} s",
-        equations.alpha, equations.beta
-    )
+    let lateral = building.lateral_modes().count();
+    let damped = match damping {
+        Damping::AllModes { ratio } => format!("damping {} % in every mode", percent(*ratio)),
+        Damping::Rayleigh { .. } => "Rayleigh damping".to_owned(),
+        Damping::Ratio { ratio, modes } => {
+            let named = match &modes[..] {
+                [] => usual_damping_modes(lateral),
+                modes => modes,
+            };
+            let modes: Vec<String> = named.iter().map(usize::to_string).collect();
+            let plural = if modes.len() == 1 { "" } else { "s" };
+            format!(
+                "Rayleigh damping {} % in lateral mode{plural} {}:",
+                percent(*ratio),
+                modes.join(" and ")
+            )
+        }
+    };
+    match damping {
+        Damping::AllModes { .. } => writeln!(text, "  {damped}"),
+        _ => writeln!(
+            text,
+            "  {damped} α = {} 1/s, β = {} s",
+            decimals(equations.alpha, 5),
+            decimals(equations.beta, 6)
+        ),
+    }
+}
+
+/// A ratio in per cent, rounded to two decimals.
+fn percent(ratio: f64) -> f64 {
+    (1e4 * ratio).round() / 1e2
+}
+
+/// A number with so many decimals, or with three digits where these would not show it or be too many.
+fn decimals(value: f64, count: usize) -> String {
+    let least = 10f64.powi(2 - count as i32);
+    if value == 0.0 || (least..1e6).contains(&value) {
+        format!("{value:.count$}")
+    } else {
+        format!("{value:.2e}")
+    }
 }
 
 /// What a building has beyond the plain case, one line each.
@@ -370,9 +424,9 @@ fn describe_work(
     let steps = (duration / plan.step).ceil() as u64;
     writeln!(
         text,
-        "  {} steps of {:.4} ms through {duration:.2} s, more while buildings touch{}",
+        "  {} steps of {} ms through {duration:.2} s, more while buildings touch{}",
         grouped(steps),
-        plan.step * 1e3,
+        decimals(plan.step * 1e3, 4),
         if modal {
             " and for rows of histories"
         } else {

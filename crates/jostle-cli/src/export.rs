@@ -6,7 +6,6 @@ use jostle_export::{Export, openseespy};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
-use crate::open::open;
 use crate::terminal;
 
 /// Which model, for whom.
@@ -30,7 +29,7 @@ enum Target {
 }
 
 pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
-    let opened = open(args.model.model.as_deref(), &args.model.overrides()?)?;
+    let opened = args.model.open()?;
     let (motion, _) = opened.plan()?;
     let export = Export {
         model: &opened.input.model,

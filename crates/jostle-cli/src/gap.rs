@@ -4,13 +4,12 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use jostle::separation::JointSystem;
-use jostle_io::{Dimension, Overrides, parse_quantity};
+use jostle_io::{Dimension, parse_option};
 use jostle_study::{CriticalGap, GapError, GapSettings, critical_gaps};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
 use crate::numbers::{counted, kn, mm};
-use crate::open::open;
 use crate::run::stop_on_interrupt;
 use crate::terminal;
 
@@ -30,6 +29,9 @@ pub(crate) struct GapArgs {
     /// Structural system for GB 50011: the one of both that needs the wider joint
     #[arg(long, value_enum, default_value_t = SystemChoice::Frame)]
     system: SystemChoice,
+    /// Accept values outside their usual ranges, as accept_unusual = true of the model file
+    #[arg(long)]
+    accept_unusual: bool,
     /// Do not run the gaps of the rules
     #[arg(long)]
     no_outcomes: bool,
@@ -48,8 +50,8 @@ enum SystemChoice {
 }
 
 pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
-    let tolerance = parse_quantity(&args.tolerance, Dimension::Length)
-        .map_err(|error| Failure::Input(format!("--tolerance: {error}")))?;
+    let tolerance =
+        parse_option("--tolerance", &args.tolerance, Dimension::Length).map_err(Failure::Input)?;
     if tolerance < 1e-9 {
         return Err(Failure::Input(
             "--tolerance: must be at least 1e-9 m".into(),
@@ -73,19 +75,25 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         args.record.iter().cloned().map(Some).collect()
     };
     let mut found: Vec<CriticalGap> = Vec::new();
-    let mut title = String::new();
+    let (mut title, mut notes) = (String::new(), Vec::new());
     for record in records {
-        let overrides = ModelArgs {
+        let model = ModelArgs {
             model: args.model.clone(),
             pga: args.pga.clone(),
             gap: None,
             record,
+            accept_unusual: args.accept_unusual,
         };
-        let overrides: Overrides = overrides.overrides()?;
-        let opened = open(args.model.as_deref(), &overrides)?;
+        let opened = model.open()?;
         title.clone_from(&opened.input.model.title);
+        for warning in &opened.input.warnings {
+            note(&mut notes, warning);
+        }
         for input in opened.input.each_record() {
             let (motion, _) = opened.plan_of(&input)?;
+            if let Some(warning) = input.unusual_motion(&motion) {
+                note(&mut notes, &warning);
+            }
             let gaps = critical_gaps(&input.model, &motion, &settings, &stop);
             found.extend(gaps.map_err(|error| match error {
                 GapError::Stopped => Failure::Stopped,
@@ -95,9 +103,17 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         }
     }
     if args.json {
-        return terminal::print(&json(&title, &found));
+        return terminal::print(&json(&title, &found, &notes));
     }
     terminal::print(&describe(&title, &found))
+}
+
+/// Prints a warning once and keeps it for the notes.
+fn note(notes: &mut Vec<String>, warning: &str) {
+    if !notes.iter().any(|known| known == warning) {
+        terminal::warn(warning);
+        notes.push(warning.to_owned());
+    }
 }
 
 /// Greatest, mean and standard deviation of the gaps between the same neighbours.
@@ -119,7 +135,7 @@ fn sets(found: &[CriticalGap]) -> Vec<([String; 2], [f64; 3], usize)> {
     pairs.into_iter().map(of).collect()
 }
 
-fn json(title: &str, found: &[CriticalGap]) -> String {
+fn json(title: &str, found: &[CriticalGap], notes: &[String]) -> String {
     let sets: Vec<_> = sets(found)
         .into_iter()
         .map(|(between, [most, mean, deviation], records)| {
@@ -137,6 +153,7 @@ fn json(title: &str, found: &[CriticalGap]) -> String {
         "jostle": env!("CARGO_PKG_VERSION"),
         "gaps": found,
         "sets": sets,
+        "notes": notes,
     });
     serde_json::to_string_pretty(&value).unwrap_or_default()
 }

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use jostle::{GroundMotion, Plan, System};
-use jostle_io::{Dimension, Input, Overrides, parse_quantity};
+use jostle_io::{Dimension, Input, ModelTree, Overrides, TreeValue, parse_option};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
+use crate::terminal;
 
 /// The built-in example that runs without a model file.
 const EXAMPLE: &str = "paper";
@@ -24,11 +25,27 @@ pub(crate) struct Opened {
 /// Reads a model file, or a built-in example, and assembles it.
 pub(crate) fn open(model: Option<&Path>, overrides: &Overrides) -> Result<Opened, Failure> {
     let path = model.unwrap_or(Path::new(EXAMPLE));
-    let mut input = read(path)?;
+    assemble(path, read(path)?, overrides)
+}
+
+/// The same with every unusual value accepted, as `accept_unusual = true` of the file does.
+pub(crate) fn open_accepting(
+    model: Option<&Path>,
+    overrides: &Overrides,
+) -> Result<Opened, Failure> {
+    let path = model.unwrap_or(Path::new(EXAMPLE));
+    let mut tree = ModelTree::find(path)?;
+    tree.set("analysis.accept_unusual", &TreeValue::Flag(true))
+        .map_err(|error| Failure::Input(error.to_string()))?;
+    assemble(path, tree.input()?, overrides)
+}
+
+fn assemble(path: &Path, mut input: Input, overrides: &Overrides) -> Result<Opened, Failure> {
     input
         .apply(overrides)
         .map_err(|error| Failure::Input(error.to_string()))?;
     let system = System::assemble(&input.model).map_err(|faults| input.faults(faults))?;
+    input.note_system(&system);
     let name = path.file_stem().map_or_else(
         || EXAMPLE.to_owned(),
         |stem| stem.to_string_lossy().into_owned(),
@@ -53,6 +70,13 @@ pub(crate) fn read(path: &Path) -> Result<Input, Failure> {
 }
 
 impl Opened {
+    /// Prints to standard error what is valid but may not be meant.
+    pub(crate) fn warn(&self) {
+        for warning in &self.input.warnings {
+            terminal::warn(warning);
+        }
+    }
+
     /// The ground motion and the steps to take through it.
     pub(crate) fn plan(&self) -> Result<(GroundMotion, Plan), Failure> {
         self.plan_of(&self.input)
@@ -75,14 +99,24 @@ impl Opened {
 }
 
 impl ModelArgs {
+    /// The model with what the options change.
+    pub(crate) fn open(&self) -> Result<Opened, Failure> {
+        let open = if self.accept_unusual {
+            open_accepting
+        } else {
+            open
+        };
+        open(self.model.as_deref(), &self.overrides()?)
+    }
+
     /// What the options change, in SI.
-    pub(crate) fn overrides(&self) -> Result<Overrides, Failure> {
+    fn overrides(&self) -> Result<Overrides, Failure> {
         let quantity = |option: &str, text: &Option<String>, dimension| {
             let parsed = text
                 .as_ref()
-                .map(|text| parse_quantity(text, dimension))
+                .map(|text| parse_option(option, text, dimension))
                 .transpose();
-            parsed.map_err(|error| Failure::Input(format!("{option}: {error}")))
+            parsed.map_err(Failure::Input)
         };
         Ok(Overrides {
             pga: quantity("--pga", &self.pga, Dimension::Acceleration)?,

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use jostle::stepping::{Progress, modal};
+use jostle::stepping::{Progress, find_sensitivity, modal};
 use jostle::{
     GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, simulate,
 };
@@ -15,7 +15,7 @@ use jostle_report::{Page, ReinforcedSection};
 
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
-use crate::open::{Opened, open};
+use crate::open::Opened;
 use crate::{method, run_text, terminal};
 
 /// Where results go when nothing else is said.
@@ -24,7 +24,7 @@ const RESULTS: &str = "jostle-out";
 const PATIENCE: Duration = Duration::from_millis(500);
 
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
-    let mut opened = open(args.model.model.as_deref(), &args.model.overrides()?)?;
+    let mut opened = args.model.open()?;
     if let Some(solver) = args.solver {
         opened.input.model.analysis.solver = match solver {
             SolverName::Auto => None,
@@ -34,13 +34,12 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             SolverName::Modal => Some(Solver::Modal),
         };
     }
-    for warning in &opened.input.warnings {
-        terminal::remark(&format!(
-            "{} {warning}",
-            terminal::styled(terminal::LOUD, "warning:")
-        ));
-    }
+    opened.warn();
     let (motion, plan) = opened.plan()?;
+    if let Some(warning) = opened.input.unusual_motion(&motion) {
+        terminal::warn(&warning);
+        opened.input.warnings.push(warning);
+    }
     if let Err(refusal) = plan
         .check_digits(&opened.system)
         .map_err(|error| error.to_string())
@@ -49,10 +48,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             let problem = format!("{refusal}; --force runs it all the same");
             return Err(opened.input.fault("analysis.solver", problem).into());
         }
-        terminal::remark(&format!(
-            "{} {refusal}",
-            terminal::styled(terminal::LOUD, "warning:")
-        ));
+        terminal::warn(&refusal);
     }
     let out = folder(args, &opened);
     if let Some(out) = &out {
@@ -76,11 +72,15 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         .then(|| modal::Reduction::of(&opened.system, &plan).ok())
         .flatten();
     let shapes = shapes.as_ref();
-    let outcome = watch(&opened, &motion, &plan, settings, shapes, &stop);
+    let mut outcome = watch(&opened, &motion, &plan, settings, shapes, &stop);
     let wall = started.elapsed().as_secs_f64();
+    let bar = progress_bar("sensitivity    ");
+    let observer = shown_by(&bar, &stop);
+    find_sensitivity(&opened.system, &motion, &plan, &mut outcome, observer);
+    bar.finish_and_clear();
     let model = &opened.input.model;
     let sum_up = |without_contact| {
-        Summary::of(&Run {
+        let mut summary = Summary::of(&Run {
             model,
             system: &opened.system,
             motion: &motion,
@@ -88,7 +88,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             outcome: &outcome,
             without_contact,
             wall,
-        })
+        });
+        opened.input.add_notes(&mut summary);
+        summary
     };
     let mut summary = sum_up(None);
     // Before the run without contact, so that nothing is lost if that one is ended by force.
@@ -148,6 +150,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         terminal::print(&jostle_io::summary_json(&summary))?;
     } else {
         let report = out.as_deref().map(|out| result(out, args.no_report));
+        // Warnings of the model are on standard error already.
+        let warnings = &opened.input.warnings;
+        summary.notes.retain(|note| !warnings.contains(note));
         terminal::print(&run_text::describe(&summary, report.as_deref()))?;
     }
     ending(&outcome.end, out.as_deref())?;
@@ -238,18 +243,36 @@ fn watch(
     shapes: Option<&modal::Reduction>,
     stop: &AtomicBool,
 ) -> Outcome {
+    let bar = progress_bar(if settings.pounding == Pounding::Included {
+        "pounding       "
+    } else {
+        "without contact"
+    });
+    let observer = shown_by(&bar, stop);
+    let outcome = match shapes {
+        Some(shapes) => modal::simulate(&opened.system, motion, plan, settings, shapes, observer),
+        None => simulate(&opened.system, motion, plan, settings, observer),
+    };
+    bar.finish_and_clear();
+    outcome
+}
+
+fn progress_bar(prefix: &'static str) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
     let template = "{prefix} {bar:40} {percent:>3} %  {msg}  {eta} left";
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
-    bar.set_prefix(if settings.pounding == Pounding::Included {
-        "pounding       "
-    } else {
-        "without contact"
-    });
+    bar.with_prefix(prefix)
+}
+
+/// An observer that moves the bar, shows it once the run has taken a while, and stops the run on Ctrl-C.
+fn shown_by<'a>(
+    bar: &'a ProgressBar,
+    stop: &'a AtomicBool,
+) -> impl FnMut(Progress) -> ControlFlow<()> + use<'a> {
     let (started, mut shown) = (Instant::now(), false);
-    let observer = |Progress { time, duration }| {
+    move |Progress { time, duration }| {
         if !shown && terminal::is_watched() && started.elapsed() > PATIENCE {
             bar.set_draw_target(ProgressDrawTarget::stderr());
             shown = true;
@@ -263,13 +286,7 @@ fn watch(
         } else {
             ControlFlow::Continue(())
         }
-    };
-    let outcome = match shapes {
-        Some(shapes) => modal::simulate(&opened.system, motion, plan, settings, shapes, observer),
-        None => simulate(&opened.system, motion, plan, settings, observer),
-    };
-    bar.finish_and_clear();
-    outcome
+    }
 }
 
 /// Whether the run counts as done.

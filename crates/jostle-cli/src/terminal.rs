@@ -36,6 +36,11 @@ pub(crate) fn remark(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{text}");
 }
 
+/// Prints a warning to standard error.
+pub(crate) fn warn(text: &str) {
+    remark(&format!("{} {text}", styled(LOUD, "warning:")));
+}
+
 /// Prints an error to standard error.
 pub(crate) fn error(text: &str) {
     remark(&format!("{} {}", styled(ERROR, "error:"), text.trim_end()));

@@ -72,6 +72,8 @@ pub(crate) enum Kind {
     /// A whole number, not negative.
     Count,
     Flag,
+    /// True or false, or a list of texts.
+    FlagOrTexts,
     Quantity(Dimension),
     /// One value, or a list from the ground up.
     PerStorey(Dimension),
@@ -228,9 +230,9 @@ const fn default(
 
 use Dimension as D;
 use Kind::{
-    Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FloorPairs,
-    GradeOr, Modes, Neighbours, NumberOrTable, PerContact, PerStorey, Quantities, Quantity,
-    TablePerStorey, Tables, Text, TextOrTable, TextOrTexts, WordOr, WordOrTable,
+    Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FlagOrTexts,
+    FloorPairs, GradeOr, Modes, Neighbours, NumberOrTable, PerContact, PerStorey, Quantities,
+    Quantity, TablePerStorey, Tables, Text, TextOrTable, TextOrTexts, WordOr, WordOrTable,
 };
 use Section as S;
 
@@ -285,7 +287,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "storeys", Count, "Number of storeys; not needed beside a list per storey."),
     optional(S::Building, "floors", Count, "The same as storeys."),
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; needed for frames, 3 m for shear buildings."),
-    default(S::Building, "damping", Kind::Table(S::Damping), "5 % in modes 1 and 3", "Viscous damping."),
+    default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping."),
     default(S::Building, "gravity", Flag, "false", "Whether the run starts from the displacements under self weight."),
     default(S::Building, "p_delta", Flag, "false", "Whether the weight above leans on the sway of every column (P-Delta)."),
 
@@ -366,7 +368,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Joint, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational stiffness of the hinge between beam end and column."),
 
     default(S::Damping, "ratio", Quantity(D::Dimensionless), "0.05", "Fraction of critical damping in the modes below."),
-    default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] or [1] with fewer floors", "Lateral modes that have this ratio; \"all\" modes where \"modal\" can step the buildings."),
+    default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] with two lateral modes, [1] with one", "Lateral modes that have this ratio; \"all\" modes where \"modal\" can step the buildings."),
     optional(S::Damping, "alpha", Quantity(D::Frequency), "Rayleigh coefficient on the masses, instead of ratio."),
     optional(S::Damping, "beta", Quantity(D::Time), "Rayleigh coefficient on the stiffness, instead of ratio."),
 
@@ -438,6 +440,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Analysis, "energy_tolerance", Quantity(D::Dimensionless), "1e-6", "Relative energy imbalance above which a run warns."),
     default(S::Analysis, "solver", Choice(SOLVERS), "\"auto\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, the published product of transfer matrices, or, for elastic buildings, their modes. \"auto\" is modal for elastic buildings with automatic steps, otherwise riccati."),
     default(S::Analysis, "integrator", ChoiceOrTable(INTEGRATORS, S::Integrator), "\"average-acceleration\"", "Rule that joins displacements, velocities and accelerations over a step."),
+    default(S::Analysis, "accept_unusual", FlagOrTexts, "false", "Accepts values outside their usual ranges: true for all, or a list of fields such as [\"building[0].spans\"]; \"analysis.step\" stands for the work of a run."),
 
     required(S::Integrator, "method", Choice(INTEGRATORS), "Name of the rule; all but average acceleration can damp the motion themselves."),
     default(S::Integrator, "beta", Quantity(D::Dimensionless), "0.25", "Newmark's beta."),

@@ -30,6 +30,7 @@ mod templates;
 mod toml_tree;
 mod tree;
 mod unit;
+mod unusual;
 
 pub use builtin::{
     BUILTIN_RECORDS, BuiltinRecord, builtin_model, builtin_motions, builtin_record, model_names,
@@ -68,3 +69,4 @@ pub use tables::{
 pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
 pub use templates::{TEMPLATE_NAMES, template};
 pub use tree::Format;
+pub use unusual::parse_option;

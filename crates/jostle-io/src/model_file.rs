@@ -12,6 +12,7 @@ mod hinges;
 mod link;
 mod matching;
 mod motion;
+mod partial;
 mod reinforced;
 mod section;
 mod shear;
@@ -36,6 +37,7 @@ use crate::record::RecordOptions;
 use crate::record_list;
 use crate::source::{Source, Span};
 use crate::tree::{self, Format, Node, Value};
+use crate::unusual::{Accepted, GAP, PEAK_ACCELERATION, Range, Verdict, Written, is_within};
 
 /// A model file, read and checked.
 #[derive(Clone, Debug)]
@@ -48,6 +50,8 @@ pub struct Input {
     pub reinforced: Vec<ReinforcedMember>,
     /// Things the user should know although the file is valid.
     pub warnings: Vec<String>,
+    /// Unusual values that are meant.
+    accepted: Accepted,
     origin: Origin,
 }
 
@@ -80,6 +84,14 @@ pub enum OverrideError {
     /// The width is negative.
     #[error("the gap must not be negative, found {0} m")]
     Gap(f64),
+    /// A slip of units.
+    #[error("{problem}\n  help: {remedy}")]
+    Unusual {
+        /// What is out of all reason.
+        problem: String,
+        /// What to do about it.
+        remedy: String,
+    },
     /// Nothing to widen or narrow.
     #[error("the model has no gap whose width could be changed")]
     NoGap,
@@ -133,11 +145,16 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
         let checked = model.check().err().unwrap_or_default();
         add_model_faults(&mut reader, &root, checked);
     }
+    let (mut noted, accepted) = (reader.take_warnings(), reader.accepted.clone());
     let error = reader.into_error();
     match read {
         Some((model, motion, reinforced)) if error.faults.is_empty() => Ok(Input {
             reinforced,
-            warnings: warnings(&model, &root),
+            warnings: {
+                noted.extend(warnings(&model, &root));
+                noted
+            },
+            accepted,
             model,
             motion,
             origin: Origin { source, root },
@@ -165,6 +182,18 @@ impl Input {
         if overrides.pga.is_some() && overrides.record.is_none() && self.motion.is_none() {
             return Err(OverrideError::NoMotion);
         }
+        let unusual = [
+            self.judge("gap", &GAP, overrides.gap)?,
+            self.judge("motion.pga", &PEAK_ACCELERATION, overrides.pga)?,
+        ];
+        // What was said of the values that are replaced.
+        let other_motion = overrides.pga.is_some() || overrides.record.is_some();
+        self.warnings.retain(|known| {
+            let field = known.split_once(": ").map_or("", |(field, _)| field);
+            let width = is_within(field, "gap") && field.contains(".width");
+            !(overrides.gap.is_some() && width || other_motion && is_within(field, "motion"))
+        });
+        self.warnings.extend(unusual.into_iter().flatten());
         for gap in &mut self.model.gaps {
             if let Some(width) = overrides.gap {
                 gap.set_width(width);
@@ -177,6 +206,36 @@ impl Input {
             motion.scaling = Scaling::Pga(pga);
         }
         Ok(())
+    }
+
+    /// The warning of a value given apart from the file.
+    fn judge(
+        &self,
+        path: &str,
+        range: &Range,
+        value: Option<f64>,
+    ) -> Result<Option<String>, OverrideError> {
+        let Some(value) = value.filter(|_| !self.accepts(path)) else {
+            return Ok(None);
+        };
+        match range.judge(value, Written::bare(value)) {
+            Verdict::Usual => Ok(None),
+            Verdict::Unusual(text) => Ok(Some(format!("{path}: {text}"))),
+            Verdict::Refused(problem, remedy) => Err(OverrideError::Unusual { problem, remedy }),
+        }
+    }
+
+    /// Whether unusual values of a field are meant.
+    pub(crate) fn accepts(&self, path: &str) -> bool {
+        self.accepted.covers(path)
+    }
+
+    /// Adds a warning about a field once, unless unusual values of it are meant.
+    pub(crate) fn warn(&mut self, path: &str, text: &str) {
+        let warning = format!("{path}: {text}");
+        if !self.accepts(path) && !self.warnings.contains(&warning) {
+            self.warnings.push(warning);
+        }
     }
 
     /// The records that the file lists for a run to choose from; empty unless there are several.
@@ -303,11 +362,12 @@ fn read_root(
     root: &Node,
     base: &Path,
 ) -> Option<(Model, Option<MotionSpec>, Vec<ReinforcedMember>)> {
-    let field = Field {
-        node: root,
-        path: String::new(),
-    };
+    let field = Field::root(root);
     let view = reader.open(&field, &[Section::Root])?;
+    let analysis = reader.get(&view, "analysis");
+    if let Some(field) = &analysis {
+        reader.accepted = analysis::accepted(reader, field);
+    }
     let title = match reader.get(&view, "title") {
         Some(field) => reader.text(&field),
         None => Some("Untitled".to_owned()),
@@ -341,7 +401,6 @@ fn read_root(
         }
         None => Vec::new(),
     };
-    let analysis = reader.get(&view, "analysis");
     let analysis = analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
     let (buildings, reinforced) = buildings?;
     let model = Model {
@@ -374,12 +433,6 @@ fn add_model_faults(reader: &mut Reader<'_>, root: &Node, faults: Vec<ModelFault
             reader.fault(&span, path, fault.problem);
         }
     }
-}
-
-/// Whether a path is another one or below it.
-fn is_within(path: &str, other: &str) -> bool {
-    path.strip_prefix(other)
-        .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
 /// The place of a field in the file, and its path as the file spells it: one value that stands for a list has
@@ -430,6 +483,7 @@ fn warnings(model: &Model, root: &Node) -> Vec<String> {
             ));
         }
     }
+    warnings.extend(partial::warnings(model));
     let listed = match &root.value {
         Value::Table(table) => table.get("building"),
         _ => None,

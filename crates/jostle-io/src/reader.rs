@@ -5,6 +5,7 @@ use crate::keys::{Section, keys_of, nearest};
 use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten};
 use crate::source::{Source, Span};
 use crate::tree::{Node, Table, Value};
+use crate::unusual::{Accepted, Range, Verdict, Written, range_of};
 
 /// Faults of a file that are kept; beyond that, they are counted.
 const MOST_FAULTS: usize = 500;
@@ -17,6 +18,10 @@ pub(crate) struct Reader<'s> {
     more: usize,
     /// Takes the remedies of those.
     dropped: Option<String>,
+    /// What is valid but unusual, with its place.
+    warnings: Vec<(usize, String)>,
+    /// Which unusual values are meant.
+    pub(crate) accepted: Accepted,
     /// Keys asked for, to hold the reader against the table of keys.
     #[cfg(test)]
     pub(crate) asked: std::collections::BTreeSet<(Section, &'static str)>,
@@ -26,7 +31,6 @@ pub(crate) struct Reader<'s> {
 #[derive(Clone)]
 pub(crate) struct View<'n> {
     table: &'n Table,
-    #[cfg(test)]
     sections: &'static [Section],
     pub(crate) span: Span,
     pub(crate) path: String,
@@ -37,6 +41,8 @@ pub(crate) struct View<'n> {
 pub(crate) struct Field<'n> {
     pub(crate) node: &'n Node,
     pub(crate) path: String,
+    /// What the quantities of this field usually are.
+    range: Option<&'static Range>,
 }
 
 /// Strength of a material, by name or in numbers.
@@ -48,11 +54,21 @@ pub(crate) enum Grade {
 }
 
 impl<'n> Field<'n> {
+    /// The whole file.
+    pub(crate) fn root(node: &'n Node) -> Self {
+        Self {
+            node,
+            path: String::new(),
+            range: None,
+        }
+    }
+
     /// An entry of the list that this field is.
     pub(crate) fn entry(&self, index: usize, node: &'n Node) -> Field<'n> {
         Field {
             node,
             path: format!("{}[{index}]", self.path),
+            range: self.range,
         }
     }
 
@@ -91,6 +107,8 @@ impl<'s> Reader<'s> {
             faults: Vec::new(),
             more: 0,
             dropped: None,
+            warnings: Vec::new(),
+            accepted: Accepted::default(),
             #[cfg(test)]
             asked: std::collections::BTreeSet::new(),
         }
@@ -178,7 +196,6 @@ impl<'s> Reader<'s> {
         }
         Some(View {
             table,
-            #[cfg(test)]
             sections,
             span: field.node.span.clone(),
             path: field.path.clone(),
@@ -189,16 +206,11 @@ impl<'s> Reader<'s> {
     pub(crate) fn reopen<'n>(
         &mut self,
         field: &Field<'n>,
-        #[cfg_attr(
-            not(test),
-            allow(unused, reason = "only tests hold keys against their table")
-        )]
         sections: &'static [Section],
     ) -> Option<View<'n>> {
         match &field.node.value {
             Value::Table(table) => Some(View {
                 table,
-                #[cfg(test)]
                 sections,
                 span: field.node.span.clone(),
                 path: field.path.clone(),
@@ -221,6 +233,7 @@ impl<'s> Reader<'s> {
         view.table.get(key).map(|node| Field {
             node,
             path: join(&view.path, key),
+            range: range_of(view.sections, key),
         })
     }
 
@@ -238,11 +251,67 @@ impl<'s> Reader<'s> {
                 field.node.describe()
             )),
         };
-        parsed
+        let value = parsed
             .map_err(|problem| {
                 self.bad(field, problem);
             })
-            .ok()
+            .ok()?;
+        self.judge(field, value).then_some(value)
+    }
+
+    /// Whether a value can be meant; warns where it is unusual.
+    fn judge(&mut self, field: &Field<'_>, value: f64) -> bool {
+        let Some(range) = field.range.filter(|_| !self.accepted.covers(&field.path)) else {
+            return true;
+        };
+        match range.judge(value, Written::of(field.node, value)) {
+            Verdict::Usual => true,
+            Verdict::Unusual(text) => {
+                self.warn(field, &text);
+                true
+            }
+            Verdict::Refused(problem, remedy) => {
+                *self.bad(field, problem) = Some(remedy);
+                false
+            }
+        }
+    }
+
+    /// Notes something valid that may not be meant.
+    pub(crate) fn warn(&mut self, field: &Field<'_>, text: &str) {
+        let warning = (field.node.span.start, format!("{}: {text}", field.path));
+        let is_meant = self.accepted.covers(&field.path);
+        if !is_meant && !self.warnings.contains(&warning) && self.warnings.len() < MOST_FAULTS {
+            self.warnings.push(warning);
+        }
+    }
+
+    /// All warnings, in the order of the file.
+    pub(crate) fn take_warnings(&mut self) -> Vec<String> {
+        let mut warnings = std::mem::take(&mut self.warnings);
+        warnings.sort_by_key(|(start, _)| *start);
+        // One warning stands for all entries of a list.
+        let stem = |text: &str| {
+            let field = text.split_once(": ").map_or("", |(field, _)| field);
+            let list = field.strip_suffix(']').and_then(|f| f.rsplit_once('['));
+            list.map(|(list, _)| list.to_owned())
+        };
+        let mut kept: Vec<(String, usize)> = Vec::new();
+        for (_, text) in warnings {
+            match kept.last_mut() {
+                Some((last, more)) if stem(last).is_some() && stem(last) == stem(&text) => {
+                    *more += 1;
+                }
+                _ => kept.push((text, 0)),
+            }
+        }
+        kept.into_iter()
+            .map(|(text, more)| match more {
+                0 => text,
+                1 => format!("{text} (and one more entry)"),
+                _ => format!("{text} (and {more} more entries)"),
+            })
+            .collect()
     }
 
     /// A quantity greater than zero.

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::keys::{KEYS, Key, Kind, Section};
 use crate::quantity::Dimension;
+use crate::unusual::{FIRST_PERIOD, INDENTATION, RANGES};
 
 /// Tables of the file in the order of the page, with where they stand and what they are.
 const TABLES: &[(Section, &str, &str)] = &[
@@ -116,7 +117,49 @@ pub fn model_reference() -> String {
             );
         }
     }
+    page.push_str(&ranges_heading());
+    for range in RANGES {
+        let places = TABLES
+            .iter()
+            .filter(|(section, ..)| range.sections.contains(section));
+        let places: Vec<&str> = places.map(|(_, place, _)| *place).collect();
+        let _ = writeln!(
+            page,
+            "| `{}` | {} | {} | {} |",
+            range.key,
+            places.join("; "),
+            range.span(range.usual),
+            range.span(range.possible)
+        );
+    }
     page
+}
+
+/// Heading and words of the table of ranges.
+fn ranges_heading() -> String {
+    let [shortest, longest] = FIRST_PERIOD;
+    let indentation = 1e3 * INDENTATION;
+    format!(
+        "
+## Usual ranges
+
+A bare number is in SI, so `width = 500` is 500 m. A value outside its usual range is valid with a warning, which names
+the unit that was probably meant. A value outside the possible range is refused as a slip of units. Zero is never unusual.
+Warnings are printed by `check`, on standard error by `run` and `gap`, and stand under `notes` in `summary.json`.
+
+Also unusual: a first lateral period outside {shortest} s to {longest} s, a contact softer than a storey, an indentation of
+more than {indentation} mm, and a scaled record whose peak is outside the range of `pga`. A run that would take more than
+some hours of computing is refused with the building, step or motion that makes it so long.
+
+To accept such values: `accept_unusual = true` under `[analysis]`, a list of fields such as
+`accept_unusual = [\"building[0].spans\", \"analysis.step\"]` (`analysis.step` stands for the work of a run), in Python
+`analysis={{\"accept_unusual\": True}}`, or `--accept-unusual` on the command line. Options of the command line need a
+unit: `--gap 100mm`, `--pga 0.35g`.
+
+| key | where | usual | possible |
+|---|---|---|---|
+"
+    )
 }
 
 /// What may stand behind a key, in few words.
@@ -135,6 +178,7 @@ fn value(key: &Key) -> String {
         Kind::Component => "text or number".into(),
         Kind::Count => "whole number".into(),
         Kind::Any => "value or list".into(),
+        Kind::FlagOrTexts => "`true` or `false`, or a list of texts".into(),
         Kind::Flag => "`true` or `false`".into(),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) => {

@@ -78,6 +78,10 @@ fn kind(kind: Kind) -> Value {
         }
         Kind::Count => count,
         Kind::Any => json!({}),
+        Kind::FlagOrTexts => json!({ "anyOf": [
+            { "type": "boolean" },
+            { "type": "array", "items": { "type": "string" } },
+        ] }),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) | Kind::PerContact(dimension) => {

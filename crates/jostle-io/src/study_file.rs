@@ -231,10 +231,7 @@ fn read_root(
     folder: &Path,
     base: Option<ModelTree>,
 ) -> Option<Result<StudyFile, InputError>> {
-    let field = Field {
-        node: root,
-        path: String::new(),
-    };
+    let field = Field::root(root);
     let view = reader.open(&field, &[Section::Study])?;
     let title = match reader.get(&view, "title") {
         Some(field) => reader.text(&field),

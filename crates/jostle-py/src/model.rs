@@ -23,8 +23,9 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    fn assemble(input: Input) -> Result<Self, InputError> {
+    fn assemble(mut input: Input) -> Result<Self, InputError> {
         let system = System::assemble(&input.model).map_err(|faults| input.faults(faults))?;
+        input.note_system(&system);
         Ok(Self {
             input: Arc::new(input),
             system: Arc::new(system),

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use jostle::stepping::Progress;
+use jostle::stepping::{Progress, find_sensitivity};
 use jostle::{
     Column, EnergyTerm, GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Summary, simulate,
 };
@@ -61,6 +61,7 @@ pub(crate) fn run(
         record_interval,
     };
     let mut stopped: Option<PyErr> = None;
+    let mut interrupted_later: Option<PyErr> = None;
     let mut looked = Instant::now();
     let look_up = |progress: Progress| {
         if looked.elapsed() < LOOK_UP {
@@ -77,10 +78,20 @@ pub(crate) fn run(
     };
     let (mut outcome, wall) = py.detach(|| {
         let started = Instant::now();
-        let outcome = simulate(&model.system, &motion, &plan, settings, look_up);
-        (outcome, started.elapsed().as_secs_f64())
+        let mut outcome = simulate(&model.system, &motion, &plan, settings, look_up);
+        let wall = started.elapsed().as_secs_f64();
+        find_sensitivity(&model.system, &motion, &plan, &mut outcome, |_| {
+            match Python::attach(|py| py.check_signals()) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    interrupted_later = Some(error);
+                    ControlFlow::Break(())
+                }
+            }
+        });
+        (outcome, wall)
     });
-    let interrupted = match stopped {
+    let interrupted = match stopped.or(interrupted_later) {
         Some(error) if error.is_instance_of::<PyKeyboardInterrupt>(py) => true,
         Some(error) => return Err(error),
         None => false,
@@ -109,7 +120,7 @@ fn heed(py: Python<'_>, observer: Option<&Py<PyAny>>, progress: Progress) -> PyR
 impl Run {
     fn summary(&self, without_contact: Option<&Self>) -> Summary {
         let twin = without_contact.map(|run| &run.outcome);
-        Summary::of(&jostle::Run {
+        let mut summary = Summary::of(&jostle::Run {
             model: &self.model.input.model,
             system: &self.model.system,
             motion: &self.motion,
@@ -117,7 +128,9 @@ impl Run {
             outcome: &self.outcome,
             without_contact: twin.filter(|twin| twin.end == RunEnd::Completed),
             wall: self.wall,
-        })
+        });
+        self.model.input.add_notes(&mut summary);
+        summary
     }
 
     fn page(&self, py: Python<'_>, without_contact: Option<&Self>) -> PyResult<String> {

@@ -384,8 +384,10 @@ fn columns(
     choices: &[Choice],
 ) -> Result<(Vec<Named>, Vec<String>), CaseError> {
     let input = tree(file, choices)?.input()?;
-    let warnings = input.warnings.clone();
     let mut prepared = workshop.assemble(input)?;
+    prepared.input.note_system(&prepared.system);
+    let mut warnings = prepared.input.warnings.clone();
+    warnings.extend(prepared.input.unusual_motion(&prepared.motion));
     prepared.motion.duration = 0.0;
     let settings = Settings {
         record_interval: None,

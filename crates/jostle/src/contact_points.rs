@@ -1,6 +1,7 @@
 //! Which points of two neighbours face each other: floors, and columns between floors.
 
-use crate::model::{Building, FloorPairs, LEVEL_TOLERANCE, Level, Structure};
+use crate::model::{Building, FloorPairs, LEVEL_TOLERANCE, Level, Model, Structure};
+use crate::row::neighbours;
 
 /// Heights of the left and of the right point above the base; `None` on a wall \[m\].
 pub(crate) type PointPair = [Option<f64>; 2];
@@ -299,6 +300,74 @@ fn at_heights(
         Ok(found)
     } else {
         Err(misfits)
+    }
+}
+
+/// Floors of two neighbours that stand within the height of the other and meet nothing, because `floors = "common"`
+/// pairs floors at equal height only.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnmatchedFloors {
+    /// The first gap of these neighbours with common floors, by its place in [`Model::gaps`].
+    pub gap: usize,
+    /// Left and right building, by their places in [`Model::buildings`].
+    pub between: [usize; 2],
+    /// Floors of the left and of the right building without contact, counted from 1.
+    pub floors: [Vec<usize>; 2],
+    /// Number of contacts of the two, in all their gaps.
+    pub contacts: usize,
+}
+
+impl Model {
+    /// Floors that could hit the neighbour and are left out by `floors = "common"`, pair by pair; a floor that any
+    /// gap of the pair brings into contact is not among them. Of a model that passes [`Model::check`].
+    #[must_use]
+    pub fn unmatched_floors(&self) -> Vec<UnmatchedFloors> {
+        let mut found: Vec<UnmatchedFloors> = Vec::new();
+        for (index, gap) in self.gaps.iter().enumerate() {
+            let ([Some(left), Some(right)], FloorPairs::Common) = (gap.between, &gap.floors) else {
+                continue;
+            };
+            if found.iter().any(|known| known.between == [left, right]) {
+                continue;
+            }
+            let own = self
+                .gaps
+                .iter()
+                .filter(|other| other.between == gap.between);
+            let pairs: Vec<PointPair> = own
+                .filter_map(|gap| {
+                    let sides = neighbours(self, gap.between);
+                    point_pairs(&gap.floors, sides, gap.level_tolerance).ok()
+                })
+                .flatten()
+                .collect();
+            let (Some(a), Some(b)) = (self.buildings.get(left), self.buildings.get(right)) else {
+                continue;
+            };
+            let heights = [a.floor_heights(), b.floor_heights()];
+            let floors = [0, 1].map(|side| {
+                let roof = heights[1 - side].last().copied().unwrap_or(0.0);
+                let within = roof + gap.level_tolerance;
+                let met = |height: f64| {
+                    let mut points = pairs.iter().filter_map(|pair| pair[side]);
+                    points.any(|point| (point - height).abs() <= SAME)
+                };
+                let alone = heights[side].iter().enumerate();
+                alone
+                    .filter(|(_, height)| **height <= within && !met(**height))
+                    .map(|(floor, _)| floor + 1)
+                    .collect::<Vec<_>>()
+            });
+            if floors.iter().any(|side| !side.is_empty()) {
+                found.push(UnmatchedFloors {
+                    gap: index,
+                    between: [left, right],
+                    floors,
+                    contacts: pairs.len(),
+                });
+            }
+        }
+        found
     }
 }
 

@@ -25,6 +25,7 @@ mod check;
 mod check_row;
 mod contact_points;
 mod element;
+mod finite;
 mod lanes;
 mod member_end;
 mod row;
@@ -33,6 +34,7 @@ mod stretches;
 mod summarise;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
+pub use contact_points::UnmatchedFloors;
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Gravity, Hinges,

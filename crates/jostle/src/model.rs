@@ -195,6 +195,17 @@ pub struct Shear {
     pub storey_heights: Vec<f64>,
 }
 
+/// The lateral modes that [`Damping::Ratio`] takes where none are named: the first and the third, the first two of
+/// two, or the only one.
+#[must_use]
+pub fn usual_damping_modes(lateral_modes: usize) -> &'static [usize] {
+    match lateral_modes {
+        0 | 1 => &[1],
+        2 => &[1, 2],
+        _ => &[1, 3],
+    }
+}
+
 /// Rayleigh damping C = α M + β K, or what defines it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Damping {
@@ -202,7 +213,7 @@ pub enum Damping {
     Ratio {
         /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
         ratio: f64,
-        /// Lateral modes that have it; none stands for the first and the third, or as many as there are.
+        /// Lateral modes that have it; none stands for [`usual_damping_modes`].
         modes: Vec<usize>,
     },
     /// The coefficients themselves.
@@ -355,7 +366,13 @@ pub struct Analysis {
     pub solver: Option<Solver>,
     /// How a step is integrated.
     pub integrator: Integrator,
+    /// Most work that a run may be expected to need, as [`Plan::expected_work`](crate::Plan::expected_work) counts it;
+    /// infinity for no bound \[–\].
+    pub most_work: f64,
 }
+
+/// Bound on the work of a run unless more is asked for: some hours of computing \[–\].
+pub const MOST_WORK: f64 = 5e11;
 
 impl Default for Analysis {
     fn default() -> Self {
@@ -366,6 +383,7 @@ impl Default for Analysis {
             energy_tolerance: 1e-6,
             solver: None,
             integrator: Integrator::default(),
+            most_work: MOST_WORK,
         }
     }
 }

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use crate::contact::ForceLaw;
 use crate::equations::Equations;
 use crate::faces::{Face, Faces};
+use crate::finite;
 use crate::hysteresis::HysteresisMemory;
 use crate::modal::{self, Mode};
-use crate::model::{Damping, LEVEL_TOLERANCE, Model, ModelFault};
+use crate::model::{Damping, LEVEL_TOLERANCE, Model, ModelFault, usual_damping_modes};
 use crate::row::Row;
 use crate::skeleton::Idealisation;
 use crate::state::State;
@@ -134,7 +135,7 @@ impl System {
     ///
     /// # Errors
     /// All faults of the model, as [`Model::check`] finds them, or what only assembly shows: damping at modes
-    /// that do not exist, contacts at points without mass.
+    /// that do not exist, contacts at points without mass, periods and durations that are not finite.
     pub fn assemble(model: &Model) -> Result<Self, Vec<ModelFault>> {
         model.check()?;
         let row = Row::of(model);
@@ -152,6 +153,10 @@ impl System {
                 });
                 continue;
             }
+            if let Some(fault) = finite::of_building(index, building, &assembled) {
+                faults.push(fault);
+                continue;
+            }
             if let Err(problem) = assembled.damp(&building.damping) {
                 faults.push(ModelFault {
                     path: format!("building[{index}].damping.modes"),
@@ -164,7 +169,13 @@ impl System {
             return Err(faults);
         }
         let mut system = Self::of_buildings(buildings);
-        row.put_into(&mut system, model).map(|()| system)
+        row.put_into(&mut system, model)?;
+        let faults = finite::of_contacts(&system);
+        if faults.is_empty() {
+            Ok(system)
+        } else {
+            Err(faults)
+        }
     }
 
     /// The same buildings with the gaps of another model, which may differ from that of this system in the widths of
@@ -355,11 +366,7 @@ impl BuildingSystem {
                         )
                     })
                 };
-                let usual: &[usize] = match lateral.len() {
-                    0 | 1 => &[1],
-                    2 => &[1, 2],
-                    _ => &[1, 3],
-                };
+                let usual = usual_damping_modes(lateral.len());
                 let modes = if modes.is_empty() { usual } else { modes };
                 match modes.iter().map(frequency).collect::<Result<Vec<_>, _>>()?[..] {
                     [single] => (2.0 * ratio * single, 0.0),

@@ -6,6 +6,7 @@ use crate::keys::{INTEGRATORS, SOLVERS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
 use crate::tree::Value;
+use crate::unusual::Accepted;
 
 pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
     let mut analysis = Analysis::default();
@@ -35,10 +36,56 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
             _ => None,
         };
     }
+    // Whoever means unusual values also means the work that they make.
+    if reader.accepted.covers("analysis.step") {
+        analysis.most_work = f64::INFINITY;
+    }
+    if let Some(field) = reader.get(&view, "accept_unusual") {
+        check_accepted(reader, &field);
+    }
     if let Some(field) = reader.get(&view, "integrator") {
         analysis.integrator = integrator(reader, &field);
     }
     analysis
+}
+
+/// Which unusual values are meant; faults are noted where the table is read.
+pub(super) fn accepted(reader: &mut Reader<'_>, field: &Field<'_>) -> Accepted {
+    let Some(view) = reader.reopen(field, &[Section::Analysis]) else {
+        return Accepted::Nothing;
+    };
+    let Some(field) = reader.get(&view, "accept_unusual") else {
+        return Accepted::Nothing;
+    };
+    match (&field.node.value, field.entries()) {
+        (Value::Flag(true), _) => Accepted::Everything,
+        (_, Some(entries)) => Accepted::Paths(
+            entries
+                .iter()
+                .filter_map(|entry| entry.as_text().map(str::to_owned))
+                .collect(),
+        ),
+        _ => Accepted::Nothing,
+    }
+}
+
+/// Notes what is neither true nor false nor a list of fields.
+fn check_accepted(reader: &mut Reader<'_>, field: &Field<'_>) {
+    match field.entries() {
+        Some(entries) => {
+            for entry in &entries {
+                reader.text(entry);
+            }
+        }
+        None if matches!(field.node.value, Value::Flag(_)) => {}
+        None => {
+            let found = field.node.describe();
+            reader.bad(
+                field,
+                format!("expected true, false or a list of fields such as [\"building[0].spans\"], found {found}"),
+            );
+        }
+    }
 }
 
 /// A word, or a table with the numbers of the method.

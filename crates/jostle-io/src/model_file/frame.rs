@@ -135,7 +135,7 @@ fn read_spans(reader: &mut Reader<'_>, view: &View<'_>) -> Vec<f64> {
 }
 
 /// Factors on EI of columns and of beams.
-fn stiffness_factors(reader: &mut Reader<'_>, view: &View<'_>) -> (f64, f64) {
+pub(super) fn stiffness_factors(reader: &mut Reader<'_>, view: &View<'_>) -> (f64, f64) {
     let Some(field) = reader.get(view, "stiffness_factor") else {
         return (1.0, 1.0);
     };

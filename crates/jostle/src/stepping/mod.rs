@@ -11,6 +11,7 @@ mod coupling;
 mod energy;
 mod episode;
 mod events;
+mod expected_work;
 mod factors;
 mod impacts;
 mod integrator;

@@ -1,5 +1,6 @@
 //! Step sizes: fixed, or chosen from the tolerance (theory, Eqs. G1 and G2).
 
+use super::expected_work::too_long;
 use super::integrator::Integrator;
 use super::modal;
 use crate::model::{Analysis, ModelFault, Solver};
@@ -81,7 +82,8 @@ impl Plan {
     /// Chooses the steps for a system and a motion, and the solver where none is asked for.
     ///
     /// # Errors
-    /// A solver that cannot step the system; a fixed step that cannot resolve the first period, the record or an impact.
+    /// A solver that cannot step the system; a fixed step that cannot resolve the first period, the record or an
+    /// impact; more work than [`Analysis::most_work`].
     pub fn choose(
         system: &System,
         motion: &GroundMotion,
@@ -122,15 +124,20 @@ impl Plan {
                     },
             },
         };
-        if !faults.is_empty() {
-            return Err(faults);
-        }
-        Ok(Self {
+        let plan = Self {
             step,
             contact_steps,
             integrator: analysis.integrator,
             solver,
-        })
+        };
+        if faults.is_empty() {
+            faults.extend(too_long(&plan, system, motion, analysis));
+        }
+        if faults.is_empty() {
+            Ok(plan)
+        } else {
+            Err(faults)
+        }
     }
 
     /// What reported peaks may be off, relative to the greatest of their kind; 1e-3 where contact steps are fixed \[–\].

@@ -1,9 +1,9 @@
 use jostle::{
-    Axial, Damping, FloorPairs, Frame, LawKind, Level, Link, Model, RestitutionIs, Shear,
+    Axial, Damping, FloorPairs, Frame, LawKind, Level, Link, Model, Plan, RestitutionIs, Shear,
     Structure, System,
 };
 
-use crate::support::{frame, framed, law, row, tower};
+use crate::support::{frame, framed, law, row, still, tower};
 
 /// A frame beside a tower, sound.
 fn sound() -> Model {
@@ -644,4 +644,42 @@ fn unnamed_modes_are_the_first_and_the_third_as_far_as_they_exist() {
         };
         assert_eq!(coefficients(&[]), coefficients(&named), "{floors} floors");
     }
+}
+
+#[test]
+fn masses_without_a_finite_sum_are_a_fault_with_their_cause() {
+    let mut model = sound();
+    shear_of(&mut model).mass = vec![1e308; 4];
+    let faults = System::assemble(&model).map(|_| ());
+    let faults = faults.expect_err("no sum");
+    assert_eq!(faults[0].path, "building[1]");
+    for part in ["its mass is inf kg", "masses of 1.00e308 kg"] {
+        assert!(faults[0].problem.contains(part), "{}", faults[0].problem);
+    }
+}
+
+#[test]
+fn a_run_of_more_work_than_allowed_is_refused_with_what_makes_it_long() {
+    let plan = |model: &Model| {
+        let system = System::assemble(model).expect("sound");
+        Plan::choose(&system, &still(30.0), &model.analysis).map_err(|faults| faults[0].clone())
+    };
+    let mut model = sound();
+    assert!(plan(&model).is_ok());
+    shear_of(&mut model).stiffness = vec![1e28; 4];
+    let fault = plan(&model).expect_err("some 1e14 steps");
+    assert_eq!(fault.path, "building[1]");
+    for part in ["a lateral period of \"tower\" is", "up to 1.00e28 N/m"] {
+        assert!(fault.problem.contains(part), "{}", fault.problem);
+    }
+    model.analysis.most_work = f64::INFINITY;
+    assert!(plan(&model).is_ok());
+
+    let mut model = sound();
+    model.analysis.step = Some(1e-5);
+    model.analysis.contact_step = Some(1e-6);
+    assert!(plan(&model).is_ok());
+    model.analysis.most_work = 1e6;
+    let fault = plan(&model).expect_err("3e6 steps");
+    assert_eq!(fault.path, "analysis.step");
 }

@@ -1,0 +1,91 @@
+//! Neighbours whose floors match in part.
+
+use jostle::{Building, Model, Structure, UnmatchedFloors};
+
+/// One warning for every pair of neighbours whose common floors leave out floors that could hit the other.
+pub(super) fn warnings(model: &Model) -> Vec<String> {
+    let unmatched = model.unmatched_floors();
+    unmatched
+        .iter()
+        .filter_map(|found| warning(model, found))
+        .collect()
+}
+
+fn warning(model: &Model, found: &UnmatchedFloors) -> Option<String> {
+    let [left, right] = found.between.map(|index| model.buildings.get(index));
+    let buildings = [left?, right?];
+    let sides = [0, 1].map(|side| floors(buildings[side], &found.floors[side]));
+    let sides: Vec<String> = sides.into_iter().flatten().collect();
+    let contacts = match found.contacts {
+        1 => "The only contact joins floors".to_owned(),
+        count => format!("All {count} contacts join floors"),
+    };
+    let alone = found.floors.iter().map(Vec::len).sum::<usize>() == 1;
+    let stand = if alone { "stands" } else { "stand" };
+    Some(format!(
+        "gap[{}].floors: {} {stand} beside the other building, but between its floors: no contact there with floors = \"common\". {contacts} at equal height; impacts of floors against columns are left out. {}",
+        found.gap,
+        sides.join(" and "),
+        remedy(buildings, found)
+    ))
+}
+
+/// How to bring these floors into contact.
+fn remedy(buildings: [&Building; 2], found: &UnmatchedFloors) -> String {
+    let has_columns = buildings.map(|b| matches!(b.structure, Structure::Frame(_)));
+    let listed = "list the pairs that can touch";
+    match has_columns {
+        [true, true] => {
+            format!("Write floors = \"all\" to include them, or {listed} to say that they cannot")
+        }
+        [false, false] => format!(
+            "Shear buildings have no columns to hit: describe them as frames, raise level_tolerance if slabs meet, or {listed} to say that no others can"
+        ),
+        [left_has, _] => {
+            // Floors of the shear building against columns of the frame.
+            let (shear, frame) = if left_has { (1, 0) } else { (0, 1) };
+            let point = found.floors[shear].first().and_then(|&floor| {
+                let height = *buildings[shear]
+                    .floor_heights()
+                    .get(floor.checked_sub(1)?)?;
+                let pair = [floor.to_string(), format!("\"{height:.3} m\"")];
+                let [a, b] = if shear == 0 {
+                    pair
+                } else {
+                    let [floor, height] = pair;
+                    [height, floor]
+                };
+                Some(format!(" as [[{a}, {b}], …]"))
+            });
+            format!(
+                "Floors of \"{}\" can hit columns of \"{}\": {listed}{}. Describe \"{}\" as a frame to let floors hit its columns too",
+                buildings[shear].name,
+                buildings[frame].name,
+                point.unwrap_or_default(),
+                buildings[shear].name
+            )
+        }
+    }
+}
+
+/// Floors of a building in words; `None` if there are none.
+fn floors(building: &Building, floors: &[usize]) -> Option<String> {
+    let mut runs: Vec<[usize; 2]> = Vec::new();
+    for &floor in floors {
+        match runs.last_mut() {
+            Some([_, last]) if *last + 1 == floor => *last = floor,
+            _ => runs.push([floor, floor]),
+        }
+    }
+    let runs: Vec<String> = runs
+        .into_iter()
+        .map(|[first, last]| match last - first {
+            0 => first.to_string(),
+            1 => format!("{first}, {last}"),
+            _ => format!("{first} to {last}"),
+        })
+        .collect();
+    let plural = if floors.len() > 1 { "s" } else { "" };
+    (!floors.is_empty())
+        .then(|| format!("floor{plural} {} of \"{}\"", runs.join(", "), building.name))
+}

@@ -1,0 +1,441 @@
+//! Usual ranges of quantities: every reader of models warns outside the usual range, and refuses what can only be a
+//! slip of units. This file has all the numbers.
+
+use jostle::summary::Summary;
+use jostle::{GroundMotion, LawKind, Model, System};
+
+use crate::keys::Section::{self as S};
+use crate::model_file::Input;
+use crate::motion_spec::GREATEST_ACCELERATION;
+use crate::quantity::Dimension::{self as D};
+use crate::quantity::{parse_quantity, show_number, split_number, unit_size};
+use crate::tree::{Node, Value};
+
+/// The key that accepts unusual values, for remedies.
+const REMEDY: &str =
+    "accept_unusual = true under [analysis], or --accept-unusual, accepts it as it is";
+
+/// What a quantity usually is, and what it can be at all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Range {
+    /// Where the key stands.
+    pub(crate) sections: &'static [S],
+    pub(crate) key: &'static str,
+    /// What the quantity is, with its article.
+    pub(crate) noun: &'static str,
+    pub(crate) dimension: D,
+    /// Outside, there is a warning; in SI.
+    pub(crate) usual: [f64; 2],
+    /// Outside, the value is refused; in SI.
+    pub(crate) possible: [f64; 2],
+    /// Units that may have been meant, the likeliest first.
+    units: &'static [&'static str],
+}
+
+/// What a range says of a value.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Verdict {
+    Usual,
+    /// The warning.
+    Unusual(String),
+    /// The fault and its remedy.
+    Refused(String, String),
+}
+
+const NO_LIMIT: [f64; 2] = [0.0, f64::INFINITY];
+const LENGTHS: &[&str] = &["mm", "cm", "m"];
+const ACCELERATIONS: &[&str] = &["cm/s2", "g", "m/s2"];
+const MOMENTS: &[&str] = &["kN.m", "MN.m"];
+
+/// Peak of a ground motion \[m/s²\].
+pub(crate) const PEAK_ACCELERATION: Range = Range {
+    sections: &[S::Motion, S::Selection],
+    key: "pga",
+    noun: "a peak ground acceleration",
+    dimension: D::Acceleration,
+    usual: [0.01, 50.0],
+    possible: [0.0, GREATEST_ACCELERATION],
+    units: ACCELERATIONS,
+};
+
+/// Width of a gap \[m\].
+pub(crate) const GAP: Range = Range {
+    sections: &[S::Gap],
+    key: "width",
+    noun: "a gap",
+    dimension: D::Length,
+    usual: [0.0, 2.0],
+    possible: [0.0, 20.0],
+    units: LENGTHS,
+};
+
+/// First lateral period of a building \[s\].
+pub(crate) const FIRST_PERIOD: [f64; 2] = [0.05, 15.0];
+/// Greatest indentation of a contact between concrete floors \[m\].
+pub(crate) const INDENTATION: f64 = 0.05;
+/// Impact speed at which a contact is compared with a storey \[m/s\].
+const IMPACT_SPEED: f64 = 0.5;
+
+/// Ranges of the keys of a model file.
+#[rustfmt::skip]
+pub(crate) const RANGES: &[Range] = &[
+    PEAK_ACCELERATION,
+    Range { key: "amplitude", noun: "an amplitude", sections: &[S::Motion], ..PEAK_ACCELERATION },
+    of(&[S::Building], "storey_height", "a storey height", D::Length, [1.5, 30.0], [0.01, 1000.0], LENGTHS),
+    of(&[S::Frame], "spans", "a span", D::Length, [0.5, 60.0], [0.01, 1000.0], LENGTHS),
+    of(&[S::Column, S::Beam], "width", "a section width", D::Length, [0.05, 5.0], [0.005, 10.0], LENGTHS),
+    of(&[S::Column, S::Beam], "depth", "a section depth", D::Length, [0.05, 5.0], [0.005, 10.0], LENGTHS),
+    of(&[S::Column, S::Beam], "cover", "a concrete cover", D::Length, [0.005, 0.2], [0.0005, 1.0], LENGTHS),
+    of(&[S::Column, S::Beam], "EI", "a flexural rigidity", D::FlexuralRigidity, [1e3, 1e14], NO_LIMIT, &["kN.m2", "MN.m2", "N.m2"]),
+    of(&[S::Column], "mass", "a mass per length of a column", D::LineMass, [1.0, 1e5], [0.0, 1e7], &["t/m", "kN/m", "kg/m"]),
+    of(&[S::Frame], "elastic_modulus", "a modulus of elasticity", D::Modulus, [1e9, 1e12], [1e6, 1e14], &["GPa", "MPa", "kPa", "Pa"]),
+    of(&[S::Frame], "stiffness_factor", "a stiffness factor", D::Dimensionless, [0.01, 10.0], [1e-6, 1e6], &["%"]),
+    of(&[S::StiffnessFactor], "column", "a stiffness factor", D::Dimensionless, [0.01, 10.0], [1e-6, 1e6], &["%"]),
+    of(&[S::StiffnessFactor], "beam", "a stiffness factor", D::Dimensionless, [0.01, 10.0], [1e-6, 1e6], &["%"]),
+    of(&[S::Frame], "density", "a density", D::Density, [100.0, 2e4], [0.0, 1e6], &["kN/m3", "t/m3", "kg/m3"]),
+    of(&[S::Frame], "beam_mass", "a beam mass", D::LineMass, [100.0, 1e5], [0.0, 1e6], &["kN/m", "t/m", "kg/m"]),
+    of(&[S::Frame], "floor_mass", "a floor mass", D::Mass, [100.0, 1e8], NO_LIMIT, &["t", "kg"]),
+    of(&[S::Shear], "mass", "a floor mass", D::Mass, [100.0, 1e8], NO_LIMIT, &["t", "kg"]),
+    of(&[S::Shear], "stiffness", "a storey stiffness", D::Stiffness, [1e3, 1e13], NO_LIMIT, &["MN/m", "kN/m", "N/m"]),
+    of(&[S::StoreyHinges], "cracking", "a storey displacement at cracking", D::Length, [1e-6, 1.0], NO_LIMIT, LENGTHS),
+    of(&[S::StoreyHinges], "yield", "a storey displacement at yield", D::Length, [1e-6, 1.0], NO_LIMIT, LENGTHS),
+    of(&[S::Hinge, S::HingeSide], "cracking", "a cracking moment", D::Moment, [1e3, f64::INFINITY], NO_LIMIT, MOMENTS),
+    of(&[S::Hinge, S::HingeSide], "yield", "a yield moment", D::Moment, [1e3, f64::INFINITY], NO_LIMIT, MOMENTS),
+    GAP,
+    of(&[S::Gap, S::Link], "level_tolerance", "a tolerance of levels", D::Length, [0.0, 1.0], [0.0, 20.0], LENGTHS),
+    of(&[S::Gap], "thickness", "a bumper thickness", D::Length, [0.001, 1.0], [0.0, 10.0], LENGTHS),
+    of(&[S::Link], "stiffness", "a link stiffness", D::Stiffness, [1e3, 1e16], NO_LIMIT, &["MN/m", "kN/m"]),
+    of(&[S::Link], "damping", "a dashpot coefficient", D::Damping, [1e2, 1e12], NO_LIMIT, &["kN.s/m", "MN.s/m"]),
+];
+
+const fn of(
+    sections: &'static [S],
+    key: &'static str,
+    noun: &'static str,
+    dimension: D,
+    usual: [f64; 2],
+    possible: [f64; 2],
+    units: &'static [&'static str],
+) -> Range {
+    Range {
+        sections,
+        key,
+        noun,
+        dimension,
+        usual,
+        possible,
+        units,
+    }
+}
+
+/// The range of a key of one of some sections.
+pub(crate) fn range_of(sections: &[S], key: &str) -> Option<&'static Range> {
+    RANGES
+        .iter()
+        .find(|range| range.key == key && range.sections.iter().any(|s| sections.contains(s)))
+}
+
+impl Range {
+    /// Judges a value in SI. Zero says that something is absent and is never unusual; signs are judged elsewhere.
+    pub(crate) fn judge(&self, value: f64, written: Written) -> Verdict {
+        let size = value.abs();
+        let within = |[low, high]: [f64; 2]| (low..=high).contains(&size);
+        if size == 0.0 || within(self.usual) {
+            return Verdict::Usual;
+        }
+        let found = format!("{} of {}", self.noun, self.show(value));
+        let meant = self.meant(written.number);
+        if within(self.possible) {
+            // Whoever writes a unit is not far from it.
+            let meant = meant.filter(|_| written.is_bare);
+            let meant = meant.map_or_else(String::new, |meant| format!("; is it {meant}?"));
+            return Verdict::Unusual(format!(
+                "{found} is unusual: {}{meant}",
+                self.limits(self.usual)
+            ));
+        }
+        let limits = self.limits(self.possible);
+        match meant {
+            Some(meant) => Verdict::Refused(
+                format!("{found}, {limits}: is it {meant}?"),
+                format!("write the unit, as in \"{meant}\"; {REMEDY}"),
+            ),
+            None => Verdict::Refused(
+                format!("{found}, {limits}"),
+                format!("check the unit; {REMEDY}"),
+            ),
+        }
+    }
+
+    /// The number as written with the unit that makes it usual, well inside the range.
+    fn meant(&self, written: f64) -> Option<String> {
+        let unit = self.likely_units(written).next()?;
+        Some(format!("{} {unit}", show_number(written)))
+    }
+
+    /// Units with which a number would be usual, the likeliest first.
+    fn likely_units(&self, written: f64) -> impl Iterator<Item = &'static str> {
+        let [low, high] = self.usual;
+        let fits = move |unit: &&&str| {
+            unit_size(unit, unit, self.dimension).is_ok_and(|size| {
+                let value = (written * size).abs();
+                2.0 * low <= value && 2.0 * value <= high && value > 0.0
+            })
+        };
+        self.units.iter().filter(fits).copied()
+    }
+
+    fn show(&self, value: f64) -> String {
+        match self.dimension {
+            D::Dimensionless => short(value),
+            _ => format!("{} {}", short(value), self.dimension.si_unit()),
+        }
+    }
+
+    /// The limits in words for a message.
+    fn limits(&self, limits: [f64; 2]) -> String {
+        format!("expected {}", self.span(limits))
+    }
+
+    /// The limits in words.
+    pub(crate) fn span(&self, [low, high]: [f64; 2]) -> String {
+        match (low > 0.0, high.is_finite()) {
+            (true, true) => format!("{} to {}", self.show(low), self.show(high)),
+            (true, false) => format!("at least {}", self.show(low)),
+            (false, true) => format!("at most {}", self.show(high)),
+            (false, false) => "any".to_owned(),
+        }
+    }
+}
+
+/// Reads a length or an acceleration given as an option of the command line: a number there needs its unit, except zero.
+///
+/// # Errors
+/// A message that names the option; without a unit it lists the likely spellings.
+pub fn parse_option(option: &str, text: &str, expected: D) -> Result<f64, String> {
+    let value = parse_quantity(text, expected).map_err(|error| format!("{option}: {error}"))?;
+    let number = text.trim();
+    let is_bare = split_number(number).is_some_and(|(_, rest)| rest.trim().is_empty());
+    if !is_bare || value == 0.0 {
+        return Ok(value);
+    }
+    let range = if expected == D::Acceleration {
+        &PEAK_ACCELERATION
+    } else {
+        &GAP
+    };
+    let mut spellings: Vec<String> = range
+        .likely_units(value)
+        .map(|unit| format!("{option} {number}{unit}"))
+        .collect();
+    if spellings.is_empty() {
+        let example = expected.example().replace(' ', "");
+        spellings.push(format!("for example {option} {example}"));
+    }
+    Err(format!(
+        "{option}: \"{number}\" has no unit; write {}",
+        spellings.join(" or ")
+    ))
+}
+
+/// The number of a quantity, before its unit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Written {
+    number: f64,
+    is_bare: bool,
+}
+
+impl Written {
+    /// A number in SI.
+    pub(crate) fn bare(number: f64) -> Self {
+        Self {
+            number,
+            is_bare: true,
+        }
+    }
+
+    /// As it stands in a file; `value` is the same in SI.
+    pub(crate) fn of(node: &Node, value: f64) -> Self {
+        match &node.value {
+            Value::Text(text) => {
+                split_number(text).map_or(Self::bare(value), |(number, unit)| Self {
+                    number,
+                    is_bare: unit.trim().is_empty(),
+                })
+            }
+            _ => Self::bare(value),
+        }
+    }
+}
+
+/// Which unusual values the user means.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) enum Accepted {
+    #[default]
+    Nothing,
+    Everything,
+    /// Fields, and everything below them.
+    Paths(Vec<String>),
+}
+
+impl Accepted {
+    /// Whether unusual values of this field are meant.
+    pub(crate) fn covers(&self, path: &str) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::Everything => true,
+            Self::Paths(paths) => paths.iter().any(|accepted| is_within(path, accepted)),
+        }
+    }
+}
+
+/// Whether a path is another one or below it.
+pub(crate) fn is_within(path: &str, other: &str) -> bool {
+    path.strip_prefix(other)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
+impl Input {
+    /// Adds to the warnings what is unusual about the assembled model: periods, and contacts softer than a storey.
+    pub fn note_system(&mut self, system: &System) {
+        let found = of_system(&self.model, system);
+        for (path, text) in found {
+            self.warn(&path, &text);
+        }
+    }
+
+    /// The warning of a ground motion whose peak is unusual as scaled.
+    #[must_use]
+    pub fn unusual_motion(&self, motion: &GroundMotion) -> Option<String> {
+        self.unusual_peak(motion.peak())
+    }
+
+    fn unusual_peak(&self, peak: f64) -> Option<String> {
+        const PATH: &str = "motion";
+        // A field that says so itself is judged where it is read.
+        let judged = self.warnings.iter().any(|known| known.starts_with(PATH));
+        if judged || self.accepts(PATH) || self.accepts("motion.pga") {
+            return None;
+        }
+        match PEAK_ACCELERATION.judge(peak, Written::bare(peak)) {
+            Verdict::Usual => None,
+            Verdict::Unusual(text) | Verdict::Refused(text, _) => Some(format!("{PATH}: {text}")),
+        }
+    }
+
+    /// Adds to the notes of a summary what the model was warned of, and what is unusual about the results.
+    pub fn add_notes(&self, summary: &mut Summary) {
+        let results = of_results(&self.model, summary);
+        let motion = self.unusual_peak(summary.motion.pga_m_s2);
+        let notes = results.into_iter().chain(self.warnings.iter().cloned());
+        let notes = notes.chain(motion);
+        for note in notes {
+            if !summary.notes.contains(&note) {
+                summary.notes.push(note);
+            }
+        }
+    }
+}
+
+/// What is unusual about an assembled model, field by field.
+fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let [shortest, longest] = FIRST_PERIOD;
+    let first_period = |building: usize| {
+        let modes = system.buildings.get(building)?.modes.first()?;
+        Some(modes.period())
+    };
+    for (index, building) in system.buildings.iter().enumerate() {
+        let Some(period) = first_period(index) else {
+            continue;
+        };
+        if !(shortest..=longest).contains(&period) {
+            found.push((
+                format!("building[{index}]"),
+                format!(
+                    "the first period of \"{}\" is {} s, outside {shortest} s to {longest} s; check the units of its stiffness and mass",
+                    building.name,
+                    three_digits(period)
+                ),
+            ));
+        }
+    }
+    for (index, gap) in model.gaps.iter().enumerate() {
+        let storey = gap.between.iter().flatten().filter_map(|&building| {
+            let floors = model.buildings.get(building)?.floors();
+            Some(storey_period(first_period(building)?, floors))
+        });
+        let storey = storey.fold(0.0, f64::max);
+        let durations = system
+            .contacts
+            .iter()
+            .filter(|contact| contact.gap == index);
+        let duration = durations
+            .map(|contact| {
+                contact
+                    .law
+                    .elastic_duration(contact.effective_mass(), IMPACT_SPEED)
+            })
+            .fold(0.0, f64::max);
+        let bumper = matches!(gap.law.kind, LawKind::Rubber(_));
+        // Half a swing of a storey, twice as long because the storey is only an estimate.
+        if storey > 0.0 && duration > storey && !bumper {
+            found.push((
+                format!("gap[{index}].stiffness"),
+                format!(
+                    "the contact is softer than a storey: an elastic impact at {IMPACT_SPEED} m/s lasts {} s, a storey swings back in {} s; check the unit of the contact stiffness",
+                    three_digits(duration),
+                    three_digits(0.5 * storey)
+                ),
+            ));
+        }
+    }
+    found
+}
+
+/// Period of a single floor on a single storey of a uniform shear building with this first period \[s\].
+fn storey_period(first: f64, floors: usize) -> f64 {
+    let angle = 0.5 * std::f64::consts::PI / (2.0 * floors as f64 + 1.0);
+    2.0 * angle.sin() * first
+}
+
+/// What is unusual about the results of a run.
+fn of_results(model: &Model, summary: &Summary) -> Vec<String> {
+    let mut found = Vec::new();
+    for (index, (gap, law)) in summary.gaps.iter().zip(&model.gaps).enumerate() {
+        let impacts = gap.contacts.iter().flat_map(|contact| &contact.impacts);
+        let deepest = impacts
+            .map(|impact| impact.peak_indentation_m)
+            .fold(0.0, f64::max);
+        if deepest > INDENTATION && !matches!(law.law.kind, LawKind::Rubber(_)) {
+            found.push(format!(
+                "gap[{index}]: the peak indentation between \"{}\" and \"{}\" is {:.0} mm, more than the {:.0} mm that concrete allows; check the unit of the contact stiffness",
+                gap.between[0],
+                gap.between[1],
+                1e3 * deepest,
+                1e3 * INDENTATION
+            ));
+        }
+    }
+    found
+}
+
+/// A number with at most six significant digits, without zeros at its end.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    if (1e-3..1e6).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// A number with three significant digits, for messages.
+fn three_digits(value: f64) -> String {
+    if (1e-3..1e4).contains(&value) {
+        let digits = (2.0 - value.log10().floor()).clamp(0.0, 5.0) as usize;
+        format!("{value:.digits$}")
+    } else {
+        format!("{value:.2e}")
+    }
+}
