@@ -124,6 +124,7 @@ fn summary() -> Summary {
             }],
         }],
         energy: EnergySummary::default(),
+        promise: Default::default(),
         work: WorkSummary::default(),
         ended_early: None,
         warnings: Vec::new(),

@@ -80,15 +80,19 @@ pub(crate) fn run(
         let started = Instant::now();
         let mut outcome = simulate(&model.system, &motion, &plan, settings, look_up);
         let wall = started.elapsed().as_secs_f64();
-        find_sensitivity(&model.system, &motion, &plan, &mut outcome, |_| {
-            match Python::attach(|py| py.check_signals()) {
+        find_sensitivity(
+            &model.system,
+            &motion,
+            &plan,
+            &mut outcome,
+            |_| match Python::attach(|py| py.check_signals()) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(error) => {
                     interrupted_later = Some(error);
                     ControlFlow::Break(())
                 }
-            }
-        });
+            },
+        );
         (outcome, wall)
     });
     let interrupted = match stopped.or(interrupted_later) {

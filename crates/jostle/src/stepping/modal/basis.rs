@@ -9,7 +9,6 @@ use crate::equations::Equations;
 use crate::lanes;
 use crate::stepping::NotPositive;
 use crate::system::BuildingSystem;
-use crate::transfer::riccati::RiccatiSweep;
 use crate::transfer::riccati::rates::{PerRate, RATES, RateFactors};
 
 /// Ritz modes of one building: natural modes as far as they matter in time, and beyond them what makes its

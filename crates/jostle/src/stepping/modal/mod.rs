@@ -31,7 +31,6 @@ use crate::history::Work;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::system::System;
-use estimate::Estimate;
 use reduced::{Rates, Reduced};
 use walk::{Refinement, Walk};
 
