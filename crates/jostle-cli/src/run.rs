@@ -4,9 +4,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle::stepping::{Progress, modal};
 use jostle::{
     GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, simulate,
@@ -16,12 +15,11 @@ use jostle_report::{Page, ReinforcedSection};
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
 use crate::open::{Opened, open};
+use crate::progress::TimeBar;
 use crate::{method, run_text, terminal};
 
 /// Where results go when nothing else is said.
 const RESULTS: &str = "jostle-out";
-/// Runs shorter than this need no progress bar.
-const PATIENCE: Duration = Duration::from_millis(500);
 
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let mut opened = open(args.model.model.as_deref(), &args.model.overrides()?)?;
@@ -200,26 +198,13 @@ fn watch(
     shapes: Option<&modal::Reduction>,
     stop: &AtomicBool,
 ) -> Outcome {
-    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
-    let template = "{prefix} {bar:40} {percent:>3} %  {msg}  {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar.set_prefix(if settings.pounding == Pounding::Included {
+    let mut bar = TimeBar::new(if settings.pounding == Pounding::Included {
         "pounding       "
     } else {
         "without contact"
     });
-    let (started, mut shown) = (Instant::now(), false);
     let observer = |Progress { time, duration }| {
-        if !shown && terminal::is_watched() && started.elapsed() > PATIENCE {
-            bar.set_draw_target(ProgressDrawTarget::stderr());
-            shown = true;
-        }
-        if shown {
-            bar.set_position((1000.0 * time / duration) as u64);
-            bar.set_message(format!("{time:.1} of {duration:.1} s"));
-        }
+        bar.show(time, duration);
         if stop.load(Ordering::Relaxed) {
             ControlFlow::Break(())
         } else {
@@ -230,7 +215,7 @@ fn watch(
         Some(shapes) => modal::simulate(&opened.system, motion, plan, settings, shapes, observer),
         None => simulate(&opened.system, motion, plan, settings, observer),
     };
-    bar.finish_and_clear();
+    bar.finish();
     outcome
 }
 
