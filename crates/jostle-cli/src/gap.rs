@@ -1,15 +1,17 @@
 //! `jostle gap`: the smallest gap without pounding, beside what rules and codes ask for.
 
+use std::cell::RefCell;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use jostle::separation::JointSystem;
 use jostle_io::{Dimension, parse_option};
-use jostle_study::{CriticalGap, GapError, GapSettings, critical_gaps};
+use jostle_study::{CriticalGap, GapError, GapProgress, GapSettings, critical_gaps};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
 use crate::numbers::{counted, kn, mm};
+use crate::progress::TimeBar;
 use crate::run::stop_on_interrupt;
 use crate::terminal;
 
@@ -94,7 +96,10 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
             if let Some(warning) = input.unusual_motion(&motion) {
                 note(&mut notes, &warning);
             }
-            let gaps = critical_gaps(&input.model, &motion, &settings, &stop);
+            let shown = Shown::new(&motion.name);
+            let report = |progress: &GapProgress| shown.show(progress);
+            let gaps = critical_gaps(&input.model, &motion, &settings, &stop, &report);
+            shown.bar.borrow().finish();
             found.extend(gaps.map_err(|error| match error {
                 GapError::Stopped => Failure::Stopped,
                 GapError::Run(_) => Failure::Analysis(error.to_string()),
@@ -113,6 +118,40 @@ fn note(notes: &mut Vec<String>, warning: &str) {
     if !notes.iter().any(|known| known == warning) {
         terminal::warn(warning);
         notes.push(warning.to_owned());
+    }
+}
+
+/// The run under way on a terminal.
+struct Shown {
+    bar: RefCell<TimeBar>,
+    motion: String,
+    /// Neighbours and number of the run that is shown.
+    run: RefCell<(Option<[String; 2]>, usize)>,
+}
+
+impl Shown {
+    fn new(motion: &str) -> Self {
+        Self {
+            bar: RefCell::new(TimeBar::new("")),
+            motion: motion.to_owned(),
+            run: RefCell::default(),
+        }
+    }
+
+    fn show(&self, progress: &GapProgress) {
+        let now = (progress.between.clone(), progress.run);
+        let mut bar = self.bar.borrow_mut();
+        if *self.run.borrow() != now {
+            let what = match (&progress.between, progress.width) {
+                (Some(between), Some(width)) => {
+                    format!("{} at {}", between.join(" – "), millimetres(width))
+                }
+                _ => "without contact".to_owned(),
+            };
+            bar.restart(&format!("{}, run {}, {what}", self.motion, progress.run));
+            self.run.replace(now);
+        }
+        bar.show(progress.time, progress.duration);
     }
 }
 

@@ -11,6 +11,7 @@ mod modes;
 mod motion;
 mod numbers;
 mod open;
+mod progress;
 mod pushover;
 mod pushover_text;
 mod run;

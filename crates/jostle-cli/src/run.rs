@@ -4,9 +4,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle::stepping::{Progress, find_sensitivity, modal};
 use jostle::{
     GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, simulate,
@@ -16,12 +15,11 @@ use jostle_report::{Page, ReinforcedSection};
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
 use crate::open::Opened;
+use crate::progress::TimeBar;
 use crate::{method, run_text, terminal};
 
 /// Where results go when nothing else is said.
 const RESULTS: &str = "jostle-out";
-/// Runs shorter than this need no progress bar.
-const PATIENCE: Duration = Duration::from_millis(500);
 
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let mut opened = args.model.open()?;
@@ -74,10 +72,10 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let shapes = shapes.as_ref();
     let mut outcome = watch(&opened, &motion, &plan, settings, shapes, &stop);
     let wall = started.elapsed().as_secs_f64();
-    let bar = progress_bar("sensitivity    ");
-    let observer = shown_by(&bar, &stop);
+    let mut bar = TimeBar::new("sensitivity    ");
+    let observer = shown_by(&mut bar, &stop);
     find_sensitivity(&opened.system, &motion, &plan, &mut outcome, observer);
-    bar.finish_and_clear();
+    bar.finish();
     let model = &opened.input.model;
     let sum_up = |without_contact| {
         let mut summary = Summary::of(&Run {
@@ -243,44 +241,27 @@ fn watch(
     shapes: Option<&modal::Reduction>,
     stop: &AtomicBool,
 ) -> Outcome {
-    let bar = progress_bar(if settings.pounding == Pounding::Included {
+    let mut bar = TimeBar::new(if settings.pounding == Pounding::Included {
         "pounding       "
     } else {
         "without contact"
     });
-    let observer = shown_by(&bar, stop);
+    let observer = shown_by(&mut bar, stop);
     let outcome = match shapes {
         Some(shapes) => modal::simulate(&opened.system, motion, plan, settings, shapes, observer),
         None => simulate(&opened.system, motion, plan, settings, observer),
     };
-    bar.finish_and_clear();
+    bar.finish();
     outcome
 }
 
-fn progress_bar(prefix: &'static str) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
-    let template = "{prefix} {bar:40} {percent:>3} %  {msg}  {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar.with_prefix(prefix)
-}
-
-/// An observer that moves the bar, shows it once the run has taken a while, and stops the run on Ctrl-C.
+/// An observer that shows the time reached and stops the run on Ctrl-C.
 fn shown_by<'a>(
-    bar: &'a ProgressBar,
+    bar: &'a mut TimeBar,
     stop: &'a AtomicBool,
 ) -> impl FnMut(Progress) -> ControlFlow<()> + use<'a> {
-    let (started, mut shown) = (Instant::now(), false);
     move |Progress { time, duration }| {
-        if !shown && terminal::is_watched() && started.elapsed() > PATIENCE {
-            bar.set_draw_target(ProgressDrawTarget::stderr());
-            shown = true;
-        }
-        if shown {
-            bar.set_position((1000.0 * time / duration) as u64);
-            bar.set_message(format!("{time:.1} of {duration:.1} s"));
-        }
+        bar.show(time, duration);
         if stop.load(Ordering::Relaxed) {
             ControlFlow::Break(())
         } else {

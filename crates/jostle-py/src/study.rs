@@ -269,7 +269,7 @@ pub(crate) fn critical_gaps(
         std::thread::scope(|scope| {
             let work = scope.spawn(|| {
                 let stop = || halt.load(Ordering::Relaxed);
-                jostle_study::critical_gaps(&model.input.model, &motion, &settings, &stop)
+                jostle_study::critical_gaps(&model.input.model, &motion, &settings, &stop, &|_| {})
             });
             while !work.is_finished() {
                 std::thread::sleep(LOOK_UP / 10);

@@ -49,7 +49,7 @@ pub struct CriticalGap {
     pub closing_without_contact_m: f64,
     /// Height of the contact that closes most \[m\].
     pub height_m: f64,
-    /// Runs made.
+    /// Runs made: the one without contact, and those with gaps whose outcome does not follow from it.
     pub runs: usize,
     /// First lateral periods of the neighbours \[s\].
     pub periods_s: [f64; 2],
@@ -72,7 +72,7 @@ pub struct RuleGap {
     pub gap_m: f64,
     /// Over the smallest gap without pounding; `null` when that is zero \[–\].
     pub ratio: Option<f64>,
-    /// Impacts at this gap; `null` when it was not run.
+    /// Impacts at this gap; `null` when outcomes were not asked for.
     pub impact_count: Option<usize>,
     /// Greatest force at this gap \[N\].
     pub peak_force_n: Option<f64>,
@@ -100,6 +100,26 @@ pub enum GapError {
     Stopped,
 }
 
+/// How far a search has come.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GapProgress {
+    /// Names of the neighbours whose gap is searched; `None` in the run without contact, which serves all gaps.
+    pub between: Option<[String; 2]>,
+    /// Number of the run, from 1.
+    pub run: usize,
+    /// Its gap \[m\]; `None` without contact.
+    pub width: Option<f64>,
+    /// Time reached in the run \[s\].
+    pub time: f64,
+    /// Time to reach \[s\].
+    pub duration: f64,
+}
+
+/// A gap wider than the greatest closing without contact by this share of it is not hit: all that differs is rounding.
+const BEYOND: f64 = 1e-6;
+/// The same for small closings \[m\].
+const LEAST_BEYOND: f64 = 1e-9;
+
 /// A gap that no displacement closes \[m\].
 const NEVER: f64 = 1e6;
 /// Runs before a search gives up.
@@ -108,8 +128,9 @@ const MOST_RUNS: usize = 200;
 /// Searches every gap of a model under one motion, each by itself while the others are out of reach.
 ///
 /// Buildings that do not touch do not feel the gap, so the greatest closing of a run without contact is the answer
-/// but for the error of steps; runs with contact on both sides of it make sure, and bisection narrows the bracket to
-/// `settings.tolerance`.
+/// but for rounding: no wider gap is run, because nothing touches there. A run with contact at a narrower one makes
+/// sure that there is an impact, and bisection narrows the bracket to `settings.tolerance`. No width is run twice.
+/// `report` is called often while a run is under way.
 ///
 /// # Errors
 /// [`GapError`].
@@ -118,6 +139,7 @@ pub fn critical_gaps(
     motion: &GroundMotion,
     settings: &GapSettings,
     stop: &(dyn Fn() -> bool + Sync),
+    report: &dyn Fn(&GapProgress),
 ) -> Result<Vec<CriticalGap>, GapError> {
     if model.gaps.is_empty() {
         return Err(GapError::NoGap);
@@ -126,9 +148,17 @@ pub fn critical_gaps(
         model,
         motion,
         stop,
+        report,
     };
     let widths = vec![NEVER; model.gaps.len()];
-    let apart = search.run(&widths, Pounding::Excluded)?;
+    let first = GapProgress {
+        between: None,
+        run: 1,
+        width: None,
+        time: 0.0,
+        duration: 0.0,
+    };
+    let apart = search.run(&widths, Pounding::Excluded, first)?;
     (0..model.gaps.len())
         .map(|gap| search.gap(gap, &apart, settings))
         .collect()
@@ -138,6 +168,115 @@ struct Search<'a> {
     model: &'a Model,
     motion: &'a GroundMotion,
     stop: &'a (dyn Fn() -> bool + Sync),
+    report: &'a dyn Fn(&GapProgress),
+}
+
+/// What a width of a gap leads to.
+#[derive(Clone, Copy)]
+struct Led {
+    impact_count: usize,
+    peak_force_n: f64,
+    first_impact_s: Option<f64>,
+}
+
+/// One gap, while all others are out of reach.
+struct OneGap<'a> {
+    search: &'a Search<'a>,
+    gap: usize,
+    between: [String; 2],
+    /// Greatest closing without contact \[m\].
+    closing: f64,
+    /// Widths that were run, and what they led to.
+    known: Vec<(f64, Led)>,
+}
+
+impl OneGap<'_> {
+    /// Runs made, the one without contact included.
+    fn runs(&self) -> usize {
+        self.known.len() + 1
+    }
+
+    /// What a width leads to; runs it only if that is not known.
+    fn at(&mut self, width: f64) -> Result<Led, GapError> {
+        if width >= self.closing * (1.0 + BEYOND) + LEAST_BEYOND {
+            return Ok(Led {
+                impact_count: 0,
+                peak_force_n: 0.0,
+                first_impact_s: None,
+            });
+        }
+        if let Some((_, led)) = self.known.iter().find(|(known, _)| *known == width) {
+            return Ok(*led);
+        }
+        let mut widths = vec![NEVER; self.search.model.gaps.len()];
+        widths[self.gap] = width;
+        let progress = GapProgress {
+            between: Some(self.between.clone()),
+            run: self.runs() + 1,
+            width: Some(width),
+            time: 0.0,
+            duration: 0.0,
+        };
+        let tried = self.search.run(&widths, Pounding::Included, progress)?;
+        let gap = &tried.summary.gaps[self.gap];
+        let led = Led {
+            impact_count: gap.impact_count,
+            peak_force_n: gap.peak_force_n,
+            first_impact_s: gap.first_impact_s,
+        };
+        self.known.push((width, led));
+        Ok(led)
+    }
+
+    /// Narrows down the smallest gap without an impact, beginning with the closing of a run without contact.
+    fn bracket(&mut self, tolerance: f64) -> Result<Bracket, GapError> {
+        let closing = self.closing;
+        let mut is_hit = |width: f64| {
+            if self.runs() > MOST_RUNS {
+                return Err(GapError::Run("the search did not come to an end".into()));
+            }
+            Ok(self.at(width)?.impact_count > 0)
+        };
+        let mut reach = 0.5 * tolerance;
+        let mut free = closing + reach;
+        while is_hit(free)? {
+            reach *= 2.0;
+            free = closing + reach;
+        }
+        let mut reach = 0.5 * tolerance;
+        let mut hit = closing - reach;
+        loop {
+            if hit <= 0.0 {
+                // The last try: touching at rest.
+                if is_hit(0.0)? {
+                    hit = 0.0;
+                    break;
+                }
+                return Ok(Bracket {
+                    free: 0.0,
+                    pounding: None,
+                });
+            }
+            if is_hit(hit)? {
+                break;
+            }
+            free = hit;
+            reach *= 2.0;
+            hit = closing - reach;
+        }
+        while free - hit > tolerance * (1.0 + 1e-9) {
+            let middle = 0.5 * (free + hit);
+            if is_hit(middle)? {
+                hit = middle;
+            } else {
+                free = middle;
+            }
+        }
+        Ok(Bracket {
+            free,
+            pounding: Some(hit),
+        })
+    }
 }
 
 /// A run and what it belongs to.
@@ -148,7 +287,12 @@ struct Tried {
 }
 
 impl Search<'_> {
-    fn run(&self, widths: &[f64], pounding: Pounding) -> Result<Tried, GapError> {
+    fn run(
+        &self,
+        widths: &[f64],
+        pounding: Pounding,
+        mut progress: GapProgress,
+    ) -> Result<Tried, GapError> {
         let mut model = self.model.clone();
         for (gap, width) in model.gaps.iter_mut().zip(widths) {
             gap.set_width(*width);
@@ -163,7 +307,9 @@ impl Search<'_> {
             pounding,
             record_interval: None,
         };
-        let outcome = simulate(&system, self.motion, &plan, settings, |_| {
+        let outcome = simulate(&system, self.motion, &plan, settings, |reached| {
+            (progress.time, progress.duration) = (reached.time, reached.duration);
+            (self.report)(&progress);
             if (self.stop)() {
                 ControlFlow::Break(())
             } else {
@@ -189,13 +335,6 @@ impl Search<'_> {
             outcome,
             summary,
         })
-    }
-
-    /// A run with one gap of this width and all others out of reach.
-    fn at(&self, gap: usize, width: f64) -> Result<Tried, GapError> {
-        let mut widths = vec![NEVER; self.model.gaps.len()];
-        widths[gap] = width;
-        self.run(&widths, Pounding::Included)
     }
 
     fn gap(
@@ -225,7 +364,14 @@ impl Search<'_> {
             return Err(GapError::NoContact(between.join(" and ")));
         };
         let closing = needed(nearest).max(0.0);
-        let bracket = self.bracket(gap, closing, settings.tolerance)?;
+        let mut one = OneGap {
+            search: self,
+            gap,
+            between: between.clone(),
+            closing,
+            known: Vec::new(),
+        };
+        let bracket = one.bracket(settings.tolerance)?;
         // A wall has no period, and so no double difference.
         let neighbours = self.model.gaps[gap]
             .between
@@ -247,16 +393,13 @@ impl Search<'_> {
             .all(|x| *x > 0.0 && x.is_finite());
         let rho = usable.then(|| ddc_coefficient(periods, damping));
         let mut rules = self.rules(gap, &own, apart, rho, settings);
-        let mut runs = bracket.runs + 1;
         for rule in &mut rules {
             rule.ratio = (bracket.free > 0.0).then(|| rule.gap_m / bracket.free);
             if settings.outcomes {
-                let tried = self.at(gap, rule.gap_m)?;
-                let led = &tried.summary.gaps[gap];
+                let led = one.at(rule.gap_m)?;
                 rule.impact_count = Some(led.impact_count);
                 rule.peak_force_n = Some(led.peak_force_n);
                 rule.first_impact_s = led.first_impact_s;
-                runs += 1;
             }
         }
         Ok(CriticalGap {
@@ -267,64 +410,11 @@ impl Search<'_> {
             pounding_at_m: bracket.pounding,
             closing_without_contact_m: closing,
             height_m: apart.system.contacts[nearest].height,
-            runs,
+            runs: one.runs(),
             periods_s: periods,
             damping,
             ddc_correlation: rho,
             rules,
-        })
-    }
-
-    /// Narrows down the smallest gap without an impact, beginning with the closing of a run without contact.
-    fn bracket(&self, gap: usize, closing: f64, tolerance: f64) -> Result<Bracket, GapError> {
-        let mut runs = 0;
-        let mut is_hit = |width: f64| {
-            runs += 1;
-            if runs > MOST_RUNS {
-                return Err(GapError::Run("the search did not come to an end".into()));
-            }
-            Ok(self.at(gap, width)?.summary.gaps[gap].impact_count > 0)
-        };
-        let mut reach = 0.5 * tolerance;
-        let mut free = closing + reach;
-        while is_hit(free)? {
-            reach *= 2.0;
-            free = closing + reach;
-        }
-        let mut reach = 0.5 * tolerance;
-        let mut hit = closing - reach;
-        loop {
-            if hit <= 0.0 {
-                // The last try: touching at rest.
-                if is_hit(0.0)? {
-                    hit = 0.0;
-                    break;
-                }
-                return Ok(Bracket {
-                    free: 0.0,
-                    pounding: None,
-                    runs,
-                });
-            }
-            if is_hit(hit)? {
-                break;
-            }
-            free = hit;
-            reach *= 2.0;
-            hit = closing - reach;
-        }
-        while free - hit > tolerance * (1.0 + 1e-9) {
-            let middle = 0.5 * (free + hit);
-            if is_hit(middle)? {
-                hit = middle;
-            } else {
-                free = middle;
-            }
-        }
-        Ok(Bracket {
-            free,
-            pounding: Some(hit),
-            runs,
         })
     }
 
@@ -414,7 +504,6 @@ impl Search<'_> {
 struct Bracket {
     free: f64,
     pounding: Option<f64>,
-    runs: usize,
 }
 
 /// Greatest displacement of a building at a height, either way; between floors by a straight line between theirs.
@@ -430,4 +519,79 @@ fn peak_at(run: &Tried, building: usize, height: f64) -> f64 {
         (below, peak_below) = (floor.height_m, peak);
     }
     peak_below
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use jostle_io::builtin_model;
+
+    use super::*;
+
+    /// Gaps that cannot close are not run, none is run twice, and every run is reported.
+    #[test]
+    fn what_is_known_is_not_run() {
+        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
+        if let Some(motion) = &mut input.motion {
+            motion.duration = Some(6.0);
+        }
+        let motion = input
+            .ground_motion()
+            .unwrap_or_else(|error| panic!("{error}"));
+        let runs: RefCell<Vec<(usize, Option<f64>)>> = RefCell::default();
+        let report = |progress: &GapProgress| {
+            let mut runs = runs.borrow_mut();
+            if runs.last().is_none_or(|last| last.0 != progress.run) {
+                runs.push((progress.run, progress.width));
+            }
+            assert!(progress.time <= progress.duration * (1.0 + 1e-9));
+        };
+        let settings = GapSettings::default();
+        let found = critical_gaps(&input.model, &motion, &settings, &|| false, &report);
+        let found = found.unwrap_or_else(|error| panic!("{error}"));
+        let gap = &found[0];
+        let runs = runs.into_inner();
+        assert_eq!(runs.len(), gap.runs, "{runs:?}");
+        let widths: Vec<f64> = runs.iter().filter_map(|run| run.1).collect();
+        assert_eq!(widths.len() + 1, runs.len(), "one run without contact");
+        for (index, width) in widths.iter().enumerate() {
+            assert!(
+                *width < gap.closing_without_contact_m * 1.000_002,
+                "{width} cannot close"
+            );
+            assert!(!widths[..index].contains(width), "{width} is run twice");
+        }
+        let wide = gap.rules.iter().filter(|rule| rule.gap_m > gap.gap_m);
+        assert!(wide.clone().count() > 0);
+        for rule in wide {
+            assert_eq!(
+                (rule.impact_count, rule.peak_force_n),
+                (Some(0), Some(0.0)),
+                "{rule:?}"
+            );
+        }
+        // What is taken as known holds: a run just beyond the greatest closing has no impact, nor one at the answer.
+        let search = Search {
+            model: &input.model,
+            motion: &motion,
+            stop: &|| false,
+            report: &|_| {},
+        };
+        for width in [
+            gap.closing_without_contact_m * (1.0 + 2.0 * BEYOND),
+            gap.gap_m,
+        ] {
+            let progress = GapProgress {
+                between: None,
+                run: 1,
+                width: Some(width),
+                time: 0.0,
+                duration: 0.0,
+            };
+            let tried = search.run(&[width], Pounding::Included, progress);
+            let tried = tried.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(tried.summary.gaps[0].impact_count, 0, "at {width}");
+        }
+    }
 }

@@ -22,7 +22,7 @@ mod study;
 mod varied;
 
 pub use case::{CaseError, Prepared, Ran, Workshop};
-pub use critical_gap::{CriticalGap, GapError, GapSettings, RuleGap, critical_gaps};
+pub use critical_gap::{CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps};
 pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};
 pub use layout::{Column, Kind, Layout, Named};

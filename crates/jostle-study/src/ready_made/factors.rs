@@ -32,11 +32,13 @@ pub(super) enum Spread {
     Normal(f64),
 }
 
+/// The value that holds where nothing stands, and its unit; `None` where the file has one to multiply.
+type Usual = Option<(f64, &'static str)>;
+
 /// Where a value goes.
 struct Place {
     path: String,
-    /// The value that holds where nothing stands, and its unit; `None` where the file has one to multiply.
-    usual: Option<(f64, &'static str)>,
+    usual: Usual,
 }
 
 impl Block {
@@ -124,7 +126,7 @@ fn rounded(number: f64) -> f64 {
 
 /// One block for the places where a value stands, and one for each usual value of the others.
 fn around(name: &str, places: Vec<Place>, spread: Spread) -> Vec<Block> {
-    let mut groups: Vec<(Option<(f64, &'static str)>, Vec<String>)> = Vec::new();
+    let mut groups: Vec<(Usual, Vec<String>)> = Vec::new();
     for place in places {
         match groups.iter_mut().find(|group| group.0 == place.usual) {
             Some((_, paths)) => paths.push(place.path),
@@ -132,7 +134,7 @@ fn around(name: &str, places: Vec<Place>, spread: Spread) -> Vec<Block> {
         }
     }
     let several = groups.len() > 1;
-    let block = |(number, (usual, paths)): (usize, (Option<(f64, &'static str)>, Vec<String>))| {
+    let block = |(number, (usual, paths)): (usize, (Usual, Vec<String>))| {
         let name = match usual {
             // Names are unique in a study.
             Some(_) if several && number > 1 => format!("{name} by default {number}"),

@@ -1,0 +1,58 @@
+//! How far a run has come, shown on a terminal.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::terminal;
+
+/// What takes less time than this needs no progress bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// A bar over the time of a run, which appears only on a terminal and only after a while.
+pub(crate) struct TimeBar {
+    bar: ProgressBar,
+    started: Instant,
+    shown: bool,
+}
+
+impl TimeBar {
+    /// A bar with a text before it.
+    pub(crate) fn new(prefix: &str) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
+        let template = "{prefix} {wide_bar} {percent:>3} %  {msg}  {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        bar.set_prefix(prefix.to_owned());
+        Self {
+            bar,
+            started: Instant::now(),
+            shown: false,
+        }
+    }
+
+    /// Begins with another run under another text; the bar stays where it is.
+    pub(crate) fn restart(&self, prefix: &str) {
+        self.bar.reset();
+        self.bar.set_prefix(prefix.to_owned());
+    }
+
+    /// Shows the time reached, and the time to reach \[s\].
+    pub(crate) fn show(&mut self, time: f64, duration: f64) {
+        if !self.shown && terminal::is_watched() && self.started.elapsed() > PATIENCE {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+            self.shown = true;
+        }
+        if self.shown {
+            self.bar.set_position((1000.0 * time / duration) as u64);
+            self.bar
+                .set_message(format!("{time:.1} of {duration:.1} s"));
+        }
+    }
+
+    /// Removes the bar from the terminal.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
