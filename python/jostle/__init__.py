@@ -18,6 +18,7 @@ from ._errors import (
     InterruptedWarning,
     JostleError,
     JostleWarning,
+    MissingFileError,
     ModelError,
     ModelWarning,
 )
@@ -53,6 +54,7 @@ __all__ = [
     "Link",
     "LinkedFloors",
     "Matrices",
+    "MissingFileError",
     "Model",
     "ModelError",
     "ModelWarning",
