@@ -20,33 +20,32 @@ from ._units import (
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+    #: Contact laws of model files.
+    _Law = Literal[
+        "linear",
+        "kelvin",
+        "kelvin-no-tension",
+        "modified-kelvin",
+        "hertz",
+        "hertz-damp",
+        "ye",
+        "jankowski",
+        "bilinear",
+        "restitution",
+        "rubber",
+    ]
+    #: What a coefficient of restitution means.
+    _RestitutionIs = Literal["input", "realised"]
+    #: Damping of the law ``modified-kelvin``.
+    _Variant = Literal["ye", "mahmoud-jankowski"]
+    #: Whether members change their length, or shear deforms them.
+    _Flexibility = Literal["rigid", "flexible"]
+
 #: A section, a damping, … as the table of the model file.
 Table = Mapping[str, object]
 
 #: Where neighbours touch or are joined: a word, pairs of floors or heights, or heights.
 Floors = Union[str, Sequence[Union[Quantity, Sequence[Quantity]]]]
-
-
-#: Contact laws of model files.
-Law = Literal[
-    "linear",
-    "kelvin",
-    "kelvin-no-tension",
-    "modified-kelvin",
-    "hertz",
-    "hertz-damp",
-    "ye",
-    "jankowski",
-    "bilinear",
-    "restitution",
-    "rubber",
-]
-#: What a coefficient of restitution means.
-RestitutionIs = Literal["input", "realised"]
-#: Damping of the law ``modified-kelvin``.
-Variant = Literal["ye", "mahmoud-jankowski"]
-#: Whether members change their length, or shear deforms them.
-Flexibility = Literal["rigid", "flexible"]
 
 
 class Part:
@@ -128,14 +127,14 @@ class Frame(Part):
         floor_mass: Quantities | None = None,
         column_segments: int | None = None,
         beam_segments: int | Iterable[int] | None = None,
-        axial: Flexibility | Table | None = None,
+        axial: _Flexibility | Table | None = None,
         joint: Table | None = None,
         damping: Table | None = None,
         base: Literal["fixed"] | Table | None = None,
         hinges: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
-        shear: Flexibility | Table | None = None,
+        shear: _Flexibility | Table | None = None,
         poisson_ratio: float | None = None,
         floors: int | None = None,
         **units: Unpack[FrameUnits],
@@ -270,11 +269,11 @@ class Gap(Part):
         between: Sequence[str] | None = None,
         floors: Floors | None = None,
         level_tolerance: Quantity | None = None,
-        law: Law | None = None,
+        law: _Law | None = None,
         stiffness: Quantity | None = None,
         restitution: float | None = None,
-        restitution_is: RestitutionIs | None = None,
-        variant: Variant | None = None,
+        restitution_is: _RestitutionIs | None = None,
+        variant: _Variant | None = None,
         yield_share: float | None = None,
         design_speed: Quantity | None = None,
         thickness: Quantity | None = None,
