@@ -3,14 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Union
 
-from ._units import Quantities, Quantity, merge, split, with_unit
+from ._units import (
+    FrameUnits,
+    GapUnits,
+    LinkUnits,
+    Quantities,
+    Quantity,
+    ShearUnits,
+    merge,
+    split,
+    with_unit,
+)
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._units import FrameUnits, GapUnits, LinkUnits, ShearUnits
+    #: Contact laws of model files.
+    _Law = Literal[
+        "linear",
+        "kelvin",
+        "kelvin-no-tension",
+        "modified-kelvin",
+        "hertz",
+        "hertz-damp",
+        "ye",
+        "jankowski",
+        "bilinear",
+        "restitution",
+        "rubber",
+    ]
+    #: What a coefficient of restitution means.
+    _RestitutionIs = Literal["input", "realised"]
+    #: Damping of the law ``modified-kelvin``.
+    _Variant = Literal["ye", "mahmoud-jankowski"]
+    #: Whether members change their length, or shear deforms them.
+    _Flexibility = Literal["rigid", "flexible"]
 
 #: A section, a damping, … as the table of the model file.
 Table = Mapping[str, object]
@@ -22,8 +51,11 @@ Floors = Union[str, Sequence[Union[Quantity, Sequence[Quantity]]]]
 class Part:
     """A table of the model file. It is checked when a model is made of it, by the same reader as model files."""
 
+    #: Keywords with a unit in their name that editors offer.
+    _with_units: ClassVar[tuple[str, ...]] = ()
+
     def __init__(self, fields: Mapping[str, object], extra: Mapping[str, object]) -> None:
-        self._fields = merge(type(self).__name__, fields, extra)
+        self._fields = merge(type(self).__name__, fields, extra, self._with_units)
 
     def to_dict(self) -> dict[str, Any]:
         """The table as it would stand in a model file."""
@@ -61,8 +93,22 @@ class Frame(Part):
         axial: ``"rigid"`` (default) or ``"flexible"``, or ``{"columns": …, "beams": …}``.
         joint: elastic hinges at the beam ends, ``{"rotational_stiffness": "2e8 N.m/rad"}``.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
+        base: springs and dashpots under every column: ``"fixed"`` (default) or ``{"rotational_stiffness": …}``.
+        hinges: plastic hinges at the member ends, elastic without: ``{"rule": "peak-oriented", "from": "section"}`` or
+            ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
+        gravity: whether the run starts from the displacements under self weight; ``False`` by default.
+        p_delta: whether the weight above acts on the sway (P-Delta); ``False`` by default.
+        shear: ``"rigid"`` (default), or ``"flexible"`` for members that shear deforms (Timoshenko), or
+            ``{"columns": …, "beams": …}``.
+        poisson_ratio: for the shear modulus, 0.2 by default.
+        floors: the same as ``storeys``.
         **units: the same with units in names, as in ``storey_height_m=3.2``.
+
+    Raises:
+        TypeError: an unknown keyword, with the nearest known one.
     """
+
+    _with_units = tuple(FrameUnits.__annotations__)
 
     def __init__(
         self,
@@ -81,9 +127,16 @@ class Frame(Part):
         floor_mass: Quantities | None = None,
         column_segments: int | None = None,
         beam_segments: int | Iterable[int] | None = None,
-        axial: str | Table | None = None,
+        axial: _Flexibility | Table | None = None,
         joint: Table | None = None,
         damping: Table | None = None,
+        base: Literal["fixed"] | Table | None = None,
+        hinges: Table | None = None,
+        gravity: bool | None = None,
+        p_delta: bool | None = None,
+        shear: _Flexibility | Table | None = None,
+        poisson_ratio: float | None = None,
+        floors: int | None = None,
         **units: Unpack[FrameUnits],
     ) -> None:
         super().__init__(
@@ -106,6 +159,13 @@ class Frame(Part):
                 "axial": axial,
                 "joint": joint,
                 "damping": damping,
+                "base": base,
+                "hinges": hinges,
+                "gravity": gravity,
+                "p_delta": p_delta,
+                "shear": shear,
+                "poisson_ratio": poisson_ratio,
+                "floors": floors,
             },
             units,
         )
@@ -121,8 +181,19 @@ class Shear(Part):
         storeys: number of storeys, 1 to 200; not needed beside a list per storey.
         storey_height: one length, or a list from the ground up; 3 m by default.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
+        base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …}``.
+        hinges: cracking and yield of the storeys, elastic without: ``{"rule": "bilinear", "yield": "20 mm",
+            "post_yield": 0.05}``.
+        gravity: whether the run starts from the displacements under self weight; ``False`` by default.
+        p_delta: whether the weight above acts on the sway (P-Delta); ``False`` by default.
+        floors: the same as ``storeys``.
         **units: the same with units in names, as in ``mass_t=[40, 40]``.
+
+    Raises:
+        TypeError: an unknown keyword, with the nearest known one.
     """
+
+    _with_units = tuple(ShearUnits.__annotations__)
 
     def __init__(
         self,
@@ -133,6 +204,11 @@ class Shear(Part):
         storeys: int | None = None,
         storey_height: Quantities | None = None,
         damping: Table | None = None,
+        base: Literal["fixed"] | Table | None = None,
+        hinges: Table | None = None,
+        gravity: bool | None = None,
+        p_delta: bool | None = None,
+        floors: int | None = None,
         **units: Unpack[ShearUnits],
     ) -> None:
         super().__init__(
@@ -144,6 +220,11 @@ class Shear(Part):
                 "mass": mass,
                 "stiffness": stiffness,
                 "damping": damping,
+                "base": base,
+                "hinges": hinges,
+                "gravity": gravity,
+                "p_delta": p_delta,
+                "floors": floors,
             },
             units,
         )
@@ -165,10 +246,21 @@ class Gap(Part):
         restitution: coefficient of restitution, 0.65 by default.
         restitution_is: ``"input"`` (default) puts it into the published formula; with ``"realised"`` free masses
             really rebound with it.
+        variant: of the law ``"modified-kelvin"``: ``"ye"`` (default), damping with the indentation, or
+            ``"mahmoud-jankowski"``, damping in the approach only.
+        yield_share: of the law ``"bilinear"``: yield indentation ÷ greatest design indentation, 0.1 by default.
+        design_speed: of the law ``"bilinear"``: impact speed for which its stiffnesses are computed; that of every
+            impact by default.
         thickness: of the law ``"rubber"``: thickness of the bumper.
+        exponent: of the law ``"rubber"``: exponent of the compression, 2.65 by default.
         minimum_separation: impacts of one contact that follow each other sooner count as one, 0 s by default.
         **units: the same with units in names, as in ``width_mm=20``.
+
+    Raises:
+        TypeError: an unknown keyword, with the nearest known one.
     """
+
+    _with_units = tuple(GapUnits.__annotations__)
 
     def __init__(
         self,
@@ -177,11 +269,15 @@ class Gap(Part):
         between: Sequence[str] | None = None,
         floors: Floors | None = None,
         level_tolerance: Quantity | None = None,
-        law: str | None = None,
+        law: _Law | None = None,
         stiffness: Quantity | None = None,
         restitution: float | None = None,
-        restitution_is: str | None = None,
+        restitution_is: _RestitutionIs | None = None,
+        variant: _Variant | None = None,
+        yield_share: float | None = None,
+        design_speed: Quantity | None = None,
         thickness: Quantity | None = None,
+        exponent: float | None = None,
         minimum_separation: Quantity | None = None,
         **units: Unpack[GapUnits],
     ) -> None:
@@ -195,7 +291,11 @@ class Gap(Part):
                 "stiffness": stiffness,
                 "restitution": restitution,
                 "restitution_is": restitution_is,
+                "variant": variant,
+                "yield_share": yield_share,
+                "design_speed": design_speed,
                 "thickness": thickness,
+                "exponent": exponent,
                 "minimum_separation": minimum_separation,
             },
             units,
@@ -212,7 +312,12 @@ class Link(Part):
         stiffness: force per change of length, of each link, ≥ 0; 0 by default.
         damping: force per rate of change of length, of each link, ≥ 0; 0 by default.
         **units: the same with units in names, as in ``damping_kn_s_m=500``.
+
+    Raises:
+        TypeError: an unknown keyword, with the nearest known one.
     """
+
+    _with_units = tuple(LinkUnits.__annotations__)
 
     def __init__(
         self,

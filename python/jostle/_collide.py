@@ -13,6 +13,7 @@ from ._errors import AnalysisError, ModelError
 from ._units import Quantity, in_si, number
 
 if TYPE_CHECKING:
+    from ._builders import _Law
     import numpy as np
     import numpy.typing as npt
 
@@ -86,7 +87,7 @@ def contact_laws() -> list[dict[str, Any]]:
 
 
 def collide(
-    law: str | ContactLaw = "hertz-damp",
+    law: _Law | ContactLaw = "hertz-damp",
     *,
     m1: Quantity,
     m2: Quantity,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -50,6 +51,22 @@ class ModelError(JostleError, ValueError):
 
     def __str__(self) -> str:
         return str(self.args[0])
+
+
+class MissingFileError(ModelError, FileNotFoundError):
+    """A model file or a record does not exist.
+
+    Attributes:
+        filename: the path, as it was given.
+    """
+
+    def __init__(self, message: str = "", filename: str = "", faults: Sequence[FaultParts] = ()) -> None:
+        super().__init__(message, faults)
+        self.errno, self.strerror, self.filename = errno.ENOENT, message, filename
+        self._parts = (message, filename, faults)
+
+    def __reduce__(self) -> tuple[type[MissingFileError], tuple[str, str, Sequence[FaultParts]]]:
+        return type(self), self._parts
 
 
 class AnalysisError(JostleError, RuntimeError):

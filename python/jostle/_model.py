@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, cast
 
 from . import _jostle
 from ._builders import Building, Gap, Link, Part, Table
-from ._errors import ModelWarning
+from ._errors import MissingFileError, ModelError, ModelWarning
 from ._motion import Motion
 from ._tree import text_of
-from ._units import Quantity, argument, refuse
+from ._units import Quantity, RunUnits, argument, refuse
 
 if TYPE_CHECKING:
     from ._matrices import Matrices
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
     import numpy as np
     import numpy.typing as npt
-
-    from ._units import RunUnits
 
 
 class Model:
@@ -84,16 +82,43 @@ class Model:
         """Reads a model file: JSON if its name ends in ``.json``, else TOML.
 
         Raises:
+            MissingFileError: there is no such file; a ``ModelError`` and a ``FileNotFoundError``.
             ModelError: every fault of the file at once, each with its line and a remedy.
         """
         name = os.fspath(path)
         model = cls.__new__(cls)
-        model._build("load", (name,))
+        try:
+            model._build("load", (name,))
+        except ModelError as error:
+            if os.path.lexists(name):
+                raise
+            raise MissingFileError(str(error), name, error.args[1]) from None
         # A pickled model brings its text along; the records stay where they are.
         text, folder = model._core.text, os.path.dirname(os.path.abspath(name))
         is_json = name.lower().endswith(".json")
         model._recipe = ("read", (name, text, is_json, folder, True), None, None, None, None)
         return model
+
+    @classmethod
+    def of(cls, model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> Model:
+        """A model from whatever names one: a model, a model file, a built-in name such as ``"paper"``, or a tree.
+
+        A file comes before a built-in model of the same name, as on the command line.
+
+        Raises:
+            MissingFileError: neither a file nor a built-in name.
+            ModelError: every fault of the model at once.
+        """
+        if isinstance(model, Model):
+            return model
+        if isinstance(model, Mapping):
+            return cls.from_dict(model)
+        if isinstance(model, str) and not os.path.exists(model):
+            try:
+                return cls.example(model)
+            except ModelError:
+                pass  # no built-in name: what Model.load says of the file is the better message
+        return cls.load(model)
 
     @classmethod
     def loads(cls, text: str, *, name: str = "model", folder: str | os.PathLike[str] = "") -> Model:
@@ -172,7 +197,7 @@ class Model:
         extra: dict[str, Any] = dict(units)
         width = argument("gap", gap, "length", extra)
         peak = argument("pga", pga, "acceleration", extra)
-        refuse("changed", extra)
+        refuse("changed", extra, ["gap", "pga", "motion", *RunUnits.__annotations__])
         given = motion if isinstance(motion, Motion) else None
         record = None if motion is None or given is not None else os.fspath(cast(str, motion))
         model = type(self).__new__(type(self))

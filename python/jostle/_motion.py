@@ -9,15 +9,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from . import _jostle
-from ._units import Quantity, argument, in_si, refuse
+from ._errors import MissingFileError, ModelError
+from ._units import MotionUnits, Quantity, argument, in_si, refuse
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     import numpy as np
     import numpy.typing as npt
-
-    from ._units import MotionUnits
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,10 +116,17 @@ class Motion:
             column: column of the acceleration in a text file, from 1.
 
         Raises:
+            MissingFileError: neither a file nor a built-in record; a ``ModelError`` and a ``FileNotFoundError``.
             ModelError: with file, line and remedy.
         """
         seconds = None if step is None else in_si("step", step, "time")
-        return cls._of(_jostle.Motion.record(os.fspath(path), unit, seconds, column))
+        name = os.fspath(path)
+        try:
+            return cls._of(_jostle.Motion.record(name, unit, seconds, column))
+        except ModelError as error:
+            if os.path.lexists(name) or "there is no record" not in str(error):
+                raise
+            raise MissingFileError(str(error), name) from None
 
     @classmethod
     def el_centro(cls) -> Motion:
@@ -171,7 +177,7 @@ class Motion:
         """
         extra: dict[str, Any] = dict(units)
         peak = argument("pga", pga, "acceleration", extra)
-        refuse("scaled", extra)
+        refuse("scaled", extra, ["pga", "factor", *MotionUnits.__annotations__])
         if (peak is None) == (factor is None):
             raise TypeError("scaled: give either a factor or pga")
         if peak is not None and not peak > 0.0:

@@ -1,39 +1,72 @@
-"""A progress line for terminals and notebooks."""
+"""How far a run has come: a line on a terminal, a bar in a notebook."""
 
 from __future__ import annotations
 
+import html
 import sys
 import time as clock
 from collections.abc import Callable
+from importlib import import_module
 from types import TracebackType
+from typing import Any
 
 #: Called with the time reached and the time to reach [s].
 Observer = Callable[[float, float], object]
 
 
 class ProgressLine:
-    """Shows how far a run has come, once it takes a while and where somebody watches; leaves no trace."""
+    """Shows how far a run has come, once it takes a while and where somebody watches; leaves no trace.
 
-    #: Runs shorter than this need none, and the line is written no more often than this apart [s].
+    On a terminal it is a line on standard error. A Jupyter notebook shows it as HTML, since it prints standard error as
+    if something were wrong. Elsewhere nothing is shown.
+    """
+
+    #: Runs shorter than this need none, and it is written no more often than this apart [s].
     PATIENCE, APART = 0.5, 0.1
 
     def __init__(self, label: str = "") -> None:
         self._label = label
         self._started = self._written = clock.monotonic()
         self._width = 0
-        self._watched = _watched()
+        self._notebook = _notebook()
+        self._handle: Any = None
+        self._watched = self._notebook is not None or _watched()
 
     def __call__(self, time: float, duration: float) -> None:
+        if self._is_due():
+            part = min(max(time / duration, 0.0), 1.0)
+            left = (clock.monotonic() - self._started) * (1 - part) / max(part, 1e-6)
+            self._draw(part, f"{100 * part:3.0f} %  {time:.1f} of {duration:.1f} s, {left:.0f} s left")
+
+    def _is_due(self) -> bool:
+        """Whether it is time to show something again."""
         now = clock.monotonic()
         hasty = now - self._started < self.PATIENCE or now - self._written < self.APART
         if hasty or not self._watched:
-            return
+            return False
         self._written = now
-        part = min(max(time / duration, 0.0), 1.0)
-        left = (now - self._started) * (1 - part) / max(part, 1e-6)
-        bar = "█" * round(24 * part)
-        text = f"{self._label}{bar:░<24} {100 * part:3.0f} %  {time:.1f} of {duration:.1f} s, {left:.0f} s left"
-        self._show(text)
+        return True
+
+    def _draw(self, part: float, text: str) -> None:
+        """Shows a part from 0 to 1, and what it means."""
+        if self._notebook is None:
+            bar = "█" * round(24 * part)
+            self._show(f"{self._label}{bar:░<24} {text}")
+        else:
+            self._display(
+                f'<progress max="1" value="{part:.4f}" style="width:20em"></progress> '
+                f"{html.escape(f'{self._label}{text}')}"
+            )
+
+    def _display(self, page: str) -> None:
+        try:
+            shown = self._notebook.HTML(page)
+            if self._handle is None:
+                self._handle = self._notebook.display(shown, display_id=True)
+            else:
+                self._handle.update(shown)
+        except Exception:  # No progress bar is worth a run.
+            self._watched = False
 
     def _show(self, text: str) -> None:
         try:
@@ -52,17 +85,27 @@ class ProgressLine:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        if self._handle is not None:
+            self._display("")
         if self._width:
             self._show("")
             self._show("\r")
 
 
-def _watched() -> bool:
-    """Whether standard error is a terminal or a notebook."""
-    stream = sys.stderr
-    if type(stream).__module__.startswith("ipykernel"):
-        return True
+def _notebook() -> Any:
+    """``IPython.display`` in a Jupyter notebook, otherwise ``None``."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    if getattr(shell, "kernel", None) is None:
+        return None
     try:
-        return stream.isatty()
+        return import_module("IPython.display")
+    except ImportError:
+        return None
+
+
+def _watched() -> bool:
+    """Whether standard error is a terminal."""
+    try:
+        return sys.stderr.isatty()
     except (AttributeError, ValueError):
         return False

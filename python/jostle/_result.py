@@ -223,7 +223,7 @@ class Result:
 
     @cached_property
     def impacts(self) -> Table:
-        """One row per impact, columns as in ``impacts.parquet``."""
+        """One row per impact in the order of time, columns as in ``impacts.parquet``."""
         return Table._of(self._core.impact_table())
 
     @cached_property
@@ -239,11 +239,14 @@ class Result:
         return Result._of(self._model, self._twin, self._interval)
 
     def _page(self) -> str:
-        twin = self.without_contact
-        return self._core.report(None if twin is None else twin._core)
+        """The page of the report, compared with a run without contact only if there is one already."""
+        twin = self.__dict__.get("without_contact")
+        return self._core.report(self._twin if twin is None else twin._core)
 
     def report(self, path: str | os.PathLike[str]) -> Path:
         """Writes the report: one HTML page with animation, histories and tables, which opens offline.
+
+        The page compares with a run without contact, which is made for it if there is none yet.
 
         Returns:
             The path.
@@ -251,6 +254,7 @@ class Result:
         Raises:
             OSError: the file cannot be written; it is then as it was before.
         """
+        _ = self.without_contact
         self._core.write(path, self._page())
         return Path(path)
 

@@ -6,6 +6,7 @@ import contextlib
 import os
 import time as clock
 import warnings
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _jostle
@@ -14,20 +15,29 @@ from ._model import Model
 from ._motion import Motion
 from ._progress import Observer, ProgressLine
 from ._result import Result
-from ._units import Quantity, in_si
+from ._units import Quantity, RunUnits, in_si, refuse, split
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._units import RunUnits
-
 #: A second Ctrl-C this soon after one that stopped a run is an ordinary one [s].
 _SOON = 2.0
 _last_interrupt = float("-inf")
+#: Keywords of :func:`run`.
+_KEYWORDS = (
+    "motion",
+    "gap",
+    "pga",
+    "pounding",
+    "without_contact",
+    "record_interval",
+    "progress",
+    "force",
+)
 
 
 def run(
-    model: Model | str | os.PathLike[str],
+    model: Model | str | os.PathLike[str] | Mapping[str, Any],
     *,
     motion: Motion | str | os.PathLike[str] | None = None,
     gap: Quantity | None = None,
@@ -46,7 +56,7 @@ def run(
     false) and an :class:`InterruptedWarning` is given; a second Ctrl-C within two seconds raises as usual.
 
     Args:
-        model: the model, or a model file.
+        model: the model, a model file, a built-in name such as ``"paper"``, or the tree of a model file.
         motion: another ground motion; a record by name or path keeps the scaling of the model.
         gap: another width of every gap, a length ≥ 0; also ``gap_mm=20``.
         pga: scales the ground motion to this peak, > 0; also ``pga_g=0.2``.
@@ -56,16 +66,20 @@ def run(
         record_interval: least time between recorded instants in free flight, zero for every step (every step of a
             closed contact is recorded); ``None`` records no histories. Rows are steps of modal stepping, so that its
             last digits depend on them.
-        progress: true shows a progress line; or a function that is called with the time reached and the time to
-            reach [s] a few times a second.
+        progress: true shows how far a run of more than half a second has come: a line on a terminal (standard error),
+            a bar in a Jupyter notebook, nothing elsewhere. Or a function that is called with the time reached and the
+            time to reach [s] a few times a second.
         force: runs even where ``solver = "product"`` is expected to lose its digits.
 
     Raises:
-        ModelError: model, motion or an argument is wrong.
+        ModelError: model, motion or an argument is wrong; :class:`MissingFileError` if the model file does not exist.
+        TypeError: an unknown keyword, with the nearest known one.
         AnalysisError: a step failed; ``error.result`` holds what was computed until then.
     """
-    if not isinstance(model, Model):
-        model = Model.load(model)
+    for key in units:
+        if not any(split(key, (name,)) for name in ("gap", "pga")):
+            refuse("run", (key,), [*_KEYWORDS, *RunUnits.__annotations__])
+    model = Model.of(model)
     if units or not (motion is None and gap is None and pga is None):
         model = model.changed(motion=motion, gap=gap, pga=pga, **units)
     interval = None if record_interval is None else in_si("record_interval", record_interval, "time")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import time as clock
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -26,14 +25,9 @@ class _CaseLine(ProgressLine):
     """Shows how many cases are finished."""
 
     def __call__(self, time: float, duration: float) -> None:
-        now = clock.monotonic()
-        hasty = now - self._started < self.PATIENCE or now - self._written < self.APART
-        if hasty or not self._watched:
-            return
-        self._written = now
-        part = min(max(time / max(duration, 1.0), 0.0), 1.0)
-        bar = "█" * round(24 * part)
-        self._show(f"{bar:░<24} {time:.0f} of {duration:.0f} cases")
+        if self._is_due():
+            part = min(max(time / max(duration, 1.0), 0.0), 1.0)
+            self._draw(part, f"{time:.0f} of {duration:.0f} cases")
 
 
 #: Name, text, whether it is JSON, folder.
@@ -149,7 +143,7 @@ class Study:
             shard: ``(i, n)`` computes the i-th of n equal shares, i from 1; all may use one folder.
             client: a ``dask.distributed.Client``: its workers compute the parts of the table. A part whose worker
                 dies is taken over by another, from the last finished case on.
-            progress: true shows a progress line; or a function called with cases finished and cases to finish.
+            progress: true shows a line on a terminal or a bar in a notebook; or a function called with cases finished and cases to finish.
             report: writes the report and the tables behind it once all cases are finished.
 
         Raises:

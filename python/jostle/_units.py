@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 from collections.abc import Collection, Iterable, Mapping
 from numbers import Integral, Real
@@ -25,6 +26,7 @@ Numbers = Union[float, "Iterable[float]", "npt.NDArray[np.floating[Any]]"]
 UNITS: dict[str, str] = {
     "m": "m", "cm": "cm", "mm": "mm", "ft": "ft", "in": "in",
     "s": "s", "ms": "ms",
+    "m_s": "m/s", "cm_s": "cm/s",
     "m_s2": "m/s2", "cm_s2": "cm/s2", "g": "g", "gal": "gal",
     "kg": "kg", "t": "t", "kn": "kN", "mn": "MN", "n": "N",
     "n_m": "N/m", "kn_m": "kN/m", "mn_m": "MN/m", "n_m1_5": "N/m^1.5",
@@ -108,6 +110,9 @@ class LinkUnits(TypedDict, total=False):
 class GapUnits(TypedDict, total=False):
     """Keywords with units in their names."""
 
+    design_speed_m_s: float
+    design_speed_cm_s: float
+
     width_m: Numbers
     width_cm: Numbers
     width_mm: Numbers
@@ -170,14 +175,23 @@ def with_unit(value: object, unit: str) -> object:
     return [with_unit(entry, unit) for entry in value]
 
 
-def merge(what: str, fields: Mapping[str, object], extra: Mapping[str, object]) -> dict[str, Any]:
-    """Fields that were given, with those whose unit is in the name of the keyword."""
+def merge(
+    what: str, fields: Mapping[str, object], extra: Mapping[str, object], known: Iterable[str] = ()
+) -> dict[str, Any]:
+    """Fields that were given, with those whose unit is in the name of the keyword; ``known`` lists such keywords.
+
+    Raises:
+        TypeError: a keyword that is neither, with the nearest that is.
+    """
     merged = {key: value for key, value in fields.items() if value is not None}
     for key, value in extra.items():
+        parts = split(key, fields.keys())
+        if parts is None:
+            refuse(what, (key,), [*(name for name in fields if name != "kind"), *known])
+            continue
         if value is None:
             continue
-        parts = split(key, fields.keys())
-        name, value = (parts[0], with_unit(value, parts[1])) if parts else (key, value)
+        name, value = parts[0], with_unit(value, parts[1])
         if name in merged:
             raise TypeError(f"{what}: {name} is given twice, the second time as {key}")
         merged[name] = value
@@ -200,7 +214,9 @@ def argument(
     return None if value is None else in_si(name, value, kind)
 
 
-def refuse(function: str, extra: Mapping[str, object]) -> None:
-    """No keyword may be left over."""
+def refuse(function: str, extra: Iterable[str], known: Iterable[str] = ()) -> None:
+    """No keyword may be left over; the message names the nearest of those that are known."""
     for key in extra:
-        raise TypeError(f"{function}() got an unexpected keyword argument {key!r}")
+        nearest = difflib.get_close_matches(key, list(known), 1)
+        hint = f"; did you mean {nearest[0]!r}?" if nearest else ""
+        raise TypeError(f"{function}() got an unexpected keyword argument {key!r}{hint}")

@@ -68,7 +68,7 @@ def test_errors_speak_of_keywords() -> None:
     with pytest.raises(jostle.ModelError, match="^restitution: must be"):
         jostle.collide("hertz-damp", **GIVEN, restitution=1.5)
     with pytest.raises(jostle.ModelError, match="castle"):
-        jostle.collide("castle", **GIVEN)
+        jostle.collide("castle", **GIVEN)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="m1: expected"):
         jostle.collide("hertz", m1=[], m2=1.0, speed=1.0)  # type: ignore[arg-type]
     with pytest.raises(jostle.AnalysisError, match="not come apart|force is"):

@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import errno
+import inspect
 import json
 import pickle
+import re
+import subprocess
+import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +18,7 @@ import pytest
 from conftest import TOWERS, Program, build_towers
 
 import jostle
-from jostle import Frame, Gap, Link, Model, ModelError, Shear
+from jostle import Frame, Gap, Link, Model, ModelError, Shear, _builders
 
 TREE: dict[str, Any] = {
     "building": [{"kind": "shear", "storeys": 2, "mass": "40 t", "stiffness": "60 MN/m", "storey_height": 3}]
@@ -238,3 +244,77 @@ def test_records_are_found_beside_the_file(tmp_path: Path) -> None:
     with pytest.raises(ModelError, match="^motion: there is no record"):
         jostle.run(lost, motion="quake2.csv")
     assert jostle.run(lost, motion=jostle.Motion.read(tmp_path / "quake.csv")).completed
+
+
+def test_every_key_of_the_model_file_is_a_keyword() -> None:
+    schema = json.loads(
+        subprocess.run(
+            [sys.executable, "-m", "jostle", "schema"], check=True, capture_output=True, text=True
+        ).stdout
+    )["properties"]
+
+    def keys(table: dict[str, Any]) -> set[str]:
+        return set(table["properties"]) - {"kind"}
+
+    def keywords(part: type) -> set[str]:
+        return set(inspect.signature(part).parameters) - {"units"}
+
+    frame, shear = schema["building"]["items"]["oneOf"]
+    assert keywords(Frame) == keys(frame)
+    assert keywords(Shear) == keys(shear)
+    assert keywords(Gap) == keys(schema["gap"]["items"])
+    assert keywords(jostle.Link) == keys(schema["link"]["items"])
+    laws = set(schema["gap"]["items"]["properties"]["law"]["enum"])
+    literal = inspect.getsource(_builders).split("_Law = Literal[")[1].split("]")[0]
+    assert set(re.findall(r'"([^"]+)"', literal)) == laws
+
+
+def test_keywords_reach_the_model() -> None:
+    hinges = {"rule": "bilinear", "yield": "20 mm", "post_yield": 0.05}
+    common: dict[str, Any] = {"mass": "40 t", "stiffness": "10 MN/m", "storey_height": 3}
+    a = Shear("a", **common, storeys=2, hinges=hinges, p_delta=True, gravity=False)
+    b = Shear("b", **common, floors=2, base={"horizontal_stiffness": "90 MN/m"})
+    gap = Gap("5 mm", law="bilinear", yield_share=0.2, design_speed_m_s=0.5)
+    model = Model([a, b], gap, motion=jostle.Motion.el_centro().lasting("4 s"))
+    assert jostle.run(model, record_interval=None).summary["buildings"][0]["hinges"]["yielded"] > 0
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: Gap("5 mm", lwa="hertz"), "Gap.. got an unexpected keyword argument 'lwa'; did you mean 'law'"),  # type: ignore[call-arg]
+        (lambda: Frame("a", hings={}), "did you mean 'hinges'"),  # type: ignore[call-arg]
+        (lambda: Shear("a", stifness="60 MN/m"), "did you mean 'stiffness'"),  # type: ignore[call-arg]
+        (lambda: Shear("a", mas_t=[40]), "did you mean 'mass_t'"),  # type: ignore[call-arg]
+        (lambda: jostle.run("paper", gpa="1 m/s2"), "^run.. got .*'gpa'; did you mean 'pga'"),  # type: ignore[call-arg]
+        (lambda: jostle.run("paper", without_contacts=True), "did you mean 'without_contact'"),  # type: ignore[call-arg]
+        (lambda: jostle.Motion.el_centro().scaled(pga_gg=1), "did you mean 'pga_g'"),  # type: ignore[call-arg]
+    ],
+)
+def test_misspelt_keywords_are_refused_with_the_nearest(call: Callable[[], object], message: str) -> None:
+    with pytest.raises(TypeError, match=message):
+        call()
+
+
+def test_a_run_takes_whatever_names_a_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    paper = jostle.run("paper", record_interval=None)
+    assert paper.summary["title"] == Model.paper_example().title
+    assert jostle.run(TREE, record_interval=None, motion="el-centro-1940-ns").completed
+    # As on the command line, a file comes first.
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "paper").write_text(TOWERS)
+    assert jostle.run("paper", record_interval=None).summary["title"] != paper.summary["title"]
+
+
+def test_a_file_that_is_not_there_is_a_file_not_found_error() -> None:
+    for call in (
+        lambda: Model.load("lost.toml"),
+        lambda: jostle.run("lost.toml"),
+        lambda: jostle.Motion.read("lost.at2"),
+    ):
+        with pytest.raises(FileNotFoundError, match="lost") as caught:
+            call()
+        assert isinstance(caught.value, ModelError) and isinstance(caught.value, jostle.MissingFileError)
+        assert caught.value.filename.startswith("lost.") and caught.value.errno == errno.ENOENT
+        again = pickle.loads(pickle.dumps(caught.value))
+        assert str(again) == str(caught.value) and again.filename == caught.value.filename

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import html.parser
 import re
+import sys
+import types
+from typing import Any
 
 import pytest
 
 import jostle
+from jostle import _jostle
 
 
 class Reader(html.parser.HTMLParser):
@@ -87,3 +91,50 @@ def test_reprs_are_one_line(thing: str, towers: jostle.Model, result: jostle.Res
     }
     text = repr(things[thing])
     assert text.startswith(f"<{thing}") and "\n" not in text
+
+
+def test_a_result_shows_itself_without_another_run(
+    towers: jostle.Model, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    result = jostle.run(towers)
+
+    def refuse(*arguments: object, **keywords: object) -> None:
+        raise AssertionError("it ran again")
+
+    monkeypatch.setattr(_jostle, "run", refuse)
+    assert "<iframe" in shown(result) and "<iframe" in shown(result.animate())
+
+
+class Notebook:
+    """Stands in for IPython in a notebook, and keeps what it shows."""
+
+    def __init__(self) -> None:
+        self.pages: list[str] = []
+
+    def display(self, page: str, display_id: bool) -> Notebook:
+        assert display_id
+        self.pages.append(page)
+        return self
+
+    def update(self, page: str) -> None:
+        self.pages.append(page)
+
+    def HTML(self, page: str) -> str:
+        return page
+
+
+def test_progress_in_a_notebook_is_a_bar_and_no_error_text(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    notebook = Notebook()
+    module: Any = types.ModuleType("IPython")
+    module.get_ipython = lambda: types.SimpleNamespace(kernel=object())
+    monkeypatch.setitem(sys.modules, "IPython", module)
+    monkeypatch.setitem(sys.modules, "IPython.display", notebook)
+    model = jostle.Model.paper_example()
+    assert model.motion is not None
+    jostle.run(model, motion=model.motion.lasting("6000 s"), record_interval=None, progress=True)
+    assert "<progress" in notebook.pages[0] and "of 6000.0 s" in notebook.pages[0]
+    assert notebook.pages[-1] == "", "leaves no trace"
+    told = capsys.readouterr()
+    assert told.err == told.out == ""

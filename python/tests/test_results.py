@@ -99,11 +99,19 @@ def test_tables_go_where_users_are(result: jostle.Result) -> None:
     assert pa.schema(table).names == table.columns
 
 
+def test_impacts_are_in_the_order_of_time() -> None:
+    impacts = jostle.run("paper", gap="5 mm", pga="100 cm/s2", record_interval=None).impacts
+    starts = impacts["start_s"]
+    assert len(set(impacts["left_floor"])) > 1, "several contacts"
+    assert np.all(np.diff(starts) >= 0.0)
+
+
 def test_rows_of_impacts(result: jostle.Result) -> None:
     impacts = result.impacts
     rows = list(impacts)
     assert len(rows) == len(impacts) and rows[-1] == impacts[-1] and rows[0] == impacts[0]
     told = [i for c in result.summary["gaps"][0]["contacts"] for i in c["impacts"]]
+    told.sort(key=lambda impact: impact["start_s"])
     for row, impact in zip(rows, told):
         assert {key: row[key] for key in impact} == impact
         assert row["gap"] == "soft-stiff" and isinstance(row["left_floor"], int)

@@ -60,6 +60,20 @@ pub(crate) enum Command {
     New(NewArgs),
     /// Print the JSON Schema of model files, or a page that explains every key
     Schema(SchemaArgs),
+    /// Print a script that completes commands and options in a shell
+    Completions(CompletionsArgs),
+}
+
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "bash: jostle completions bash > ~/.local/share/bash-completion/completions/jostle\n\
+                  zsh:  jostle completions zsh > FOLDER_OF_FPATH/_jostle\n\
+                  fish: jostle completions fish > ~/.config/fish/completions/jostle.fish"
+)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    pub(crate) shell: clap_complete::Shell,
 }
 
 #[derive(Debug, clap::Args)]
@@ -108,7 +122,8 @@ pub(crate) struct RunArgs {
     /// Print summary.json and nothing else
     #[arg(long)]
     pub(crate) json: bool,
-    /// Run even where solver = "product" is expected to lose its digits
+    /// Run even where solver = "product" is expected to lose its digits, and replace files in the folder for results
+    /// that jostle did not write
     #[arg(long)]
     pub(crate) force: bool,
 }

@@ -6,6 +6,7 @@ use jostle_export::{Export, openseespy};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
+use crate::replace::{Kind, may_write};
 use crate::terminal;
 
 /// Which model, for whom.
@@ -19,7 +20,19 @@ pub(crate) struct ExportArgs {
     /// File to write; without it, the script is printed
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Replace the file even if jostle did not write it
+    #[arg(long, requires = "output")]
+    force: bool,
 }
+
+/// What the head of every script says.
+const SCRIPT: Kind = Kind {
+    name: "script that jostle exported",
+    marks: &[
+        "#!/usr/bin/env python3",
+        "# The same model for OpenSeesPy, written by jostle ",
+    ],
+};
 
 /// Programs that models can be exported to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -29,6 +42,10 @@ enum Target {
 }
 
 pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
+    let replaces = match &args.output {
+        Some(path) => may_write(path, Some(SCRIPT), args.force)?,
+        None => false,
+    };
     let opened = args.model.open()?;
     let (motion, _) = opened.plan()?;
     let export = Export {
@@ -50,7 +67,8 @@ pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
         None => terminal::print(&exported.text),
         Some(path) => {
             jostle_io::write_atomically(path, exported.text.as_bytes())?;
-            terminal::remark(&format!("written: {}", path.display()));
+            let done = if replaces { "replaced" } else { "written" };
+            terminal::remark(&format!("{done}: {}", path.display()));
             Ok(())
         }
     }

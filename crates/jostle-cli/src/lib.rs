@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod collide;
+mod completions;
 mod export;
 mod failure;
 mod gap;
@@ -14,6 +15,7 @@ mod open;
 mod progress;
 mod pushover;
 mod pushover_text;
+mod replace;
 mod run;
 mod run_text;
 mod section;
@@ -48,6 +50,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Motion(command) => motion::run(&command),
         Command::Section(args) => section::section(&args),
         Command::New(args) => starter::new(&args),
+        Command::Completions(args) => completions::completions(&args),
         Command::Schema(args) => terminal::print(&if args.markdown {
             jostle_io::model_reference()
         } else {

@@ -16,6 +16,7 @@ use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
 use crate::open::Opened;
 use crate::progress::TimeBar;
+use crate::replace::{Kind, may_write};
 use crate::{method, run_text, terminal};
 
 /// Where results go when nothing else is said.
@@ -53,6 +54,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         std::fs::create_dir_all(out).map_err(|error| {
             Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
         })?;
+        replace_earlier(out, args.force)?;
     }
 
     let stop = stop_on_interrupt();
@@ -179,6 +181,47 @@ fn not_compared(without: &Outcome, duration: f64) -> Option<String> {
     Some(format!(
         "the run without contact {reason}; nothing is compared with it"
     ))
+}
+
+/// The files of a run.
+const FILES: [(&str, Kind); 5] = {
+    const TABLE: Kind = Kind {
+        name: "table of jostle",
+        marks: &["PAR1", "jostle "],
+    };
+    const SUMMARY: Kind = Kind {
+        name: "summary of jostle",
+        marks: &["\"title\":", "\"jostle\":", "\"motion\":"],
+    };
+    const REPORT: Kind = Kind {
+        name: "report of jostle",
+        marks: &["<html", " – jostle</title>"],
+    };
+    [
+        ("summary.json", SUMMARY),
+        ("history.parquet", TABLE),
+        ("impacts.parquet", TABLE),
+        ("hinges.parquet", TABLE),
+        ("report.html", REPORT),
+    ]
+};
+
+/// Says that results of an earlier run go, and refuses to replace what is none.
+fn replace_earlier(out: &Path, force: bool) -> Result<(), Failure> {
+    let mut earlier = Vec::new();
+    for (name, kind) in FILES {
+        if may_write(&out.join(name), Some(kind), force)? {
+            earlier.push(name);
+        }
+    }
+    if !earlier.is_empty() {
+        terminal::remark(&format!(
+            "{} holds results of an earlier run, which are replaced: {}",
+            out.display(),
+            earlier.join(", ")
+        ));
+    }
+    Ok(())
 }
 
 /// Reinforced sections of the model, alike ones told once.

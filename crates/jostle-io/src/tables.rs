@@ -93,7 +93,7 @@ pub fn history_names(model: &Model, summary: &Summary, columns: &[Column]) -> Ve
     names
 }
 
-/// Writes the impacts: one row per impact, in the order of `summary.json`.
+/// Writes the impacts: one row per impact, in the order of their starts.
 ///
 /// # Errors
 /// [`OutputError`] with path and reason.
@@ -103,7 +103,8 @@ pub fn write_impacts_parquet(path: &Path, summary: &Summary) -> Result<(), Outpu
     write_table(path, summary, columns.collect())
 }
 
-/// The columns of the table of impacts: one row per impact, in the order of `summary.json`.
+/// The columns of the table of impacts: one row per impact, in the order of their starts; those that start together in
+/// the order of `summary.json`.
 #[must_use]
 pub fn impact_columns(summary: &Summary) -> Vec<(&'static str, Values)> {
     let mut rows: Vec<(String, &ContactSummary, &ImpactSummary)> = Vec::new();
@@ -114,6 +115,7 @@ pub fn impact_columns(summary: &Summary) -> Vec<(&'static str, Values)> {
             }
         }
     }
+    rows.sort_by(|(_, _, a), (_, _, b)| a.start_s.total_cmp(&b.start_s));
     let floor = |side: usize| {
         let floors = rows.iter().map(|(_, contact, _)| {
             contact.floors[side].and_then(|floor| i32::try_from(floor).ok())

@@ -11,6 +11,8 @@ use jostle_motion::{Accelerogram, MotionFault, TargetSpectrum};
 
 use super::args::{RecordArgs, TargetArgs};
 use crate::failure::Failure;
+use crate::replace::may_write;
+use crate::terminal;
 
 /// A motion with its name.
 pub(super) struct Named {
@@ -161,12 +163,8 @@ pub(super) fn write(
             return Err(Failure::Input(problem));
         }
     };
-    if path.exists() && !force {
-        let problem = format!(
-            "{} exists already; choose another name, or add --force",
-            path.display()
-        );
-        return Err(Failure::Input(problem));
+    if may_write(path, None, force)? {
+        terminal::remark(&format!("replaced: {}", path.display()));
     }
     write_atomically(path, text.as_bytes())?;
     Ok(())

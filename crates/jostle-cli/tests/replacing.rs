@@ -1,0 +1,154 @@
+//! Files that exist already, and completions.
+
+mod common;
+
+use common::{complained, folder, jostle, printed};
+
+const SMALL: &str = r#"title = "small"
+motion = { kind = "sine", amplitude = "1 m/s2", period = "0.5 s", duration = "1 s" }
+[[building]]
+name = "A"
+kind = "shear"
+mass = "40 t"
+stiffness = "60 MN/m"
+storeys = 2
+"#;
+
+const EXPORT: [&str; 6] = [
+    "export",
+    "small.toml",
+    "--to",
+    "openseespy",
+    "-o",
+    "small.py",
+];
+
+fn with_model() -> tempfile::TempDir {
+    let folder = folder();
+    std::fs::write(folder.path().join("small.toml"), SMALL).expect("written");
+    folder
+}
+
+#[test]
+fn export_replaces_its_own_scripts_and_nothing_else() {
+    let folder = with_model();
+    let path = folder.path().join("small.py");
+    std::fs::write(&path, "print('mine')\n").expect("written");
+    let output = jostle(folder.path(), &EXPORT);
+    assert_eq!(output.status.code(), Some(2));
+    let complaint = complained(&output);
+    assert!(complaint.contains("small.py exists already"), "{complaint}");
+    assert!(complaint.contains("--force"), "{complaint}");
+    let kept = std::fs::read_to_string(&path).expect("kept");
+    assert_eq!(kept, "print('mine')\n");
+
+    let output = jostle(folder.path(), &[&EXPORT[..], &["--force"]].concat());
+    assert!(output.status.success(), "{}", complained(&output));
+    assert!(complained(&output).contains("replaced: small.py"));
+
+    let output = jostle(folder.path(), &EXPORT);
+    assert!(output.status.success(), "{}", complained(&output));
+    assert!(complained(&output).contains("replaced: small.py"));
+}
+
+#[test]
+fn export_fills_an_empty_file() {
+    let folder = with_model();
+    std::fs::write(folder.path().join("small.py"), "").expect("written");
+    let output = jostle(folder.path(), &EXPORT);
+    assert!(output.status.success(), "{}", complained(&output));
+    assert!(complained(&output).contains("written: small.py"));
+}
+
+#[test]
+fn a_second_run_says_that_it_replaces_the_first() {
+    let folder = with_model();
+    let arguments = ["run", "small.toml", "--out", "results", "--json"];
+    let first = jostle(folder.path(), &arguments);
+    assert!(first.status.success(), "{}", complained(&first));
+    assert!(!complained(&first).contains("earlier run"));
+    let second = jostle(folder.path(), &arguments);
+    assert!(second.status.success(), "{}", complained(&second));
+    let remark = complained(&second);
+    for part in [
+        "results holds results of an earlier run",
+        "summary.json, history.parquet, impacts.parquet, report.html",
+    ] {
+        assert!(remark.contains(part), "\"{part}\" in: {remark}");
+    }
+    let summary: serde_json::Value =
+        serde_json::from_str(&printed(&second)).expect("nothing but JSON");
+    assert_eq!(summary["title"], "small");
+}
+
+#[test]
+fn a_run_does_not_replace_files_of_others() {
+    for name in ["summary.json", "history.parquet", "report.html"] {
+        let folder = with_model();
+        let results = folder.path().join("results");
+        std::fs::create_dir(&results).expect("made");
+        let mine = "{\"title\": \"my thesis\", \"chapters\": 7}\n";
+        std::fs::write(results.join(name), mine).expect("written");
+        let arguments = ["run", "small.toml", "--out", "results", "--json"];
+        let output = jostle(folder.path(), &arguments);
+        assert_eq!(output.status.code(), Some(2), "{}", complained(&output));
+        assert_eq!(printed(&output), "");
+        let complaint = complained(&output);
+        assert!(complaint.contains(name), "{complaint}");
+        assert!(complaint.contains("--force"), "{complaint}");
+        let kept = std::fs::read_to_string(results.join(name)).expect("kept");
+        assert_eq!(kept, mine);
+        let files = std::fs::read_dir(&results).expect("a folder").count();
+        assert_eq!(files, 1, "nothing beside it");
+        let output = jostle(folder.path(), &[&arguments[..], &["--force"]].concat());
+        assert!(output.status.success(), "{}", complained(&output));
+        assert!(complained(&output).contains("replaced: "));
+    }
+}
+
+#[test]
+fn motions_are_replaced_only_when_asked() {
+    let folder = folder();
+    let arguments = ["motion", "convert", "el-centro-1940-ns", "new.csv"];
+    let output = jostle(folder.path(), &arguments);
+    assert!(output.status.success(), "{}", complained(&output));
+    let output = jostle(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(complained(&output).contains("new.csv exists already"));
+    let output = jostle(folder.path(), &[&arguments[..], &["--force"]].concat());
+    assert!(output.status.success(), "{}", complained(&output));
+    assert!(complained(&output).contains("replaced: new.csv"));
+}
+
+#[test]
+fn completions_know_the_commands_of_every_shell() {
+    let folder = folder();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let output = jostle(folder.path(), &["completions", shell]);
+        assert!(output.status.success(), "{}", complained(&output));
+        let script = printed(&output);
+        for part in ["pushover", "completions", "no-report"] {
+            assert!(script.contains(part), "{shell}: {part}");
+        }
+    }
+    let wrong = jostle(folder.path(), &["completions", "cmd"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(complained(&wrong).contains("powershell"));
+}
+
+#[test]
+fn completions_for_bash_are_a_sound_script() {
+    let folder = folder();
+    let output = jostle(folder.path(), &["completions", "bash"]);
+    let path = folder.path().join("jostle.bash");
+    std::fs::write(&path, &output.stdout).expect("written");
+    let Ok(checked) = std::process::Command::new("bash")
+        .arg("-n")
+        .arg(&path)
+        .output()
+    else {
+        return;
+    };
+    assert!(checked.status.success(), "{}", complained(&checked));
+    assert!(checked.stderr.is_empty(), "{}", complained(&checked));
+}
