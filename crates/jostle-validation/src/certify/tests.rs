@@ -1,0 +1,1 @@
+//! The reference against numbers known otherwise.
