@@ -16,7 +16,7 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
   --figures     writes the figure of the contact laws
   --certify N [--seed S] [--only K]  holds every promised number of N random models against a reference of other means
   --certify-dump K FOLDER [--seed S]  writes random model K as a model file
-  --certify-file FILE  prints the reference of a model file
+  --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
   --reference   makes the reference runs of the built-in model anew; takes minutes";
 
 fn main() -> ExitCode {
@@ -111,7 +111,9 @@ fn certified(arguments: &[String]) -> ExitCode {
     let number = |option: &str| after(option).and_then(|text| text.parse::<u64>().ok());
     let seed = number("--seed").unwrap_or(1);
     if let Some(path) = after("--certify-file") {
-        return match certify::of_file(Path::new(path)) {
+        let asked: Vec<f64> = arguments[2..].iter().filter_map(|a| a.parse().ok()).collect();
+        let tolerances = if asked.is_empty() { &certify::TOLERANCES[..] } else { &asked };
+        return match certify::of_file(Path::new(path), tolerances) {
             Ok(text) => {
                 say(&text);
                 ExitCode::SUCCESS

@@ -48,7 +48,6 @@ pub(super) struct Closed {
     from_rest: bool,
     scale: f64,
     pub(super) impulse: f64,
-    pub(super) deepest: f64,
 }
 
 /// What follows when a condition fails.
@@ -61,6 +60,8 @@ pub(super) enum Next {
 /// Conditions of a piece: how far each is from failing, and what follows.
 pub(super) type Conditions = [(f64, Next); 3];
 const NEVER: (f64, Next) = (1.0, Next::Release);
+/// Rounding of indentations \[m\] and rates \[m/s\], which is no event.
+const NOISE: [f64; 2] = [1e-15, 1e-12];
 
 impl Law {
     /// The law, and the coefficient of sudden blows of the momentum law.
@@ -120,7 +121,7 @@ impl Closed {
             Law::Bilinear { follows: true, .. } => rate.max(1e-2).powf(0.4),
             _ => 1.0,
         };
-        Self { law, piece, speed: rate.max(1e-9), from_rest, scale, impulse: 0.0, deepest: 0.0 }
+        Self { law, piece, speed: rate.max(1e-9), from_rest, scale, impulse: 0.0 }
     }
 
     /// Force at indentation x \[m\] and rate v \[m/s\] along the present piece \[N\].
@@ -163,7 +164,8 @@ impl Closed {
 
     /// How far the conditions of the piece are from failing, at indentation x, rate v and its derivative w.
     pub(super) fn conditions(&self, x: f64, v: f64, w: f64) -> Conditions {
-        let release = (x, Next::Release);
+        // Faces that touch together with others may still be a little apart.
+        let release = (if v > 0.0 { x.max(0.0) } else { x } + NOISE[0], Next::Release);
         let to = |margin: f64, piece: Piece| (margin, Next::Piece(piece));
         match (self.law, self.piece) {
             (Law::Kelvin { tension: true, .. }, _) => [release, NEVER, NEVER],
@@ -179,14 +181,14 @@ impl Closed {
             (Law::Approach { .. } | Law::Jankowski { .. }, _) => {
                 [release, to(-v, Piece::In), NEVER]
             }
-            (Law::Damped { .. }, Piece::Rising) => [release, to(w, Piece::Push), NEVER],
+            (Law::Damped { .. }, Piece::Rising) => [release, to(w + NOISE[1], Piece::Push), NEVER],
             (Law::Damped { d, .. }, Piece::Cut) => {
                 [release, to(-(1.0 + d * v / self.speed), Piece::Push), NEVER]
             }
             (Law::Damped { d, .. }, _) => [
                 release,
                 to(if d > 0.0 { 1.0 + d * v / self.speed } else { 1.0 }, Piece::Cut),
-                to(if self.from_rest && d > 0.0 { self.speed - v } else { 1.0 }, Piece::Rising),
+                to(if self.from_rest && d > 0.0 { self.speed - v + NOISE[1] } else { 1.0 }, Piece::Rising),
             ],
             (Law::Bilinear { .. }, Piece::Stick(from, force)) => {
                 let (slider, limit) = self.slider();

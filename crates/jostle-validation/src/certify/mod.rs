@@ -251,13 +251,13 @@ fn hold(
 pub fn certify(seed: u64, number: u64) -> Certified {
     let drawn = draw(seed, number);
     let mut certified = Certified::of(number, drawn.kind);
-    if let Err(why) = fill(&drawn, &mut certified) {
+    if let Err(why) = fill(&drawn, &TOLERANCES, &mut certified) {
         certified.failed = Some(why);
     }
     certified
 }
 
-fn fill(drawn: &Drawn, certified: &mut Certified) -> Result<(), String> {
+fn fill(drawn: &Drawn, tolerances: &[f64], certified: &mut Certified) -> Result<(), String> {
     let (input, motion) = read(drawn)?;
     let mut laws: Vec<String> = input.model.gaps.iter().map(|gap| gap.law.kind.full_name()).collect();
     laws.sort();
@@ -283,7 +283,7 @@ fn fill(drawn: &Drawn, certified: &mut Certified) -> Result<(), String> {
     certified.shifts =
         certified.quantities.iter().zip(&others).map(|(a, b)| b.value - a.value).collect();
     for solver in [Solver::Modal, Solver::Riccati] {
-        for tolerance in TOLERANCES {
+        for &tolerance in tolerances {
             certified.runs.extend(hold(
                 &input,
                 &system,
@@ -302,11 +302,11 @@ fn fill(drawn: &Drawn, certified: &mut Certified) -> Result<(), String> {
 ///
 /// # Errors
 /// Why the file cannot be read, or has no reference.
-pub fn of_file(path: &std::path::Path) -> Result<String, String> {
+pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, String> {
     let tree = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
     let tree = serde_json::from_str(&tree).map_err(|e| e.to_string())?;
     let mut certified = Certified::of(0, "file");
-    fill(&Drawn { tree, kind: "file" }, &mut certified)?;
+    fill(&Drawn { tree, kind: "file" }, tolerances, &mut certified)?;
     let mut text = String::new();
     for (k, (quantity, shift)) in certified.quantities.iter().zip(&certified.shifts).enumerate() {
         let _ = write!(text, "{:<18} {:<20} {:>14.7e} ({:+.1e})", quantity.kind, quantity.name, quantity.value, shift / quantity.scale);

@@ -118,7 +118,8 @@ enum Modal {
 
 fn damping(random: &mut Random, storeys: usize, period: f64, modal: Modal) -> Value {
     let ratio = random.scaled(0.005, 0.2);
-    let high = storeys.min(3);
+    // Higher modes may move too little mass to be counted as lateral.
+    let high = if storeys >= 5 { 3 } else { storeys.min(2) };
     match random.below(8) {
         0 | 1 => json!({"ratio": ratio, "modes": [1]}),
         2..=4 if high > 1 => json!({"ratio": ratio, "modes": [1, high]}),
