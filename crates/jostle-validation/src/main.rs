@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use jostle_io::write_atomically;
-use jostle_validation::{Extent, certify, document, families, loops, misses, pairs, paper, work_precision};
+use jostle_validation::{
+    Extent, certify, document, families, loops, misses, pairs, paper, work_precision,
+};
 
 const USAGE: &str = "\
 usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [TOLERANCE]]] [--work-precision] [--figures]
@@ -24,7 +26,10 @@ fn main() -> ExitCode {
     if arguments.first().is_some_and(|a| a == "--pairs") {
         return random_pairs(&arguments[1..]);
     }
-    if arguments.first().is_some_and(|a| a.starts_with("--certify")) {
+    if arguments
+        .first()
+        .is_some_and(|a| a.starts_with("--certify"))
+    {
         return certified(&arguments);
     }
     if arguments.first().is_some_and(|a| a == "--work-precision") {
@@ -111,8 +116,15 @@ fn certified(arguments: &[String]) -> ExitCode {
     let number = |option: &str| after(option).and_then(|text| text.parse::<u64>().ok());
     let seed = number("--seed").unwrap_or(1);
     if let Some(path) = after("--certify-file") {
-        let asked: Vec<f64> = arguments[2..].iter().filter_map(|a| a.parse().ok()).collect();
-        let tolerances = if asked.is_empty() { &certify::TOLERANCES[..] } else { &asked };
+        let asked: Vec<f64> = arguments[2..]
+            .iter()
+            .filter_map(|a| a.parse().ok())
+            .collect();
+        let tolerances = if asked.is_empty() {
+            &certify::TOLERANCES[..]
+        } else {
+            &asked
+        };
         return match certify::of_file(Path::new(path), tolerances) {
             Ok(text) => {
                 say(&text);
@@ -129,14 +141,22 @@ fn certified(arguments: &[String]) -> ExitCode {
             say(USAGE);
             return ExitCode::from(2);
         };
-        let text = serde_json::to_string_pretty(&certify::draw(seed, model).tree).unwrap_or_default();
-        return written(&Path::new(folder).join(format!("seed{seed}_model{model}.json")), &(text + "\n"));
+        let text =
+            serde_json::to_string_pretty(&certify::draw(seed, model).tree).unwrap_or_default();
+        return written(
+            &Path::new(folder).join(format!("seed{seed}_model{model}.json")),
+            &(text + "\n"),
+        );
     }
     let Some(count) = number("--certify") else {
         say(USAGE);
         return ExitCode::from(2);
     };
-    say(&certify::describe(&certify::study(count, seed, number("--only"))));
+    say(&certify::describe(&certify::study(
+        count,
+        seed,
+        number("--only"),
+    )));
     ExitCode::SUCCESS
 }
 

@@ -14,7 +14,12 @@ pub(super) enum Law {
     /// k δ^1.5 + c δ^¼ δ̇ in approach only.
     Jankowski { k: f64, c: f64 },
     /// A spring beside a slider; numbers at the reference speed.
-    Bilinear { first: f64, second: f64, yields: f64, follows: bool },
+    Bilinear {
+        first: f64,
+        second: f64,
+        yields: f64,
+        follows: bool,
+    },
 }
 
 /// Which smooth piece of a law holds.
@@ -67,22 +72,48 @@ impl Law {
     /// The law, and the coefficient of sudden blows of the momentum law.
     pub(super) fn of(law: &ForceLaw) -> Result<(Self, Option<f64>), String> {
         Ok(match *law {
-            ForceLaw::Kelvin { stiffness, damping, tension } => (
-                Self::Kelvin { k: stiffness, c: damping, tension: tension && damping > 0.0 },
+            ForceLaw::Kelvin {
+                stiffness,
+                damping,
+                tension,
+            } => (
+                Self::Kelvin {
+                    k: stiffness,
+                    c: damping,
+                    tension: tension && damping > 0.0,
+                },
                 None,
             ),
-            ForceLaw::ApproachKelvin { stiffness, damping } => {
-                (Self::Approach { k: stiffness, c: damping }, None)
-            }
-            ForceLaw::DampedLinear { stiffness, damping } => {
-                (Self::Damped { k: stiffness, d: damping, n: 1.0 }, None)
-            }
-            ForceLaw::Hertz { stiffness, damping } => {
-                (Self::Damped { k: stiffness, d: damping, n: 1.5 }, None)
-            }
-            ForceLaw::Jankowski { stiffness, damping } => {
-                (Self::Jankowski { k: stiffness, c: damping }, None)
-            }
+            ForceLaw::ApproachKelvin { stiffness, damping } => (
+                Self::Approach {
+                    k: stiffness,
+                    c: damping,
+                },
+                None,
+            ),
+            ForceLaw::DampedLinear { stiffness, damping } => (
+                Self::Damped {
+                    k: stiffness,
+                    d: damping,
+                    n: 1.0,
+                },
+                None,
+            ),
+            ForceLaw::Hertz { stiffness, damping } => (
+                Self::Damped {
+                    k: stiffness,
+                    d: damping,
+                    n: 1.5,
+                },
+                None,
+            ),
+            ForceLaw::Jankowski { stiffness, damping } => (
+                Self::Jankowski {
+                    k: stiffness,
+                    c: damping,
+                },
+                None,
+            ),
             ForceLaw::Bilinear(own) => (
                 Self::Bilinear {
                     first: own.first_stiffness,
@@ -92,8 +123,16 @@ impl Law {
                 },
                 None,
             ),
-            ForceLaw::Restitution { restitution, stiffness, damping } => (
-                Self::Kelvin { k: stiffness, c: damping, tension: false },
+            ForceLaw::Restitution {
+                restitution,
+                stiffness,
+                damping,
+            } => (
+                Self::Kelvin {
+                    k: stiffness,
+                    c: damping,
+                    tension: false,
+                },
                 Some(restitution),
             ),
             ForceLaw::Rubber(_) => return Err("rubber is not part of this".into()),
@@ -121,7 +160,14 @@ impl Closed {
             Law::Bilinear { follows: true, .. } => rate.max(1e-2).powf(0.4),
             _ => 1.0,
         };
-        Self { law, piece, speed: rate.max(1e-9), from_rest, scale, impulse: 0.0 }
+        Self {
+            law,
+            piece,
+            speed: rate.max(1e-9),
+            from_rest,
+            scale,
+            impulse: 0.0,
+        }
     }
 
     /// Force at indentation x \[m\] and rate v \[m/s\] along the present piece \[N\].
@@ -131,14 +177,26 @@ impl Closed {
             (Law::Kelvin { k, c, .. }, _) | (Law::Approach { k, c }, Piece::In) => k * x + c * v,
             (Law::Approach { k, .. }, _) => k * x,
             (Law::Damped { k, d, n }, piece) => {
-                let factor = if piece == Piece::Rising { 1.0 + d } else { 1.0 + d * v / self.speed };
-                let power = if n == 1.0 { x } else { x.max(0.0) * x.max(0.0).sqrt() };
+                let factor = if piece == Piece::Rising {
+                    1.0 + d
+                } else {
+                    1.0 + d * v / self.speed
+                };
+                let power = if n == 1.0 {
+                    x
+                } else {
+                    x.max(0.0) * x.max(0.0).sqrt()
+                };
                 k * power * factor
             }
             (Law::Jankowski { k, c }, piece) => {
                 let x = x.max(0.0);
                 let root = x.sqrt();
-                let damper = if piece == Piece::In { c * root.sqrt() * v } else { 0.0 };
+                let damper = if piece == Piece::In {
+                    c * root.sqrt() * v
+                } else {
+                    0.0
+                };
                 k * x * root + damper
             }
             (Law::Bilinear { second, .. }, piece) => {
@@ -155,7 +213,13 @@ impl Closed {
 
     /// Stiffness of the slider, and the force at which it slips.
     fn slider(&self) -> (f64, f64) {
-        let Law::Bilinear { first, second, yields, .. } = self.law else {
+        let Law::Bilinear {
+            first,
+            second,
+            yields,
+            ..
+        } = self.law
+        else {
             return (0.0, 0.0);
         };
         let stiffness = (first - second) * self.scale;
@@ -165,7 +229,10 @@ impl Closed {
     /// How far the conditions of the piece are from failing, at indentation x, rate v and its derivative w.
     pub(super) fn conditions(&self, x: f64, v: f64, w: f64) -> Conditions {
         // Faces that touch together with others may still be a little apart.
-        let release = (if v > 0.0 { x.max(0.0) } else { x } + NOISE[0], Next::Release);
+        let release = (
+            if v > 0.0 { x.max(0.0) } else { x } + NOISE[0],
+            Next::Release,
+        );
         let to = |margin: f64, piece: Piece| (margin, Next::Piece(piece));
         match (self.law, self.piece) {
             (Law::Kelvin { tension: true, .. }, _) => [release, NEVER, NEVER],
@@ -187,8 +254,22 @@ impl Closed {
             }
             (Law::Damped { d, .. }, _) => [
                 release,
-                to(if d > 0.0 { 1.0 + d * v / self.speed } else { 1.0 }, Piece::Cut),
-                to(if self.from_rest && d > 0.0 { self.speed - v + NOISE[1] } else { 1.0 }, Piece::Rising),
+                to(
+                    if d > 0.0 {
+                        1.0 + d * v / self.speed
+                    } else {
+                        1.0
+                    },
+                    Piece::Cut,
+                ),
+                to(
+                    if self.from_rest && d > 0.0 {
+                        self.speed - v + NOISE[1]
+                    } else {
+                        1.0
+                    },
+                    Piece::Rising,
+                ),
             ],
             (Law::Bilinear { .. }, Piece::Stick(from, force)) => {
                 let (slider, limit) = self.slider();

@@ -64,7 +64,9 @@ fn dense(matrix: &SparseSymmetric, offset: usize, factor: f64, into: &mut Mat<f6
 }
 
 fn part(matrix: &Mat<f64>, rows: &[usize], columns: &[usize]) -> Mat<f64> {
-    Mat::from_fn(rows.len(), columns.len(), |i, j| matrix[(rows[i], columns[j])])
+    Mat::from_fn(rows.len(), columns.len(), |i, j| {
+        matrix[(rows[i], columns[j])]
+    })
 }
 
 /// Groups of buildings that links join.
@@ -74,7 +76,10 @@ pub(super) fn components(system: &System) -> Result<Vec<Component>, String> {
     for link in &system.links {
         if let [Some(a), Some(b)] = link.faces.buildings() {
             let (from, to) = (group[a].max(group[b]), group[a].min(group[b]));
-            group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
+            group
+                .iter_mut()
+                .filter(|g| **g == from)
+                .for_each(|g| *g = to);
         }
     }
     (0..n)
@@ -87,7 +92,10 @@ impl Component {
     fn of(system: &System, buildings: Vec<usize>) -> Result<Self, String> {
         // Buildings that links join are neighbours, so that their degrees of freedom follow each other.
         let offset = system.buildings[buildings[0]].offset;
-        let size: usize = buildings.iter().map(|b| system.buildings[*b].equations.len()).sum();
+        let size: usize = buildings
+            .iter()
+            .map(|b| system.buildings[*b].equations.len())
+            .sum();
         let (mut plain, mut damped, mut other, mut dashpots) = (
             Mat::<f64>::zeros(size, size),
             Mat::<f64>::zeros(size, size),
@@ -114,7 +122,10 @@ impl Component {
         }
         for link in &system.links {
             let sides: Vec<_> = link.faces.sides().collect();
-            if !sides.iter().any(|(face, _)| buildings.contains(&face.building)) {
+            if !sides
+                .iter()
+                .any(|(face, _)| buildings.contains(&face.building))
+            {
                 continue;
             }
             for (a, s) in &sides {
@@ -147,7 +158,9 @@ impl Component {
             Mat::zeros(0, rest.len())
         } else {
             let own = part(&plain, &following, &following);
-            let factor = own.llt(Side::Lower).map_err(|_| "a joint without stiffness")?;
+            let factor = own
+                .llt(Side::Lower)
+                .map_err(|_| "a joint without stiffness")?;
             -factor.solve(part(&plain, &following, &rest))
         };
         let condense = |matrix: &Mat<f64>| {
@@ -164,7 +177,9 @@ impl Component {
         let held_shape = if nh == 0 {
             Mat::zeros(0, nd)
         } else {
-            let factor = held_stiffness.llt(Side::Lower).map_err(|_| "a base without stiffness")?;
+            let factor = held_stiffness
+                .llt(Side::Lower)
+                .map_err(|_| "a base without stiffness")?;
             -factor.solve(part(&stiffness, &h, &d))
         };
         let condensed = part(&stiffness, &d, &d) + part(&stiffness, &d, &h) * &held_shape;
@@ -192,8 +207,10 @@ impl Component {
                 shapes[(i, k)] = eigen.U()[(i, from)] / root[i];
             }
         }
-        let modal_ratio: Vec<Option<f64>> =
-            buildings.iter().map(|b| system.buildings[*b].modal_damping).collect();
+        let modal_ratio: Vec<Option<f64>> = buildings
+            .iter()
+            .map(|b| system.buildings[*b].modal_damping)
+            .collect();
         let mut modal_damping = shapes.transpose() * part(&damping, &d, &d) * &shapes;
         if let Some(ratio) = modal_ratio[0] {
             if buildings.len() > 1 {
@@ -217,15 +234,20 @@ impl Component {
             }
         }
         let load = |vector: &[f64]| -> Vec<f64> {
-            (0..nd).map(|k| (0..nd).map(|i| shapes[(i, k)] * vector[i]).sum()).collect()
+            (0..nd)
+                .map(|k| (0..nd).map(|i| shapes[(i, k)] * vector[i]).sum())
+                .collect()
         };
         let driven: Vec<f64> = massive.iter().map(|dof| -driven[*dof]).collect();
         let driven = load(&driven);
-        let coupled_damping = nh > 0 && (nd..nd + nh).any(|i| (0..nd + nh).any(|j| damping[(i, j)] != 0.0));
+        let coupled_damping =
+            nh > 0 && (nd..nd + nh).any(|i| (0..nd + nh).any(|j| damping[(i, j)] != 0.0));
         let size = |k: usize| modal_damping[(k, k)].abs();
         let couples = (0..nd).any(|i| {
             (0..nd).any(|j| {
-                i != j && modal_damping[(i, j)].abs() > 1e-9 * (size(i) * size(j)).sqrt() + 1e-12 * omega[i].min(omega[j])
+                i != j
+                    && modal_damping[(i, j)].abs()
+                        > 1e-9 * (size(i) * size(j)).sqrt() + 1e-12 * omega[i].min(omega[j])
             })
         });
         let mut lambda = Vec::new();
@@ -278,7 +300,10 @@ impl Component {
                 .map(|(k, _)| k)
                 .collect();
             lambda.extend(kept.iter().map(|k| eigen.S()[*k]));
-            let factor = lambda.iter().map(|l| if l.im > 0.0 { 2.0 } else { 1.0 }).collect();
+            let factor = lambda
+                .iter()
+                .map(|l| if l.im > 0.0 { 2.0 } else { 1.0 })
+                .collect();
             let right = Mat::from_fn(nz, kept.len(), |i, j| eigen.U()[(i, kept[j])]);
             let left = Mat::from_fn(kept.len(), nz, |i, j| left[(kept[i], j)]);
             let kind = Kind::Coupled {
@@ -333,7 +358,9 @@ impl Component {
                 .map(|i| {
                     load.iter()
                         .enumerate()
-                        .fold(c64::new(0.0, 0.0), |sum, (k, f)| sum + left[(i, load.len() + k)] * *f)
+                        .fold(c64::new(0.0, 0.0), |sum, (k, f)| {
+                            sum + left[(i, load.len() + k)] * *f
+                        })
                 })
                 .collect(),
         }

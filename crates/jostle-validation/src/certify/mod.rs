@@ -26,7 +26,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 
-use jostle::{GroundMotion, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, System, simulate};
+use jostle::{
+    GroundMotion, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, System, simulate,
+};
 use jostle_io::{Format, Input, read_model_text};
 use rayon::prelude::*;
 
@@ -143,14 +145,28 @@ fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
             ("acceleration", &own.acceleration, most(&own.acceleration)),
         ] {
             for (floor, value) in values.iter().enumerate() {
-                list.push(Quantity { kind, name: format!("{name} floor {}", floor + 1), value: *value, scale });
+                list.push(Quantity {
+                    kind,
+                    name: format!("{name} floor {}", floor + 1),
+                    value: *value,
+                    scale,
+                });
             }
         }
-        list.push(Quantity { kind: "base shear", name: name.clone(), value: own.shear, scale: own.shear });
+        list.push(Quantity {
+            kind: "base shear",
+            name: name.clone(),
+            value: own.shear,
+            scale: own.shear,
+        });
     }
     for (kind, values) in [("contact force", &peaks.force), ("impulse", &peaks.impulse)] {
         for (index, contact) in system.contacts.iter().enumerate() {
-            let of_gap = system.contacts.iter().zip(values).filter(|(c, _)| c.gap == contact.gap);
+            let of_gap = system
+                .contacts
+                .iter()
+                .zip(values)
+                .filter(|(c, _)| c.gap == contact.gap);
             let scale = of_gap.fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
             list.push(Quantity {
                 kind,
@@ -181,15 +197,25 @@ fn values_of(summary: &Summary, system: &System) -> Vec<f64> {
         own.push((contact.gap, places[contact.gap]));
         places[contact.gap] += 1;
     }
-    list.extend(own.iter().map(|(gap, place)| summary.gaps[*gap].contacts[*place].peak_force_n));
-    list.extend(own.iter().map(|(gap, place)| summary.gaps[*gap].contacts[*place].impulse_n_s));
+    list.extend(
+        own.iter()
+            .map(|(gap, place)| summary.gaps[*gap].contacts[*place].peak_force_n),
+    );
+    list.extend(
+        own.iter()
+            .map(|(gap, place)| summary.gaps[*gap].contacts[*place].impulse_n_s),
+    );
     list
 }
 
 /// Whether a summary says that its peaks may be off.
 fn warns(summary: &Summary) -> bool {
     let promise = serde_json::to_value(summary).ok();
-    let met = promise.and_then(|value| value.pointer("/promise/met").and_then(serde_json::Value::as_bool));
+    let met = promise.and_then(|value| {
+        value
+            .pointer("/promise/met")
+            .and_then(serde_json::Value::as_bool)
+    });
     let said = summary.warnings.iter().chain(&summary.notes);
     met == Some(false) || said.into_iter().any(|text| text.contains("sensitive"))
 }
@@ -208,8 +234,13 @@ fn hold(
     model.analysis.solver = Some(solver);
     let plan = Plan::choose(system, motion, &model.analysis).ok()?;
     let begun = std::time::Instant::now();
-    let settings = Settings { pounding: Pounding::Included, record_interval: None };
-    let outcome = simulate(system, motion, &plan, settings, |_| ControlFlow::Continue(()));
+    let settings = Settings {
+        pounding: Pounding::Included,
+        record_interval: None,
+    };
+    let outcome = simulate(system, motion, &plan, settings, |_| {
+        ControlFlow::Continue(())
+    });
     let wall = begun.elapsed().as_secs_f64();
     let summary = Summary::of(&Run {
         model: &model,
@@ -226,8 +257,18 @@ fn hold(
         .zip(shifts)
         .zip(&got)
         .map(|((quantity, shift), got)| {
-            let scale = if quantity.scale > 0.0 { quantity.scale } else { got.abs() };
-            let relative = |value: f64| if value == 0.0 { 0.0 } else { value.abs() / scale };
+            let scale = if quantity.scale > 0.0 {
+                quantity.scale
+            } else {
+                got.abs()
+            };
+            let relative = |value: f64| {
+                if value == 0.0 {
+                    0.0
+                } else {
+                    value.abs() / scale
+                }
+            };
             (relative(*shift) <= UNCERTAIN * tolerance).then(|| relative(got - quantity.value))
         })
         .collect();
@@ -259,16 +300,30 @@ pub fn certify(seed: u64, number: u64) -> Certified {
 
 fn fill(drawn: &Drawn, tolerances: &[f64], certified: &mut Certified) -> Result<(), String> {
     let (input, motion) = read(drawn)?;
-    let mut laws: Vec<String> = input.model.gaps.iter().map(|gap| gap.law.kind.full_name()).collect();
+    let mut laws: Vec<String> = input
+        .model
+        .gaps
+        .iter()
+        .map(|gap| gap.law.kind.full_name())
+        .collect();
     laws.sort();
     laws.dedup();
-    certified.laws = if laws.is_empty() { "none".into() } else { laws.join(" + ") };
+    certified.laws = if laws.is_empty() {
+        "none".into()
+    } else {
+        laws.join(" + ")
+    };
     let shear = |b: &&jostle::Building| matches!(b.structure, jostle::Structure::Shear(_));
     let all = input.model.buildings.len();
     let shears = input.model.buildings.iter().filter(shear).count();
     certified.buildings = format!("{shears} shear {} frame", all - shears);
-    let system = System::assemble(&input.model)
-        .map_err(|faults| faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))?;
+    let system = System::assemble(&input.model).map_err(|faults| {
+        faults
+            .iter()
+            .map(ToString::to_string)
+            .collect::<Vec<_>>()
+            .join("; ")
+    })?;
     let begun = std::time::Instant::now();
     let peaks = reference(&system, &motion, Accuracy::FINE)?;
     let other = if peaks.touches > 0 || !system.contacts.is_empty() {
@@ -277,11 +332,16 @@ fn fill(drawn: &Drawn, tolerances: &[f64], certified: &mut Certified) -> Result<
         peaks.clone()
     };
     certified.seconds = begun.elapsed().as_secs_f64();
-    (certified.touches, certified.lasting, certified.steps) = (peaks.touches, peaks.lasting, peaks.steps);
+    (certified.touches, certified.lasting, certified.steps) =
+        (peaks.touches, peaks.lasting, peaks.steps);
     certified.quantities = quantities_of(&system, &peaks);
     let others = quantities_of(&system, &other);
-    certified.shifts =
-        certified.quantities.iter().zip(&others).map(|(a, b)| b.value - a.value).collect();
+    certified.shifts = certified
+        .quantities
+        .iter()
+        .zip(&others)
+        .map(|(a, b)| b.value - a.value)
+        .collect();
     for solver in [Solver::Modal, Solver::Riccati] {
         for &tolerance in tolerances {
             certified.runs.extend(hold(
@@ -308,15 +368,31 @@ pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, Str
     let mut certified = Certified::of(0, "file");
     fill(&Drawn { tree, kind: "file" }, tolerances, &mut certified)?;
     let mut text = String::new();
-    for (k, (quantity, shift)) in certified.quantities.iter().zip(&certified.shifts).enumerate() {
-        let _ = write!(text, "{:<18} {:<20} {:>14.7e} ({:+.1e})", quantity.kind, quantity.name, quantity.value, shift / quantity.scale);
+    for (k, (quantity, shift)) in certified
+        .quantities
+        .iter()
+        .zip(&certified.shifts)
+        .enumerate()
+    {
+        let _ = write!(
+            text,
+            "{:<18} {:<20} {:>14.7e} ({:+.1e})",
+            quantity.kind,
+            quantity.name,
+            quantity.value,
+            shift / quantity.scale
+        );
         for run in &certified.runs {
             let error = (run.got[k] - quantity.value) / quantity.scale;
             let _ = write!(text, "  {} {:.0e}: {error:+.1e}", run.solver, run.tolerance);
         }
         text.push('\n');
     }
-    let _ = writeln!(text, "{} touches, {} lasting, {} steps, {:.2} s for two references", certified.touches, certified.lasting, certified.steps, certified.seconds);
+    let _ = writeln!(
+        text,
+        "{} touches, {} lasting, {} steps, {:.2} s for two references",
+        certified.touches, certified.lasting, certified.steps, certified.seconds
+    );
     Ok(text)
 }
 
@@ -327,7 +403,11 @@ pub fn study(count: u64, seed: u64, only: Option<u64>) -> Vec<Certified> {
         Some(number) => vec![number],
         None => (1..=count).collect(),
     };
-    numbers.par_iter().with_max_len(1).map(|number| certify(seed, *number)).collect()
+    numbers
+        .par_iter()
+        .with_max_len(1)
+        .map(|number| certify(seed, *number))
+        .collect()
 }
 
 #[derive(Default)]
@@ -395,12 +475,22 @@ pub fn describe(all: &[Certified]) -> String {
                     worst = (ratio, k);
                 }
                 let place = || {
-                    format!("model {} {} {}, {way}", model.number, quantity.kind, quantity.name)
+                    format!(
+                        "model {} {} {}, {way}",
+                        model.number, quantity.kind, quantity.name
+                    )
                 };
                 let keys = [
                     way.clone(),
                     format!("{} {}", quantity.kind, run.solver),
-                    format!("law {}", if model.touches > 0 { &model.laws } else { "none touches" }),
+                    format!(
+                        "law {}",
+                        if model.touches > 0 {
+                            &model.laws
+                        } else {
+                            "none touches"
+                        }
+                    ),
                     format!("{} {}", model.kind, run.solver),
                     "all".into(),
                 ];
@@ -412,7 +502,12 @@ pub fn describe(all: &[Certified]) -> String {
                 off += 1;
                 warned += usize::from(run.warned);
                 let quantity = &model.quantities[worst.1];
-                let bad = run.errors.iter().flatten().filter(|e| **e > run.tolerance).count();
+                let bad = run
+                    .errors
+                    .iter()
+                    .flatten()
+                    .filter(|e| **e > run.tolerance)
+                    .count();
                 let _ = writeln!(
                     text,
                     "model {:>4} | {:<5} | {} | {} | {way:<16} | {} {} | got {:.6e} | reference {:.6e} | {:.2} times | {bad} of {} | {} touches{}",
@@ -427,7 +522,11 @@ pub fn describe(all: &[Certified]) -> String {
                     worst.0,
                     run.errors.len(),
                     model.touches,
-                    if model.lasting > 0 { format!(", {} lasting", model.lasting) } else { String::new() },
+                    if model.lasting > 0 {
+                        format!(", {} lasting", model.lasting)
+                    } else {
+                        String::new()
+                    },
                 );
             } else {
                 warned_for_nothing += usize::from(run.warned);
@@ -451,7 +550,11 @@ pub fn describe(all: &[Certified]) -> String {
         all.len()
     );
     let spent: f64 = all.iter().map(|model| model.seconds).sum();
-    let own: f64 = all.iter().flat_map(|model| &model.runs).map(|run| run.seconds).sum();
+    let own: f64 = all
+        .iter()
+        .flat_map(|model| &model.runs)
+        .map(|run| run.seconds)
+        .sum();
     let slowest = all.iter().max_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let _ = writeln!(
         text,

@@ -95,10 +95,17 @@ fn gap(random: &mut Random, between: [&str; 2], law: &str) -> Value {
     gap.insert("width".into(), json!(width));
     gap.insert("law".into(), json!(law));
     let hertzian = ["hertz", "hertz-damp", "ye", "jankowski", "bilinear"].contains(&law);
-    let stiffness = if hertzian { random.scaled(6e8, 8e9) } else { random.scaled(3e7, 1e9) };
+    let stiffness = if hertzian {
+        random.scaled(6e8, 8e9)
+    } else {
+        random.scaled(3e7, 1e9)
+    };
     gap.insert("stiffness".into(), json!(stiffness));
     if !["linear", "hertz"].contains(&law) {
-        gap.insert("restitution".into(), json!(digits(random.between(0.3, 0.95))));
+        gap.insert(
+            "restitution".into(),
+            json!(digits(random.between(0.3, 0.95))),
+        );
         if law != "restitution" && random.chance(0.5) {
             gap.insert("restitution_is".into(), json!("realised"));
         }
@@ -129,14 +136,25 @@ fn damping(random: &mut Random, storeys: usize, period: f64, modal: Modal) -> Va
         _ => {
             let omega = 2.0 * PI / period;
             let alpha = random.between(0.0, 1.0) * 2.0 * ratio * omega;
-            let beta = if random.chance(0.5) { random.between(0.0, 0.3) * 2.0 * ratio / omega } else { 0.0 };
+            let beta = if random.chance(0.5) {
+                random.between(0.0, 0.3) * 2.0 * ratio / omega
+            } else {
+                0.0
+            };
             json!({"alpha": digits(alpha), "beta": digits(beta)})
         }
     }
 }
 
 /// A building: its tree and about its first period \[s\].
-fn building(random: &mut Random, name: &str, height: f64, most: usize, shear: bool, plain: bool) -> (Value, f64) {
+fn building(
+    random: &mut Random,
+    name: &str,
+    height: f64,
+    most: usize,
+    shear: bool,
+    plain: bool,
+) -> (Value, f64) {
     let mut tree = Map::new();
     tree.insert("name".into(), json!(name));
     let mut storeys = random.whole(1, most);
@@ -168,7 +186,8 @@ fn building(random: &mut Random, name: &str, height: f64, most: usize, shear: bo
         if sprung {
             let spring = digits(stiffness * random.scaled(0.5, 10.0));
             let footing = digits(mass * random.between(0.2, 1.0));
-            let dashpot = digits(2.0 * random.scaled(0.02, 0.3) * (spring * mass * storeys as f64).sqrt());
+            let dashpot =
+                digits(2.0 * random.scaled(0.02, 0.3) * (spring * mass * storeys as f64).sqrt());
             tree.insert(
                 "base".into(),
                 json!({"horizontal_stiffness": spring, "horizontal_damping": dashpot, "mass": footing}),
@@ -184,7 +203,9 @@ fn building(random: &mut Random, name: &str, height: f64, most: usize, shear: bo
                 break;
             }
         }
-        let spans: Vec<f64> = (0..bays).map(|_| digits(random.between(3.5, 7.5))).collect();
+        let spans: Vec<f64> = (0..bays)
+            .map(|_| digits(random.between(3.5, 7.5)))
+            .collect();
         let depth = digits(random.between(0.35, 0.75));
         let beam = digits(random.between(0.4, 0.7));
         tree.insert("kind".into(), json!("frame"));
@@ -200,16 +221,25 @@ fn building(random: &mut Random, name: &str, height: f64, most: usize, shear: bo
             tree.insert("axial".into(), json!("flexible"));
         }
         if random.chance(0.15) {
-            tree.insert("joint".into(), json!({"rotational_stiffness": random.scaled(2e7, 2e9)}));
+            tree.insert(
+                "joint".into(),
+                json!({"rotational_stiffness": random.scaled(2e7, 2e9)}),
+            );
         }
         if sprung {
             let mut base = Map::new();
-            base.insert("rotational_stiffness".into(), json!(random.scaled(5e7, 2e9)));
+            base.insert(
+                "rotational_stiffness".into(),
+                json!(random.scaled(5e7, 2e9)),
+            );
             if random.chance(0.5) {
                 base.insert("rotational_damping".into(), json!(random.scaled(1e5, 2e7)));
             }
             if random.chance(0.5) {
-                base.insert("horizontal_stiffness".into(), json!(random.scaled(1e8, 2e9)));
+                base.insert(
+                    "horizontal_stiffness".into(),
+                    json!(random.scaled(1e8, 2e9)),
+                );
                 base.insert("horizontal_damping".into(), json!(random.scaled(1e5, 5e6)));
                 base.insert("mass".into(), json!(random.scaled(2000.0, 20_000.0)));
             }
@@ -274,7 +304,14 @@ pub fn draw(seed: u64, number: u64) -> Drawn {
         let most = if row { 3 } else { 15 };
         // Damping in all modes is no part of models with links.
         let unjoined = plain && kind != "links";
-        let (tree, period) = building(&mut random, &format!("B{}", k + 1), height, most, shear, unjoined);
+        let (tree, period) = building(
+            &mut random,
+            &format!("B{}", k + 1),
+            height,
+            most,
+            shear,
+            unjoined,
+        );
         buildings.push(tree);
         periods.push(period);
     }
@@ -290,8 +327,16 @@ pub fn draw(seed: u64, number: u64) -> Drawn {
     let mut gaps = Vec::new();
     for k in 1..count {
         // Rows have one law; others may have several.
-        let own = if row || random.chance(0.6) { law } else { LAWS[random.below(LAWS.len())] };
-        gaps.push(gap(&mut random, [&format!("B{k}"), &format!("B{}", k + 1)], own));
+        let own = if row || random.chance(0.6) {
+            law
+        } else {
+            LAWS[random.below(LAWS.len())]
+        };
+        gaps.push(gap(
+            &mut random,
+            [&format!("B{k}"), &format!("B{}", k + 1)],
+            own,
+        ));
     }
     if kind == "wall" {
         gaps.push(gap(&mut random, ["B1", "wall"], law));

@@ -23,9 +23,8 @@ const INVERSE_FACTORIAL: [f64; 11] = [
 ];
 
 /// k!.
-pub(super) const FACTORIAL: [f64; DEGREE + 1] = [
-    1.0, 1.0, 2.0, 6.0, 24.0, 120.0, 720.0, 5040.0, 40_320.0,
-];
+pub(super) const FACTORIAL: [f64; DEGREE + 1] =
+    [1.0, 1.0, 2.0, 6.0, 24.0, 120.0, 720.0, 5040.0, 40_320.0];
 
 /// e^z and φ₁ … φ_`last`; Re z ≤ 0. The series of the last one converges without cancellation where |z| is not large,
 /// and the recursion downwards is stable there; elsewhere that upwards is.
@@ -80,7 +79,9 @@ mod tests {
             phi(z, DEGREE + 1, &mut all);
             let n = 20_000;
             for k in 1..=DEGREE + 1 {
-                let f = |s: f64| (z * (1.0 - s)).exp() * s.powi(k as i32 - 1) * INVERSE_FACTORIAL[k - 1];
+                let f = |s: f64| {
+                    (z * (1.0 - s)).exp() * s.powi(k as i32 - 1) * INVERSE_FACTORIAL[k - 1]
+                };
                 let mut sum = f(0.0) + f(1.0);
                 for i in 1..n {
                     sum += f(i as f64 / n as f64) * if i % 2 == 1 { 4.0 } else { 2.0 };

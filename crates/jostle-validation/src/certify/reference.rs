@@ -28,9 +28,17 @@ pub struct Accuracy {
 
 impl Accuracy {
     /// That of the reference.
-    pub const FINE: Self = Self { force: 1e-10, widen: 0.0, steps: 6_000_000 };
+    pub const FINE: Self = Self {
+        force: 1e-10,
+        widen: 0.0,
+        steps: 6_000_000,
+    };
     /// For its conditioning.
-    pub const OTHER: Self = Self { force: 1e-9, widen: 1e-6, steps: 6_000_000 };
+    pub const OTHER: Self = Self {
+        force: 1e-9,
+        widen: 1e-6,
+        steps: 6_000_000,
+    };
 }
 
 /// Peaks of a building.
@@ -143,17 +151,24 @@ fn horner(poly: &Poly, s: f64) -> f64 {
 }
 
 fn slope(poly: &Poly, s: f64) -> f64 {
-    (1..NODES).rev().fold(0.0, |sum, k| sum * s + k as f64 * poly[k])
+    (1..NODES)
+        .rev()
+        .fold(0.0, |sum, k| sum * s + k as f64 * poly[k])
 }
 
 fn real_dot(row: &[c64], q: &[c64]) -> f64 {
-    row.iter().zip(q).map(|(c, q)| c.re * q.re - c.im * q.im).sum()
+    row.iter()
+        .zip(q)
+        .map(|(c, q)| c.re * q.re - c.im * q.im)
+        .sum()
 }
 
 fn inverse(matrix: &[[f64; NODES]; NODES]) -> [[f64; NODES]; NODES] {
     use faer::Mat;
     use faer::linalg::solvers::DenseSolveCore;
-    let inverse = Mat::from_fn(NODES, NODES, |i, j| matrix[i][j]).full_piv_lu().inverse();
+    let inverse = Mat::from_fn(NODES, NODES, |i, j| matrix[i][j])
+        .full_piv_lu()
+        .inverse();
     std::array::from_fn(|i| std::array::from_fn(|j| inverse[(i, j)]))
 }
 
@@ -182,10 +197,15 @@ impl<'a> Run<'a> {
     fn new(system: &System, motion: &'a GroundMotion, accuracy: Accuracy) -> Result<Self, String> {
         let components = components(system)?;
         let of_building = |building: usize| {
-            components.iter().position(|c| c.buildings.contains(&building)).unwrap_or(0)
+            components
+                .iter()
+                .position(|c| c.buildings.contains(&building))
+                .unwrap_or(0)
         };
-        let watch: Vec<Watch> =
-            components.iter().map(|component| Watch::of(system, component)).collect();
+        let watch: Vec<Watch> = components
+            .iter()
+            .map(|component| Watch::of(system, component))
+            .collect();
         let rest_of = |dof: usize| {
             let building = system.buildings.iter().find(|b| b.range().contains(&dof));
             building.map_or(0.0, |b| b.rest.get(dof - b.offset).copied().unwrap_or(0.0))
@@ -206,10 +226,18 @@ impl<'a> Run<'a> {
                 .map(|(index, list)| {
                     let component = &components[index];
                     // A force pushes with `sign`; the closing falls by as much.
-                    let weights: Vec<(usize, f64)> = list.iter().map(|(dof, s)| (*dof, -s)).collect();
-                    rest += weights.iter().map(|(dof, w)| w * rest_of(*dof)).sum::<f64>();
+                    let weights: Vec<(usize, f64)> =
+                        list.iter().map(|(dof, s)| (*dof, -s)).collect();
+                    rest += weights
+                        .iter()
+                        .map(|(dof, w)| w * rest_of(*dof))
+                        .sum::<f64>();
                     let row = component.output(&weights);
-                    let rate = row.iter().zip(&component.lambda).map(|(c, l)| c * l).collect();
+                    let rate = row
+                        .iter()
+                        .zip(&component.lambda)
+                        .map(|(c, l)| c * l)
+                        .collect();
                     let mut push = vec![ZERO; component.lambda.len()];
                     for (dof, sign) in &list {
                         for (sum, own) in push.iter_mut().zip(component.push(*dof)) {
@@ -226,7 +254,14 @@ impl<'a> Run<'a> {
                             })
                             .collect()
                     };
-                    Side { component: index, row, rate, accelerates: by(1), jerks: by(2), push }
+                    Side {
+                        component: index,
+                        row,
+                        rate,
+                        accelerates: by(1),
+                        jerks: by(2),
+                        push,
+                    }
                 })
                 .collect();
             let (law, blow) = Law::of(&contact.law)?;
@@ -248,9 +283,7 @@ impl<'a> Run<'a> {
         });
         let powers = std::array::from_fn(|i| std::array::from_fn(|k| nodes[i].powi(k as i32)));
         let cosines = std::array::from_fn(|i| {
-            std::array::from_fn(|k| {
-                (std::f64::consts::PI * (i * k) as f64 / DEGREE as f64).cos()
-            })
+            std::array::from_fn(|k| (std::f64::consts::PI * (i * k) as f64 / DEGREE as f64).cos())
         });
         // Fine enough to see the motions that matter between samples.
         let mut fastest: f64 = 2.0;
@@ -282,7 +315,10 @@ impl<'a> Run<'a> {
         };
         let flight = piece / (piece / wanted).ceil();
         let gaps = system.contacts.iter().map(|c| c.gap + 1).max().unwrap_or(0);
-        let q = components.iter().map(|c| vec![ZERO; c.lambda.len()]).collect();
+        let q = components
+            .iter()
+            .map(|c| vec![ZERO; c.lambda.len()])
+            .collect();
         let mut run = Self {
             motion,
             signals: watch.iter().map(|w| vec![(0.0, 0.0); w.len()]).collect(),
@@ -337,10 +373,15 @@ impl<'a> Run<'a> {
     }
 
     /// e^{λτ} and moments at the nodes of a step for a component.
-    fn tables(&mut self, level: usize, component: usize) -> (Rc<Vec<[c64; NODES]>>, Rc<Vec<[[c64; NODES]; NODES]>>) {
-        if let (Some(exp), Some(moment)) =
-            (&self.levels[level].exp[component], &self.levels[level].moment[component])
-        {
+    fn tables(
+        &mut self,
+        level: usize,
+        component: usize,
+    ) -> (Rc<Vec<[c64; NODES]>>, Rc<Vec<[[c64; NODES]; NODES]>>) {
+        if let (Some(exp), Some(moment)) = (
+            &self.levels[level].exp[component],
+            &self.levels[level].moment[component],
+        ) {
             return (exp.clone(), moment.clone());
         }
         let step = self.levels[level].step;
@@ -383,7 +424,12 @@ impl<'a> Run<'a> {
     }
 
     /// Responses of the closing of a contact to the nodal values of the force of another; `None` where nothing joins them.
-    fn by_force(&mut self, level: usize, contact: usize, other: usize) -> Option<Rc<[[[f64; NODES]; NODES]; 2]>> {
+    fn by_force(
+        &mut self,
+        level: usize,
+        contact: usize,
+        other: usize,
+    ) -> Option<Rc<[[[f64; NODES]; NODES]; 2]>> {
         if let Some(known) = self.levels[level].pairs.get(&(contact, other)) {
             return Some(known.clone());
         }
@@ -397,8 +443,10 @@ impl<'a> Run<'a> {
                 }
                 any = true;
                 let (_, moment) = self.tables(level, component);
-                let (own, push) =
-                    (&self.meetings[contact].sides[side], &self.meetings[other].sides[with].push);
+                let (own, push) = (
+                    &self.meetings[contact].sides[side],
+                    &self.meetings[other].sides[with].push,
+                );
                 add_response(&mut response, own, push, &moment);
             }
         }
@@ -415,7 +463,9 @@ impl<'a> Run<'a> {
             }
         }
         let response = Rc::new(response);
-        self.levels[level].pairs.insert((contact, other), response.clone());
+        self.levels[level]
+            .pairs
+            .insert((contact, other), response.clone());
         Some(response)
     }
 
@@ -423,7 +473,10 @@ impl<'a> Run<'a> {
     fn ground(&self, index: u64, inside: f64, step: f64) -> Poly {
         let mut poly = [0.0; NODES];
         match &self.motion.wave {
-            Wave::Sampled { acceleration, step: record } => {
+            Wave::Sampled {
+                acceleration,
+                step: record,
+            } => {
                 let at = |k: u64| acceleration.get(k as usize).copied();
                 if let (Some(a), Some(b)) = (at(index), at(index + 1)) {
                     let rise = (b - a) / record;
@@ -464,13 +517,26 @@ impl<'a> Run<'a> {
     fn at(&self, component: usize, s: f64, pushes: &Pushes, out: &mut Vec<c64>) {
         let inputs = self.inputs(component, pushes);
         let own = &self.components[component];
-        let last = if inputs.is_empty() { self.ground_degree } else { DEGREE };
+        let last = if inputs.is_empty() {
+            self.ground_degree
+        } else {
+            DEGREE
+        };
         let (mut work, mut moment) = ([ZERO; DEGREE + 2], [ZERO; NODES]);
         out.clear();
         for j in 0..own.lambda.len() {
             phi(own.lambda[j] * (s * pushes.step), last + 1, &mut work);
             moments(&work, s, pushes.step, last, &mut moment);
-            out.push(advance(self.q[component][j], work[0], &moment, j, own, &inputs, pushes, last));
+            out.push(advance(
+                self.q[component][j],
+                work[0],
+                &moment,
+                j,
+                own,
+                &inputs,
+                pushes,
+                last,
+            ));
         }
     }
 
@@ -496,7 +562,11 @@ impl<'a> Run<'a> {
                 let (exp, moment) = self.tables(level, component);
                 let inputs = self.inputs(component, pushes);
                 let own = &self.components[component];
-                let last = if inputs.is_empty() { self.ground_degree } else { DEGREE };
+                let last = if inputs.is_empty() {
+                    self.ground_degree
+                } else {
+                    DEGREE
+                };
                 for j in 0..own.lambda.len() {
                     out.push(advance(
                         self.q[component][j],
@@ -551,7 +621,11 @@ impl<'a> Run<'a> {
             }
             self.peaks.steps += 1;
             if self.peaks.steps > self.accuracy.steps {
-                return Err(format!("more than {} steps by {:.3} s", self.accuracy.steps, start + inside));
+                return Err(format!(
+                    "more than {} steps by {:.3} s",
+                    self.accuracy.steps,
+                    start + inside
+                ));
             }
             let in_contact = self.closed.iter().any(Option::is_some);
             if !in_contact {
@@ -560,8 +634,16 @@ impl<'a> Run<'a> {
             self.level_of(level, flight);
             let step = self.levels[level].step;
             let ground = self.ground(index, inside, step);
-            let most = if left < step * (1.0 - 1e-9) { left / step } else { 1.0 };
-            let mut pushes = Pushes { step, ground, forces: Vec::new() };
+            let most = if left < step * (1.0 - 1e-9) {
+                left / step
+            } else {
+                1.0
+            };
+            let mut pushes = Pushes {
+                step,
+                ground,
+                forces: Vec::new(),
+            };
             let mut easy = false;
             let mut courses = Vec::new();
             if in_contact {
@@ -621,8 +703,9 @@ impl<'a> Run<'a> {
         pushes: &mut Pushes,
         courses: &mut Vec<(usize, Poly, Poly)>,
     ) -> Option<f64> {
-        let list: Vec<usize> =
-            (0..self.closed.len()).filter(|contact| self.closed[*contact].is_some()).collect();
+        let list: Vec<usize> = (0..self.closed.len())
+            .filter(|contact| self.closed[*contact].is_some())
+            .collect();
         let mut free: Vec<[Poly; 2]> = Vec::new();
         for &contact in &list {
             let by = self.by_ground(level, contact);
@@ -661,7 +744,9 @@ impl<'a> Run<'a> {
             }
         }
         let law = |a: usize, x: f64, v: f64| {
-            self.closed[list[a]].as_ref().map_or(0.0, |closed| closed.force(x, v))
+            self.closed[list[a]]
+                .as_ref()
+                .map_or(0.0, |closed| closed.force(x, v))
         };
         let mut forces: Vec<Poly> = (0..list.len())
             .map(|a| std::array::from_fn(|i| law(a, free[a][0][i], free[a][1][i])))
@@ -715,9 +800,15 @@ impl<'a> Run<'a> {
             let terms = apply(&self.to_chebyshev, &forces[a]);
             let tail = terms[DEGREE].abs().max(0.3 * terms[DEGREE - 1].abs());
             error = error.max(tail / allowed[a]);
-            pushes.forces.push((contact, apply(&self.to_monomials, &forces[a])));
+            pushes
+                .forces
+                .push((contact, apply(&self.to_monomials, &forces[a])));
             let [x, v] = &moved[a];
-            courses.push((contact, apply(&self.to_monomials, x), apply(&self.to_monomials, v)));
+            courses.push((
+                contact,
+                apply(&self.to_monomials, x),
+                apply(&self.to_monomials, v),
+            ));
         }
         Some(error)
     }
@@ -728,9 +819,10 @@ impl<'a> Run<'a> {
         let mut first = most;
         let mut events = Vec::new();
         for (contact, x, v) in courses {
-            let Some(closed) = &self.closed[*contact] else { continue };
-            let conditions =
-                |s: f64| closed.conditions(horner(x, s), horner(v, s), slope(v, s));
+            let Some(closed) = &self.closed[*contact] else {
+                continue;
+            };
+            let conditions = |s: f64| closed.conditions(horner(x, s), horner(v, s), slope(v, s));
             let mut before = conditions(0.0);
             'parts: for part in 1..=PARTS {
                 let s = most * part as f64 / PARTS as f64;
@@ -775,7 +867,12 @@ impl<'a> Run<'a> {
     }
 
     /// The first touch of an open contact within a share of the step.
-    fn touch_within(&self, reach: f64, after: &[Vec<c64>], pushes: &Pushes) -> Option<(f64, usize)> {
+    fn touch_within(
+        &self,
+        reach: f64,
+        after: &[Vec<c64>],
+        pushes: &Pushes,
+    ) -> Option<(f64, usize)> {
         let h = reach * pushes.step;
         let mut first: Option<(f64, usize)> = None;
         for contact in 0..self.meetings.len() {
@@ -784,7 +881,9 @@ impl<'a> Run<'a> {
             }
             let (x0, v0) = self.closing(contact, &self.q);
             let (x1, v1) = self.closing(contact, after);
-            let Some(s) = self.touch_of(contact, (x0, v0), (x1, v1), h, reach, pushes) else { continue };
+            let Some(s) = self.touch_of(contact, (x0, v0), (x1, v1), h, reach, pushes) else {
+                continue;
+            };
             if first.is_none_or(|(at, _)| s < at) {
                 first = Some((s, contact));
             }
@@ -807,7 +906,10 @@ impl<'a> Run<'a> {
             return Some(0.0);
         }
         let top = hermite_top(x0, v0, x1, v1, h);
-        if !touching && x1 <= 0.0 && top.is_none_or(|(_, value)| value < -1e-8 - 1e-3 * (x1 - x0).abs()) {
+        if !touching
+            && x1 <= 0.0
+            && top.is_none_or(|(_, value)| value < -1e-8 - 1e-3 * (x1 - x0).abs())
+        {
             return None;
         }
         let at = |share: f64| self.closing_at(contact, share * reach, pushes);
@@ -875,7 +977,11 @@ impl<'a> Run<'a> {
                 break;
             }
             let newton = s - x / (v * h);
-            s = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            s = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
         }
         Some(s * reach)
     }
@@ -906,8 +1012,11 @@ impl<'a> Run<'a> {
                 }
                 self.peaks.impulse[contact] += impulse;
                 self.peaks.touches += 1;
-                let sides: Vec<usize> =
-                    self.meetings[contact].sides.iter().map(|side| side.component).collect();
+                let sides: Vec<usize> = self.meetings[contact]
+                    .sides
+                    .iter()
+                    .map(|side| side.component)
+                    .collect();
                 for component in sides {
                     self.read_signals(component);
                 }
@@ -941,7 +1050,9 @@ impl<'a> Run<'a> {
     /// A corner or the release of a contact.
     fn happen(&mut self, contact: usize, next: Next) {
         let (x, v) = self.closing(contact, &self.q);
-        let Some(closed) = &mut self.closed[contact] else { return };
+        let Some(closed) = &mut self.closed[contact] else {
+            return;
+        };
         match next {
             Next::Piece(piece) => closed.become_piece(piece, x, v),
             Next::Release => {
@@ -977,7 +1088,11 @@ impl<'a> Run<'a> {
                         }
                         let (a, b) = (horner(poly, s - d), horner(poly, s + d));
                         let curve = a - 2.0 * value + b;
-                        if curve < 0.0 { value - (b - a) * (b - a) / (8.0 * curve) } else { value }
+                        if curve < 0.0 {
+                            value - (b - a) * (b - a) / (8.0 * curve)
+                        } else {
+                            value
+                        }
                     });
                 let peak = &mut self.peaks.force[*contact];
                 *peak = peak.max(greatest);
@@ -996,7 +1111,13 @@ impl<'a> Run<'a> {
             self.take(component, &before_signals[component]);
             self.take(component, &after_signals);
             if h > 0.0 {
-                self.tops(component, &before_signals[component], &after_signals, h, &mut wanted);
+                self.tops(
+                    component,
+                    &before_signals[component],
+                    &after_signals,
+                    h,
+                    &mut wanted,
+                );
             }
         }
         if wanted.is_empty() {
@@ -1027,11 +1148,21 @@ impl<'a> Run<'a> {
         self.add_forces(component, own, s, pushes)
     }
 
-    fn add_forces(&self, component: usize, mut own: Vec<(f64, f64)>, s: f64, pushes: &Pushes) -> Vec<(f64, f64)> {
+    fn add_forces(
+        &self,
+        component: usize,
+        mut own: Vec<(f64, f64)>,
+        s: f64,
+        pushes: &Pushes,
+    ) -> Vec<(f64, f64)> {
         let watch = &self.watch[component];
         for (contact, poly) in &pushes.forces {
             let (force, rise) = (horner(poly, s), slope(poly, s) / pushes.step);
-            for side in self.meetings[*contact].sides.iter().filter(|side| side.component == component) {
+            for side in self.meetings[*contact]
+                .sides
+                .iter()
+                .filter(|side| side.component == component)
+            {
                 for floor in 0..watch.floors {
                     let signal = &mut own[watch.acceleration(floor)];
                     signal.0 += side.accelerates[floor] * force;
@@ -1182,7 +1313,13 @@ impl Watch {
         let mut shears = Vec::new();
         for &index in &component.buildings {
             let building = &system.buildings[index];
-            let rest = |dof: usize| building.rest.get(dof - building.offset).copied().unwrap_or(0.0);
+            let rest = |dof: usize| {
+                building
+                    .rest
+                    .get(dof - building.offset)
+                    .copied()
+                    .unwrap_or(0.0)
+            };
             buildings.push(Watched {
                 building: index,
                 first_floor: displacements.len(),
@@ -1207,12 +1344,19 @@ impl Watch {
                     weights.push((building.offset + dof, weight));
                 }
             }
-            let sinks = if building.rest.is_empty() { 0.0 } else { building.equations.base_shear(&building.rest) };
+            let sinks = if building.rest.is_empty() {
+                0.0
+            } else {
+                building.equations.base_shear(&building.rest)
+            };
             shears.push((component.output(&weights), sinks));
         }
         let floors = displacements.len();
         let times = |row: &[c64], power: i32| -> Vec<c64> {
-            row.iter().zip(&component.lambda).map(|(c, l)| c * l.powi(power)).collect()
+            row.iter()
+                .zip(&component.lambda)
+                .map(|(c, l)| c * l.powi(power))
+                .collect()
         };
         let mut rows = Vec::new();
         for row in &displacements {
@@ -1237,10 +1381,20 @@ impl Watch {
             .iter()
             .map(|row| {
                 let terms = times(row, 2);
-                terms.iter().zip(&component.ground).map(|(c, b)| (c * b).re).sum()
+                terms
+                    .iter()
+                    .zip(&component.ground)
+                    .map(|(c, b)| (c * b).re)
+                    .sum()
             })
             .collect();
-        Self { rows, jerk_by_ground, constant, buildings, floors }
+        Self {
+            rows,
+            jerk_by_ground,
+            constant,
+            buildings,
+            floors,
+        }
     }
 
     fn displacement(&self, floor: usize) -> &[c64] {
@@ -1270,22 +1424,34 @@ impl Watch {
         let count = self.buildings.len();
         let mut all = Vec::with_capacity(self.len());
         for floor in 0..self.floors {
-            all.push((value(2 * floor) + self.constant[floor], value(2 * floor + 1)));
+            all.push((
+                value(2 * floor) + self.constant[floor],
+                value(2 * floor + 1),
+            ));
         }
         for floor in 0..self.floors {
             let place = 2 * (self.floors + floor);
-            all.push((value(place), value(place + 1) + self.jerk_by_ground[floor] * ground));
+            all.push((
+                value(place),
+                value(place + 1) + self.jerk_by_ground[floor] * ground,
+            ));
         }
         for k in 0..count {
             let place = 2 * (2 * self.floors + k);
-            all.push((value(place) + self.constant[self.floors + k], value(place + 1)));
+            all.push((
+                value(place) + self.constant[self.floors + k],
+                value(place + 1),
+            ));
         }
         let mut foot = 0;
         for watched in &self.buildings {
             let mut below = (0.0, 0.0);
             if watched.has_foot {
                 let place = 2 * (2 * self.floors + count + foot);
-                below = (value(place) + self.constant[self.floors + count + foot], value(place + 1));
+                below = (
+                    value(place) + self.constant[self.floors + count + foot],
+                    value(place + 1),
+                );
                 foot += 1;
             }
             for (floor, height) in watched.heights.iter().enumerate() {
