@@ -14,6 +14,12 @@ use super::phi::{DEGREE, FACTORIAL, Phi, moments, phi};
 const NODES: usize = DEGREE + 1;
 const ZERO: c64 = c64::new(0.0, 0.0);
 type Poly = [f64; NODES];
+/// By mode and node.
+type Exponentials = Vec<[c64; NODES]>;
+/// By mode, node and power.
+type Moments = Vec<[[c64; NODES]; NODES]>;
+/// Of closing and rate, by node and by power or node of what pushes.
+type Response = [[[f64; NODES]; NODES]; 2];
 
 /// How fine.
 #[derive(Clone, Copy, Debug)]
@@ -118,12 +124,12 @@ struct Meeting {
 struct Level {
     step: f64,
     /// By component: [mode][node] e^{λτ}.
-    exp: Vec<Option<Rc<Vec<[c64; NODES]>>>>,
+    exp: Vec<Option<Rc<Exponentials>>>,
     /// By component: [mode][node][k] moments.
-    moment: Vec<Option<Rc<Vec<[[c64; NODES]; NODES]>>>>,
+    moment: Vec<Option<Rc<Moments>>>,
     /// By contact: response of closing and rate to monomials of the ground.
-    ground: Vec<Option<Rc<[[[f64; NODES]; NODES]; 2]>>>,
-    pairs: std::collections::HashMap<(usize, usize), Rc<[[[f64; NODES]; NODES]; 2]>>,
+    ground: Vec<Option<Rc<Response>>>,
+    pairs: std::collections::HashMap<(usize, usize), Rc<Response>>,
 }
 
 struct Run<'a> {
@@ -373,11 +379,7 @@ impl<'a> Run<'a> {
     }
 
     /// e^{λτ} and moments at the nodes of a step for a component.
-    fn tables(
-        &mut self,
-        level: usize,
-        component: usize,
-    ) -> (Rc<Vec<[c64; NODES]>>, Rc<Vec<[[c64; NODES]; NODES]>>) {
+    fn tables(&mut self, level: usize, component: usize) -> (Rc<Exponentials>, Rc<Moments>) {
         if let (Some(exp), Some(moment)) = (
             &self.levels[level].exp[component],
             &self.levels[level].moment[component],
@@ -406,7 +408,7 @@ impl<'a> Run<'a> {
     }
 
     /// Responses of the closing of a contact and of its rate to monomials of the ground.
-    fn by_ground(&mut self, level: usize, contact: usize) -> Rc<[[[f64; NODES]; NODES]; 2]> {
+    fn by_ground(&mut self, level: usize, contact: usize) -> Rc<Response> {
         if let Some(known) = &self.levels[level].ground[contact] {
             return known.clone();
         }
@@ -424,12 +426,7 @@ impl<'a> Run<'a> {
     }
 
     /// Responses of the closing of a contact to the nodal values of the force of another; `None` where nothing joins them.
-    fn by_force(
-        &mut self,
-        level: usize,
-        contact: usize,
-        other: usize,
-    ) -> Option<Rc<[[[f64; NODES]; NODES]; 2]>> {
+    fn by_force(&mut self, level: usize, contact: usize, other: usize) -> Option<Rc<Response>> {
         if let Some(known) = self.levels[level].pairs.get(&(contact, other)) {
             return Some(known.clone());
         }
@@ -1287,7 +1284,7 @@ fn advance(
 }
 
 fn add_response(
-    response: &mut [[[f64; NODES]; NODES]; 2],
+    response: &mut Response,
     side: &Side,
     input: &[c64],
     moment: &[[[c64; NODES]; NODES]],
