@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use jostle_io::write_atomically;
-use jostle_validation::{Extent, document, families, loops, misses, pairs, paper, work_precision};
+use jostle_validation::{
+    Extent, certify, document, families, loops, misses, pairs, paper, work_precision,
+};
 
 const USAGE: &str = "\
 usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [TOLERANCE]]] [--work-precision] [--figures]
@@ -14,12 +16,21 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
                 the distribution of the errors; takes minutes
   --work-precision  writes docs/work-precision.md and its figure; takes minutes
   --figures     writes the figure of the contact laws
+  --certify N [--seed S] [--only K]  holds every promised number of N random models against a reference of other means
+  --certify-dump K FOLDER [--seed S]  writes random model K as a model file
+  --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
   --reference   makes the reference runs of the built-in model anew; takes minutes";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if arguments.first().is_some_and(|a| a == "--pairs") {
         return random_pairs(&arguments[1..]);
+    }
+    if arguments
+        .first()
+        .is_some_and(|a| a.starts_with("--certify"))
+    {
+        return certified(&arguments);
     }
     if arguments.first().is_some_and(|a| a == "--work-precision") {
         let ways = work_precision::study();
@@ -93,6 +104,59 @@ fn random_pairs(arguments: &[String]) -> ExitCode {
         say(&format!("{pair:?}"));
     }
     say(&pairs::describe(&compared, tolerance));
+    ExitCode::SUCCESS
+}
+
+/// Random models against their reference, or one of them as a file.
+fn certified(arguments: &[String]) -> ExitCode {
+    let after = |option: &str| {
+        let place = arguments.iter().position(|a| a == option)?;
+        arguments.get(place + 1)
+    };
+    let number = |option: &str| after(option).and_then(|text| text.parse::<u64>().ok());
+    let seed = number("--seed").unwrap_or(1);
+    if let Some(path) = after("--certify-file") {
+        let asked: Vec<f64> = arguments[2..]
+            .iter()
+            .filter_map(|a| a.parse().ok())
+            .collect();
+        let tolerances = if asked.is_empty() {
+            &certify::TOLERANCES[..]
+        } else {
+            &asked
+        };
+        return match certify::of_file(Path::new(path), tolerances) {
+            Ok(text) => {
+                say(&text);
+                ExitCode::SUCCESS
+            }
+            Err(why) => {
+                say(&why);
+                ExitCode::FAILURE
+            }
+        };
+    }
+    if let Some(model) = number("--certify-dump") {
+        let Some(folder) = arguments.get(2) else {
+            say(USAGE);
+            return ExitCode::from(2);
+        };
+        let text =
+            serde_json::to_string_pretty(&certify::draw(seed, model).tree).unwrap_or_default();
+        return written(
+            &Path::new(folder).join(format!("seed{seed}_model{model}.json")),
+            &(text + "\n"),
+        );
+    }
+    let Some(count) = number("--certify") else {
+        say(USAGE);
+        return ExitCode::from(2);
+    };
+    say(&certify::describe(&certify::study(
+        count,
+        seed,
+        number("--only"),
+    )));
     ExitCode::SUCCESS
 }
 

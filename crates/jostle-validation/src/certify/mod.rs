@@ -1,0 +1,569 @@
+//! Every promised number of random models against an event-driven reference of other means.
+//!
+//! # The reference
+//!
+//! M, C and K of every building are put together densely and brought to first-order modes ([`linear`]), where buildings
+//! joined by links count as one. Between events every mode is advanced exactly, with the ground acceleration linear
+//! between points of a record (polynomials of degree eight for a sine) and contact forces as polynomials of degree
+//! eight over each step, found at nine Chebyshev points by Picard iteration. Steps are halved until the last Chebyshev
+//! terms of every force are below 1e-10 of the greatest of its gap. Touches are located on the exact motion, corners of a
+//! force (cuts, turns, slipping, releases) on its polynomials. Laws are written anew as smooth pieces ([`laws`]). Peaks are
+//! taken at the ends of steps, on both sides of every jump, and at the exact motion wherever the cubic between two
+//! ends says that something may be greater than before.
+//!
+//! A second reference with gaps wider by 1e-6 of their width (and 1e-10 m) and a looser error says which numbers a model
+//! determines at all: those that move by more than a tenth of a tolerance are counted apart.
+
+mod laws;
+mod linear;
+mod models;
+mod phi;
+mod reference;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::ops::ControlFlow;
+
+use jostle::{
+    GroundMotion, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, System, simulate,
+};
+use jostle_io::{Format, Input, read_model_text};
+use rayon::prelude::*;
+
+pub use models::{Drawn, draw};
+pub use reference::{Accuracy, Peaks, run as reference};
+
+/// Tolerances at which every model is run.
+pub const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
+/// Share of a tolerance that the reference itself may be uncertain by.
+const UNCERTAIN: f64 = 0.1;
+
+/// One promised number.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// Its kind.
+    pub kind: &'static str,
+    /// Which one.
+    pub name: String,
+    /// The value.
+    pub value: f64,
+    /// The greatest of its kind in that building or gap.
+    pub scale: f64,
+}
+
+/// The promised numbers of one run held against the reference.
+#[derive(Clone, Debug)]
+pub struct Held {
+    /// Solver.
+    pub solver: &'static str,
+    /// Tolerance.
+    pub tolerance: f64,
+    /// Error over the scale of every quantity whose reference is certain, in the order of the quantities.
+    pub errors: Vec<Option<f64>>,
+    /// Values of the run.
+    pub got: Vec<f64>,
+    /// Whether the run said that its numbers are not to be trusted.
+    pub warned: bool,
+    /// Why it failed, if so.
+    pub failed: Option<String>,
+    /// Wall time \[s\].
+    pub seconds: f64,
+}
+
+/// One model.
+#[derive(Clone, Debug)]
+pub struct Certified {
+    /// Number.
+    pub number: u64,
+    /// Kind.
+    pub kind: &'static str,
+    /// Contact laws.
+    pub laws: String,
+    /// Number of buildings, and their kinds.
+    pub buildings: String,
+    /// Quantities with the values of the reference.
+    pub quantities: Vec<Quantity>,
+    /// Their change under the perturbation.
+    pub shifts: Vec<f64>,
+    /// Runs.
+    pub runs: Vec<Held>,
+    /// Touches of the reference.
+    pub touches: u64,
+    /// Lasting contacts of the momentum law.
+    pub lasting: u64,
+    /// Steps of the reference.
+    pub steps: u64,
+    /// Wall time of both references \[s\].
+    pub seconds: f64,
+    /// Why there is no reference.
+    pub failed: Option<String>,
+}
+
+impl Certified {
+    fn of(number: u64, kind: &'static str) -> Self {
+        Self {
+            number,
+            kind,
+            laws: String::new(),
+            buildings: String::new(),
+            quantities: Vec::new(),
+            shifts: Vec::new(),
+            runs: Vec::new(),
+            touches: 0,
+            lasting: 0,
+            steps: 0,
+            seconds: 0.0,
+            failed: None,
+        }
+    }
+}
+
+/// Reads a drawn model.
+///
+/// # Errors
+/// What the model file says.
+pub fn read(drawn: &Drawn) -> Result<(Input, GroundMotion), String> {
+    let text = serde_json::to_string(&drawn.tree).map_err(|e| e.to_string())?;
+    let input = read_model_text("random model", &text, Format::Json, "".as_ref())
+        .map_err(|e| e.to_string())?;
+    let motion = input.ground_motion().map_err(|e| e.to_string())?;
+    Ok((input, motion))
+}
+
+fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
+    let mut list = Vec::new();
+    let most = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    for (building, own) in system.buildings.iter().zip(&peaks.buildings) {
+        let name = &building.name;
+        let reach = most(&own.most).max(most(&own.least));
+        for (kind, values, scale) in [
+            ("displacement max", &own.most, reach),
+            ("displacement min", &own.least, reach),
+            ("drift", &own.drift, most(&own.drift)),
+            ("acceleration", &own.acceleration, most(&own.acceleration)),
+        ] {
+            for (floor, value) in values.iter().enumerate() {
+                list.push(Quantity {
+                    kind,
+                    name: format!("{name} floor {}", floor + 1),
+                    value: *value,
+                    scale,
+                });
+            }
+        }
+        list.push(Quantity {
+            kind: "base shear",
+            name: name.clone(),
+            value: own.shear,
+            scale: own.shear,
+        });
+    }
+    for (kind, values) in [("contact force", &peaks.force), ("impulse", &peaks.impulse)] {
+        for (index, contact) in system.contacts.iter().enumerate() {
+            let of_gap = system
+                .contacts
+                .iter()
+                .zip(values)
+                .filter(|(c, _)| c.gap == contact.gap);
+            let scale = of_gap.fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
+            list.push(Quantity {
+                kind,
+                name: format!("gap {} at {:.2} m", contact.gap + 1, contact.height),
+                value: values[index],
+                scale,
+            });
+        }
+    }
+    list
+}
+
+/// The same list from a summary.
+fn values_of(summary: &Summary, system: &System) -> Vec<f64> {
+    let mut list = Vec::new();
+    for building in &summary.buildings {
+        let floors = || building.floors.iter();
+        list.extend(floors().map(|f| f.displacement_max_m));
+        list.extend(floors().map(|f| f.displacement_min_m));
+        list.extend(floors().map(|f| f.storey_drift_peak));
+        list.extend(floors().map(|f| f.total_acceleration_peak_m_s2));
+        list.push(building.base_shear_peak_n);
+    }
+    // Contacts of a summary stand gap by gap, in the order of the system.
+    let mut places = vec![0; summary.gaps.len()];
+    let mut own = Vec::new();
+    for contact in &system.contacts {
+        own.push((contact.gap, places[contact.gap]));
+        places[contact.gap] += 1;
+    }
+    list.extend(
+        own.iter()
+            .map(|(gap, place)| summary.gaps[*gap].contacts[*place].peak_force_n),
+    );
+    list.extend(
+        own.iter()
+            .map(|(gap, place)| summary.gaps[*gap].contacts[*place].impulse_n_s),
+    );
+    list
+}
+
+/// Whether a summary says that its peaks may be off.
+fn warns(summary: &Summary) -> bool {
+    let promise = serde_json::to_value(summary).ok();
+    let met = promise.and_then(|value| {
+        value
+            .pointer("/promise/met")
+            .and_then(serde_json::Value::as_bool)
+    });
+    let said = summary.warnings.iter().chain(&summary.notes);
+    met == Some(false) || said.into_iter().any(|text| text.contains("sensitive"))
+}
+
+fn hold(
+    input: &Input,
+    system: &System,
+    motion: &GroundMotion,
+    quantities: &[Quantity],
+    shifts: &[f64],
+    solver: Solver,
+    tolerance: f64,
+) -> Option<Held> {
+    let mut model = input.model.clone();
+    model.analysis.tolerance = tolerance;
+    model.analysis.solver = Some(solver);
+    let plan = Plan::choose(system, motion, &model.analysis).ok()?;
+    let begun = std::time::Instant::now();
+    let settings = Settings {
+        pounding: Pounding::Included,
+        record_interval: None,
+    };
+    let outcome = simulate(system, motion, &plan, settings, |_| {
+        ControlFlow::Continue(())
+    });
+    let wall = begun.elapsed().as_secs_f64();
+    let summary = Summary::of(&Run {
+        model: &model,
+        system,
+        motion,
+        plan: &plan,
+        outcome: &outcome,
+        without_contact: None,
+        wall,
+    });
+    let got = values_of(&summary, system);
+    let errors = quantities
+        .iter()
+        .zip(shifts)
+        .zip(&got)
+        .map(|((quantity, shift), got)| {
+            let scale = if quantity.scale > 0.0 {
+                quantity.scale
+            } else {
+                got.abs()
+            };
+            let relative = |value: f64| {
+                if value == 0.0 {
+                    0.0
+                } else {
+                    value.abs() / scale
+                }
+            };
+            (relative(*shift) <= UNCERTAIN * tolerance).then(|| relative(got - quantity.value))
+        })
+        .collect();
+    let failed = match &outcome.end {
+        RunEnd::Completed => None,
+        other => Some(format!("{other:?}")),
+    };
+    Some(Held {
+        solver: solver.name(),
+        tolerance,
+        errors,
+        got,
+        warned: warns(&summary),
+        failed,
+        seconds: wall,
+    })
+}
+
+/// Holds one model against its reference.
+#[must_use]
+pub fn certify(seed: u64, number: u64) -> Certified {
+    let drawn = draw(seed, number);
+    let mut certified = Certified::of(number, drawn.kind);
+    if let Err(why) = fill(&drawn, &TOLERANCES, &mut certified) {
+        certified.failed = Some(why);
+    }
+    certified
+}
+
+fn fill(drawn: &Drawn, tolerances: &[f64], certified: &mut Certified) -> Result<(), String> {
+    let (input, motion) = read(drawn)?;
+    let mut laws: Vec<String> = input
+        .model
+        .gaps
+        .iter()
+        .map(|gap| gap.law.kind.full_name())
+        .collect();
+    laws.sort();
+    laws.dedup();
+    certified.laws = if laws.is_empty() {
+        "none".into()
+    } else {
+        laws.join(" + ")
+    };
+    let shear = |b: &&jostle::Building| matches!(b.structure, jostle::Structure::Shear(_));
+    let all = input.model.buildings.len();
+    let shears = input.model.buildings.iter().filter(shear).count();
+    certified.buildings = format!("{shears} shear {} frame", all - shears);
+    let system = System::assemble(&input.model).map_err(|faults| {
+        faults
+            .iter()
+            .map(ToString::to_string)
+            .collect::<Vec<_>>()
+            .join("; ")
+    })?;
+    let begun = std::time::Instant::now();
+    let peaks = reference(&system, &motion, Accuracy::FINE)?;
+    let other = if peaks.touches > 0 || !system.contacts.is_empty() {
+        reference(&system, &motion, Accuracy::OTHER)?
+    } else {
+        peaks.clone()
+    };
+    certified.seconds = begun.elapsed().as_secs_f64();
+    (certified.touches, certified.lasting, certified.steps) =
+        (peaks.touches, peaks.lasting, peaks.steps);
+    certified.quantities = quantities_of(&system, &peaks);
+    let others = quantities_of(&system, &other);
+    certified.shifts = certified
+        .quantities
+        .iter()
+        .zip(&others)
+        .map(|(a, b)| b.value - a.value)
+        .collect();
+    for solver in [Solver::Modal, Solver::Riccati] {
+        for &tolerance in tolerances {
+            certified.runs.extend(hold(
+                &input,
+                &system,
+                &motion,
+                &certified.quantities,
+                &certified.shifts,
+                solver,
+                tolerance,
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The promised numbers of a model file: reference, its change under the perturbation, and both solvers.
+///
+/// # Errors
+/// Why the file cannot be read, or has no reference.
+pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, String> {
+    let tree = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
+    let tree = serde_json::from_str(&tree).map_err(|e| e.to_string())?;
+    let mut certified = Certified::of(0, "file");
+    fill(&Drawn { tree, kind: "file" }, tolerances, &mut certified)?;
+    let mut text = String::new();
+    for (k, (quantity, shift)) in certified
+        .quantities
+        .iter()
+        .zip(&certified.shifts)
+        .enumerate()
+    {
+        let _ = write!(
+            text,
+            "{:<18} {:<20} {:>14.7e} ({:+.1e})",
+            quantity.kind,
+            quantity.name,
+            quantity.value,
+            shift / quantity.scale
+        );
+        for run in &certified.runs {
+            let error = (run.got[k] - quantity.value) / quantity.scale;
+            let _ = write!(text, "  {} {:.0e}: {error:+.1e}", run.solver, run.tolerance);
+        }
+        text.push('\n');
+    }
+    let _ = writeln!(
+        text,
+        "{} touches, {} lasting, {} steps, {:.2} s for two references",
+        certified.touches, certified.lasting, certified.steps, certified.seconds
+    );
+    Ok(text)
+}
+
+/// Certifies models 1 … `count` of a seed, on all processors; `only` picks some.
+#[must_use]
+pub fn study(count: u64, seed: u64, only: Option<u64>) -> Vec<Certified> {
+    let numbers: Vec<u64> = match only {
+        Some(number) => vec![number],
+        None => (1..=count).collect(),
+    };
+    numbers
+        .par_iter()
+        .with_max_len(1)
+        .map(|number| certify(seed, *number))
+        .collect()
+}
+
+#[derive(Default)]
+struct Count {
+    all: usize,
+    within: usize,
+    thrice: usize,
+    uncertain: usize,
+    worst: f64,
+    place: String,
+}
+
+impl Count {
+    fn add(&mut self, ratio: Option<f64>, place: impl Fn() -> String) {
+        let Some(ratio) = ratio else {
+            self.uncertain += 1;
+            return;
+        };
+        self.all += 1;
+        self.within += usize::from(ratio <= 1.0);
+        self.thrice += usize::from(ratio <= 3.0);
+        if ratio > self.worst || self.place.is_empty() {
+            self.worst = ratio;
+            self.place = place();
+        }
+    }
+
+    fn line(&self, name: &str) -> String {
+        let share = |part: usize| 100.0 * part as f64 / self.all.max(1) as f64;
+        format!(
+            "{name:<44} {:>7} {:>8.2} % {:>8.2} % {:>7} {:>10.3}  {}",
+            self.all,
+            share(self.within),
+            share(self.thrice),
+            self.uncertain,
+            self.worst,
+            self.place
+        )
+    }
+}
+
+/// The study in words.
+#[must_use]
+pub fn describe(all: &[Certified]) -> String {
+    let mut text = String::new();
+    let mut tables: [BTreeMap<String, Count>; 5] = Default::default();
+    let (mut runs, mut off, mut warned, mut warned_for_nothing) = (0, 0, 0, 0);
+    let mut failures = Vec::new();
+    for model in all {
+        if let Some(why) = &model.failed {
+            failures.push(format!("model {}: no reference: {why}", model.number));
+            continue;
+        }
+        for run in &model.runs {
+            let way = format!("{} at {:.0e}", run.solver, run.tolerance);
+            if let Some(why) = &run.failed {
+                failures.push(format!("model {} {way}: {why}", model.number));
+                continue;
+            }
+            runs += 1;
+            let mut worst: (f64, usize) = (0.0, 0);
+            for (k, (quantity, error)) in model.quantities.iter().zip(&run.errors).enumerate() {
+                let ratio = error.map(|error| error / run.tolerance);
+                if let Some(ratio) = ratio.filter(|ratio| *ratio > worst.0) {
+                    worst = (ratio, k);
+                }
+                let place = || {
+                    format!(
+                        "model {} {} {}, {way}",
+                        model.number, quantity.kind, quantity.name
+                    )
+                };
+                let keys = [
+                    way.clone(),
+                    format!("{} {}", quantity.kind, run.solver),
+                    format!(
+                        "law {}",
+                        if model.touches > 0 {
+                            &model.laws
+                        } else {
+                            "none touches"
+                        }
+                    ),
+                    format!("{} {}", model.kind, run.solver),
+                    "all".into(),
+                ];
+                for (table, key) in tables.iter_mut().zip(keys) {
+                    table.entry(key).or_default().add(ratio, place);
+                }
+            }
+            if worst.0 > 1.0 {
+                off += 1;
+                warned += usize::from(run.warned);
+                let quantity = &model.quantities[worst.1];
+                let bad = run
+                    .errors
+                    .iter()
+                    .flatten()
+                    .filter(|e| **e > run.tolerance)
+                    .count();
+                let _ = writeln!(
+                    text,
+                    "model {:>4} | {:<5} | {} | {} | {way:<16} | {} {} | got {:.6e} | reference {:.6e} | {:.2} times | {bad} of {} | {} touches{}",
+                    model.number,
+                    model.kind,
+                    model.buildings,
+                    model.laws,
+                    quantity.kind,
+                    quantity.name,
+                    run.got[worst.1],
+                    quantity.value,
+                    worst.0,
+                    run.errors.len(),
+                    model.touches,
+                    if model.lasting > 0 {
+                        format!(", {} lasting", model.lasting)
+                    } else {
+                        String::new()
+                    },
+                );
+            } else {
+                warned_for_nothing += usize::from(run.warned);
+            }
+        }
+    }
+    let _ = writeln!(
+        text,
+        "\n{:<44} {:>7} {:>10} {:>10} {:>7} {:>10}  where",
+        "", "numbers", "within 1", "within 3", "unsure", "worst"
+    );
+    for table in &tables {
+        for (name, count) in table {
+            let _ = writeln!(text, "{}", count.line(name));
+        }
+        text.push('\n');
+    }
+    let _ = writeln!(
+        text,
+        "{} models, {runs} runs; {off} runs have a number beyond the tolerance, {warned} of them warned; {warned_for_nothing} others warned.",
+        all.len()
+    );
+    let spent: f64 = all.iter().map(|model| model.seconds).sum();
+    let own: f64 = all
+        .iter()
+        .flat_map(|model| &model.runs)
+        .map(|run| run.seconds)
+        .sum();
+    let slowest = all.iter().max_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    let _ = writeln!(
+        text,
+        "References took {spent:.0} s (slowest: model {}, {:.1} s), runs {own:.0} s.",
+        slowest.map_or(0, |model| model.number),
+        slowest.map_or(0.0, |model| model.seconds)
+    );
+    for failure in failures {
+        let _ = writeln!(text, "{failure}");
+    }
+    text
+}

@@ -1,0 +1,135 @@
+//! The reference against numbers known otherwise.
+
+use jostle_io::{Format, read_model_text};
+
+use super::*;
+
+fn peaks(text: &str) -> Peaks {
+    let input = read_model_text("test", text, Format::Json, "".as_ref()).expect("a sound model");
+    let motion = input.ground_motion().expect("a motion");
+    let system = System::assemble(&input.model).expect("a sound model");
+    reference(&system, &motion, Accuracy::FINE).expect("a reference")
+}
+
+fn near(got: f64, expected: f64, share: f64, what: &str) {
+    let error = (got / expected - 1.0).abs();
+    assert!(
+        error <= share,
+        "{what}: {got} instead of {expected}, off by {error:e}"
+    );
+}
+
+/// A chain of eleven floors whose exact answer was found with the matrix exponential, sampled 5000 times a second.
+const CHAIN: &str = r#"{"motion": {"record": "nanjing-artificial", "pga": "0.553 g", "duration": "8 s"},
+"building": [{"name": "A", "kind": "shear",
+"mass": [89824.1, 125495, 87569.1, 122632, 102482, 107693, 108610, 86290.8, 109602, 91889.5, 95363.1],
+"stiffness": [2.88065e8, 2.40108e8, 2.47171e8, 2.0247e8, 2.19547e8, 1.84903e8, 1.78456e8, 1.84693e8, 1.59335e8, 1.55055e8, 1.31342e8],
+"storey_height": 3.7, "damping": {"ratio": 0.046, "modes": [1]}}PARTNER]GAP}"#;
+
+#[test]
+fn a_chain_of_floors_moves_as_the_matrix_exponential_says() {
+    let peaks = peaks(&CHAIN.replace("PARTNER", "").replace("GAP", ""));
+    let own = &peaks.buildings[0];
+    near(own.shear, 3643.8e3, 3e-5, "base shear");
+    near(own.most[0], 12.649e-3, 4e-5, "floor 1 to the right");
+    near(own.least[0], -10.785e-3, 4e-5, "floor 1 to the left");
+    // Given to three or four digits.
+    for (floor, expected) in [6.14, 10.52, 10.25, 10.21, 10.12, 9.88]
+        .into_iter()
+        .enumerate()
+    {
+        near(
+            own.acceleration[floor],
+            expected,
+            1.5e-3,
+            &format!("acceleration of floor {}", floor + 1),
+        );
+    }
+}
+
+/// Found by an event-driven eighth-order Runge–Kutta method on full matrices: one blow.
+#[test]
+fn a_blow_has_the_impulse_that_another_program_finds() {
+    let partner = r#", {"name": "B", "kind": "shear", "mass": [29485.3], "stiffness": [5.78277e7], "storey_height": 3.7}"#;
+    let gap = r#", "gap": [{"between": ["A", "B"], "width": 0.01104, "law": "restitution", "stiffness": 5.452e8, "restitution": 0.936}]"#;
+    let peaks = peaks(&CHAIN.replace("PARTNER", partner).replace("GAP", gap));
+    assert_eq!(peaks.touches, 1);
+    near(peaks.impulse[0], 2148.6, 2e-5, "impulse");
+}
+
+#[test]
+fn an_oscillator_under_a_sine_answers_as_the_closed_form_says() {
+    // Undamped at rest: u = A/(ω² − Ω²) (Ω/ω sin ωt − sin Ωt), with ω = 3Ω.
+    let (mass, period) = (1e4, 1.0);
+    let big = 2.0 * std::f64::consts::PI / period;
+    let own = 3.0 * big;
+    let peaks = peaks(&format!(
+        r#"{{"motion": {{"kind": "sine", "amplitude": 1.0, "period": {period}, "duration": 3}},
+        "building": [{{"name": "A", "kind": "shear", "mass": [{mass}], "stiffness": [{:e}], "damping": {{"alpha": 0, "beta": 0}}}}]}}"#,
+        mass * own * own
+    ));
+    let exact = |t: f64| -((big * t).sin() - big / own * (own * t).sin()) / (own * own - big * big);
+    let greatest = (0..3_000_000)
+        .map(|k| exact(k as f64 * 1e-6))
+        .fold(0.0, f64::max);
+    near(peaks.buildings[0].most[0], greatest, 1e-9, "displacement");
+    near(
+        peaks.buildings[0].shear,
+        mass * own * own * greatest,
+        1e-9,
+        "base shear",
+    );
+}
+
+/// Both solvers come to the reference as their tolerance falls: links, P-Delta, bases that turn with dashpots.
+#[test]
+fn a_tight_run_of_jostle_meets_the_reference() {
+    let model = r#"{"motion": {"record": "el-centro-1940-ns", "duration": 5},
+    "building": [
+      {"name": "A", "kind": "frame", "storeys": 3, "storey_height": 3.2, "spans": [5], "column": {"width": 0.5, "depth": 0.5},
+       "beam": {"width": 0.3, "depth": 0.5}, "elastic_modulus": 3e10, "beam_mass": 3000, "column_segments": 1, "beam_segments": 1,
+       "p_delta": true, "base": {"rotational_stiffness": 2e8, "rotational_damping": 1e6}},
+      {"name": "B", "kind": "shear", "mass": [5e4, 5e4], "stiffness": [6e7, 5e7], "storey_height": 3.2,
+       "base": {"horizontal_stiffness": 4e8, "horizontal_damping": 2e6, "mass": 2e4}}],
+    "gap": [{"between": ["A", "B"], "width": 0.003, "law": "kelvin-no-tension", "stiffness": 1e8}],
+    "link": [{"between": ["A", "B"], "stiffness": 2e6, "damping": 1e5}]}"#;
+    let drawn = Drawn {
+        tree: serde_json::from_str(model).expect("a tree"),
+        kind: "test",
+    };
+    let mut certified = Certified::of(0, "test");
+    fill(&drawn, &[1e-5], &mut certified).expect("a reference");
+    assert!(certified.touches > 5, "{} touches", certified.touches);
+    let run = &certified.runs[0];
+    for (quantity, error) in certified.quantities.iter().zip(&run.errors) {
+        // Accelerations beside jumps of forces are not taken by runs of jostle.
+        let allowed = if quantity.kind == "acceleration" {
+            2e-2
+        } else {
+            1e-4
+        };
+        let error = error.expect("a certain reference");
+        assert!(
+            error < allowed,
+            "{} {}: {error:e}",
+            quantity.kind,
+            quantity.name
+        );
+    }
+}
+
+#[test]
+fn a_model_depends_on_its_seed_and_number_only() {
+    assert_eq!(draw(1, 7).tree, draw(1, 7).tree);
+    assert_ne!(draw(1, 7).tree, draw(1, 8).tree);
+    assert_ne!(draw(1, 7).tree, draw(2, 7).tree);
+}
+
+#[test]
+fn drawn_models_are_sound() {
+    for number in 1..=60 {
+        let (input, motion) = read(&draw(3, number)).expect("a sound file");
+        System::assemble(&input.model).expect("a sound model");
+        assert!(motion.duration > 0.0);
+    }
+}
