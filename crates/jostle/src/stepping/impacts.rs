@@ -171,6 +171,8 @@ impl<E: StepEquations> Simulation<'_, E> {
                 self.report_impact(event.contact, &episode, true);
                 self.state.contacts[event.contact] = ContactPhase::Open;
             }
+            self.recorder
+                .after_jump(self.system, &self.state, self.ground[0]);
             return;
         }
         let struck = self.strike(event.contact);
@@ -179,6 +181,8 @@ impl<E: StepEquations> Simulation<'_, E> {
                 self.close(index);
             }
         }
+        self.recorder
+            .after_jump(self.system, &self.state, self.ground[0]);
     }
 
     /// Whether an open contact touches and closes now.

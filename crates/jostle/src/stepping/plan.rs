@@ -152,6 +152,15 @@ impl Plan {
         }
     }
 
+    /// Whether the step of free flight is the one that the tolerance asks for, rather than one that was given.
+    pub(super) fn is_automatic(&self, system: &System, motion: &GroundMotion) -> bool {
+        let refinement = (self.tolerance() / 1e-3).sqrt();
+        self.chooses_contact_steps() && {
+            let automatic = automatic_step(system, motion, refinement);
+            (self.step - automatic).abs() <= 1e-9 * automatic
+        }
+    }
+
     /// How far peaks may be off because average acceleration slows every mode down; `None` where buildings yield, whose
     /// modes change, or another integrator is asked for \[–\].
     #[must_use]

@@ -79,14 +79,43 @@ pub fn simulate_from(
             Err(error) => Outcome::not_begun(system, error),
         },
         Solver::Riccati => {
-            Simulation::<RiccatiSweep>::new(system, motion, plan, settings, state).run(observer)
+            within_tolerance::<RiccatiSweep>(system, motion, plan, settings, state, observer)
         }
         Solver::Stiffness => {
-            Simulation::<DirectStiffness>::new(system, motion, plan, settings, state).run(observer)
+            within_tolerance::<DirectStiffness>(system, motion, plan, settings, state, observer)
         }
         Solver::Product => {
-            Simulation::<ProductEquations>::new(system, motion, plan, settings, state).run(observer)
+            within_tolerance::<ProductEquations>(system, motion, plan, settings, state, observer)
         }
+    }
+}
+
+/// Most times that steps are halved because a run was not within the tolerance.
+const MOST_REPEATS: u64 = 3;
+
+/// Runs a system, and again with steps of half the length while these are automatic and the run says that its peaks are not
+/// within the tolerance.
+fn within_tolerance<E: StepEquations>(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    state: State,
+    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Outcome {
+    let mut finer = *plan;
+    let mut repeats = 0;
+    loop {
+        let run = Simulation::<E>::new(system, motion, &finer, settings, state.clone());
+        let mut outcome = run.run(&mut observer);
+        outcome.work.repeated_runs = repeats;
+        let missed = |accuracy: Accuracy| accuracy.residual > accuracy.tolerance;
+        let again = outcome.end == RunEnd::Completed && outcome.accuracy.is_some_and(missed);
+        if !again || repeats == MOST_REPEATS || !plan.is_automatic(system, motion) {
+            return outcome;
+        }
+        repeats += 1;
+        finer.step *= 0.5;
     }
 }
 
@@ -228,7 +257,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         let residual = self.plan.frequency_error(self.system, self.motion);
         let accuracy = residual.map(|residual| Accuracy {
             tolerance: self.plan.tolerance(),
-            residual,
+            residual: residual.max(self.recorder.bent()),
             doubtful_from: None,
             sensitive_from: None,
         });

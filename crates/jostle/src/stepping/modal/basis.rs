@@ -342,7 +342,7 @@ fn answers_to_inertia(
 const QUICKER: f64 = 4.0;
 
 /// A rate at which stiffness does not count beside inertia \[1/s\].
-pub(super) fn at_once(equations: &Equations) -> f64 {
+fn at_once(equations: &Equations) -> f64 {
     let stiffest = equations
         .mass
         .iter()

@@ -311,6 +311,7 @@ impl Walk<'_> {
             ground: [g0, g1],
             start,
             step,
+            struck: std::mem::take(&mut self.struck),
         };
         self.peaks.after_step(self.system, self.reduced, &taken);
         if self.peaks.is_due(self.time, false) {

@@ -227,6 +227,10 @@ impl Walk<'_> {
                 self.is_closing(other) && law.rebound(self.trials[other].rate).is_some()
             });
         }
+        if struck {
+            self.struck = true;
+            self.start_anew();
+        }
         struck
     }
 

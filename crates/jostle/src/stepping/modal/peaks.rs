@@ -50,6 +50,8 @@ pub(super) struct Taken<'a> {
     pub(super) ground: [f64; 2],
     pub(super) start: f64,
     pub(super) step: f64,
+    /// Whether velocities have jumped at its start.
+    pub(super) struck: bool,
 }
 
 impl Peaks {
@@ -137,6 +139,7 @@ impl Peaks {
             ground,
             start,
             step,
+            ..
         } = *taken;
         let ground_rate = (ground[1] - ground[0]) / step;
         for (index, building) in system.buildings.iter().enumerate() {
@@ -171,7 +174,13 @@ impl Peaks {
                     then: [then.acceleration[at] + ground[0], then.loose[at] + slope],
                     now: [now.acceleration[at] + ground[1], now.loose[at] + slope],
                 };
-                total.widen(&mut peaks.total_acceleration, step);
+                if taken.struck {
+                    // What a dashpot makes of a jump of velocity dies away within the step, unlike a cubic.
+                    let ends = total.then[0].abs().max(total.now[0].abs());
+                    peaks.total_acceleration = peaks.total_acceleration.max(ends);
+                } else {
+                    total.widen(&mut peaks.total_acceleration, step);
+                }
                 self.limits.high[at] = peaks.displacement_max.value;
                 self.limits.low[at] = peaks.displacement_min.value;
                 self.limits.acceleration[at] = peaks.total_acceleration;
@@ -322,8 +331,9 @@ impl Ends {
     #[cold]
     fn largest(self, known: f64, step: f64) -> f64 {
         let Self { then, now } = self;
+        let ends = known.max(then[0].abs()).max(now[0].abs());
         let curve = Cubic::new(then[0], then[1], now[0], now[1], step);
         let inside = curve.turning_points().map(|at| curve.value(at).abs());
-        inside.fold(known.max(then[0].abs()).max(now[0].abs()), f64::max)
+        inside.fold(ends, f64::max)
     }
 }

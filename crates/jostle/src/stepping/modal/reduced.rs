@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pulp::Arch;
 
-use super::basis::{Basis, Demand, at_once};
+use super::basis::{Basis, Demand};
 use super::damped::{Damped, Rules};
 use super::kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
 use super::pushes::{Answer, Push};
@@ -73,23 +73,24 @@ impl Reduced {
             let Watched { places, faces } = Watched::of(system, index);
             let Rates { pushed, swaying } = rates[index];
             let [low, high] = COMPARED.map(|factor| factor * pushed);
-            let mut met = vec![0.0, pushed];
             let mut struck = system.contacts.iter().filter(|contact| {
                 let law = matches!(contact.law, ForceLaw::Restitution { .. });
                 law && contact.faces.buildings().contains(&Some(index))
             });
-            if struck.next().is_some() {
-                // At once nothing moves but the mass that is struck.
-                met.insert(0, at_once(&building.equations));
-            }
             let demand = Demand {
                 faces: &faces,
                 floors: &places[..building.floors.len()],
-                met: &met,
+                met: &[0.0, pushed],
                 compared: &[high, low, 3.0 * swaying, swaying],
                 tolerance: closeness,
             };
-            let basis = Basis::of(building, &demand).map_err(|failure| (index, failure))?;
+            // At once nothing moves but the mass that is struck, which no few modes can show.
+            let basis = if struck.next().is_some() {
+                Basis::complete(building)
+            } else {
+                Basis::of(building, &demand)
+            };
+            let basis = basis.map_err(|failure| (index, failure))?;
             work.factorizations += basis.factorizations;
             work.solves += basis.solves;
             bases.push(Arc::new(basis));

@@ -82,6 +82,8 @@ pub(super) struct Walk<'a> {
     pub(super) work: Work,
     pub(super) peaks: Peaks,
     pub(super) reached: Reached,
+    /// Whether velocities have jumped at the start of this step.
+    pub(super) struck: bool,
     /// How far every open contact has opened since it was closed; infinite before it ever was \[m\].
     pub(super) clearance: Vec<f64>,
     /// Relative tolerance of peaks \[–\].
@@ -217,6 +219,7 @@ impl<'a> Walk<'a> {
             clearance: vec![f64::INFINITY; contacts],
             tolerance,
             doubtful_from: None,
+            struck: false,
             pounding: settings.pounding == Pounding::Included,
             system,
             motion,
@@ -537,6 +540,7 @@ impl<'a> Walk<'a> {
             ground,
             start,
             step,
+            struck: std::mem::take(&mut self.struck),
         };
         self.peaks.after_step(self.system, reduced, &taken);
     }
