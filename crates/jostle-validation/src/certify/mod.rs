@@ -2,12 +2,12 @@
 //!
 //! # The reference
 //!
-//! M, C and K of every building are put together densely and brought to first-order modes ([`linear`]), where buildings
+//! M, C and K of every building are put together densely and brought to first-order modes (`linear`), where buildings
 //! joined by links count as one. Between events every mode is advanced exactly, with the ground acceleration linear
 //! between points of a record (polynomials of degree eight for a sine) and contact forces as polynomials of degree
 //! eight over each step, found at nine Chebyshev points by Picard iteration. Steps are halved until the last Chebyshev
 //! terms of every force are below 1e-10 of the greatest of its gap. Touches are located on the exact motion, corners of a
-//! force (cuts, turns, slipping, releases) on its polynomials. Laws are written anew as smooth pieces ([`laws`]). Peaks are
+//! force (cuts, turns, slipping, releases) on its polynomials. Laws are written anew as smooth pieces (`laws`). Peaks are
 //! taken at the ends of steps, on both sides of every jump, and at the exact motion wherever the cubic between two
 //! ends says that something may be greater than before.
 //!
@@ -26,6 +26,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 
+use jostle::stepping::find_sensitivity;
 use jostle::{
     GroundMotion, Plan, Pounding, Run, RunEnd, Settings, Solver, Summary, System, simulate,
 };
@@ -238,10 +239,13 @@ fn hold(
         pounding: Pounding::Included,
         record_interval: None,
     };
-    let outcome = simulate(system, motion, &plan, settings, |_| {
+    let mut outcome = simulate(system, motion, &plan, settings, |_| {
         ControlFlow::Continue(())
     });
     let wall = begun.elapsed().as_secs_f64();
+    find_sensitivity(system, motion, &plan, &mut outcome, |_| {
+        ControlFlow::Continue(())
+    });
     let summary = Summary::of(&Run {
         model: &model,
         system,

@@ -1,0 +1,34 @@
+//! Random models hold the tolerance: the reduced form of `jostle-validation --certify`.
+
+use jostle_validation::certify;
+
+/// Models drawn; the whole proof takes a thousand.
+const MODELS: u64 = 60;
+
+#[test]
+fn random_models_hold_the_tolerance() {
+    let all = certify::study(MODELS, 1, None);
+    let mut shares = Vec::new();
+    for (solver, least) in [("modal", 0.997), ("riccati", 0.97)] {
+        let runs = all.iter().flat_map(|model| &model.runs);
+        let runs = runs.filter(|run| run.solver == solver);
+        let errors = runs.flat_map(|run| {
+            run.errors
+                .iter()
+                .flatten()
+                .map(|error| error / run.tolerance)
+        });
+        let errors: Vec<f64> = errors.collect();
+        assert!(
+            errors.len() > 5_000,
+            "{solver}: only {} numbers",
+            errors.len()
+        );
+        let within = errors.iter().filter(|error| **error <= 1.0).count() as f64;
+        shares.push((solver, within / errors.len() as f64, least));
+    }
+    assert!(
+        shares.iter().all(|(_, share, least)| share >= least),
+        "{shares:?}"
+    );
+}
