@@ -195,7 +195,9 @@ def test_pounding_can_be_left_out(towers: jostle.Model, result: jostle.Result) -
     assert closing == max(c["closing_peak_m"] for c in free.summary["gaps"][0]["contacts"])
     # What it says: from that width on they no longer touch.
     assert len(jostle.run(towers, gap=closing * (1 + 1e-9)).impacts) == 0
-    assert len(jostle.run(towers, gap=closing * 0.999).impacts) > 0
+    # A touch within the tolerance is made or missed, and says so.
+    with pytest.warns(jostle.JostleWarning, match="sensitive"):
+        assert len(jostle.run(towers, gap=closing * 0.999).impacts) > 0
 
 
 def test_plot(result: jostle.Result, tmp_path: Path) -> None:

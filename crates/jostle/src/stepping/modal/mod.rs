@@ -149,7 +149,7 @@ pub fn simulate(
             ..Work::default()
         };
         if more {
-            // What a second helping does not mend takes them all.
+            // If one enrichment is not enough, all natural modes are taken.
             let all = enriched.is_some() && work.repeated_runs > 1;
             match reduced.enriched(system, &verdict.lacking, all, &mut work) {
                 Ok(more) => enriched = Some(more),
