@@ -3,7 +3,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
-use super::defects::{Defects, SeveralRates};
+use super::defects;
 use super::span::{RitzModes, Span};
 use crate::equations::Equations;
 use crate::lanes;
@@ -15,8 +15,8 @@ use crate::transfer::riccati::rates::{PerRate, RATES, RateFactors};
 /// flexibility at the contacts and under the ground motion exact.
 pub(super) struct Basis {
     pub(super) modes: RitzModes,
-    /// What every mode misses; `None` where these are all natural modes there are.
-    pub(super) defects: Option<Defects>,
+    /// Whether these are all natural modes there are.
+    pub(super) is_complete: bool,
     /// Factorisations and solutions it took.
     pub(super) factorizations: u64,
     pub(super) solves: u64,
@@ -75,25 +75,9 @@ impl Basis {
         }
         Ok(Self {
             modes: span.ritz_modes()?,
-            defects: None,
+            is_complete: true,
             factorizations: 1,
             solves: masses.len() as u64,
-        })
-    }
-
-    fn with_defects(
-        building: &BuildingSystem,
-        factors: SeveralRates,
-        span: Span<'_>,
-        [factorizations, solves]: [u64; 2],
-    ) -> Result<Self, NotPositive> {
-        let modes = span.ritz_modes()?;
-        let defects = Defects::of(building, factors, &modes);
-        Ok(Self {
-            factorizations,
-            solves: solves + modes.stiffness.len() as u64,
-            defects: Some(defects),
-            modes,
         })
     }
 
@@ -106,20 +90,22 @@ impl Basis {
         building: &BuildingSystem,
         modes: &[usize],
     ) -> Result<Self, NotPositive> {
-        let Some(defects) = &self.defects else {
-            return Self::complete(building);
-        };
         let most = massive(building).count();
-        if 3 * (self.len() + modes.len()) > 2 * most {
+        if self.is_complete || 3 * (self.len() + modes.len()) > 2 * most {
             return Self::complete(building);
         }
+        let missed = defects::vectors(building, &self.modes, modes)?;
         let mut span = Span::empty(building);
-        let missed = modes.iter().map(|mode| &defects.shapes[*mode]);
-        for vector in self.modes.vectors.iter().chain(missed) {
-            span.add(vector.clone());
+        let solves = missed.len() as u64;
+        for vector in self.modes.vectors.iter().cloned().chain(missed) {
+            span.add(vector);
         }
-        let work = [self.factorizations, self.solves];
-        Self::with_defects(building, defects.factors.clone(), span, work)
+        Ok(Self {
+            modes: span.ritz_modes()?,
+            is_complete: false,
+            factorizations: 1,
+            solves,
+        })
     }
 
     /// Number of shapes.
@@ -133,12 +119,6 @@ impl Basis {
         let of_vectors: Vec<f64> = vectors.map(|vector| form(vector)).collect();
         let shapes = self.modes.parts.iter();
         shapes.map(|parts| lanes::dot(parts, &of_vectors)).collect()
-    }
-
-    /// A linear form of what every shape misses; none where nothing is missed.
-    pub(super) fn of_defects(&self, form: impl Fn(&[f64]) -> f64) -> Vec<f64> {
-        let defects = self.defects.iter().flat_map(|defects| &defects.shapes);
-        defects.map(|defect| form(defect)).collect()
     }
 
     /// Adds Σ φ q to a displacement of all degrees of freedom.
@@ -178,7 +158,7 @@ const QUIET: f64 = 1e-2;
 struct Growing<'a> {
     building: &'a BuildingSystem,
     demand: &'a Demand<'a>,
-    factors: SeveralRates,
+    factors: RateFactors,
     span: Span<'a>,
     /// First vector of the last block.
     last_block: usize,
@@ -190,15 +170,13 @@ struct Growing<'a> {
 impl<'a> Growing<'a> {
     fn of(building: &'a BuildingSystem, demand: &'a Demand<'a>) -> Result<Self, NotPositive> {
         let sweep = &*building.sweep;
-        // Rates that are met come first; what is left of the lanes serves modes that are quicker.
-        let asked = demand.met.iter().chain(demand.compared).copied();
-        let quickest = demand.compared.iter().copied().fold(1.0, f64::max);
-        let quicker = (1..).map(|times| quickest * QUICKER.powi(times));
+        // Rates that are met come first; what is left of the lanes repeats them.
+        let asked = || demand.met.iter().chain(demand.compared).copied();
         let mut rates = [0.0; RATES];
-        for (lane, rate) in rates.iter_mut().zip(asked.chain(quicker)) {
+        for (lane, rate) in rates.iter_mut().zip(asked().chain(asked().cycle())) {
             *lane = rate;
         }
-        let factors = SeveralRates::of(sweep, rates)?;
+        let factors = sweep.factorize_at(&rates)?;
         let loads: Vec<Vec<f64>> = std::iter::once(building.equations.driven_mass.clone())
             .chain(demand.faces.iter().map(|face| push_on(building, *face)))
             .collect();
@@ -206,7 +184,7 @@ impl<'a> Growing<'a> {
             .iter()
             .map(|load| {
                 let mut answers: Vec<PerRate> = load.iter().map(|value| [*value; RATES]).collect();
-                sweep.solve_at(&factors.factors, &mut answers);
+                sweep.solve_at(&factors, &mut answers);
                 answers
             })
             .collect();
@@ -250,10 +228,7 @@ impl<'a> Growing<'a> {
 
     /// One block more; false when there is nothing left to find.
     fn extend(&mut self) -> bool {
-        let last_rate = self
-            .factors
-            .factors
-            .only(self.demand.met.len().saturating_sub(1));
+        let last_rate = self.factors.only(self.demand.met.len().saturating_sub(1));
         let answers = answers_to_inertia(
             self.building,
             &last_rate,
@@ -303,14 +278,14 @@ impl<'a> Growing<'a> {
         Ok(true)
     }
 
-    /// The Ritz modes, and what each of them misses.
+    /// The Ritz modes.
     fn finished(self) -> Result<Basis, NotPositive> {
-        Basis::with_defects(
-            self.building,
-            self.factors,
-            self.span,
-            [self.factorizations, self.solves],
-        )
+        Ok(Basis {
+            modes: self.span.ritz_modes()?,
+            is_complete: false,
+            factorizations: self.factorizations,
+            solves: self.solves,
+        })
     }
 }
 
@@ -337,9 +312,6 @@ fn answers_to_inertia(
     }
     found
 }
-
-/// How far apart rates stand that serve quicker modes.
-const QUICKER: f64 = 4.0;
 
 /// A rate at which stiffness does not count beside inertia \[1/s\].
 fn at_once(equations: &Equations) -> f64 {

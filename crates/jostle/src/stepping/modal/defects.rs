@@ -4,59 +4,54 @@
 //! residual of a motion Σ φ q in the equations of the whole building is −Σ (r/θ)(q̈ + α q̇): it is driven by modal
 //! accelerations, and vanishes for natural modes (theory, Eq. Q7).
 
+use super::span::RitzModes;
 use crate::stepping::NotPositive;
 use crate::system::BuildingSystem;
-use crate::transfer::riccati::RiccatiSweep;
-use crate::transfer::riccati::rates::{RATES, RateFactors};
+use crate::transfer::riccati::rates::RATES;
 
-use super::span::RitzModes;
-
-/// Factors of K + s²M at several rates s.
-#[derive(Clone)]
-pub(super) struct SeveralRates {
-    /// s \[1/s\].
-    pub(super) rates: [f64; RATES],
-    pub(super) factors: RateFactors,
-}
-
-impl SeveralRates {
-    pub(super) fn of(sweep: &RiccatiSweep, rates: [f64; RATES]) -> Result<Self, NotPositive> {
-        let factors = sweep.factorize_at(&rates)?;
-        Ok(Self { rates, factors })
-    }
-
-    /// Which of the rates is nearest to a circular frequency, on a scale of ratios.
-    fn nearest(&self, frequency: f64) -> usize {
-        // The slowest stands for all that is slower: modes below it have next to no defects.
-        let far = |lane: usize| {
-            let rate = self.rates[lane];
-            if rate > 0.0 {
-                (rate / frequency).ln().abs()
-            } else {
-                f64::INFINITY
-            }
-        };
-        let lanes = 0..RATES;
-        lanes
-            .min_by(|a, b| far(*a).total_cmp(&far(*b)))
-            .unwrap_or(0)
-    }
-}
-
-/// What every Ritz mode of a building misses.
+/// What every Ritz mode of a building misses at some places, for a unit modal acceleration.
 pub(super) struct Defects {
-    /// d = (K + s²M)⁻¹ r/θ at a rate s near ω, over all degrees of freedom \[s²·kg^−½\].
-    pub(super) shapes: Vec<Vec<f64>>,
+    /// d = (K + s²M)⁻¹ r/θ at a rate s near ω, at every place mode by mode, and last its base shear
+    /// \[s²·kg^−½, N·s²·m⁻¹·kg^−½\].
+    pub(super) rows: Vec<Vec<f64>>,
     /// How much too high θ is, relative \[–\].
-    pub(super) detuning: Vec<f64>,
-    /// To find more with.
-    pub(super) factors: SeveralRates,
+    detuning: Vec<f64>,
 }
 
 /// How much of what a mode off its frequency may be off by counts: seldom do all cycles of a motion count as at resonance.
 const DETUNED: f64 = 0.25;
 
 impl Defects {
+    /// # Errors
+    /// [`NotPositive`] when the building can move without deforming.
+    pub(super) fn of(
+        building: &BuildingSystem,
+        modes: &RitzModes,
+        places: &[usize],
+    ) -> Result<Self, NotPositive> {
+        let count = modes.stiffness.len();
+        let mut found = Self {
+            rows: vec![vec![0.0; count]; places.len() + 1],
+            detuning: vec![0.0; count],
+        };
+        let all: Vec<usize> = (0..count).collect();
+        let mass = &building.equations.mass;
+        for_each_defect(building, modes, &all, |mode, whole, shape, answer| {
+            let theta = modes.stiffness[mode];
+            for (row, place) in found.rows.iter_mut().zip(places) {
+                row[mode] = (shape[*place] - whole * answer[*place]) / theta;
+            }
+            let shear = |vector: &[f64]| building.equations.base_shear(vector);
+            if let Some(row) = found.rows.last_mut() {
+                row[mode] = (shear(shape) - whole * shear(answer)) / theta;
+            }
+            let own = shape.iter().zip(mass).zip(answer);
+            let own: f64 = own.map(|((v, m), y)| v * m * y).sum();
+            found.detuning[mode] = (whole * (whole * own - 1.0) / theta).max(0.0);
+        })?;
+        Ok(found)
+    }
+
     /// What share of a shape, as a displacement for a unit modal acceleration, is off because the frequency is: at
     /// resonance |Δω|/ω over ζ of it, with d = 2ζω \[s²\].
     pub(super) fn detuned(&self, modes: &RitzModes, damping: &[f64]) -> Vec<f64> {
@@ -65,50 +60,67 @@ impl Defects {
             .map(|((shift, d), k)| DETUNED * (shift * k.sqrt() / d).min(1.0) / k)
             .collect()
     }
+}
 
-    pub(super) fn of(building: &BuildingSystem, factors: SeveralRates, modes: &RitzModes) -> Self {
-        let mass = &building.equations.mass;
-        let shapes: Vec<Vec<f64>> = modes.shapes().collect();
-        let count = shapes.len();
-        let mut waiting: [Vec<usize>; RATES] = Default::default();
-        for (mode, theta) in modes.stiffness.iter().enumerate() {
-            waiting[factors.nearest(theta.sqrt())].push(mode);
-        }
-        let mut found = Self {
-            shapes: vec![Vec::new(); count],
-            detuning: vec![0.0; count],
-            factors,
-        };
-        let mut answers = vec![[0.0; RATES]; mass.len()];
-        let walks = waiting.iter().map(Vec::len).max().unwrap_or(0);
-        for walk in 0..walks {
-            // A mode for every rate.
-            for (lane, waiting) in waiting.iter().enumerate() {
-                let mode = waiting.get(walk);
-                for (dof, answer) in answers.iter_mut().enumerate() {
-                    answer[lane] = mode.map_or(0.0, |mode| mass[dof] * shapes[*mode][dof]);
-                }
-            }
-            let factors = &found.factors;
-            building.sweep.solve_at(&factors.factors, &mut answers);
-            for (lane, waiting) in waiting.iter().enumerate() {
-                let Some(&mode) = waiting.get(walk) else {
-                    continue;
-                };
-                let (shape, theta) = (&shapes[mode], modes.stiffness[mode]);
-                let whole = theta + factors.rates[lane].powi(2);
-                let answer = || answers.iter().map(|values| values[lane]);
-                let defect = shape.iter().zip(answer());
-                found.shapes[mode] = defect.map(|(v, y)| (v - whole * y) / theta).collect();
-                let own: f64 = shape
-                    .iter()
-                    .zip(mass)
-                    .zip(answer())
-                    .map(|((v, m), y)| v * m * y)
-                    .sum();
-                found.detuning[mode] = (whole * (whole * own - 1.0) / theta).max(0.0);
-            }
-        }
-        found
+/// The defects of some modes over all degrees of freedom, of any size.
+///
+/// # Errors
+/// [`NotPositive`] when the building can move without deforming.
+pub(super) fn vectors(
+    building: &BuildingSystem,
+    modes: &RitzModes,
+    wanted: &[usize],
+) -> Result<Vec<Vec<f64>>, NotPositive> {
+    let mut found = Vec::with_capacity(wanted.len());
+    for_each_defect(building, modes, wanted, |_, whole, shape, answer| {
+        let defect = shape.iter().zip(answer).map(|(v, y)| v - whole * y);
+        found.push(defect.collect());
+    })?;
+    Ok(found)
+}
+
+/// Calls `take` with every wanted mode, θ + s², its shape and (K + s²M)⁻¹Mφ. Modes come in the order of their
+/// frequencies, so that neighbours share a rate s.
+fn for_each_defect(
+    building: &BuildingSystem,
+    modes: &RitzModes,
+    wanted: &[usize],
+    mut take: impl FnMut(usize, f64, &[f64], &[f64]),
+) -> Result<(), NotPositive> {
+    if wanted.is_empty() {
+        return Ok(());
     }
+    let mass = &building.equations.mass;
+    let share = wanted.len().div_ceil(RATES);
+    let groups: Vec<&[usize]> = wanted.chunks(share).collect();
+    let rates: [f64; RATES] = std::array::from_fn(|lane| {
+        let group = groups[lane.min(groups.len() - 1)];
+        let middle = group[group.len() / 2];
+        modes.stiffness[middle].sqrt()
+    });
+    let factors = building.sweep.factorize_at(&rates)?;
+    let mut answers = vec![[0.0; RATES]; mass.len()];
+    let mut answer = vec![0.0; mass.len()];
+    for walk in 0..share {
+        // A mode for every rate.
+        let lanes = groups.iter().enumerate();
+        let taken = lanes.filter_map(|(lane, group)| group.get(walk).map(|mode| (lane, *mode)));
+        let taken: Vec<(usize, usize, Vec<f64>)> = taken
+            .map(|(lane, mode)| (lane, mode, modes.shape(mode)))
+            .collect();
+        for (lane, _, shape) in &taken {
+            for ((answer, v), m) in answers.iter_mut().zip(shape).zip(mass) {
+                answer[*lane] = v * m;
+            }
+        }
+        building.sweep.solve_at(&factors, &mut answers);
+        for (lane, mode, shape) in &taken {
+            for (value, values) in answer.iter_mut().zip(&answers) {
+                *value = values[*lane];
+            }
+            let whole = modes.stiffness[*mode] + rates[*lane] * rates[*lane];
+            take(*mode, whole, shape, &answer);
+        }
+    }
+    Ok(())
 }

@@ -7,6 +7,7 @@ use pulp::Arch;
 
 use super::basis::{Basis, Demand};
 use super::damped::{Damped, Rules};
+use super::defects::Defects;
 use super::kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
 use super::pushes::{Answer, Push};
 use super::response::{INPUTS, PRODUCTS, Responses};
@@ -95,7 +96,7 @@ impl Reduced {
             work.solves += basis.solves;
             bases.push(Arc::new(basis));
         }
-        Ok(Self::with_bases(system, bases))
+        Self::with_bases(system, bases, work)
     }
 
     /// The same with what some modes of every building miss added, or with all natural modes of these buildings.
@@ -123,10 +124,14 @@ impl Reduced {
             work.solves += basis.solves;
             bases.push(Arc::new(basis));
         }
-        Ok(Self::with_bases(system, bases))
+        Self::with_bases(system, bases, work)
     }
 
-    fn with_bases(system: &System, bases: Vec<Arc<Basis>>) -> Self {
+    fn with_bases(
+        system: &System,
+        bases: Vec<Arc<Basis>>,
+        work: &mut Work,
+    ) -> Result<Self, (usize, NotPositive)> {
         let mut reduced = Self {
             damping: Vec::new(),
             stiffness: Vec::new(),
@@ -137,7 +142,8 @@ impl Reduced {
             pushes: Vec::new(),
         };
         for (index, basis) in bases.into_iter().enumerate() {
-            reduced.add_building(system, index, basis);
+            let added = reduced.add_building(system, index, basis, work);
+            added.map_err(|failure| (index, failure))?;
         }
         if reduced.modes() < FEW_MODES {
             reduced.arch = Arch::Scalar;
@@ -146,10 +152,16 @@ impl Reduced {
         reduced.pushes = contacts
             .map(|contact| Push::of(&reduced, contact))
             .collect();
-        reduced
+        Ok(reduced)
     }
 
-    fn add_building(&mut self, system: &System, index: usize, basis: Arc<Basis>) {
+    fn add_building(
+        &mut self,
+        system: &System,
+        index: usize,
+        basis: Arc<Basis>,
+        work: &mut Work,
+    ) -> Result<(), NotPositive> {
         let building = &system.buildings[index];
         let equations = &building.equations;
         let Watched { places, .. } = Watched::of(system, index);
@@ -183,20 +195,19 @@ impl Reduced {
             .map(|&dof| basis.of_shapes(|vector| vector[dof]))
             .chain([shear])
             .collect();
-        let missed = basis.defects.as_ref().map_or_else(Vec::new, |defects| {
-            let rows = places
-                .iter()
-                .map(|&dof| basis.of_defects(|defect| defect[dof]))
-                .chain([basis.of_defects(|defect| equations.base_shear(defect))]);
+        let mut missed = Vec::new();
+        if !basis.is_complete {
+            let mut defects = Defects::of(building, &basis.modes, &places)?;
+            work.factorizations += 1;
+            work.solves += basis.len() as u64;
             let detuned = defects.detuned(&basis.modes, &self.damping[start..]);
-            let rows = rows.zip(&shown).map(|(mut row, shape)| {
+            for (row, shape) in defects.rows.iter_mut().zip(&shown) {
                 for ((value, shape), detuned) in row.iter_mut().zip(shape).zip(&detuned) {
                     *value += shape * detuned;
                 }
-                row
-            });
-            in_blocks(&rows.collect::<Vec<_>>(), basis.len())
-        });
+            }
+            missed = in_blocks(&defects.rows, basis.len());
+        }
         let blocks = in_blocks(&shown, basis.len());
         let rows = shown.len().div_ceil(ROWS) * ROWS;
         self.buildings.push(ReducedBuilding {
@@ -209,6 +220,7 @@ impl Reduced {
             size: equations.len(),
             basis,
         });
+        Ok(())
     }
 
     /// The registers at hand.

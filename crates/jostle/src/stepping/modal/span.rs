@@ -35,15 +35,13 @@ pub(super) struct RitzModes {
 }
 
 impl RitzModes {
-    /// Shapes over all degrees of freedom \[kg^−½\].
-    pub(super) fn shapes(&self) -> impl Iterator<Item = Vec<f64>> {
-        self.parts.iter().map(|parts| {
-            let mut shape = vec![0.0; self.vectors.first().map_or(0, Vec::len)];
-            for (vector, part) in self.vectors.iter().zip(parts) {
-                lanes::add(&mut shape, *part, vector);
-            }
-            shape
-        })
+    /// A shape over all degrees of freedom \[kg^−½\].
+    pub(super) fn shape(&self, mode: usize) -> Vec<f64> {
+        let mut shape = vec![0.0; self.vectors.first().map_or(0, Vec::len)];
+        for (vector, part) in self.vectors.iter().zip(&self.parts[mode]) {
+            lanes::add(&mut shape, *part, vector);
+        }
+        shape
     }
 }
 
