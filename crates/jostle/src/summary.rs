@@ -293,7 +293,7 @@ pub struct PromiseSummary {
     pub tolerance: f64,
     /// Whether the estimate stays within the tolerance; `null` where there is none, as for buildings that yield.
     pub met: Option<bool>,
-    /// Estimated error of the least accurate peak: of shapes left out and of values between steps in modal stepping, of
+    /// Estimated error of the least accurate peak of a building, contact forces and impulses not included: of shapes left out and of values between steps in modal stepping, of
     /// frequencies moved by the steps otherwise; `null` where it is not estimated \[–\].
     pub residual: Option<f64>,
     /// Instant from which answers hang on contacts made or missed within the tolerance; `null` if they do not \[s\].
