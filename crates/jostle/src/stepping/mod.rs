@@ -20,6 +20,7 @@ mod kernels;
 mod links;
 pub mod modal;
 mod outcome;
+mod peak_change;
 mod plan;
 mod recorder;
 mod sensitivity;
@@ -28,6 +29,7 @@ mod simulation;
 mod springs;
 mod step_matrix;
 mod trial;
+mod within_tolerance;
 
 pub use integrator::Integrator;
 pub use outcome::{Accuracy, Outcome, Pounding, Progress, RunEnd, Settings, StepError};

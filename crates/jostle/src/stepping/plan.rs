@@ -53,8 +53,9 @@ pub(super) const USUAL_TOLERANCE: f64 = 1e-3;
 /// Share of the tolerance that the force of a single impact may use up: what one impact is off, many later ones multiply.
 const CONTACT_SHARE: f64 = 0.1;
 const MODAL_CONTACT_SHARE: f64 = 0.05;
-/// Steps per half cycle of a contact that remain however weak it is.
-const FEWEST_ADAPTED: f64 = 10.0;
+/// Steps per half cycle of a contact that remain however weak it is, relative to those of an impact, and at least.
+const FEWEST_ADAPTED: f64 = 1.0 / 6.0;
+const FEWEST_OF_ALL: f64 = 4.0;
 /// How much finer steps begin where the force starts steeply.
 const STEEP_START: f64 = 32.0;
 /// Free-flight step where nothing else limits it \[s\].
@@ -161,6 +162,41 @@ impl Plan {
         }
     }
 
+    /// The same plan with steps shorter by about this factor, in free flight and in contact; longer ones for less than 1.
+    /// Steps go on landing on the points of a record.
+    pub(super) fn refined(&self, factor: f64, motion: &GroundMotion) -> Self {
+        let step = self.step / factor;
+        let step = match motion.step() {
+            Some(record_step) => record_step / (record_step / step - 1e-9).ceil().max(1.0),
+            None => step,
+        };
+        self.with_step(Some(step))
+    }
+
+    /// The same plan with another step of free flight, and steps in contact to match, whose error falls with its square.
+    pub(super) fn with_step(&self, step: Option<f64>) -> Self {
+        let step = step.unwrap_or(self.step);
+        let factor = self.step / step;
+        let contact_steps = match self.contact_steps {
+            ContactSteps::PerImpact { steps, tolerance } if self.solver != Solver::Modal => {
+                ContactSteps::PerImpact {
+                    steps: steps * factor,
+                    tolerance: tolerance / (factor * factor),
+                }
+            }
+            given => given,
+        };
+        Self {
+            step: if self.solver == Solver::Modal {
+                self.step
+            } else {
+                step
+            },
+            contact_steps,
+            ..*self
+        }
+    }
+
     /// How far peaks may be off because average acceleration slows every mode down; `None` where buildings yield, whose
     /// modes change, or another integrator is asked for \[–\].
     #[must_use]
@@ -236,7 +272,7 @@ impl Plan {
         if self.solver == Solver::Modal {
             MODAL_FEWEST_ADAPTED * steps
         } else {
-            FEWEST_ADAPTED
+            (FEWEST_ADAPTED * steps).max(FEWEST_OF_ALL)
         }
     }
 

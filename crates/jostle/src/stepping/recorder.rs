@@ -18,18 +18,7 @@ pub(crate) struct Recorder {
     pub(crate) base_shear: Vec<f64>,
     /// Displacement and velocity of every floor, and closing and rate of every contact, a step ago.
     before: Vec<(f64, f64)>,
-    /// Total acceleration of every floor two steps and a step ago; none after a jump or a step of another length.
-    bends: Vec<[f64; 2]>,
-    last_step: f64,
-    /// How sharply that of every floor turned near its peaks \[m/s²\].
-    sharpest: Vec<f64>,
 }
-
-/// Share of the greatest acceleration so far from which its turns count.
-const NEAR_PEAK: f64 = 0.7;
-/// What peaks may be off, in second differences of the values at the ends of steps. Set on the built-in example, where ten
-/// times as much overstates the error tenfold; runs of lightly damped frames may miss more than it says.
-const MISSED_OF_BEND: f64 = 0.04;
 
 /// Columns of a history, in order.
 pub(crate) fn columns(system: &System) -> Vec<Column> {
@@ -77,9 +66,6 @@ impl Recorder {
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
             before: Vec::with_capacity(tracked),
-            bends: Vec::with_capacity(tracked),
-            last_step: 0.0,
-            sharpest: vec![0.0; system.buildings.iter().map(|b| b.floors.len()).sum()],
         }
     }
 
@@ -116,7 +102,6 @@ impl Recorder {
 
     /// Updates peaks with the step that ended in `state`.
     pub(crate) fn after_step(&mut self, system: &System, state: &State, step: f64, ground: f64) {
-        self.follow_bends(system, state, step, ground);
         let (u, v) = (&state.displacement, &state.velocity);
         let start = state.time - step;
         let mut before = self.before.iter();
@@ -165,45 +150,6 @@ impl Recorder {
                 let total = (state.acceleration[floor.dof] + ground).abs();
                 peaks.total_acceleration = peaks.total_acceleration.max(total);
             }
-        }
-        self.bends.clear();
-    }
-
-    /// How far acceleration peaks may be off, relative to the greatest of their building: steps that see a quantity turn
-    /// by d from one to the next miss some part of d, and slow it down \[–\].
-    pub(crate) fn bent(&self) -> f64 {
-        let mut sharpest = self.sharpest.iter();
-        let buildings = self.floors.iter().map(|floors| {
-            let greatest = floors.iter().map(|floor| floor.total_acceleration);
-            let greatest = greatest.fold(f64::MIN_POSITIVE, f64::max);
-            let own = sharpest.by_ref().take(floors.len());
-            own.fold(0.0, |most: f64, bend| most.max(*bend)) / greatest
-        });
-        MISSED_OF_BEND * buildings.fold(0.0, f64::max)
-    }
-
-    /// Follows how sharply accelerations turn where they are greatest.
-    fn follow_bends(&mut self, system: &System, state: &State, step: f64, ground: f64) {
-        let floors = system
-            .buildings
-            .iter()
-            .flat_map(|building| &building.floors);
-        let totals = floors.map(|floor| state.acceleration[floor.dof] + ground);
-        if self.bends.is_empty() || (step - self.last_step).abs() > 1e-9 * step {
-            self.last_step = step;
-            self.bends.clear();
-            self.bends.extend(totals.map(|total| [f64::NAN, total]));
-            return;
-        }
-        let peaks = self.floors.iter().flatten();
-        let own = self.bends.iter_mut().zip(&mut self.sharpest).zip(peaks);
-        for (((known, sharpest), peaks), total) in own.zip(totals) {
-            let [then, before] = *known;
-            let bend = (total - 2.0 * before + then).abs();
-            if before.abs() >= NEAR_PEAK * peaks.total_acceleration && bend.is_finite() {
-                *sharpest = sharpest.max(bend);
-            }
-            *known = [before, total];
         }
     }
 

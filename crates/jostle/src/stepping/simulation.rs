@@ -19,6 +19,7 @@ use super::plan::Plan;
 use super::recorder::Recorder;
 use super::springs::YieldingSprings;
 use super::trial::ContactTrial;
+use super::within_tolerance::within_tolerance;
 use crate::gravity::STANDARD_GRAVITY;
 use crate::history::{Impact, Work};
 use crate::lanes;
@@ -90,32 +91,27 @@ pub fn simulate_from(
     }
 }
 
-/// Most times that steps are halved because a run was not within the tolerance.
-const MOST_REPEATS: u64 = 3;
-
-/// Runs a system, and again with steps of half the length while these are automatic and the run says that its peaks are not
-/// within the tolerance.
-fn within_tolerance<E: StepEquations>(
+/// Runs a system from rest with the steps of the plan, whatever their error.
+pub(super) fn simulate_once(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
     settings: Settings,
-    state: State,
-    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
+    observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
-    let mut finer = *plan;
-    let mut repeats = 0;
-    loop {
-        let run = Simulation::<E>::new(system, motion, &finer, settings, state.clone());
-        let mut outcome = run.run(&mut observer);
-        outcome.work.repeated_runs = repeats;
-        let missed = |accuracy: Accuracy| accuracy.residual > accuracy.tolerance;
-        let again = outcome.end == RunEnd::Completed && outcome.accuracy.is_some_and(missed);
-        if !again || repeats == MOST_REPEATS || !plan.is_automatic(system, motion) {
-            return outcome;
+    let rest = || State::at_rest(system, motion.acceleration(0.0));
+    match plan.solver {
+        Solver::Modal => simulate(system, motion, plan, settings, observer),
+        Solver::Riccati => {
+            Simulation::<RiccatiSweep>::new(system, motion, plan, settings, rest()).run(observer)
         }
-        repeats += 1;
-        finer.step *= 0.5;
+        Solver::Stiffness => {
+            Simulation::<DirectStiffness>::new(system, motion, plan, settings, rest()).run(observer)
+        }
+        Solver::Product => {
+            Simulation::<ProductEquations>::new(system, motion, plan, settings, rest())
+                .run(observer)
+        }
     }
 }
 
@@ -167,7 +163,7 @@ const MOST_EVENTS_AT_ONCE: usize = 1000;
 const COLLAPSE_DRIFT: f64 = 0.25;
 
 impl<'a, E: StepEquations> Simulation<'a, E> {
-    fn new(
+    pub(super) fn new(
         system: &'a System,
         motion: &'a GroundMotion,
         plan: &'a Plan,
@@ -214,7 +210,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         }
     }
 
-    fn run(mut self, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Outcome {
+    pub(super) fn run(mut self, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Outcome {
         let duration = self.motion.duration;
         self.recorder.record(
             self.system,
@@ -257,7 +253,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         let residual = self.plan.frequency_error(self.system, self.motion);
         let accuracy = residual.map(|residual| Accuracy {
             tolerance: self.plan.tolerance(),
-            residual: residual.max(self.recorder.bent()),
+            residual,
             doubtful_from: None,
             sensitive_from: None,
         });

@@ -1,0 +1,60 @@
+//! How far the reported peaks of two runs of one system differ.
+
+use super::outcome::Outcome;
+use crate::history::{FloorPeaks, Impact};
+use crate::system::System;
+
+/// Greatest difference of peaks, relative to the greatest of its kind in the building or gap \[–\].
+pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
+    let kinds: [fn(&FloorPeaks) -> f64; 4] = [
+        |floor| floor.displacement_max.value,
+        |floor| floor.displacement_min.value,
+        |floor| floor.storey_drift,
+        |floor| floor.total_acceleration,
+    ];
+    let mut worst = 0.0_f64;
+    for (index, (a_floors, b_floors)) in a.floors.iter().zip(&b.floors).enumerate() {
+        let shears = [a.base_shear[index], b.base_shear[index]];
+        worst = worst.max(relative([shears].into_iter()));
+        for kind in kinds {
+            let pairs = a_floors.iter().zip(b_floors);
+            worst = worst.max(relative(pairs.map(|(a, b)| [kind(a), kind(b)])));
+        }
+    }
+    let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
+    for gap in 0..gaps {
+        let contacts = 0..system.contacts.len();
+        let own = contacts.filter(|contact| system.contacts[*contact].gap == gap);
+        let own: Vec<usize> = own.collect();
+        let both = |of: fn(&Outcome, usize) -> f64| own.iter().map(move |c| [of(a, *c), of(b, *c)]);
+        worst = worst.max(relative(both(peak_force)));
+        worst = worst.max(relative(both(impulse)));
+    }
+    worst
+}
+
+fn relative(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let (mut greatest, mut change) = (0.0_f64, 0.0_f64);
+    for [a, b] in pairs {
+        greatest = greatest.max(a.abs()).max(b.abs());
+        change = change.max((a - b).abs());
+    }
+    if greatest > 0.0 {
+        change / greatest
+    } else {
+        0.0
+    }
+}
+
+pub(super) fn impacts(outcome: &Outcome, contact: usize) -> impl Iterator<Item = &Impact> {
+    let own = move |impact: &&Impact| impact.contact == contact;
+    outcome.impacts.iter().filter(own)
+}
+
+fn peak_force(outcome: &Outcome, contact: usize) -> f64 {
+    impacts(outcome, contact).fold(0.0, |most, impact| most.max(impact.peak_force))
+}
+
+fn impulse(outcome: &Outcome, contact: usize) -> f64 {
+    impacts(outcome, contact).fold(0.0, |sum, impact| sum + impact.impulse)
+}

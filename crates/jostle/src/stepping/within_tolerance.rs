@@ -1,0 +1,89 @@
+//! Direct runs at two step sizes, whose difference measures the error of every reported peak.
+
+use std::ops::ControlFlow;
+
+use super::StepEquations;
+use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings};
+use super::peak_change::change_of_peaks;
+use super::plan::Plan;
+use super::simulation::Simulation;
+use crate::motion::GroundMotion;
+use crate::state::State;
+use crate::system::System;
+
+/// Refinements before the error that is left is reported.
+const MOST_REFINEMENTS: u64 = 4;
+/// Margin of the measured error: errors of single peaks fall less regularly than the square of the step.
+const MARGIN: f64 = 1.5;
+/// Share of the tolerance at which refined steps aim.
+const AIM: f64 = 0.5;
+/// Least and greatest factors by which steps are refined at a time.
+const REFINEMENT: [f64; 2] = [1.4, 3.0];
+/// Runs do not converge where a refinement leaves more than this share of the error.
+const LEFT_OVER: f64 = 0.8;
+
+/// Runs an elastic system with automatic steps twice, the second time with steps half as long, and goes on refining them
+/// while the error of the finer run exceeds the tolerance. Other systems run once.
+///
+/// Average acceleration is of second order: where steps shrink by the factor r, the error of the finer run is the difference
+/// of both over r² − 1 (L. F. Richardson, 1911, Phil. Trans. R. Soc. A 210, 307–357).
+pub(super) fn within_tolerance<E: StepEquations>(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    state: State,
+    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Outcome {
+    let mut run = |plan: &Plan| {
+        Simulation::<E>::new(system, motion, plan, settings, state.clone()).run(&mut observer)
+    };
+    if !plan.is_automatic(system, motion) || plan.frequency_error(system, motion).is_none() {
+        return run(plan);
+    }
+    let mut fine = *plan;
+    let coarser = plan.refined(0.5, motion);
+    let mut coarse = if coarser.step > plan.step * (1.0 + 1e-9) {
+        coarser
+    } else {
+        fine = plan.refined(2.0, motion);
+        *plan
+    };
+    let mut before = run(&coarse);
+    if before.end == RunEnd::Stopped {
+        return before;
+    }
+    let mut last = f64::INFINITY;
+    let mut refinements = 0;
+    loop {
+        let mut outcome = run(&fine);
+        outcome.work.repeated_runs = refinements;
+        if outcome.end != RunEnd::Completed {
+            return outcome;
+        }
+        let ratio = coarse.step / fine.step;
+        let change = if before.end == RunEnd::Completed {
+            change_of_peaks(system, [&before, &outcome])
+        } else {
+            1.0
+        };
+        let residual = MARGIN * change / (ratio * ratio - 1.0);
+        let tolerance = plan.tolerance();
+        outcome.accuracy = Some(Accuracy {
+            tolerance,
+            residual,
+            doubtful_from: None,
+            sensitive_from: None,
+        });
+        let converges = residual < LEFT_OVER * last;
+        if residual <= tolerance || refinements == MOST_REFINEMENTS || !converges {
+            return outcome;
+        }
+        refinements += 1;
+        last = residual;
+        let [least, most] = REFINEMENT;
+        let wanted = (residual / (AIM * tolerance)).sqrt().clamp(least, most);
+        (before, coarse) = (outcome, fine);
+        fine = fine.refined(wanted, motion);
+    }
+}
