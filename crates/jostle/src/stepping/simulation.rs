@@ -63,8 +63,8 @@ pub fn simulate_from(
     step_through(system, motion, plan, settings, state, &mut observer)
 }
 
-/// The same for any observer, so that all of stepping is compiled once, here, and not again in every crate that runs
-/// something: twice the time to build, and nothing inlined across crates.
+/// [`simulate_from`] for any observer. A trait object keeps stepping out of generic code, which every crate that runs a
+/// simulation would compile again, without inlining the functions of this one.
 fn step_through(
     system: &System,
     motion: &GroundMotion,
