@@ -62,6 +62,8 @@ pub(crate) enum Command {
     Schema(SchemaArgs),
     /// Print a script that completes commands and options in a shell
     Completions(CompletionsArgs),
+    /// Write manual pages for `man`
+    Man(crate::man::ManArgs),
 }
 
 #[derive(Debug, clap::Args)]

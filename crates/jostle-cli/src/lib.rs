@@ -7,6 +7,7 @@ mod completions;
 mod export;
 mod failure;
 mod gap;
+mod man;
 mod method;
 mod modes;
 mod motion;
@@ -51,6 +52,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Section(args) => section::section(&args),
         Command::New(args) => starter::new(&args),
         Command::Completions(args) => completions::completions(&args),
+        Command::Man(args) => man::man(&args),
         Command::Schema(args) => terminal::print(&if args.markdown {
             jostle_io::model_reference()
         } else {

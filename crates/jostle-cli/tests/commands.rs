@@ -4,7 +4,9 @@ mod common;
 
 use std::path::Path;
 
-use common::{command, complained, folder, jostle, printed};
+#[cfg(unix)]
+use common::command;
+use common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 fn summary_of(folder: &Path) -> Value {

@@ -137,6 +137,33 @@ fn completions_know_the_commands_of_every_shell() {
 }
 
 #[test]
+fn manual_pages_cover_every_command() {
+    let folder = folder();
+    let output = jostle(folder.path(), &["man", "new/man1"]);
+    assert!(output.status.success(), "{}", complained(&output));
+    let page = |name: &str| {
+        let path = folder.path().join("new/man1").join(name);
+        std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{name}: {error}"))
+    };
+    assert!(page("jostle.1").contains("jostle\\-pushover(1)"));
+    assert!(page("jostle-run.1").contains("no\\-report"));
+    // Commands of commands have theirs.
+    assert!(page("jostle-motion-spectrum.1").contains("damping"));
+    // Every page begins with its title and its name.
+    for entry in std::fs::read_dir(folder.path().join("new/man1")).expect("a folder") {
+        let name = entry.expect("an entry").file_name();
+        let name = name.to_string_lossy();
+        let text = page(&name);
+        let stem = name.trim_end_matches(".1");
+        assert!(
+            text.contains(&format!(".TH {} 1", stem.to_uppercase())),
+            "{name}"
+        );
+        assert!(text.contains(&stem.replace('-', "\\-")), "{name}");
+    }
+}
+
+#[test]
 fn completions_for_bash_are_a_sound_script() {
     let folder = folder();
     let output = jostle(folder.path(), &["completions", "bash"]);

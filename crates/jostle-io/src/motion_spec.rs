@@ -115,7 +115,7 @@ pub enum MotionError {
         names: Vec<String>,
     },
     /// Neither a built-in record nor a file.
-    #[error("there is no record \"{name}\"{}; built-in records: {}", similar(.nearest), builtin::record_names())]
+    #[error("there is no record \"{}\"{}; built-in records: {}", printable(name), remedy(name, .nearest), builtin::record_names())]
     NotFound {
         /// Name as written.
         name: String,
@@ -154,8 +154,22 @@ pub enum MotionError {
     },
 }
 
-fn similar(nearest: &[String]) -> String {
-    if nearest.is_empty() {
+/// A name with what cannot be seen spelt out, as `\n`.
+fn printable(name: &str) -> String {
+    let spelt = |c: char| match c {
+        _ if c.is_control() => c.escape_default().to_string(),
+        _ => c.to_string(),
+    };
+    name.chars().map(spelt).collect()
+}
+
+/// What to do about a Windows path in a TOML string.
+pub(crate) const BACKSLASH: &str = "a backslash inside \"…\" starts an escape; in a path write / instead, or put the path in single quotes: 'C:\\records\\a.at2'";
+
+fn remedy(name: &str, nearest: &[String]) -> String {
+    if name.contains(char::is_control) {
+        format!("; {BACKSLASH}")
+    } else if nearest.is_empty() {
         String::new()
     } else {
         format!(" (did you mean \"{}\"?)", nearest.join("\" or \""))

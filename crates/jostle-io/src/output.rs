@@ -44,13 +44,33 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
         let mut file = builder.tempfile_in(folder)?;
         file.write_all(bytes)?;
         file.as_file().sync_all()?;
-        file.persist(path).map_err(|error| error.error)?;
-        Ok(())
+        put_in_place(file, path)
     };
     write().map_err(|error| OutputError::Io {
         path: path.to_owned(),
         error,
     })
+}
+
+/// How often and how long \[ms\] to try. On Windows a file cannot be replaced while a virus scanner or an indexer has it
+/// open, which is over in a moment.
+const TRIES: (u32, u64) = if cfg!(windows) { (10, 50) } else { (1, 0) };
+
+fn put_in_place(mut file: tempfile::NamedTempFile, path: &Path) -> std::io::Result<()> {
+    let mut left = TRIES.0;
+    loop {
+        left -= 1;
+        match file.persist(path) {
+            Ok(_) => return Ok(()),
+            Err(failed)
+                if left > 0 && failed.error.kind() == std::io::ErrorKind::PermissionDenied =>
+            {
+                file = failed.file;
+                std::thread::sleep(std::time::Duration::from_millis(TRIES.1));
+            }
+            Err(failed) => return Err(failed.error),
+        }
+    }
 }
 
 /// Temporary files are private by default; results follow the user's umask.

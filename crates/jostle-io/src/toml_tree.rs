@@ -3,6 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::motion_spec::BACKSLASH;
 use crate::source::Span;
 use crate::tree::{Entry, Node, SyntaxError, Table, Value};
 
@@ -19,7 +20,7 @@ pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
         .into_iter()
         .map(|error| SyntaxError {
             span: error.span().unwrap_or(0..0),
-            problem: error.message().trim().replace('\n', "; "),
+            problem: problem(error.message()),
         })
         .collect();
     faults.sort_by_key(|fault| fault.span.start);
@@ -32,6 +33,16 @@ pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
     // A file that is no TOML at all needs no hundred messages.
     faults.truncate(8);
     Err(faults)
+}
+
+/// The message of a syntax error in one line, with the remedy for the usual slip with a path of Windows.
+fn problem(message: &str) -> String {
+    let line = message.trim().replace('\n', "; ");
+    if line.contains("escaped value") {
+        format!("{line}; {BACKSLASH}")
+    } else {
+        line
+    }
 }
 
 fn table(parsed: &DeTable<'_>) -> Table {

@@ -464,6 +464,21 @@ fn motion_faults_are_explained() {
     let error = input.ground_motion().expect_err("there is no such record");
     assert_eq!(error.to_string(), wanted);
 
+    // Paths of Windows: `\r` and `\n` are escapes, `\d` is none.
+    let input = read(&motion(r#"record = "C:\records\new.at2""#), Format::Toml)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let error = input.ground_motion().expect_err("there is no such record");
+    let told = error.to_string();
+    let remedy = "a backslash inside \"…\" starts an escape; in a path write / instead";
+    assert!(
+        told.contains(r#"there is no record "C:\records\new.at2""#),
+        "{told}"
+    );
+    assert!(told.contains(remedy), "{told}");
+    let told = message(&motion(r#"record = "C:\dir\a.at2""#));
+    assert!(told.starts_with("model.toml:9:"), "{told}");
+    assert!(told.contains(remedy), "{told}");
+
     let still = read(SHEAR, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
     let error = still.ground_motion().expect_err("there is no motion");
     assert_eq!(

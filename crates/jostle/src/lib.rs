@@ -23,13 +23,16 @@ pub mod transfer;
 
 mod check;
 mod check_row;
+mod cholesky;
 mod contact_points;
 mod element;
 mod finite;
+mod full_matrix;
 mod lanes;
 mod member_end;
 mod row;
 mod small_keys;
+mod sparse_cholesky;
 mod stretches;
 mod summarise;
 

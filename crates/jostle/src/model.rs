@@ -393,7 +393,7 @@ impl Default for Analysis {
 pub enum Solver {
     /// Riccati transfer recursion along beams, column lines and storeys.
     Riccati,
-    /// Direct stiffness assembled and factorised by a general sparse library: the independent check.
+    /// Direct stiffness, assembled and factorised by a general sparse elimination: the independent check.
     Stiffness,
     /// Total transfer equation: products of transfer matrices, as published for pounding frames. Loses digits
     /// at small steps and in tall buildings; ask [`crate::transfer::ProductEquations::check_step`] first.

@@ -1,27 +1,24 @@
-//! Direct stiffness: the independent second path. Assembled from element matrices and factorised by a general
-//! sparse library with its own ordering; it shares no elimination with the Riccati recursion.
-
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{MatMut, Side};
+//! Direct stiffness: the independent second path. Assembled from element matrices and factorised by a general sparse
+//! elimination with its own ordering; it shares no elimination with the Riccati recursion.
 
 use crate::element::{self, Part};
+use crate::sparse_cholesky::{NoPivot, Pattern, SparseFactor};
 use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 
 /// Element entries of the step matrix of one building.
 #[derive(Clone, Debug)]
 pub struct DirectStiffness {
-    order: usize,
-    stiffness: Vec<(Part, usize, usize, f64)>,
+    stiffness: Vec<(Part, f64)>,
     mass: Vec<f64>,
     springs: Vec<[Option<usize>; 2]>,
+    /// Of the stiffnesses, the masses and the springs, in this order.
+    pattern: Pattern,
 }
 
 /// A factorised step matrix.
 #[derive(Clone, Debug, Default)]
-pub struct DirectFactor(Option<Llt<usize, f64>>);
+pub struct DirectFactor(SparseFactor);
 
 impl StepEquations for DirectStiffness {
     type Factor = DirectFactor;
@@ -30,17 +27,24 @@ impl StepEquations for DirectStiffness {
         let equations = &building.equations;
         let entries = element::stiffnesses(&building.idealisation.skeleton)
             .flat_map(|element| element.entries);
-        let stiffness = entries
-            .filter_map(|(part, a, b, value)| {
-                Some((part, equations.dof(a)?, equations.dof(b)?, value))
-            })
-            .filter(|(_, row, column, _)| row >= column)
-            .collect();
+        let (mut places, mut stiffness) = (Vec::new(), Vec::new());
+        for (part, a, b, value) in entries {
+            if let (Some(row), Some(column)) = (equations.dof(a), equations.dof(b))
+                && row >= column
+            {
+                places.push((row, column));
+                stiffness.push((part, value));
+            }
+        }
+        places.extend((0..equations.len()).map(|dof| (dof, dof)));
+        let springs: Vec<_> = equations.springs.iter().map(|spring| spring.dofs).collect();
+        let of_springs = springs.iter().flat_map(|dofs| spring_entries(*dofs));
+        places.extend(of_springs.map(|(row, column, _)| (row, column)));
         Self {
-            order: equations.len(),
+            pattern: Pattern::new(equations.len(), &places),
             stiffness,
             mass: equations.mass.clone(),
-            springs: equations.springs.iter().map(|spring| spring.dofs).collect(),
+            springs,
         }
     }
 
@@ -50,47 +54,26 @@ impl StepEquations for DirectStiffness {
         tangents: &[f64],
         factor: &mut DirectFactor,
     ) -> Result<(), NotPositive> {
-        let members = self
-            .stiffness
-            .iter()
-            .map(|&(part, row, col, value)| Triplet {
-                row,
-                col,
-                val: matrix.weight(part) * value,
-            });
-        let inertia = self.mass.iter().enumerate().map(|(dof, mass)| Triplet {
-            row: dof,
-            col: dof,
-            val: matrix.mass * mass,
+        let members = self.stiffness.iter();
+        let members = members.map(|(part, value)| matrix.weight(*part) * value);
+        let inertia = self.mass.iter().map(|mass| matrix.mass * mass);
+        let springs = self.springs.iter().zip(tangents);
+        let springs = springs.flat_map(|(dofs, tangent)| {
+            spring_entries(*dofs).map(move |(_, _, sign)| sign * tangent)
         });
-        let mut triplets: Vec<_> = members.chain(inertia).collect();
-        for (dofs, &tangent) in self.springs.iter().zip(tangents) {
-            for row in dofs.iter().flatten() {
-                for col in dofs.iter().flatten().filter(|col| row >= col) {
-                    let val = if row == col { tangent } else { -tangent };
-                    triplets.push(Triplet {
-                        row: *row,
-                        col: *col,
-                        val,
-                    });
-                }
-            }
-        }
-        let failed = NotPositive { dof: 0 };
-        let matrix =
-            SparseColMat::<usize, f64>::try_new_from_triplets(self.order, self.order, &triplets)
-                .map_err(|_| failed)?;
-        let symbolic = SymbolicLlt::try_new(matrix.symbolic(), Side::Lower).map_err(|_| failed)?;
-        factor.0 = Some(
-            Llt::try_new_with_symbolic(symbolic, matrix.as_ref(), Side::Lower)
-                .map_err(|_| failed)?,
-        );
-        Ok(())
+        self.pattern
+            .factorize(members.chain(inertia).chain(springs), &mut factor.0)
+            .map_err(|NoPivot(dof)| NotPositive { dof })
     }
 
     fn solve(&self, factor: &DirectFactor, load: &mut [f64]) {
-        if let Some(llt) = &factor.0 {
-            llt.solve_in_place(MatMut::from_column_major_slice_mut(load, self.order, 1));
-        }
+        self.pattern.solve(&factor.0, load);
     }
+}
+
+/// Rows, columns and signs of the entries of a spring between two degrees of freedom, one triangle.
+fn spring_entries(dofs: [Option<usize>; 2]) -> impl Iterator<Item = (usize, usize, f64)> {
+    let own = |dof: Option<usize>| dof.map(|dof| (dof, dof, 1.0));
+    let between = dofs[0].zip(dofs[1]).map(|(a, b)| (a, b, -1.0));
+    [own(dofs[0]), own(dofs[1]), between].into_iter().flatten()
 }

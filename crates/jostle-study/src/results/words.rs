@@ -55,13 +55,33 @@ pub(super) fn design(kind: DesignKind) -> &'static str {
     }
 }
 
-/// A path as an argument that a shell takes for one.
+/// A path as an argument that the shells of this system take for one.
 pub(super) fn argument(path: &Path) -> String {
-    let text = path.display().to_string();
+    quoted(path.display().to_string(), cfg!(windows))
+}
+
+fn quoted(text: String, for_windows: bool) -> String {
     let plain = |c: char| c.is_alphanumeric() || matches!(c, '/' | '\\' | '.' | '_' | '-' | ':');
     if text.chars().all(plain) && !text.starts_with('-') {
         text
+    } else if for_windows {
+        // No path of Windows contains quotation marks.
+        format!("\"{text}\"")
     } else {
         format!("'{}'", text.replace('\'', "'\\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_quoted_as_the_shell_expects() {
+        let both = |text: &str| [false, true].map(|windows| quoted(text.into(), windows));
+        assert_eq!(both("a/b-1.toml"), ["a/b-1.toml", "a/b-1.toml"]);
+        assert_eq!(both("C:\\a\\b"), ["C:\\a\\b", "C:\\a\\b"]);
+        assert_eq!(both("my study"), ["'my study'", "\"my study\""]);
+        assert_eq!(both("it's"), ["'it'\\''s'", "\"it's\""]);
     }
 }

@@ -1,6 +1,7 @@
 //! Numbers between 0 and 1, each a function of the seed and its place alone, and what distributions make of them.
 
 mod copula;
+mod joe_kuo;
 mod latin_hypercube;
 mod quantile;
 mod sequence;

@@ -85,6 +85,7 @@ fn turn_back(
 }
 
 /// The piece on which the spring moves towards a side; it is on no branch that leads the other way.
+#[inline(always)] // a piece then stays in registers
 fn ahead(
     backbone: &Backbone,
     exponent: Option<f64>,

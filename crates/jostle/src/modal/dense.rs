@@ -1,6 +1,4 @@
-//! All modes at once from a library, the independent check.
-
-use faer::{Mat, Side};
+//! All modes at once from an eigenvalue solver for full matrices, the independent check.
 
 use super::Mode;
 use super::lateral::Flexibility;
@@ -8,38 +6,41 @@ use crate::stepping::{NotPositive, StepEquations};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::RiccatiSweep;
 
-/// All modes of a building, longest period first, from a dense eigenvalue solver.
+/// All modes of a building, longest period first, from an eigenvalue solver for full symmetric matrices, such as that
+/// of a library.
+///
+/// `eigen` is given the rows of the lower triangle and returns the eigenvalues with their eigenvectors, in any order,
+/// or `None` if it fails.
 ///
 /// M^½ (K⁻¹)_mm M^½ has the eigenvalues 1/ω² (theory, Eq. M1), so that the lowest modes are the most accurate
 /// ones. Its cost grows with the cube of the number of masses. Within a double frequency the shapes are whatever
-/// the library returns.
+/// the solver returns.
 ///
 /// # Errors
-/// [`NotPositive`] when the building can move without deforming.
-pub fn modes_dense(building: &BuildingSystem) -> Result<Vec<Mode>, NotPositive> {
+/// [`NotPositive`] when the building can move without deforming, or `eigen` fails.
+pub fn modes_dense(
+    building: &BuildingSystem,
+    eigen: impl FnOnce(&[Vec<f64>]) -> Option<Vec<(f64, Vec<f64>)>>,
+) -> Result<Vec<Mode>, NotPositive> {
     let sweep = RiccatiSweep::of(building);
     let mut flexibility = Flexibility::along(building, &sweep)?;
     let n = flexibility.len();
     if n == 0 {
         return Ok(Vec::new());
     }
-    let mut matrix = Mat::zeros(n, n);
+    let mut lower: Vec<Vec<f64>> = (0..n).map(|i| vec![0.0; i + 1]).collect();
     for j in 0..n {
         let column = flexibility.column(j);
         for i in j..n {
-            matrix[(i, j)] = column[i];
+            lower[i][j] = column[i];
         }
     }
-    let eigen = matrix
-        .self_adjoint_eigen(Side::Lower)
-        .map_err(|_| NotPositive { dof: 0 })?;
-    let mut modes = Vec::new();
-    for k in (0..n).rev() {
-        let shape: Vec<f64> = (0..n).map(|i| eigen.U()[(i, k)]).collect();
-        if eigen.S()[k] > 0.0 {
-            let shape = flexibility.with_massless(&shape, eigen.S()[k]);
-            modes.push(Mode::of(building, 1.0 / eigen.S()[k], shape));
-        }
-    }
-    Ok(modes)
+    let mut pairs = eigen(&lower).ok_or(NotPositive { dof: 0 })?;
+    pairs.retain(|(value, _)| *value > 0.0);
+    pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let modes = pairs.into_iter().map(|(value, shape)| {
+        let shape = flexibility.with_massless(&shape, value);
+        Mode::of(building, 1.0 / value, shape)
+    });
+    Ok(modes.collect())
 }

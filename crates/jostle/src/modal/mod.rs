@@ -2,7 +2,7 @@
 //!
 //! Three ways to the same numbers. [`modes`] slices the spectrum by counting negative pivots of the Riccati
 //! recursion and cannot miss a mode; [`lateral_modes`] goes straight for those that horizontal shaking excites,
-//! and is quick enough for every assembly; [`modes_dense`] hands all of them to a library, as a check.
+//! and is quick enough for every assembly; [`modes_dense`] hands all of them to an eigenvalue solver for full matrices, as a check.
 
 mod dense;
 mod lateral;

@@ -59,7 +59,20 @@ pub fn simulate_from(
     plan: &Plan,
     settings: Settings,
     state: State,
-    observer: impl FnMut(Progress) -> ControlFlow<()>,
+    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Outcome {
+    step_through(system, motion, plan, settings, state, &mut observer)
+}
+
+/// [`simulate_from`] for any observer. A trait object keeps stepping out of generic code, which every crate that runs a
+/// simulation would compile again, without inlining the functions of this one.
+fn step_through(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    state: State,
+    observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
     if plan.solver != Solver::Modal
         && let Some(building) = system.buildings.iter().find(|b| b.modal_damping.is_some())

@@ -10,12 +10,10 @@
 //! Slower than [`crate::RiccatiSweep`] and kept as its check: S is a flexibility, so the two eliminate in
 //! opposite senses and share nothing but the elements.
 
-use faer::Mat;
-use faer::linalg::solvers::{PartialPivLu, Solve};
-
 use super::condensed_beam::{BeamFactor, CondensedBeam};
 use super::layout::{Layout, Link, NotAFrame};
 use super::{Heading, Transfer};
+use crate::full_matrix::{FullMatrix, PivotedLu};
 use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 
@@ -78,9 +76,9 @@ struct KeptFloor {
     beams: Vec<usize>,
     /// Beams that tie their joints, with the scale of their equations.
     ties: Vec<(usize, f64)>,
-    solver: PartialPivLu<f64>,
-    flexibility: Mat<f64>,
-    stiffness: Mat<f64>,
+    solver: PivotedLu,
+    flexibility: FullMatrix,
+    stiffness: FullMatrix,
 }
 
 impl StepEquations for ElementwiseRiccati {
@@ -122,7 +120,7 @@ impl StepEquations for ElementwiseRiccati {
         }
         factor.passes.clear();
         let size = 3 * layout.columns.len();
-        let mut s = Mat::<f64>::zeros(size, size);
+        let mut s = FullMatrix::zeros(size, size);
         for pass in &self.passes {
             let kept = match pass {
                 Pass::Link { column, link } => {
@@ -245,8 +243,8 @@ fn moves(layout: &Layout) -> Vec<Pass> {
 
 impl KeptElement {
     /// Passes an element of one column line (theory, Eq. R2).
-    fn pass(column: usize, node: Option<usize>, element: Transfer, s: &mut Mat<f64>) -> Self {
-        let (size, own) = (s.nrows(), 3 * column);
+    fn pass(column: usize, node: Option<usize>, element: Transfer, s: &mut FullMatrix) -> Self {
+        let (size, own) = (s.rows(), 3 * column);
         let u = &element.matrix;
         let rows: Vec<[f64; 3]> = (0..size)
             .map(|k| std::array::from_fn(|i| s[(own + i, k)]))
@@ -351,10 +349,15 @@ impl KeptElement {
 }
 
 impl KeptFloor {
-    fn pass(layout: &Layout, beams: &[usize], condensed: &[BeamFactor], s: &mut Mat<f64>) -> Self {
-        let size = s.nrows();
+    fn pass(
+        layout: &Layout,
+        beams: &[usize],
+        condensed: &[BeamFactor],
+        s: &mut FullMatrix,
+    ) -> Self {
+        let size = s.rows();
         // K_f, rows in the order of the forces.
-        let mut stiffness = Mat::<f64>::zeros(size, size);
+        let mut stiffness = FullMatrix::zeros(size, size);
         for &beam in beams {
             let bay = 3 * layout.beams[beam].bay;
             for i in 0..6 {
@@ -364,16 +367,16 @@ impl KeptFloor {
                 }
             }
         }
-        let stretch = |s: &Mat<f64>, bay: usize, k: usize| s[(3 * bay, k)] - s[(3 * bay + 3, k)];
+        let stretch = |s: &FullMatrix, bay: usize, k: usize| s[(3 * bay, k)] - s[(3 * bay + 3, k)];
         let mut ties = Vec::new();
         for &beam in beams.iter().filter(|&&beam| condensed[beam].keeps_length) {
             let bay = layout.beams[beam].bay;
             let largest = (0..size).fold(0.0_f64, |most, k| most.max(stretch(s, bay, k).abs()));
             ties.push((beam, if largest > 0.0 { 1.0 / largest } else { 1.0 }));
         }
-        let taken = &stiffness * &*s;
+        let taken = stiffness.times(s);
         let total = size + ties.len();
-        let mut matrix = Mat::<f64>::zeros(total, total);
+        let mut matrix = FullMatrix::zeros(total, total);
         for row in 0..size {
             for k in 0..size {
                 matrix[(row, k)] = f64::from(u8::from(row == k)) - taken[(row, k)];
@@ -388,11 +391,18 @@ impl KeptFloor {
                 matrix[(size + index, k)] = scale * stretch(s, bay, k);
             }
         }
-        let solver = matrix.partial_piv_lu();
-        let mut unit = Mat::<f64>::zeros(total, size);
-        (0..size).for_each(|k| unit[(k, k)] = 1.0);
-        solver.solve_in_place(unit.as_mut());
-        let flexibility = std::mem::replace(s, &*s * unit.subrows(0, size));
+        let solver = PivotedLu::new(matrix);
+        let mut inverse = FullMatrix::zeros(total, size);
+        let mut unit = vec![0.0; total];
+        for column in 0..size {
+            unit[column] = 1.0;
+            for (row, value) in solver.solve(&unit).into_iter().enumerate() {
+                inverse[(row, column)] = value;
+            }
+            unit[column] = 0.0;
+        }
+        let next = s.times(&inverse);
+        let flexibility = std::mem::replace(s, next);
         Self {
             beams: beams.to_vec(),
             ties,
@@ -426,7 +436,7 @@ impl KeptFloor {
             let bay = 3 * layout.beams[beam].bay;
             right[size + index] = -scale * (epsilon[bay] - epsilon[bay + 3]);
         }
-        let right = self.solved(right);
+        let right = self.solver.solve(&right);
         for (row, value) in epsilon.iter_mut().enumerate() {
             *value += (0..size)
                 .map(|k| self.flexibility[(row, k)] * right[k])
@@ -440,15 +450,9 @@ impl KeptFloor {
         let size = b.len();
         let mut right = b.to_vec();
         right.resize(size + self.ties.len(), 0.0);
-        for (k, value) in self.solved(right)[..size].iter().enumerate() {
+        for (k, value) in self.solver.solve(&right)[..size].iter().enumerate() {
             b[k] = value + constant[k];
         }
-    }
-
-    fn solved(&self, right: Vec<f64>) -> Vec<f64> {
-        let mut column = Mat::from_fn(right.len(), 1, |row, _| right[row]);
-        self.solver.solve_in_place(column.as_mut());
-        column.col(0).iter().copied().collect()
     }
 }
 

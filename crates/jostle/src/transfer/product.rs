@@ -10,13 +10,11 @@
 //! Right on paper, it loses digits with every segment (Eq. R0), the faster the smaller the step: see
 //! [`digits_left`]. It is here for comparison with the literature, and to show why the Riccati form is needed.
 
-use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::{Mat, MatMut};
-
 use super::digits::{DIGITS_WANTED, digits_left};
 use super::layout::{Layout, NotAFrame};
 use super::riccati::RiccatiSweep;
 use super::{Heading, StateVector, Transfer, apart, one_in_two_out, two_in_one_out};
+use crate::full_matrix::{FullMatrix, PivotedLu};
 use crate::stepping::{Integrator, NotPositive, StepEquations, StepMatrix, solve_once};
 use crate::system::BuildingSystem;
 
@@ -38,7 +36,7 @@ pub struct ProductFactor {
     /// Per beam and link: the link, and the lumped mass at its right end.
     beams: Vec<Vec<[Transfer; 2]>>,
     /// U_all; `None` where it has overflowed.
-    total: Option<PartialPivLu<f64>>,
+    total: Option<PivotedLu>,
 }
 
 /// Why the total transfer equation should not be used for a building and a step.
@@ -185,7 +183,7 @@ impl StepEquations for ProductEquations {
         }
         // A column of U_all is what a unit of one unknown leaves over at the joints, heads and bases.
         let n = unknowns(layout);
-        let mut total = Mat::<f64>::zeros(n, n);
+        let mut total = FullMatrix::zeros(n, n);
         let mut unit = vec![0.0; n];
         for column in 0..n {
             unit[column] = 1.0;
@@ -195,8 +193,7 @@ impl StepEquations for ProductEquations {
             }
             unit[column] = 0.0;
         }
-        let finite = (0..n).all(|k| total.col(k).iter().all(|value| value.is_finite()));
-        factor.total = finite.then(|| total.partial_piv_lu());
+        factor.total = total.is_finite().then(|| PivotedLu::new(total));
         Ok(())
     }
 
@@ -210,8 +207,7 @@ impl StepEquations for ProductEquations {
         let n = unknowns(layout);
         let mut unknown = Passage::through(layout, factor, &vec![0.0; n], Some(load)).left_over;
         unknown.iter_mut().for_each(|left| *left = -*left);
-        total.solve_in_place(MatMut::from_column_major_slice_mut(&mut unknown, n, 1));
-        let passage = Passage::through(layout, factor, &unknown, Some(load));
+        let passage = Passage::through(layout, factor, &total.solve(&unknown), Some(load));
         for (node, carried) in layout.carried.iter().enumerate() {
             for (dof, displacement) in carried.iter().zip(passage.displacements[node]) {
                 if let Some(dof) = dof {

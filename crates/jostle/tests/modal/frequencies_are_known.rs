@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use jostle::modal::{Mode, Spectrum, modes, modes_dense};
+use jostle::modal::{Mode, Spectrum, modes};
 
-use crate::support::{deviation, numbers, stored_frame, stored_frames, tower};
+use crate::support::{deviation, library_modes, numbers, stored_frame, stored_frames, tower};
 
 /// ω_j = 2 √(k/m) sin[(2j − 1)π/(4n + 2)].
 #[test]
@@ -24,7 +24,7 @@ fn towers_of_equal_storeys_vibrate_in_sines() {
             "{storeys} storeys: off by {:e}",
             deviation(&sliced, &formula)
         );
-        let dense = modes_dense(&building).expect("the tower stands");
+        let dense = library_modes(&building).expect("the tower stands");
         assert!(
             deviation(&dense, &formula) < 1e-12,
             "{storeys} storeys, library"

@@ -1,14 +1,14 @@
 //! What moves without deforming has no modes, and says so.
 
-use jostle::modal::{Spectrum, lateral_modes, log_determinant, modes, modes_dense};
+use jostle::modal::{Spectrum, lateral_modes, log_determinant, modes};
 use jostle::skeleton::Skeleton;
 use jostle::system::BuildingSystem;
 
-use crate::support::{assembled, stacks, stored_frame, stored_frames};
+use crate::support::{assembled, library_modes, stacks, stored_frame, stored_frames};
 
 fn assert_refused(building: &BuildingSystem, why: &str) {
     assert!(modes(building, 3).is_err(), "{why}: slicing");
-    assert!(modes_dense(building).is_err(), "{why}: library");
+    assert!(library_modes(building).is_err(), "{why}: library");
     assert!(lateral_modes(building).is_err(), "{why}: Lanczos");
     assert!(Spectrum::of(building).is_err(), "{why}: count");
     assert!(
@@ -47,6 +47,6 @@ fn frames_without_supports_and_frames_that_buckle() {
 fn nothing_has_no_modes() {
     let nothing = assembled(Skeleton::default(), Vec::new());
     assert_eq!(modes(&nothing, 3), Ok(Vec::new()));
-    assert_eq!(modes_dense(&nothing), Ok(Vec::new()));
+    assert_eq!(library_modes(&nothing), Ok(Vec::new()));
     assert_eq!(lateral_modes(&nothing), Ok(Vec::new()));
 }

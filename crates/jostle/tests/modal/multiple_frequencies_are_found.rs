@@ -1,9 +1,9 @@
 //! Symmetric structures have frequencies that occur twice or more often.
 
-use jostle::modal::{Spectrum, modes, modes_dense};
+use jostle::modal::{Spectrum, modes};
 use jostle::system::BuildingSystem;
 
-use crate::support::{deviation, disorder, frame, framed, joined, stacks};
+use crate::support::{deviation, disorder, frame, framed, joined, library_modes, stacks};
 
 const STACK: [(f64, f64); 3] = [(3e4, 5e7), (2e4, 4e7), (1e4, 3e7)];
 
@@ -125,7 +125,7 @@ fn symmetric_frames_keep_all_their_modes() {
         }
         let building = framed(regular);
         let found = modes(&building, usize::MAX).expect("the frame stands");
-        let dense = modes_dense(&building).expect("the frame stands");
+        let dense = library_modes(&building).expect("the frame stands");
         let expected: Vec<f64> = dense.iter().map(|mode| mode.circular_frequency).collect();
         assert_eq!(found.len(), expected.len());
         let (apart, mixed) = (deviation(&found, &expected), disorder(&building, &found));
@@ -149,7 +149,7 @@ fn vanishing_pivots_do_not_swamp_what_follows() {
         }
         building.equations.mass[0] = 1000.0 * f64::from(first) / 3.0;
         let held = f64::sqrt((7e5 + 5.0 * 3e5) / building.equations.mass[0]);
-        let dense = modes_dense(&building).expect("the masses are held");
+        let dense = library_modes(&building).expect("the masses are held");
         let expected = dense
             .iter()
             .filter(|mode| mode.circular_frequency < held)

@@ -1,10 +1,10 @@
 //! Frames of any size and stiffness.
 
-use jostle::modal::{Spectrum, modes, modes_dense};
+use jostle::modal::{Spectrum, modes};
 use jostle::{Axial, Frame, Joint};
 use proptest::prelude::*;
 
-use crate::support::{deviation, disorder, framed, section};
+use crate::support::{deviation, disorder, framed, library_modes, section};
 
 fn frames() -> impl Strategy<Value = Frame> {
     let size = (1_usize..=8, 1_usize..=3, 1_usize..=4, 1_usize..=5);
@@ -51,7 +51,7 @@ proptest! {
     #[test]
     fn in_frequencies_count_and_lateral_modes(frame in frames()) {
         let building = framed(frame);
-        let dense = modes_dense(&building).expect("the frame stands");
+        let dense = library_modes(&building).expect("the frame stands");
         let found = modes(&building, usize::MAX).expect("the frame stands");
         let expected: Vec<f64> = dense.iter().map(|mode| mode.circular_frequency).collect();
         prop_assert_eq!(found.len(), expected.len());

@@ -1,8 +1,10 @@
 //! φᵀMφ = 1, φᵀKφ = Λ, and the effective masses of all modes are the mass of the building.
 
-use jostle::modal::{modes, modes_dense};
+use jostle::modal::modes;
 
-use crate::support::{disorder, frame, framed, imbalance, stored_frame, stored_frames, tower};
+use crate::support::{
+    disorder, frame, framed, imbalance, library_modes, stored_frame, stored_frames, tower,
+};
 
 #[test]
 fn in_the_mass_and_in_the_stiffness() {
@@ -12,7 +14,7 @@ fn in_the_mass_and_in_the_stiffness() {
         let building = stored_frame(frame, 1.0);
         for (way, modes) in [
             ("sliced", modes(&building, usize::MAX)),
-            ("library", modes_dense(&building)),
+            ("library", library_modes(&building)),
         ] {
             let modes = modes.expect("the frame stands");
             assert!(

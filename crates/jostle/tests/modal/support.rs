@@ -1,10 +1,23 @@
 //! Buildings whose modes are known or compared.
 
-use jostle::modal::Mode;
+use faer::{Mat, Side};
+use jostle::modal::{Mode, modes_dense};
 use jostle::skeleton::{Hinge, Idealisation, Member, Node, Skeleton, Spring, Support};
+use jostle::stepping::NotPositive;
 use jostle::system::BuildingSystem;
 use jostle::{Axial, Building, Damping, Frame, Joint, Section, Structure};
 use serde_json::Value;
+
+/// All modes from the eigenvalue solver of a library.
+pub(crate) fn library_modes(building: &BuildingSystem) -> Result<Vec<Mode>, NotPositive> {
+    modes_dense(building, |lower| {
+        let n = lower.len();
+        let matrix = Mat::from_fn(n, n, |i, j| lower[i.max(j)][i.min(j)]);
+        let eigen = matrix.self_adjoint_eigen(Side::Lower).ok()?;
+        let vector = |k: usize| (0..n).map(|i| eigen.U()[(i, k)]).collect();
+        Some((0..n).map(|k| (eigen.S()[k], vector(k))).collect())
+    })
+}
 
 /// Frames given node by node with frequencies from two independent eigenvalue programs.
 pub(crate) fn stored_frames() -> Value {

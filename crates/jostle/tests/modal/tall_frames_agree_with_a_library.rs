@@ -1,13 +1,13 @@
 //! The count does not tire with height.
 
-use jostle::modal::{modes, modes_dense};
+use jostle::modal::modes;
 
-use crate::support::{deviation, disorder, frame, framed};
+use crate::support::{deviation, disorder, frame, framed, library_modes};
 
 #[test]
 fn forty_storeys_all_modes() {
     let building = framed(frame(40, &[6.0, 4.0]));
-    let dense = modes_dense(&building).expect("the frame stands");
+    let dense = library_modes(&building).expect("the frame stands");
     let found = modes(&building, usize::MAX).expect("the frame stands");
     let expected: Vec<f64> = dense.iter().map(|mode| mode.circular_frequency).collect();
     assert_eq!(found.len(), expected.len());
@@ -27,7 +27,7 @@ fn forty_storeys_all_modes() {
 #[test]
 fn eighty_storeys_lowest_modes() {
     let building = framed(frame(80, &[7.0]));
-    let dense = modes_dense(&building).expect("the frame stands");
+    let dense = library_modes(&building).expect("the frame stands");
     let found = modes(&building, 60).expect("the frame stands");
     let expected: Vec<f64> = dense.iter().map(|mode| mode.circular_frequency).collect();
     assert!(

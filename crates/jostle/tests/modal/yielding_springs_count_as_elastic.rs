@@ -1,12 +1,12 @@
 //! Before they yield, hinges are elastic springs, and modes have to see them.
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
-use jostle::modal::{modes, modes_dense};
+use jostle::modal::modes;
 use jostle::skeleton::Idealisation;
 use jostle::system::BuildingSystem;
 use jostle::{Base, Building, Damping, Frame, FrameHinges, Hinges, Joint, Structure};
 
-use crate::support::{frame, framed};
+use crate::support::{frame, framed, library_modes};
 
 fn hinge(initial: f64) -> Hysteresis {
     let corners = Corners::bilinear(1e5, 0.02);
@@ -65,7 +65,7 @@ fn hinges_at_every_end_agree_with_a_library() {
     for times in [1.0, 100.0, 1e5] {
         for base in [Base::default(), rocking] {
             let building = hinged(bare.clone(), Some(times * rigidity), times * rigidity, base);
-            let dense = modes_dense(&building).expect("it stands");
+            let dense = library_modes(&building).expect("it stands");
             let found = modes(&building, 12).expect("it stands");
             assert_eq!(found.len(), 12);
             for (found, expected) in found.iter().zip(&dense) {

@@ -1,10 +1,8 @@
 //! The few shapes in which an elastic building answers the ground and its contacts (theory, Eqs. Q3 and Q4).
 
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
-
 use super::defects;
 use super::span::{RitzModes, Span};
+use crate::cholesky::Cholesky;
 use crate::equations::Equations;
 use crate::lanes;
 use crate::stepping::NotPositive;
@@ -252,13 +250,10 @@ impl<'a> Growing<'a> {
             .collect();
         let floors: Vec<Vec<f64>> = self.demand.floors.iter().map(shown).collect();
         for wanted in &self.wanted {
-            let factor = self.span.projected(wanted.rate).llt(Side::Lower);
-            let factor = factor.map_err(|_| NotPositive { dof: 0 })?;
-            let mut answers = Mat::from_fn(self.span.vectors.len(), loads.len(), |i, load| {
-                loads[load][i]
-            });
-            factor.solve_in_place(&mut answers);
-            let columns = answers.col_iter().zip(&loads).zip(loaded(self.demand));
+            let factor = Cholesky::new(self.span.projected(wanted.rate));
+            let mut answers = loads.clone();
+            factor.ok_or(NotPositive { dof: 0 })?.solve(&mut answers);
+            let columns = answers.iter().zip(&loads).zip(loaded(self.demand));
             let mut of_loads = columns.zip(&wanted.answers);
             let close = of_loads.all(|(((got, load), own), wanted)| {
                 let sizes = wanted.iter().map(|answer| answer.abs());

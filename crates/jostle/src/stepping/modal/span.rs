@@ -1,6 +1,5 @@
 //! Vectors of a building, orthonormal in its mass, and the Ritz modes among them.
 
-use faer::Mat;
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::lanes;
@@ -90,17 +89,13 @@ impl<'a> Span<'a> {
         self.products.push(row);
     }
 
-    /// vᵀ(K + s²M)w between all vectors; only the lower triangle is filled.
-    pub(super) fn projected(&self, rate: f64) -> Mat<f64> {
-        let n = self.vectors.len();
-        let mut matrix = Mat::zeros(n, n);
-        for (i, row) in self.products.iter().enumerate() {
-            for (j, value) in row.iter().enumerate() {
-                matrix[(i, j)] = *value;
-            }
-            matrix[(i, i)] += rate * rate;
+    /// vᵀ(K + s²M)w between all vectors, lower triangle row by row.
+    pub(super) fn projected(&self, rate: f64) -> Vec<Vec<f64>> {
+        let mut rows = self.products.clone();
+        for (i, row) in rows.iter_mut().enumerate() {
+            row[i] += rate * rate;
         }
-        matrix
+        rows
     }
 
     /// Eigenvalues and eigenvectors within the vectors (Rayleigh and Ritz).
