@@ -301,16 +301,16 @@ pub struct PromiseSummary {
 }
 
 impl PromiseSummary {
-    /// The promise and its estimate in one line.
+    /// The promise and its estimate in one line. Contact forces and impulses have no estimate of their own.
     #[must_use]
     pub fn in_words(&self) -> String {
         let tolerance = self.tolerance;
         let estimate = match (self.residual, self.met) {
             (Some(residual), Some(true)) => format!(
-                "estimated error {residual:.1e} of the greatest peak of its kind, within the tolerance {tolerance:.0e}"
+                "estimated error of floor peaks and base shears {residual:.1e} of the greatest of their kind, within the tolerance {tolerance:.0e}"
             ),
             (Some(residual), _) => format!(
-                "estimated error {residual:.1e} of the greatest peak of its kind, beyond the tolerance {tolerance:.0e}"
+                "estimated error of floor peaks and base shears {residual:.1e} of the greatest of their kind, beyond the tolerance {tolerance:.0e}"
             ),
             (None, _) => {
                 "not estimated: buildings yield, or the integrator is not the usual one".to_owned()

@@ -23,6 +23,7 @@ mod laws;
 mod linear;
 mod models;
 mod phi;
+pub mod record;
 mod reference;
 #[cfg(test)]
 mod tests;
