@@ -23,9 +23,17 @@ class Animation:
     def __init__(self, page: str) -> None:
         self._page = page.replace("</head>", _STAGE_ONLY, 1)
 
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Writes the animation as one HTML page, which opens offline."""
-        _jostle.Run.write(path, self._page)
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Writes the animation as one HTML page, which opens offline.
+
+        Args:
+            path: file to write; an earlier page of jostle is replaced.
+            force: true replaces other files too.
+
+        Raises:
+            FileExistsError: the file exists and jostle did not write it.
+        """
+        _jostle.Run.write(path, self._page, force)
         return Path(path)
 
     def show(self) -> Path:

@@ -243,32 +243,42 @@ class Result:
         twin = self.__dict__.get("without_contact")
         return self._core.report(self._twin if twin is None else twin._core)
 
-    def report(self, path: str | os.PathLike[str]) -> Path:
+    def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Writes the report: one HTML page with animation, histories and tables, which opens offline.
 
         The page compares with a run without contact, which is made for it if there is none yet.
+
+        Args:
+            path: file to write; an earlier page of jostle is replaced.
+            force: true replaces other files too.
 
         Returns:
             The path.
 
         Raises:
+            FileExistsError: the file exists and jostle did not write it.
             OSError: the file cannot be written; it is then as it was before.
         """
         _ = self.without_contact
-        self._core.write(path, self._page())
+        self._core.write(path, self._page(), force)
         return Path(path)
 
-    def save(self, folder: str | os.PathLike[str], *, report: bool = True) -> Path:
+    def save(self, folder: str | os.PathLike[str], *, report: bool = True, force: bool = False) -> Path:
         """Writes ``summary.json``, ``history.parquet``, ``impacts.parquet`` and ``report.html``, as ``jostle run`` does.
 
         Args:
             folder: made where it does not exist.
             report: false leaves out the report and the run without contact that it compares with.
+            force: true replaces files of these names even if jostle did not write them.
 
         Returns:
             The folder.
+
+        Raises:
+            FileExistsError: a file of such a name exists and jostle did not write it; nothing is written.
         """
         os.makedirs(folder, exist_ok=True)
+        self._core.check_folder(folder, force)
         twin = self._twin
         if report and twin is None and self.without_contact is not None:
             twin = self.without_contact._core

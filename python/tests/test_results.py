@@ -222,6 +222,20 @@ def test_pages(result: jostle.Result, tmp_path: Path) -> None:
         result.report(tmp_path / "no" / "such" / "x.html")
 
 
+def test_files_of_others_are_kept(result: jostle.Result, tmp_path: Path) -> None:
+    mine = tmp_path / "report.html"
+    mine.write_text("mine", encoding="utf-8")
+    for write in (result.report, result.animate().save):
+        with pytest.raises(FileExistsError, match="pass force=True"):
+            write(mine)
+    with pytest.raises(FileExistsError, match="report.html"):
+        result.save(tmp_path)
+    assert mine.read_text(encoding="utf-8") == "mine"
+    assert [path.name for path in tmp_path.iterdir()] == ["report.html"]
+    result.report(mine, force=True)
+    result.report(mine)
+
+
 def test_results_stay_where_they_are(result: jostle.Result) -> None:
     with pytest.raises(TypeError, match="cannot be pickled; send result.summary"):
         pickle.dumps(result)

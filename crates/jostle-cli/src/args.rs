@@ -208,6 +208,9 @@ pub(crate) struct CollideArgs {
     /// Print JSON and nothing else
     #[arg(long)]
     pub(crate) json: bool,
+    /// Replace files even if jostle did not write them
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -217,6 +220,9 @@ pub(crate) struct MethodArgs {
     /// Folder for a page with tables and plots, method.html
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Replace files even if jostle did not write them
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -262,6 +268,9 @@ pub(crate) struct SectionArgs {
     /// Write a page with the curves and the sections
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
+    /// Replace files even if jostle did not write them
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -286,6 +295,9 @@ pub(crate) struct PushoverArgs {
     /// Print JSON and nothing else
     #[arg(long)]
     pub(crate) json: bool,
+    /// Replace files even if jostle did not write them
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// How the load of a pushover is spread.

@@ -13,16 +13,18 @@ use serde_json::{Value, json};
 use crate::args::CollideArgs;
 use crate::failure::Failure;
 use crate::numbers::{kn, mm};
+use crate::replace::{Kind, Target};
 use crate::terminal::{self, BOLD, DIM, styled};
 
 pub(crate) fn collide(args: &CollideArgs) -> Result<(), Failure> {
+    let table = Target::of_option(args.csv.as_ref(), Kind::COLLISION_CURVES, args.force)?;
+    let page = Target::of_option(args.html.as_ref(), Kind::REPORT, args.force)?;
     let collisions = compute(args)?;
-    if let Some(path) = &args.csv {
-        jostle_io::write_atomically(path, curves(&collisions).as_bytes())?;
+    if let Some(table) = &table {
+        table.write(&curves(&collisions))?;
     }
-    if let Some(path) = &args.html {
-        let page = jostle_report::render_collisions(&collisions);
-        jostle_io::write_atomically(path, page.as_bytes())?;
+    if let Some(page) = &page {
+        page.write(&jostle_report::render_collisions(&collisions))?;
     }
     if args.json {
         let mut laws: Vec<Value> = collisions.laws.iter().map(as_json).collect();

@@ -10,6 +10,7 @@ use crate::args::MethodArgs;
 use crate::failure::Failure;
 use crate::numbers::{counted, grouped};
 use crate::open::open;
+use crate::replace::{Kind, Target};
 use crate::terminal::{self, BOLD, DIM, styled};
 
 pub(crate) fn method(args: &MethodArgs) -> Result<(), Failure> {
@@ -25,8 +26,9 @@ pub(crate) fn method(args: &MethodArgs) -> Result<(), Failure> {
             Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
         })?;
         let path = out.join("method.html");
+        let target = Target::new(&path, Kind::METHOD, args.force)?;
         let page = jostle_report::render_method(&opened.input.model.title, &surveys);
-        jostle_io::write_atomically(&path, page.as_bytes())?;
+        target.write(&page)?;
         let _ = writeln!(text, "→ {}", styled(BOLD, &path.display().to_string()));
     }
     terminal::print(&text)

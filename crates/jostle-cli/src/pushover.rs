@@ -14,6 +14,7 @@ use jostle::System;
 use crate::args::{Push, PushoverArgs, Spread};
 use crate::failure::Failure;
 use crate::open::open;
+use crate::replace::{Kind, Target};
 use crate::{pushover_text, terminal};
 
 /// Where results go when nothing else is said.
@@ -32,14 +33,13 @@ pub(crate) fn pushover(args: &PushoverArgs) -> Result<(), Failure> {
         std::fs::create_dir_all(out).map_err(|error| {
             Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
         })?;
-        let write =
-            |name: &str, text: &str| jostle_io::write_atomically(&out.join(name), text.as_bytes());
-        write("pushover.csv", &jostle_io::pushover_csv(&pushed))?;
-        write("pushover.json", &json)?;
-        write(
-            "pushover.html",
-            &jostle_report::render_pushover(title, &pushed),
-        )?;
+        let target = |name: &str, kind| Target::new(&out.join(name), kind, args.force);
+        let table = target("pushover.csv", Kind::PUSHOVER_CURVES)?;
+        let numbers = target("pushover.json", Kind::PUSHOVER_NUMBERS)?;
+        let page = target("pushover.html", Kind::PUSHOVER_PAGE)?;
+        table.write(&jostle_io::pushover_csv(&pushed))?;
+        numbers.write(&json)?;
+        page.write(&jostle_report::render_pushover(title, &pushed))?;
     }
     if args.json {
         return terminal::print(&json);

@@ -184,36 +184,31 @@ fn not_compared(without: &Outcome, duration: f64) -> Option<String> {
 }
 
 /// The files of a run.
-const FILES: [(&str, Kind); 5] = {
-    const TABLE: Kind = Kind {
-        name: "table of jostle",
-        marks: &["PAR1", "jostle "],
-    };
-    const SUMMARY: Kind = Kind {
-        name: "summary of jostle",
-        marks: &["\"title\":", "\"jostle\":", "\"motion\":"],
-    };
-    const REPORT: Kind = Kind {
-        name: "report of jostle",
-        marks: &["<html", " – jostle</title>"],
-    };
-    [
-        ("summary.json", SUMMARY),
-        ("history.parquet", TABLE),
-        ("impacts.parquet", TABLE),
-        ("hinges.parquet", TABLE),
-        ("report.html", REPORT),
-    ]
-};
+const FILES: [(&str, Kind); 5] = [
+    ("summary.json", Kind::SUMMARY),
+    ("history.parquet", Kind::TABLE),
+    ("impacts.parquet", Kind::TABLE),
+    ("hinges.parquet", Kind::TABLE),
+    ("report.html", Kind::REPORT),
+];
 
-/// Says that results of an earlier run go, and refuses to replace what is none.
-fn replace_earlier(out: &Path, force: bool) -> Result<(), Failure> {
+/// Files of an earlier run in a folder, which a run replaces.
+///
+/// # Errors
+/// A file is none of a run, and `force` is not given.
+pub(crate) fn replaced_by_a_run(out: &Path, force: bool) -> Result<Vec<&'static str>, Failure> {
     let mut earlier = Vec::new();
     for (name, kind) in FILES {
         if may_write(&out.join(name), Some(kind), force)? {
             earlier.push(name);
         }
     }
+    Ok(earlier)
+}
+
+/// Says that results of an earlier run go, and refuses to replace what is none.
+fn replace_earlier(out: &Path, force: bool) -> Result<(), Failure> {
+    let earlier = replaced_by_a_run(out, force)?;
     if !earlier.is_empty() {
         terminal::remark(&format!(
             "{} holds results of an earlier run, which are replaced: {}",

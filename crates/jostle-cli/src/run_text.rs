@@ -75,7 +75,8 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
         counted_grouped(work.solves, "solution"),
         work.wall_s
     );
-    writeln!(text, "\n{}", styled(DIM, &accounting))?;
+    writeln!(text, "\n{}", summary.promise.in_words())?;
+    writeln!(text, "{}", styled(DIM, &accounting))?;
     if let Some(result) = result {
         writeln!(text, "→ {}", styled(BOLD, &result.display().to_string()))?;
     }

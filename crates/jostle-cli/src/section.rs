@@ -14,16 +14,17 @@ use serde_json::{Value, json};
 use crate::args::SectionArgs;
 use crate::failure::Failure;
 use crate::open::read;
+use crate::replace::{Kind, Target};
 use crate::terminal::{self, BOLD, DIM, styled};
 
 pub(crate) fn section(args: &SectionArgs) -> Result<(), Failure> {
+    let page = Target::of_option(args.html.as_ref(), Kind::SECTIONS, args.force)?;
     let (title, surveys) = match &args.model {
         Some(path) => of_model(path)?,
         None => ("Section".to_owned(), vec![of_options(args)?]),
     };
-    if let Some(path) = &args.html {
-        let page = jostle_report::render_sections(&title, &surveys);
-        jostle_io::write_atomically(path, page.as_bytes())?;
+    if let Some(page) = &page {
+        page.write(&jostle_report::render_sections(&title, &surveys))?;
     }
     if args.json {
         let list: Vec<Value> = surveys.iter().map(as_json).collect();

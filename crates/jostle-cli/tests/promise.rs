@@ -133,3 +133,46 @@ fn sensitive_answers_say_from_when() {
     }
     assert!(run("eleven_storeys.json", "modal")["promise"]["sensitive_from_s"].is_null());
 }
+
+/// Two single storeys that a sine drives apart and together, with a gap in metres.
+fn pair(folder: &std::path::Path, solver: &str, gap: f64) -> Value {
+    let storey = |name: &str, stiffness: f64| {
+        serde_json::json!({"name": name, "kind": "shear", "mass": [4e4], "stiffness": [stiffness], "storey_height": 3.0,
+            "damping": {"ratio": 0.05, "modes": [1]}})
+    };
+    let model = serde_json::json!({
+        "motion": {"kind": "sine", "amplitude": 2.0, "period": 0.5, "duration": 6.0},
+        "building": [storey("A", 6e6), storey("B", 1.5e7)],
+        "gap": [{"between": ["A", "B"], "width": gap, "law": "kelvin-no-tension", "stiffness": 1e8}],
+        "analysis": {"solver": solver},
+    });
+    std::fs::write(folder.join("pair.json"), model.to_string()).expect("written");
+    let output = jostle(folder, &["run", "pair.json", "--json", "--no-report"]);
+    assert!(output.status.success(), "{}", complained(&output));
+    serde_json::from_str(&printed(&output)).expect("a summary")
+}
+
+/// A contact that is missed by less than the tolerance is reported, one that is missed clearly is not.
+#[test]
+fn contacts_just_missed_are_sensitive() {
+    let folder = common::folder();
+    for solver in ["modal", "riccati"] {
+        let run = |gap: f64| pair(folder.path(), solver, gap);
+        let needed = &run(0.5)["gaps"][0]["contacts"][0]["closing_peak_m"];
+        let needed = needed.as_f64().expect("a closing");
+        let (just, clearly) = (run(1.0002 * needed), run(1.01 * needed));
+        for summary in [&just, &clearly] {
+            assert_eq!(summary["gaps"][0]["impact_count"], 0);
+        }
+        let from = just["promise"]["sensitive_from_s"].as_f64();
+        let from = from.unwrap_or_else(|| panic!("{solver}: {}", just["promise"]));
+        let nearest = &just["gaps"][0]["contacts"][0]["closing_peak_at_s"];
+        let nearest = nearest.as_f64().expect("an instant");
+        // Under a steady sine, one of the last cycles may be the first to touch in the narrower gap.
+        assert!(
+            from <= nearest,
+            "{solver}: {from} s, nearest at {nearest} s"
+        );
+        assert!(clearly["promise"]["sensitive_from_s"].is_null());
+    }
+}

@@ -179,3 +179,105 @@ fn completions_for_bash_are_a_sound_script() {
     assert!(checked.status.success(), "{}", complained(&checked));
     assert!(checked.stderr.is_empty(), "{}", complained(&checked));
 }
+
+const COLLIDE: [&str; 13] = [
+    "collide",
+    "--m1",
+    "40 t",
+    "--m2",
+    "60 t",
+    "--speed",
+    "0.5 m/s",
+    "--law",
+    "kelvin",
+    "--stiffness",
+    "60 MN/m",
+    "--restitution",
+    "0.65",
+];
+
+const SECTION: [&str; 7] = [
+    "section", "--width", "500mm", "--depth", "500mm", "--bars", "12 d20",
+];
+
+/// Every other command that writes a file: the file, and whether a second call replaces it without being asked.
+#[test]
+fn every_command_keeps_files_that_it_did_not_write() {
+    let cases: [(&[&str], &[&str], &str); 10] = [
+        (&COLLIDE, &["--csv", "a.csv"], "a.csv"),
+        (&COLLIDE, &["--html", "a.html"], "a.html"),
+        (&SECTION, &["--html", "b.html"], "b.html"),
+        (&["pushover", "small.toml"], &["--out", "."], "pushover.csv"),
+        (
+            &["pushover", "small.toml"],
+            &["--out", "."],
+            "pushover.json",
+        ),
+        (
+            &["pushover", "small.toml"],
+            &["--out", "."],
+            "pushover.html",
+        ),
+        (&["method", "small.toml"], &["--out", "."], "method.html"),
+        (
+            &["motion", "show", "el-centro-1940-ns"],
+            &["--html", "c.html"],
+            "c.html",
+        ),
+        (
+            &["motion", "spectrum", "el-centro-1940-ns"],
+            &["--csv", "d.csv", "--parquet", "d.parquet"],
+            "d.parquet",
+        ),
+        (&SELECT, &["--html", "e.html"], "e.html"),
+    ];
+    for (command, option, name) in cases {
+        let folder = with_model();
+        let path = folder.path().join(name);
+        let arguments = [command, option].concat();
+        std::fs::write(&path, "the user's own\n").expect("written");
+        let output = jostle(folder.path(), &arguments);
+        let complaint = complained(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {complaint}");
+        assert!(complaint.contains("--force"), "{arguments:?}: {complaint}");
+        let kept = std::fs::read_to_string(&path).expect("kept");
+        assert_eq!(kept, "the user's own\n", "{arguments:?}");
+        let files = std::fs::read_dir(folder.path()).expect("a folder").count();
+        assert_eq!(
+            files, 2,
+            "{arguments:?} wrote another file before it refused"
+        );
+
+        let forced = jostle(folder.path(), &[&arguments[..], &["--force"]].concat());
+        // A set of one motion fails its code: exit code 1, after its page is written.
+        let done = |code| matches!(code, Some(0 | 1));
+        assert!(done(forced.status.code()), "{}", complained(&forced));
+        assert!(complained(&forced).contains("replaced: "), "{arguments:?}");
+        let again = jostle(folder.path(), &arguments);
+        assert!(
+            done(again.status.code()),
+            "{arguments:?} refuses its own file: {}",
+            complained(&again)
+        );
+        assert!(complained(&again).contains("replaced: "), "{arguments:?}");
+    }
+}
+
+const SELECT: [&str; 16] = [
+    "motion",
+    "select",
+    "--natural",
+    "el-centro-1940-ns",
+    "--periods",
+    "1",
+    "--code",
+    "gb50011",
+    "--intensity",
+    "7",
+    "--site",
+    "II",
+    "--group",
+    "1",
+    "--damping",
+    "0.05",
+];

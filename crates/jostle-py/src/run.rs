@@ -14,7 +14,7 @@ use jostle_io::{
 };
 use jostle_report::Page;
 use numpy::PyArray2;
-use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 
 use crate::error::output_error;
@@ -239,14 +239,23 @@ impl Run {
         self.page(py, without_contact)
     }
 
-    /// Writes a text to a file, whole or not at all.
+    /// Writes a page to a file, whole or not at all; replaces pages of jostle, and everything else only with `force`.
     #[staticmethod]
-    fn write(py: Python<'_>, path: PathBuf, text: &str) -> PyResult<()> {
+    #[pyo3(signature = (path, text, force=false))]
+    fn write(py: Python<'_>, path: PathBuf, text: &str, force: bool) -> PyResult<()> {
+        jostle_cli::may_replace_report(&path, force).map_err(must_stay)?;
         py.detach(|| write_atomically(&path, text.as_bytes()))
             .map_err(|error| output_error(&error))
     }
 
-    /// Writes summary, tables and report into a folder that exists.
+    /// Raises `FileExistsError` if a folder holds files with the names of results that no run wrote.
+    #[staticmethod]
+    #[pyo3(signature = (folder, force=false))]
+    fn check_folder(folder: PathBuf, force: bool) -> PyResult<()> {
+        jostle_cli::may_replace_run(&folder, force).map_err(must_stay)
+    }
+
+    /// Writes summary, tables and report into a folder that exists and was checked.
     #[pyo3(signature = (folder, report, without_contact=None))]
     fn save(
         &self,
@@ -286,6 +295,10 @@ impl Run {
     fn impact_table(&self) -> Table {
         Table::of_columns(impact_columns(&self.summary(None)))
     }
+}
+
+fn must_stay(why: String) -> PyErr {
+    PyFileExistsError::new_err(why.replace("add --force", "pass force=True"))
 }
 
 fn energy_name(term: EnergyTerm) -> &'static str {

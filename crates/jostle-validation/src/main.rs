@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use jostle_io::write_atomically;
+use jostle_validation::certify::record::{self, Record};
 use jostle_validation::{
     Extent, certify, document, families, loops, misses, pairs, paper, work_precision,
 };
@@ -16,7 +17,9 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
                 the distribution of the errors; takes minutes
   --work-precision  writes docs/work-precision.md and its figure; takes minutes
   --figures     writes the figure of the contact laws
-  --certify N [--seed S] [--only K]  holds every promised number of N random models against a reference of other means
+  --certify N [--seed S] [--only K] [--json FILE]  holds every promised number of N random models against a reference of
+                other means; FILE gets every ratio
+  --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files
   --certify-dump K FOLDER [--seed S]  writes random model K as a model file
   --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
   --reference   makes the reference runs of the built-in model anew; takes minutes";
@@ -25,6 +28,9 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if arguments.first().is_some_and(|a| a == "--pairs") {
         return random_pairs(&arguments[1..]);
+    }
+    if arguments.first().is_some_and(|a| a == "--certify-report") {
+        return certify_report(&arguments[1..]);
     }
     if arguments
         .first()
@@ -152,12 +158,59 @@ fn certified(arguments: &[String]) -> ExitCode {
         say(USAGE);
         return ExitCode::from(2);
     };
-    say(&certify::describe(&certify::study(
-        count,
-        seed,
-        number("--only"),
-    )));
-    ExitCode::SUCCESS
+    let all = certify::study(count, seed, number("--only"));
+    say(&certify::describe(&all));
+    let records = [Record::new(seed, &all)];
+    say(&record::closing_text(&records));
+    let Some(path) = after("--json") else {
+        return ExitCode::SUCCESS;
+    };
+    match serde_json::to_string(&records[0]) {
+        Ok(text) => written(Path::new(path), &(text + "\n")),
+        Err(error) => {
+            say(&error.to_string());
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Tables and figure of certified runs.
+fn certify_report(paths: &[String]) -> ExitCode {
+    if paths.is_empty() {
+        say(USAGE);
+        return ExitCode::from(2);
+    }
+    let mut records = Vec::new();
+    for path in paths {
+        let read = std::fs::read_to_string(path).map_err(|error| error.to_string());
+        let read = read.and_then(|text| {
+            serde_json::from_str::<Record>(&text).map_err(|error| error.to_string())
+        });
+        match read {
+            Ok(record) => records.push(record),
+            Err(why) => {
+                say(&format!(
+                    "{path}: {why}; give files that --certify N --json FILE wrote"
+                ));
+                return ExitCode::from(2);
+            }
+        }
+    }
+    let place = in_crate("../../docs/certify.md");
+    let old = std::fs::read_to_string(&place).map_err(|error| error.to_string());
+    match old.and_then(|old| record::page(&old, &records)) {
+        Ok(page) => {
+            let figure = in_crate("../../docs/figures/certify.svg");
+            if written(&figure, &record::figure(&records)) == ExitCode::FAILURE {
+                return ExitCode::FAILURE;
+            }
+            written(&place, &page)
+        }
+        Err(why) => {
+            say(&format!("{}: {why}", place.display()));
+            ExitCode::FAILURE
+        }
+    }
 }
 
 fn in_crate(path: &str) -> PathBuf {

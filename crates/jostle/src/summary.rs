@@ -300,6 +300,31 @@ pub struct PromiseSummary {
     pub sensitive_from_s: Option<f64>,
 }
 
+impl PromiseSummary {
+    /// The promise and its estimate in one line. Contact forces and impulses have no estimate of their own.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let tolerance = self.tolerance;
+        let estimate = match (self.residual, self.met) {
+            (Some(residual), Some(true)) => format!(
+                "estimated error of floor peaks and base shears {residual:.1e} of the greatest of their kind, within the tolerance {tolerance:.0e}"
+            ),
+            (Some(residual), _) => format!(
+                "estimated error of floor peaks and base shears {residual:.1e} of the greatest of their kind, beyond the tolerance {tolerance:.0e}"
+            ),
+            (None, _) => {
+                "not estimated: buildings yield, or the integrator is not the usual one".to_owned()
+            }
+        };
+        match self.sensitive_from_s {
+            Some(from) => format!(
+                "accuracy: {estimate}; sensitive from t = {from:.3} s, holds for peaks before it"
+            ),
+            None => format!("accuracy: {estimate}"),
+        }
+    }
+}
+
 /// Work done, and the time it took.
 #[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
 pub struct WorkSummary {

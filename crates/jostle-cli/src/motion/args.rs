@@ -59,6 +59,9 @@ pub(crate) struct ShowArgs {
     /// Write a page with charts
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
+    /// Replace files even if jostle did not write them
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// Where peaks of responses are read.
@@ -98,6 +101,9 @@ pub(crate) struct SpectrumArgs {
     /// Write a Parquet table
     #[arg(long, value_name = "FILE")]
     pub(crate) parquet: Option<PathBuf>,
+    /// Replace files even if jostle did not write them
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// Steps are done in the order of these options.
@@ -352,4 +358,7 @@ pub(crate) struct SelectArgs {
     /// Write a page with charts
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
+    /// Replace files even if jostle did not write them
+    #[arg(long)]
+    pub(crate) force: bool,
 }

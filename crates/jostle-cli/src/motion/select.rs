@@ -2,16 +2,18 @@
 
 use std::fmt::Write;
 
-use jostle_io::{Dimension, selection_json, write_atomically};
+use jostle_io::{Dimension, selection_json};
 use jostle_motion::{Candidate, MainPeriod, Origin, SelectionCheck, check_selection};
 use jostle_report::{SelectionPage, render_selection};
 
 use super::args::SelectArgs;
 use super::source::{open, quantities, quantity, wrong};
 use crate::failure::Failure;
+use crate::replace::{Kind, Target};
 use crate::terminal::{self, BOLD, LOUD, styled};
 
 pub(super) fn select(args: &SelectArgs) -> Result<(), Failure> {
+    let page = Target::of_option(args.html.as_ref(), Kind::REPORT, args.force)?;
     let target = args.target.open()?;
     let damping = quantity("--damping", &args.damping, Dimension::Dimensionless)?;
     let peak = match &args.pga {
@@ -44,7 +46,7 @@ pub(super) fn select(args: &SelectArgs) -> Result<(), Failure> {
         ));
     }
     let check = check_selection(&set, &target, &periods, damping).map_err(wrong)?;
-    if let Some(path) = &args.html {
+    if let Some(file) = &page {
         let page = SelectionPage {
             target: &target,
             damping,
@@ -52,7 +54,7 @@ pub(super) fn select(args: &SelectArgs) -> Result<(), Failure> {
             set: &set,
             check: &check,
         };
-        write_atomically(path, render_selection(&page).map_err(wrong)?.as_bytes())?;
+        file.write(&render_selection(&page).map_err(wrong)?)?;
     }
     if args.json {
         terminal::print(&format!("{:#}", selection_json(&set, &check, &periods)))?;

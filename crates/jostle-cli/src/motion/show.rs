@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use jostle_io::write_atomically;
 use jostle_motion::{
     Accelerogram, Measures, Reading, STANDARD_GRAVITY, measures, response_spectrum, spaced_periods,
 };
@@ -12,19 +11,21 @@ use serde_json::{Value, json};
 use super::args::ShowArgs;
 use super::source::{Named, wrong};
 use crate::failure::Failure;
+use crate::replace::{Kind, Target};
 use crate::terminal::{self, BOLD, DIM, styled};
 
 pub(super) fn show(args: &ShowArgs) -> Result<(), Failure> {
+    let target = Target::of_option(args.html.as_ref(), Kind::REPORT, args.force)?;
     let Named { name, motion } = args.record.open()?;
     let measures = measures(&motion).map_err(wrong)?;
-    if let Some(path) = &args.html {
+    if let Some(target) = &target {
         let page = MotionPage {
             name: &name,
             motion: &motion,
             measures: &measures,
         };
         let text = render_motion(&page).map_err(wrong)?;
-        write_atomically(path, text.as_bytes())?;
+        target.write(&text)?;
     }
     if args.json {
         return terminal::print(&format!("{:#}", as_json(&name, &measures)));

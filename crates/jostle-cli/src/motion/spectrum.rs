@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use jostle_io::{Dimension, write_atomically, write_columns_parquet};
+use jostle_io::{Dimension, write_columns_parquet};
 use jostle_motion::{
     Accelerogram, DuctilitySpectrum, Reading, ResponseSpectrum, ductility_spectrum,
     response_spectrum, spaced_periods,
@@ -12,12 +12,15 @@ use serde_json::{Value, json};
 use super::args::{PeaksAt, SpectrumArgs};
 use super::source::{quantities, quantity, wrong};
 use crate::failure::Failure;
+use crate::replace::{Kind, Target};
 use crate::terminal::{self, BOLD, styled};
 
 /// An inelastic spectrum and its damping ratio.
 type Inelastic = (f64, DuctilitySpectrum);
 
 pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
+    let as_csv = Target::of_option(args.csv.as_ref(), Kind::SPECTRA, args.force)?;
+    let as_parquet = Target::of_option(args.parquet.as_ref(), Kind::TABLE, args.force)?;
     let record = args.record.open()?;
     let dampings = quantities("--damping", &args.damping, Dimension::Dimensionless)?;
     let mut periods = quantities("--periods", &args.periods, Dimension::Time)?;
@@ -39,13 +42,14 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
         }
     }
     let mut written = Vec::new();
-    if let Some(path) = &args.csv {
-        write_atomically(path, csv(&columns(&elastic, &inelastic)).as_bytes())?;
-        written.push(path.display().to_string());
+    if let Some(target) = &as_csv {
+        target.write(&csv(&columns(&elastic, &inelastic)))?;
+        written.push(target.path.display().to_string());
     }
-    if let Some(path) = &args.parquet {
-        write_columns_parquet(path, &record.name, columns(&elastic, &inelastic))?;
-        written.push(path.display().to_string());
+    if let Some(target) = &as_parquet {
+        write_columns_parquet(&target.path, &record.name, columns(&elastic, &inelastic))?;
+        target.written();
+        written.push(target.path.display().to_string());
     }
     if args.json {
         terminal::print(&format!("{:#}", as_json(&elastic, &inelastic)))

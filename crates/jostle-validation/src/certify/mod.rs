@@ -13,11 +13,17 @@
 //!
 //! A second reference with gaps wider by 1e-6 of their width (and 1e-10 m) and a looser error says which numbers a model
 //! determines at all: those that move by more than a tenth of a tolerance are counted apart.
+//!
+//! # Sensitive runs
+//!
+//! A run that reports `sensitive_from_s = t` promises only the peaks before t. Its motion is cut a contact duration before
+//! t, run again and held against a reference cut at the same instant.
 
 mod laws;
 mod linear;
 mod models;
 mod phi;
+pub mod record;
 mod reference;
 #[cfg(test)]
 mod tests;
@@ -25,6 +31,7 @@ mod tests;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use jostle::stepping::find_sensitivity;
 use jostle::{
@@ -54,6 +61,15 @@ pub struct Quantity {
     pub scale: f64,
 }
 
+/// Promised numbers by the reference.
+#[derive(Clone, Debug, Default)]
+pub struct Truth {
+    /// Quantities with the values of the reference.
+    pub quantities: Vec<Quantity>,
+    /// Their change under the perturbation.
+    pub shifts: Vec<f64>,
+}
+
 /// The promised numbers of one run held against the reference.
 #[derive(Clone, Debug)]
 pub struct Held {
@@ -61,12 +77,16 @@ pub struct Held {
     pub solver: &'static str,
     /// Tolerance.
     pub tolerance: f64,
+    /// The reference: that of the model, or of the cut motion.
+    pub truth: Arc<Truth>,
     /// Error over the scale of every quantity whose reference is certain, in the order of the quantities.
     pub errors: Vec<Option<f64>>,
     /// Values of the run.
     pub got: Vec<f64>,
-    /// Whether the run said that its numbers are not to be trusted.
+    /// Whether the run, cut if it was sensitive, warned that its peaks may be off.
     pub warned: bool,
+    /// Where the motion was cut, as the run was sensitive from there \[s\].
+    pub cut: Option<f64>,
     /// Why it failed, if so.
     pub failed: Option<String>,
     /// Wall time \[s\].
@@ -84,10 +104,8 @@ pub struct Certified {
     pub laws: String,
     /// Number of buildings, and their kinds.
     pub buildings: String,
-    /// Quantities with the values of the reference.
-    pub quantities: Vec<Quantity>,
-    /// Their change under the perturbation.
-    pub shifts: Vec<f64>,
+    /// The reference.
+    pub truth: Arc<Truth>,
     /// Runs.
     pub runs: Vec<Held>,
     /// Touches of the reference.
@@ -109,8 +127,7 @@ impl Certified {
             kind,
             laws: String::new(),
             buildings: String::new(),
-            quantities: Vec::new(),
-            shifts: Vec::new(),
+            truth: Arc::default(),
             runs: Vec::new(),
             touches: 0,
             lasting: 0,
@@ -221,15 +238,20 @@ fn warns(summary: &Summary) -> bool {
     met == Some(false) || said.into_iter().any(|text| text.contains("sensitive"))
 }
 
-fn hold(
+/// One run: its summary, why it failed, and its wall time \[s\].
+struct Ran {
+    summary: Summary,
+    failed: Option<String>,
+    seconds: f64,
+}
+
+fn ran(
     input: &Input,
     system: &System,
     motion: &GroundMotion,
-    quantities: &[Quantity],
-    shifts: &[f64],
     solver: Solver,
     tolerance: f64,
-) -> Option<Held> {
+) -> Option<Ran> {
     let mut model = input.model.clone();
     model.analysis.tolerance = tolerance;
     model.analysis.solver = Some(solver);
@@ -242,7 +264,7 @@ fn hold(
     let mut outcome = simulate(system, motion, &plan, settings, |_| {
         ControlFlow::Continue(())
     });
-    let wall = begun.elapsed().as_secs_f64();
+    let seconds = begun.elapsed().as_secs_f64();
     find_sensitivity(system, motion, &plan, &mut outcome, |_| {
         ControlFlow::Continue(())
     });
@@ -253,42 +275,123 @@ fn hold(
         plan: &plan,
         outcome: &outcome,
         without_contact: None,
-        wall,
+        wall: seconds,
     });
-    let got = values_of(&summary, system);
-    let errors = quantities
-        .iter()
-        .zip(shifts)
-        .zip(&got)
-        .map(|((quantity, shift), got)| {
-            let scale = if quantity.scale > 0.0 {
-                quantity.scale
-            } else {
-                got.abs()
-            };
-            let relative = |value: f64| {
-                if value == 0.0 {
-                    0.0
-                } else {
-                    value.abs() / scale
-                }
-            };
-            (relative(*shift) <= UNCERTAIN * tolerance).then(|| relative(got - quantity.value))
-        })
-        .collect();
     let failed = match &outcome.end {
         RunEnd::Completed => None,
         other => Some(format!("{other:?}")),
     };
+    Some(Ran {
+        summary,
+        failed,
+        seconds,
+    })
+}
+
+/// Cuts that are tried before a run that is still sensitive counts as warned.
+const MOST_CUTS: usize = 4;
+
+/// Longest elastic contact at 0.3 m/s: what a cut run leaves out before the sensitive instant \[s\].
+fn margin(system: &System) -> f64 {
+    let contacts = system.contacts.iter();
+    let durations =
+        contacts.map(|contact| contact.law.elastic_duration(contact.effective_mass(), 0.3));
+    durations.fold(0.0, f64::max)
+}
+
+/// Runs a model and holds its peaks to the reference: of the whole motion, or before the instant from which the run
+/// calls itself sensitive.
+fn hold(
+    input: &Input,
+    system: &System,
+    motion: &GroundMotion,
+    truth: &Arc<Truth>,
+    solver: Solver,
+    tolerance: f64,
+) -> Option<Held> {
+    let mut run = ran(input, system, motion, solver, tolerance)?;
+    let seconds = run.seconds;
+    let mut truth = truth.clone();
+    let mut cut = None;
+    for _ in 0..MOST_CUTS {
+        let Some(from) = run.summary.promise.sensitive_from_s else {
+            break;
+        };
+        let end = from - margin(system);
+        if run.failed.is_some() || cut.is_some_and(|cut| end >= cut) {
+            break;
+        }
+        cut = Some(end.max(0.0));
+        let mut shorter = motion.clone();
+        shorter.duration = end;
+        // Nothing happens, and nothing is promised, before the first points of the motion.
+        let promised = end > LEAST_CUT;
+        let again = promised.then(|| ran(input, system, &shorter, solver, tolerance));
+        let Some(again) = again.flatten() else {
+            truth = Arc::default();
+            break;
+        };
+        run = again;
+        match true_peaks(system, &shorter) {
+            Ok((own, ..)) => truth = Arc::new(own),
+            Err(why) => run.failed = Some(format!("no reference up to {end:.3} s: {why}")),
+        }
+    }
+    let got = if truth.quantities.is_empty() {
+        Vec::new()
+    } else {
+        values_of(&run.summary, system)
+    };
     Some(Held {
         solver: solver.name(),
         tolerance,
-        errors,
+        errors: errors(&truth, &got, tolerance),
+        truth,
         got,
-        warned: warns(&summary),
-        failed,
-        seconds: wall,
+        warned: warns(&run.summary),
+        cut,
+        failed: run.failed,
+        seconds,
     })
+}
+
+/// Shortest motion that a cut leaves \[s\].
+const LEAST_CUT: f64 = 0.01;
+
+/// Error of every quantity over its scale; `None` where the reference is uncertain.
+fn errors(truth: &Truth, got: &[f64], tolerance: f64) -> Vec<Option<f64>> {
+    let all = truth.quantities.iter().zip(&truth.shifts).zip(got);
+    all.map(|((quantity, shift), got)| {
+        let scale = if quantity.scale > 0.0 {
+            quantity.scale
+        } else {
+            got.abs()
+        };
+        let relative = |value: f64| {
+            if value == 0.0 {
+                0.0
+            } else {
+                value.abs() / scale
+            }
+        };
+        (relative(*shift) <= UNCERTAIN * tolerance).then(|| relative(got - quantity.value))
+    })
+    .collect()
+}
+
+/// The reference of a motion with its change under the perturbation, and the peaks it comes from.
+fn true_peaks(system: &System, motion: &GroundMotion) -> Result<(Truth, Peaks), String> {
+    let peaks = reference(system, motion, Accuracy::FINE)?;
+    let other = if system.contacts.is_empty() {
+        peaks.clone()
+    } else {
+        reference(system, motion, Accuracy::OTHER)?
+    };
+    let quantities = quantities_of(system, &peaks);
+    let others = quantities_of(system, &other);
+    let shifts = quantities.iter().zip(&others);
+    let shifts = shifts.map(|(a, b)| b.value - a.value).collect();
+    Ok((Truth { quantities, shifts }, peaks))
 }
 
 /// Holds one model against its reference.
@@ -329,31 +432,18 @@ fn fill(drawn: &Drawn, tolerances: &[f64], certified: &mut Certified) -> Result<
             .join("; ")
     })?;
     let begun = std::time::Instant::now();
-    let peaks = reference(&system, &motion, Accuracy::FINE)?;
-    let other = if peaks.touches > 0 || !system.contacts.is_empty() {
-        reference(&system, &motion, Accuracy::OTHER)?
-    } else {
-        peaks.clone()
-    };
+    let (truth, peaks) = true_peaks(&system, &motion)?;
     certified.seconds = begun.elapsed().as_secs_f64();
     (certified.touches, certified.lasting, certified.steps) =
         (peaks.touches, peaks.lasting, peaks.steps);
-    certified.quantities = quantities_of(&system, &peaks);
-    let others = quantities_of(&system, &other);
-    certified.shifts = certified
-        .quantities
-        .iter()
-        .zip(&others)
-        .map(|(a, b)| b.value - a.value)
-        .collect();
+    certified.truth = Arc::new(truth);
     for solver in [Solver::Modal, Solver::Riccati] {
         for &tolerance in tolerances {
             certified.runs.extend(hold(
                 &input,
                 &system,
                 &motion,
-                &certified.quantities,
-                &certified.shifts,
+                &certified.truth,
                 solver,
                 tolerance,
             ));
@@ -372,12 +462,8 @@ pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, Str
     let mut certified = Certified::of(0, "file");
     fill(&Drawn { tree, kind: "file" }, tolerances, &mut certified)?;
     let mut text = String::new();
-    for (k, (quantity, shift)) in certified
-        .quantities
-        .iter()
-        .zip(&certified.shifts)
-        .enumerate()
-    {
+    let truth = &certified.truth;
+    for (k, (quantity, shift)) in truth.quantities.iter().zip(&truth.shifts).enumerate() {
         let _ = write!(
             text,
             "{:<18} {:<20} {:>14.7e} ({:+.1e})",
@@ -387,8 +473,14 @@ pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, Str
             shift / quantity.scale
         );
         for run in &certified.runs {
-            let error = (run.got[k] - quantity.value) / quantity.scale;
-            let _ = write!(text, "  {} {:.0e}: {error:+.1e}", run.solver, run.tolerance);
+            let _ = write!(text, "  {} {:.0e}: ", run.solver, run.tolerance);
+            match (run.truth.quantities.get(k), run.got.get(k)) {
+                (Some(expected), Some(got)) => {
+                    let error = (got - expected.value) / expected.scale;
+                    let _ = write!(text, "{error:+.1e}");
+                }
+                _ => text.push_str("nothing promised"),
+            }
         }
         text.push('\n');
     }
@@ -397,6 +489,15 @@ pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, Str
         "{} touches, {} lasting, {} steps, {:.2} s for two references",
         certified.touches, certified.lasting, certified.steps, certified.seconds
     );
+    for run in &certified.runs {
+        if let Some(cut) = run.cut {
+            let _ = writeln!(
+                text,
+                "{} at {:.0e} is sensitive: motion and reference end at {cut:.3} s",
+                run.solver, run.tolerance
+            );
+        }
+    }
     Ok(text)
 }
 
@@ -459,6 +560,7 @@ pub fn describe(all: &[Certified]) -> String {
     let mut text = String::new();
     let mut tables: [BTreeMap<String, Count>; 5] = Default::default();
     let (mut runs, mut off, mut warned, mut warned_for_nothing) = (0, 0, 0, 0);
+    let (mut cut, mut nothing) = (0, 0);
     let mut failures = Vec::new();
     for model in all {
         if let Some(why) = &model.failed {
@@ -472,8 +574,10 @@ pub fn describe(all: &[Certified]) -> String {
                 continue;
             }
             runs += 1;
+            cut += usize::from(run.cut.is_some());
+            nothing += usize::from(run.truth.quantities.is_empty());
             let mut worst: (f64, usize) = (0.0, 0);
-            for (k, (quantity, error)) in model.quantities.iter().zip(&run.errors).enumerate() {
+            for (k, (quantity, error)) in run.truth.quantities.iter().zip(&run.errors).enumerate() {
                 let ratio = error.map(|error| error / run.tolerance);
                 if let Some(ratio) = ratio.filter(|ratio| *ratio > worst.0) {
                     worst = (ratio, k);
@@ -505,7 +609,7 @@ pub fn describe(all: &[Certified]) -> String {
             if worst.0 > 1.0 {
                 off += 1;
                 warned += usize::from(run.warned);
-                let quantity = &model.quantities[worst.1];
+                let quantity = &run.truth.quantities[worst.1];
                 let bad = run
                     .errors
                     .iter()
@@ -552,6 +656,10 @@ pub fn describe(all: &[Certified]) -> String {
         text,
         "{} models, {runs} runs; {off} runs have a number beyond the tolerance, {warned} of them warned; {warned_for_nothing} others warned.",
         all.len()
+    );
+    let _ = writeln!(
+        text,
+        "{cut} runs were sensitive: their peaks before the sensitive instant are counted; {nothing} of them promise nothing.",
     );
     let spent: f64 = all.iter().map(|model| model.seconds).sum();
     let own: f64 = all

@@ -101,7 +101,7 @@ fn a_tight_run_of_jostle_meets_the_reference() {
     fill(&drawn, &[1e-5], &mut certified).expect("a reference");
     assert!(certified.touches > 5, "{} touches", certified.touches);
     let run = &certified.runs[0];
-    for (quantity, error) in certified.quantities.iter().zip(&run.errors) {
+    for (quantity, error) in run.truth.quantities.iter().zip(&run.errors) {
         // Accelerations beside jumps of forces are not taken by runs of jostle.
         let allowed = if quantity.kind == "acceleration" {
             2e-2

@@ -13,6 +13,9 @@ use crate::system::{BuildingSystem, System};
 /// By how much gaps are changed, in tolerances of their greatest closing.
 const CHANGE: f64 = 0.1;
 
+/// By how much the gap of a contact that was just missed is narrowed, in tolerances of its greatest closing.
+const NARROWER: f64 = 1.0;
+
 /// Most impacts that are trusted not to multiply small errors.
 const FEW_IMPACTS: usize = 12;
 
@@ -21,7 +24,8 @@ const FEW_IMPACTS: usize = 12;
 ///
 /// Each gap is made wider by a tenth of the tolerance of its greatest closing and the run is repeated. If reported peaks
 /// change by more than the tolerance, relative to the greatest of their kind in the building or gap, the runs part at the
-/// first impact that differs by as much. Runs with a dozen impacts at most, none of them in doubt, are not repeated; nor
+/// first impact that differs by as much. Where a contact stays open and its closing comes within the tolerance of the gap,
+/// the gap is made narrower by that much instead, so that the contact is made. Other runs with a dozen impacts at most, none of them in doubt, are not repeated; nor
 /// are those of buildings that yield.
 pub fn find_sensitivity(
     system: &System,
@@ -46,23 +50,28 @@ fn sensitive_from(
     let tolerance = plan.tolerance();
     let doubtful = outcome.accuracy.and_then(|accuracy| accuracy.doubtful_from);
     let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
+    let near_misses: Vec<bool> = (0..system.contacts.len())
+        .map(|contact| nearly_touches(system, outcome, contact, tolerance))
+        .collect();
+    let few = doubtful.is_none() && outcome.impacts.len() <= FEW_IMPACTS;
     if outcome.end != RunEnd::Completed
-        || outcome.impacts.is_empty()
         || system.buildings.iter().any(yields)
-        || (doubtful.is_none() && outcome.impacts.len() <= FEW_IMPACTS)
+        || (!near_misses.contains(&true) && (outcome.impacts.is_empty() || few))
     {
         return None;
     }
-    let mut wider = system.clone();
-    for (contact, closing) in wider.contacts.iter_mut().zip(&outcome.closing) {
-        contact.width += CHANGE * tolerance * contact.width.max(closing.value);
+    let mut changed = system.clone();
+    let contacts = changed.contacts.iter_mut().zip(&outcome.closing);
+    for ((contact, closing), near_miss) in contacts.zip(&near_misses) {
+        let change = if *near_miss { -NARROWER } else { CHANGE };
+        contact.width += change * tolerance * contact.width.max(closing.value);
     }
     let settings = Settings {
         record_interval: None,
         ..Settings::default()
     };
     let other = simulate_once(
-        &wider,
+        &changed,
         motion,
         &plan.with_step(outcome.free_step),
         settings,
@@ -80,6 +89,16 @@ fn sensitive_from(
         .min_by(f64::total_cmp);
     let first = outcome.impacts.iter().map(|impact| impact.start);
     parted.or(doubtful).or(first.min_by(f64::total_cmp))
+}
+
+/// Whether a contact without impact comes within the tolerance of one.
+fn nearly_touches(system: &System, outcome: &Outcome, contact: usize, tolerance: f64) -> bool {
+    let (width, closing) = (
+        system.contacts[contact].width,
+        outcome.closing[contact].value,
+    );
+    impacts(outcome, contact).next().is_none()
+        && (width - closing).abs() < tolerance * width.max(closing)
 }
 
 /// When the first impacts of a contact differ in force or impulse by more than the tolerance of the greatest of its gap.
