@@ -158,7 +158,12 @@ fn certified(arguments: &[String]) -> ExitCode {
         say(USAGE);
         return ExitCode::from(2);
     };
-    let all = certify::study(count, seed, number("--only"));
+    let all = certify::study(
+        count,
+        seed,
+        number("--only"),
+        &certify::every_run(&certify::TOLERANCES),
+    );
     say(&certify::describe(&all));
     let records = [Record::new(seed, &all)];
     say(&record::closing_text(&records));

@@ -45,6 +45,8 @@ pub use reference::{Accuracy, Peaks, run as reference};
 
 /// Tolerances at which every model is run.
 pub const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
+/// Solvers that are held.
+const SOLVERS: [Solver; 2] = [Solver::Modal, Solver::Riccati];
 /// Share of a tolerance that the reference itself may be uncertain by.
 const UNCERTAIN: f64 = 0.1;
 
@@ -396,16 +398,16 @@ fn true_peaks(system: &System, motion: &GroundMotion) -> Result<(Truth, Peaks), 
 
 /// Holds one model against its reference.
 #[must_use]
-pub fn certify(seed: u64, number: u64) -> Certified {
+pub fn certify(seed: u64, number: u64, runs: &[(Solver, f64)]) -> Certified {
     let drawn = draw(seed, number);
     let mut certified = Certified::of(number, drawn.kind);
-    if let Err(why) = fill(&drawn, &TOLERANCES, &mut certified) {
+    if let Err(why) = fill(&drawn, runs, &mut certified) {
         certified.failed = Some(why);
     }
     certified
 }
 
-fn fill(drawn: &Drawn, tolerances: &[f64], certified: &mut Certified) -> Result<(), String> {
+fn fill(drawn: &Drawn, runs: &[(Solver, f64)], certified: &mut Certified) -> Result<(), String> {
     let (input, motion) = read(drawn)?;
     let mut laws: Vec<String> = input
         .model
@@ -437,17 +439,15 @@ fn fill(drawn: &Drawn, tolerances: &[f64], certified: &mut Certified) -> Result<
     (certified.touches, certified.lasting, certified.steps) =
         (peaks.touches, peaks.lasting, peaks.steps);
     certified.truth = Arc::new(truth);
-    for solver in [Solver::Modal, Solver::Riccati] {
-        for &tolerance in tolerances {
-            certified.runs.extend(hold(
-                &input,
-                &system,
-                &motion,
-                &certified.truth,
-                solver,
-                tolerance,
-            ));
-        }
+    for &(solver, tolerance) in runs {
+        certified.runs.extend(hold(
+            &input,
+            &system,
+            &motion,
+            &certified.truth,
+            solver,
+            tolerance,
+        ));
     }
     Ok(())
 }
@@ -460,7 +460,8 @@ pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, Str
     let tree = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
     let tree = serde_json::from_str(&tree).map_err(|e| e.to_string())?;
     let mut certified = Certified::of(0, "file");
-    fill(&Drawn { tree, kind: "file" }, tolerances, &mut certified)?;
+    let runs = every_run(tolerances);
+    fill(&Drawn { tree, kind: "file" }, &runs, &mut certified)?;
     let mut text = String::new();
     let truth = &certified.truth;
     for (k, (quantity, shift)) in truth.quantities.iter().zip(&truth.shifts).enumerate() {
@@ -501,9 +502,18 @@ pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, Str
     Ok(text)
 }
 
+/// Both solvers at each of these tolerances.
+#[must_use]
+pub fn every_run(tolerances: &[f64]) -> Vec<(Solver, f64)> {
+    SOLVERS
+        .into_iter()
+        .flat_map(|solver| tolerances.iter().map(move |tolerance| (solver, *tolerance)))
+        .collect()
+}
+
 /// Certifies models 1 … `count` of a seed, on all processors; `only` picks some.
 #[must_use]
-pub fn study(count: u64, seed: u64, only: Option<u64>) -> Vec<Certified> {
+pub fn study(count: u64, seed: u64, only: Option<u64>, runs: &[(Solver, f64)]) -> Vec<Certified> {
     let numbers: Vec<u64> = match only {
         Some(number) => vec![number],
         None => (1..=count).collect(),
@@ -511,7 +521,7 @@ pub fn study(count: u64, seed: u64, only: Option<u64>) -> Vec<Certified> {
     numbers
         .par_iter()
         .with_max_len(1)
-        .map(|number| certify(seed, *number))
+        .map(|number| certify(seed, *number, runs))
         .collect()
 }
 

@@ -98,7 +98,7 @@ fn a_tight_run_of_jostle_meets_the_reference() {
         kind: "test",
     };
     let mut certified = Certified::of(0, "test");
-    fill(&drawn, &[1e-5], &mut certified).expect("a reference");
+    fill(&drawn, &every_run(&[1e-5]), &mut certified).expect("a reference");
     assert!(certified.touches > 5, "{} touches", certified.touches);
     let run = &certified.runs[0];
     for (quantity, error) in run.truth.quantities.iter().zip(&run.errors) {
