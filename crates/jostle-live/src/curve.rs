@@ -170,7 +170,9 @@ pub(crate) fn marks(
         }
         Err(Trouble::Stopped) => return Err("stopped".into()),
     };
+    // As closely as the page shows it.
     let settings = GapSettings {
+        tolerance: 1e-5,
         outcomes: false,
         ..GapSettings::default()
     };

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::path::{Component, Path, PathBuf};
+use std::time::Instant;
 
 use jostle::stepping::Progress;
 use jostle::{Outcome, Pounding, RunEnd, Settings, Summary};
@@ -217,6 +218,7 @@ impl Engine {
         prepared: Prepared,
         watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
     ) -> Result<Solved, Trouble> {
+        let begun = Instant::now();
         let compares = !prepared.system.contacts.is_empty();
         let apart = Settings {
             pounding: Pounding::Excluded,
@@ -237,6 +239,7 @@ impl Engine {
         }
         let without = without.filter(|run| run.end == RunEnd::Completed);
         let mut summary = prepared.summary(&outcome, without.as_ref());
+        summary.work.wall_s = begun.elapsed().as_secs_f64();
         prepared.input.add_notes(&mut summary);
         Ok(Solved {
             prepared,
@@ -299,6 +302,7 @@ impl Engine {
             watch,
         );
         let mut summary = prepared.summary(&solved.outcome, solved.without.as_ref());
+        summary.work.wall_s = solved.summary.work.wall_s;
         prepared.input.add_notes(&mut summary);
         solved.summary = summary;
         let page = solved.page().ok_or(Trouble::Stopped)?;

@@ -33,7 +33,7 @@ pub(crate) fn page(name: &str, port: u16, token: &str) -> (String, String) {
             }
             body.live {
                 a.skip href="#headline" { "Skip to the results" }
-                header.bar {
+                header.topbar {
                     h1 { "jostle live " span #model-name.quiet { (name) } }
                     div.buttons role="group" aria-label="This model" {
                         button #undo type="button" title="Undo (Ctrl+Z)" disabled { "Undo" }
@@ -51,10 +51,15 @@ pub(crate) fn page(name: &str, port: u16, token: &str) -> (String, String) {
                         div #working.working hidden { progress #progress max="1" value="0" aria-label="Share of the run that is done" {} button #stop type="button" { "Stop" } }
                         p #headline.verdict tabindex="-1" aria-live="polite" { "Running the model …" }
                         div #part-warnings {}
-                        div #notes.note hidden {}
-                        (curve())
+                        div.pair {
+                            (curve())
+                            div #animation { (PreEscaped(viewer.motion)) }
+                        }
                         section #compare hidden { h2 { "Compared with the pinned run" } div.scroll { table #comparison {} } }
-                        div #result { (PreEscaped(viewer.sections)) }
+                        div #result {
+                            (PreEscaped(viewer.sections))
+                            div #notes.note hidden {}
+                        }
                     }
                 }
                 footer { "jostle " (env!("CARGO_PKG_VERSION")) " on this machine. Nothing is loaded from elsewhere, and nothing is sent elsewhere." }

@@ -13,7 +13,9 @@ pub struct Viewer {
     pub style: &'static str,
     /// Scripts, one module; `load` and `refresh` show a run.
     pub script: String,
-    /// Sections, with an element for each part of a [`Frame`].
+    /// The section with the animation.
+    pub motion: String,
+    /// All other sections, with an element for each part of a [`Frame`].
     pub sections: String,
     /// The bar of playback.
     pub player: String,
@@ -25,7 +27,6 @@ impl Viewer {
     pub fn new() -> Self {
         let sections = html! {
             div #part-tiles {}
-            (page::motion_section(true, true))
             (page::chart_section(true))
             div #part-hinges {}
             section { h2 { "Impacts" } div #part-impacts {} }
@@ -36,6 +37,7 @@ impl Viewer {
         Self {
             style: STYLE,
             script: SCRIPTS.concat(),
+            motion: page::motion_section(true, true).into_string(),
             sections: sections.into_string(),
             player: page::player(true).into_string(),
         }

@@ -174,6 +174,11 @@ impl Opened {
             .map(|script| self.number(script) as u32);
         resize(&self.tab, width, height);
         std::thread::sleep(Duration::from_millis(300));
+        self.glance(name);
+    }
+
+    /// Keeps a picture of what the window shows.
+    pub(crate) fn glance(&self, name: &str) {
         let png = self
             .tab
             .capture_screenshot(Page::CaptureScreenshotFormatOption::Png, None, None, true)
