@@ -26,7 +26,7 @@ function forceChart() {
   const shown = struck.slice(0, 7).sort((a, b) => b.height - a.height);
   const series = shown.map((contact, i) => ({
     label: contactName(contact),
-    colour: colours(i),
+    colour: `var(--f${i % 7})`,
     time: forces[contact.index].time,
     values: scaled(forces[contact.index].values, 1e-3),
   }));
@@ -34,7 +34,7 @@ function forceChart() {
   return { title, unit: "kN", series };
 }
 
-/** Energies piled up: the sum of all meets the input. */
+/** Energies, stacked: their sum meets the input. */
 function energyChart() {
   const terms = ["contact", "hysteretic", "damped", "strain", "kinetic"].filter(
     (term) => run.columns.has(`e:${term}`) && (term !== "hysteretic" || page.hysteretic),
@@ -43,16 +43,15 @@ function energyChart() {
   if (!terms.length || !input) return null;
   const largest = greatest(input);
   const [factor, unit] = largest >= 1e6 ? [1e-6, "MJ"] : largest >= 1e3 ? [1e-3, "kJ"] : [1, "J"];
-  const colour = { contact: 1, hysteretic: 3, damped: 2, strain: 4, kinetic: 5 };
   let pile = new Float64Array(run.time.length);
   const series = terms.map((term) => {
     const own = scaled(run.columns.get(`e:${term}`), factor);
     pile = pile.map((sum, i) => sum + own[i]);
-    return { label: term, colour: colours(colour[term]), time: run.time, values: pile, read: own, area: true };
+    return { label: term, colour: `var(--e-${term})`, time: run.time, values: pile, read: own, area: true };
   });
   series.reverse();
   series.push({ label: "input", colour: "var(--ink)", time: run.time, values: scaled(input, factor) });
-  return { title: "Energy, piled up to the input", unit, series };
+  return { title: "Energy balance (stacked)", unit, series };
 }
 
 /** Both sides of a contact with and without pounding, and the closing between them. */

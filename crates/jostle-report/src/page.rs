@@ -87,7 +87,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     }
                     @if !page.model.gaps.is_empty() {
                         section #joints {
-                            h2 { "Beside the code" }
+                            h2 { "Comparison with code requirements" }
                             (tables::joints(page, &run, without))
                         }
                     }

@@ -31,7 +31,7 @@ impl Viewer {
             div #part-hinges {}
             section { h2 { "Impacts" } div #part-impacts {} }
             section { h2 { "Peaks over the height" } div #part-envelopes {} }
-            section #code { h2 { "Beside the code" } div #part-joints {} }
+            section #code { h2 { "Comparison with code requirements" } div #part-joints {} }
             section { h2 { "What was computed" } div #part-model {} }
         };
         Self {
