@@ -40,7 +40,8 @@ const runsOver = (knob) => knob.number !== null && (knob.kind === "quantity" || 
 /** The number of the knob of the curve, in its unit. */
 function present() {
   const path = curve.path?.replace("[*]", "[0]");
-  return knobs.find((knob) => knob.path === path)?.number ?? null;
+  const knob = knobs.find((one) => one.path === path);
+  return knob && knob.unit === curve.unit ? knob.number : null;
 }
 
 /** Fills the list of keys and chooses one: the gap, unless another was chosen. */
@@ -65,6 +66,8 @@ function fillOver() {
     Object.assign(curve, { unit: knob.unit, whole: knob.kind === "count" });
   } else if (!known(curve.path)) chooseOver(entries[0]?.[0] ?? null);
   restored = null;
+  const unit = knobs.find((one) => one.path === curve.path?.replace("[*]", "[0]"))?.unit;
+  if (unit !== undefined && unit !== curve.unit) chooseOver(curve.path);
   select.value = curve.path;
   byId("curve").hidden = !curve.path;
 }
@@ -218,17 +221,27 @@ function drawCurve() {
   host.replaceChildren(image);
   const records = curve.records.length > 1 ? `, ${curve.records.length} records: thin lines, mean bold, 16 to 84 % shaded` : "";
   byId("curve-caption").textContent = `${name}${unit ? ` [${unit}]` : ""} against ${over}${curve.unit ? ` [${curve.unit}]` : ""}${records}`;
-  const needed = curve.marks.find((mark) => mark.needed);
+  const needed = knownMarks().find((mark) => mark.needed);
   const done = all.length ? `${lines.flat().length} of ${curve.of} points. ` : "";
   const found = needed ? `Smallest gap without pounding: ${fixed(1e3 * needed.width, 1)} mm. ` : "";
   byId("curve-note").textContent = curve.problem || `${found}${lines.flat().length < curve.of ? done : ""}Drag the line, or use the arrow keys, to change the value.`;
 }
 
+const isWidth = () => /^gap\[.*\]\.width$/.test(curve.path ?? "");
+
+/** Marks of the curve; until they come, what the run without contact says. */
+function knownMarks() {
+  if (curve.marks.length || !isWidth()) return curve.marks;
+  const gap = /^gap\[(\d+)\]/.exec(curve.path)?.[1];
+  const width = gap === undefined ? null : latest?.needed[Number(gap)];
+  return width > 0 ? [{ name: "no pounding", source: "greatest closing without contact", width, needed: true }] : [];
+}
+
 /** The smallest gap without pounding, and rules, as marks with their names above each other. */
 function drawMarks(image, px, width) {
-  if (!/^gap/.test(curve.path ?? "")) return;
   const perUnit = { mm: 1e-3, cm: 1e-2, m: 1, "": 1 }[curve.unit];
-  const seen = curve.marks
+  if (!isWidth() || !perUnit) return;
+  const seen = knownMarks()
     .map((mark) => ({ ...mark, x: mark.width / perUnit }))
     .filter((mark) => mark.x >= curve.from && mark.x <= curve.to)
     .sort((a, b) => a.x - b.x);

@@ -33,7 +33,7 @@ const rows = new Map();
 /** One knob: a label, a slider where there is a number, a field, and its fault. */
 class KnobRow {
   constructor(knob) {
-    this.row = html("div", "knob");
+    this.row = html("div", `knob${knob.kind === "text" ? " wide" : ""}`);
     const id = `knob-${KnobRow.count++}`;
     const label = html("label", "knob-name", knob.name.replaceAll("_", " ").replaceAll(".", " · "), this.row);
     label.htmlFor = id;

@@ -68,7 +68,8 @@ function showInstant(t, following) {
   byId("scrub").value = t;
   byId("scrub").setAttribute("aria-valuetext", `${fixed(t, 2)} seconds`);
   const force = forces.reduce((sum, f) => sum + (f.time.length ? Math.max(0, interpolate(f.time, f.values, t)) : 0), 0);
-  byId("force-now").textContent = force > 1 ? `${fixed(force / 1e3, 0)} kN in all` : "";
+  byId("force-now").lastChild.textContent = force > 1 ? `${fixed(force / 1e3, 0)} kN` : "";
+  byId("force-now").firstChild.hidden = !(force > 1);
 }
 
 // --- Controls ------------------------------------------------------------------------------------------

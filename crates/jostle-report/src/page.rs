@@ -319,7 +319,7 @@ pub(crate) fn player(impacts: bool) -> Markup {
                     button #next type="button" aria-label="Next impact" title="Next impact (])" { (icon("", "M3 3v14l10-7zM14 3h3v14h-3z")) }
                 }
                 output #clock.clock { "0.000 s" }
-                span #force-now.force-now {}
+                span #force-now.force-now { span.wordy hidden { "total " } span {} }
                 label.speed { span.wordy { "Speed " }
                     select #speed aria-label="Speed" {
                         @for speed in ["0.01", "0.1", "0.25", "0.5", "1", "2", "4"] {
