@@ -542,7 +542,7 @@ mod tests {
         }
         match with_record(&engine, "nothing.csv") {
             Err(Trouble::Faults(faults)) => {
-                assert!(faults[0].problem.contains("there is no record"))
+                assert!(faults[0].problem.contains("there is no record"));
             }
             other => panic!("{:?}", other.err()),
         }

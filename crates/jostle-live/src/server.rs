@@ -109,7 +109,7 @@ impl Server {
             .pages
             .lock()
             .unwrap_or_else(PoisonError::into_inner);
-        while !stop() && !pages.gone.is_some_and(|gone| gone.elapsed() > patience) {
+        while !stop() && pages.gone.is_none_or(|gone| gone.elapsed() <= patience) {
             let waited = self.shared.changed.wait_timeout(pages, EVERY);
             pages = waited.unwrap_or_else(PoisonError::into_inner).0;
         }

@@ -95,6 +95,7 @@ class TimeChart {
     this.caption.replaceChildren();
     html("span", "unit", ` [${this.unit}]`, html("span", "chart-title", this.title, this.caption));
     this.readouts = this.makeLegend(this.caption);
+    this.instant = html("output", "hover-time", "", this.caption);
     this.svg.setAttribute("aria-label", `${this.title} over time`);
     this.layers.lines.replaceChildren();
     this.paths = this.series.map((s) =>
@@ -271,6 +272,7 @@ class TimeChart {
     place(this.cursorLine, this.view.cursor);
     place(this.pointerLine, this.view.pointer);
     const t = this.view.pointer ?? this.view.cursor;
+    this.instant.textContent = this.view.pointer === null ? "" : `at ${fixed(t, 3)} s`;
     this.series.forEach((s, i) => {
       const values = s.read ?? s.values;
       this.readouts[i].textContent = values.length ? readable(interpolate(s.time, values, t)) : "";

@@ -22,6 +22,21 @@ pub(crate) const SCRIPTS: [&str; 8] = [
 pub(crate) const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
+/// Makes [`theme_button`] work, on pages without other scripts.
+const THEME_SCRIPT: &str = include_str!("../assets/theme.js");
+
+/// The button that switches between light and dark.
+pub(crate) fn theme_button() -> Markup {
+    html! {
+        button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+    }
+}
+
+/// The script of that button, for pages without other scripts.
+pub(crate) fn theme_script() -> Markup {
+    html! { script type="module" { (PreEscaped(THEME_SCRIPT)) } }
+}
+
 /// The style attribute that gives an element the colour of a building.
 pub(crate) fn colour(building: usize) -> String {
     format!("--c:var(--c{})", building % 7)
@@ -60,7 +75,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         p.kicker { "Seismic pounding report" }
                         h1 { (page.summary.title) }
                     }
-                    button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+                    (theme_button())
                 }
                 main {
                     p.verdict { (headline) }

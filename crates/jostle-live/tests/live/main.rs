@@ -462,6 +462,78 @@ fn the_keyboard_is_enough() {
 }
 
 #[test]
+fn a_model_with_a_fault_opens_and_can_be_mended() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("model.toml");
+    let text = jostle_io::model_text("paper").unwrap();
+    let broken = text.replacen("width = \"100 mm\"", "width = \"3 kg\"", 1);
+    assert_ne!(broken, text);
+    std::fs::write(&file, &broken).unwrap();
+    let server = serve(file.to_str().unwrap());
+    let Some(page) = open_address(&server.address(), 1400, 1000) else {
+        return;
+    };
+    page.wait("document.body.classList.contains('faulty')");
+    assert!(page.fault_of("gap[0].width").contains("expected a length"));
+    page.glance("live-broken");
+    page.type_into("gap[0].width", "90 mm");
+    page.wait("Number(document.body.dataset.frames) === 1");
+    assert!(page.headline().contains("hit"), "{}", page.headline());
+    assert_eq!(
+        std::fs::read_to_string(&file).unwrap(),
+        broken,
+        "the file was written"
+    );
+    page.assert_content();
+}
+
+#[test]
+fn a_row_of_shear_buildings_and_a_list_of_records() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("row.toml");
+    let building = |name: &str, mass: &str, stiffness: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nkind = \"shear\"\nstoreys = 3\nmass = \"{mass}\"\nstiffness = \"{stiffness}\"\nstorey_height = \"3 m\"\n\n"
+        )
+    };
+    let gap = |left: &str, right: &str| {
+        format!("[[gap]]\nbetween = [\"{left}\", \"{right}\"]\nwidth = \"10 mm\"\n\n")
+    };
+    let text = format!(
+        "title = \"Row\"\n\n[motion]\nrecord = [\"el-centro-1940-ns\", \"nanjing-artificial\"]\npga = \"2 m/s2\"\n\n{}{}{}{}{}",
+        building("A", "40 t", "60 MN/m"),
+        building("B", "60 t", "20 MN/m"),
+        building("C", "40 t", "80 MN/m"),
+        gap("A", "B"),
+        gap("B", "C")
+    );
+    std::fs::write(&file, text).unwrap();
+    let server = serve(file.to_str().unwrap());
+    let Some(page) = open(&server, 1400, 1000) else {
+        return;
+    };
+    assert_eq!(
+        page.text("document.getElementById('over').value"),
+        "gap[*].width"
+    );
+    page.wait("document.getElementById('curve-note').textContent.includes('Smallest gap')");
+    let first = page.headline();
+    page.value("{ const s = document.getElementById('several'); s.value = '1'; s.dispatchEvent(new Event('change')); }");
+    page.settled();
+    assert_ne!(page.headline(), first, "the other record shakes otherwise");
+    page.value("document.querySelector('.handle').focus()");
+    page.key("ArrowRight");
+    page.settled();
+    let model = page.model();
+    assert!(
+        !model.contains("width = \"10 mm\"") && model.matches("width = ").count() == 2,
+        "both gaps follow: {model}"
+    );
+    page.glance("live-row");
+    page.assert_content();
+}
+
+#[test]
 fn nothing_moves_by_itself() {
     let server = serve("paper");
     let Some(page) = open(&server, 1400, 1000) else {
