@@ -25,6 +25,8 @@ const curve = {
   marks: [],
   problem: "",
   stale: true,
+  /** Whether what is drawn belongs to the latest request. */
+  fresh: true,
 };
 let restored = null;
 
@@ -103,13 +105,16 @@ let computing = 0;
 function computeCurve() {
   clearTimeout(computing);
   if (!curve.stale || !curve.path) return;
+  // The curve before stays, pale, until points of the new one come.
+  byId("curve-picture").classList.add("stale");
+  byId("curve-note").textContent = "Computing the curve …";
   computing = setTimeout(() => {
     curve.stale = false;
     const knob = knobs.find((one) => one.path === curve.path.replace("[*]", "[0]"));
     if (!knob) return;
     if (!curve.fixed) fitRange(knob);
     curve.id += 1;
-    Object.assign(curve, { lines: [], marks: [], problem: "", of: 0 });
+    curve.fresh = false;
     send(curveRequest("curve"));
     byId("from").value = written(curve.from);
     byId("to").value = written(curve.to);
@@ -124,8 +129,16 @@ function curveRequest(op) {
   return { op, ...request(), id, path, unit, from, to, whole, records, points };
 }
 
+/** Removes the curve before, once anything is known of the new one. */
+function beginCurve() {
+  if (curve.fresh) return;
+  Object.assign(curve, { fresh: true, lines: [], marks: [], problem: "", of: 0 });
+  byId("curve-picture").classList.remove("stale");
+}
+
 function addPoints({ id, points, of }) {
   if (id !== curve.id) return;
+  beginCurve();
   curve.of = of;
   for (const point of points) {
     const line = (curve.lines[point.record] ??= []);
@@ -136,12 +149,14 @@ function addPoints({ id, points, of }) {
 
 function addMarks({ id, marks }) {
   if (id !== curve.id) return;
+  beginCurve();
   curve.marks = marks;
   drawCurve();
 }
 
 function noCurve({ id, problem }) {
   if (id !== curve.id) return;
+  beginCurve();
   curve.problem = problem;
   drawCurve();
 }
@@ -224,7 +239,7 @@ function drawCurve() {
   const needed = knownMarks().find((mark) => mark.needed);
   const done = all.length ? `${lines.flat().length} of ${curve.of} points. ` : "";
   const found = needed ? `Smallest gap without pounding: ${fixed(1e3 * needed.width, 1)} mm. ` : "";
-  byId("curve-note").textContent = curve.problem || `${found}${lines.flat().length < curve.of ? done : ""}Drag the line, or use the arrow keys, to change the value.`;
+  if (curve.fresh && !curve.stale) byId("curve-note").textContent = curve.problem || `${found}${lines.flat().length < curve.of ? done : ""}Drag the line, or use the arrow keys, to change the value.`;
 }
 
 const isWidth = () => /^gap\[.*\]\.width$/.test(curve.path ?? "");

@@ -341,7 +341,7 @@ fn the_curve_shows_the_smallest_gap_and_its_line_can_be_moved() {
         .parse()
         .unwrap();
     assert!(needed > 5.0 && needed < 200.0, "{note}");
-    assert!(page.number("document.querySelectorAll('.code-marks > g').length") >= 2.0);
+    page.wait("document.querySelectorAll('.code-marks > g').length >= 2");
     let length = page
         .text("document.querySelector('.curve-line').getAttribute('d')")
         .matches('L')
