@@ -232,8 +232,10 @@ function drawCurve() {
     if (stats.length > 1) svg("path", { class: "line mean", d: path(stats.map((s) => ({ x: s.x, y: [s.mean] })), (p) => p.y[0]) }, drawing);
   } else if (lines.length) svg("path", { class: "line curve-line", style: "--c:var(--c0)", d: path(lines[0], valueOf) }, drawing);
   drawMarks(image, px, width);
+  const focused = document.activeElement === picture.handle;
   drawCursor(image);
   host.replaceChildren(image);
+  if (focused) picture.handle.focus({ preventScroll: true });
   const records = curve.records.length > 1 ? `, ${curve.records.length} records: thin lines, mean bold, 16 to 84 % shaded` : "";
   byId("curve-caption").textContent = `${name}${unit ? ` [${unit}]` : ""} against ${over}${curve.unit ? ` [${curve.unit}]` : ""}${records}`;
   const needed = knownMarks().find((mark) => mark.needed);

@@ -15,6 +15,10 @@ const SCRIPTS: [&str; 4] = [
 /// The page of a model, and its security policy.
 pub(crate) fn page(name: &str, port: u16, token: &str) -> (String, String) {
     let viewer = Viewer::new();
+    let name = std::path::Path::new(name)
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy();
     // The token is random and known to this page alone, so it also marks its scripts.
     let policy = format!(
         "default-src 'none'; script-src 'nonce-{token}'; style-src 'unsafe-inline'; img-src data:; \
