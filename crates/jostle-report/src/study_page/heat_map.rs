@@ -35,11 +35,12 @@ pub struct Cell {
 }
 
 const WIDTH: f64 = 460.0;
-const LEFT: f64 = 66.0;
+const LEFT: f64 = 52.0;
 /// Room for the colour bar.
 const RIGHT: f64 = 62.0;
 const BOTTOM: f64 = 44.0;
-const TOP: f64 = 10.0;
+/// Room for the title of the upward axis.
+const TOP: f64 = 24.0;
 /// Numbers are written into cells at least this wide.
 const ROOM: f64 = 30.0;
 /// Widest cell.
@@ -128,7 +129,6 @@ pub(super) fn figure(map: &HeatMap) -> Markup {
     };
     let label = format!("{} over {} and {}", map.value.name, map.x.name, map.y.name);
     let bar = LEFT + length + 14.0;
-    let middle = TOP + 0.5 * tall;
     html! {
         figure.study-map {
             figcaption { span.chart-title { (map.value.name) } @if !map.value.unit.is_empty() { span.unit { " [" (map.value.unit) "]" } } }
@@ -160,7 +160,7 @@ pub(super) fn figure(map: &HeatMap) -> Markup {
                     text x=(LEFT - 6.0) y=(TOP + tall - up.places[row] + 4.0) text-anchor="end" { (number(map.rows[row])) }
                 }
                 text x=(LEFT + 0.5 * length) y=(height - 10.0) text-anchor="middle" { (map.x.label()) }
-                text x=(0) y=(0) text-anchor="middle" transform=(format!("translate(12,{middle}) rotate(-90)")) { (map.y.label()) }
+                text x="0" y="12" { (map.y.label()) }
                 @if high > low {
                     g.colour-bar {
                         @for step in 0..SHADES {
