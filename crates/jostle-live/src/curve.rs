@@ -1,6 +1,7 @@
 //! Results over the range of one key, on all cores, coarse to fine.
 
 use std::sync::mpsc::Sender;
+use std::sync::{Mutex, PoisonError};
 
 use jostle::{Settings, Summary};
 use jostle_io::{ModelTree, TreeValue};
@@ -50,6 +51,8 @@ pub(crate) fn points(
         .into_iter()
         .flat_map(|index| (0..records).map(move |record| (record, index)))
         .collect();
+    let widens = curve.path.starts_with("gap") && curve.path.ends_with(".width");
+    let apart: Vec<Apart> = (0..records).map(|_| Mutex::new(None)).collect();
     cases
         .into_par_iter()
         .for_each_with(send.clone(), |send, (record, index)| {
@@ -57,10 +60,29 @@ pub(crate) fn points(
                 return;
             }
             let x = value(curve, index, count);
-            let y = one(engine, tree, curve, record, x, stop);
+            let known = widens.then(|| beyond(&apart[record], x)).flatten();
+            let y = known.or_else(|| one(engine, tree, curve, record, x, stop));
+            if let Some(y) = y.filter(|y| widens && y[1] == 0.0) {
+                keep_apart(&apart[record], x, y);
+            }
             // A page that is gone wants no points.
             let _ = send.send(Point { record, x, y });
         });
+}
+
+/// Smallest width known to leave no impact, and the results there. Wider gaps give the same run.
+type Apart = Mutex<Option<(f64, [f64; 4])>>;
+
+fn beyond(apart: &Apart, x: f64) -> Option<[f64; 4]> {
+    let known = apart.lock().unwrap_or_else(PoisonError::into_inner);
+    known.filter(|(width, _)| *width <= x).map(|(_, y)| y)
+}
+
+fn keep_apart(apart: &Apart, x: f64, y: [f64; 4]) {
+    let mut known = apart.lock().unwrap_or_else(PoisonError::into_inner);
+    if known.is_none_or(|(width, _)| x < width) {
+        *known = Some((x, y));
+    }
 }
 
 /// Number of points that [`points`] computes.
@@ -212,6 +234,16 @@ pub(crate) fn marks(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_wider_gaps_share_a_run_without_impact() {
+        let apart = Apart::default();
+        assert_eq!(beyond(&apart, 1.0), None);
+        keep_apart(&apart, 5.0, [0.0, 0.0, 1.0, 2.0]);
+        keep_apart(&apart, 7.0, [0.0, 0.0, 9.0, 9.0]);
+        assert_eq!(beyond(&apart, 4.9), None);
+        assert_eq!(beyond(&apart, 5.0), Some([0.0, 0.0, 1.0, 2.0]));
+    }
 
     #[test]
     fn every_point_comes_once_and_the_ends_first() {
