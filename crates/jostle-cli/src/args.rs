@@ -54,6 +54,8 @@ pub(crate) enum Command {
     Study(crate::study::StudyArgs),
     /// The smallest gap without pounding, beside what rules and codes ask for
     Gap(crate::gap::GapArgs),
+    /// A page on this machine that runs the model at every change
+    Live(crate::live::LiveArgs),
     /// Push buildings sideways until they have swayed far enough or can stand no more
     Pushover(PushoverArgs),
     /// Write a commented starter file

@@ -7,6 +7,7 @@ mod completions;
 mod export;
 mod failure;
 mod gap;
+mod live;
 mod man;
 mod method;
 mod modes;
@@ -67,6 +68,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Pushover(args) => pushover::pushover(&args),
         Command::Study(args) => study::study(&args),
         Command::Gap(args) => gap::gap(&args),
+        Command::Live(args) => live::live(&args),
         Command::Motion(command) => motion::run(&command),
         Command::Section(args) => section::section(&args),
         Command::New(args) => starter::new(&args),

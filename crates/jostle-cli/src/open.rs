@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::terminal;
 
 /// The built-in example that runs without a model file.
-const EXAMPLE: &str = "paper";
+pub(crate) const EXAMPLE: &str = "paper";
 
 /// A model ready to be stepped.
 pub(crate) struct Opened {

@@ -120,6 +120,10 @@ fn curves_and_page_are_written() {
     assert!(curves.starts_with("law,time_s,indentation_m,rate_m_s,force_n\nlinear,"));
     assert!(curves.lines().count() > 2000);
     let page = std::fs::read_to_string(folder.path().join("page.html")).expect("the page");
+    assert!(
+        page.contains("id=\"theme\"") && page.contains("<script"),
+        "light or dark"
+    );
     assert!(page.contains("<svg") && !page.contains("NaN") && !page.contains("inf"));
 }
 

@@ -47,6 +47,10 @@ fn a_section_is_described_by_both_methods() {
         assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");
     }
     let page = std::fs::read_to_string(folder.path().join("page.html")).expect("the page");
+    assert!(
+        page.contains("id=\"theme\"") && page.contains("<script"),
+        "light or dark"
+    );
     for part in ["<svg", "<circle", "Sugano", "curvature"] {
         assert!(page.contains(part), "{part}");
     }

@@ -9,6 +9,7 @@ mod csv;
 mod fault;
 mod json_tree;
 mod keys;
+mod knobs;
 mod model_file;
 mod model_tree;
 mod motion_spec;
@@ -20,6 +21,7 @@ mod record;
 mod record_list;
 mod record_text;
 mod reference;
+mod rewrite;
 mod schema;
 mod selection;
 mod source;
@@ -39,6 +41,7 @@ pub use builtin::{
 pub use csv::csv_field;
 pub use fault::{Fault, InputError};
 pub use keys::LAW_NAMES;
+pub use knobs::{Knob, KnobKind};
 pub use model_file::{
     Input, OverrideError, Overrides, ReinforcedMember, read_model_file, read_model_text,
 };

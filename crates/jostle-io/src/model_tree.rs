@@ -17,7 +17,7 @@ use crate::tree::{self, Entry, Format, Node, Table, Value};
 #[derive(Clone, Debug)]
 pub struct ModelTree {
     source: Arc<Source>,
-    root: Node,
+    pub(crate) root: Node,
     base: PathBuf,
 }
 
@@ -50,7 +50,7 @@ pub struct PathError {
 
 /// One step of a path.
 #[derive(Clone, Debug, PartialEq)]
-enum Part {
+pub(crate) enum Part {
     /// A key of a table, or the `name` of an entry of a list.
     Key(String),
     Index(usize),
@@ -65,7 +65,7 @@ enum Change<'v> {
 }
 
 /// Keys that cannot stand beside each other: putting in one takes the others out.
-const ALTERNATIVES: [(&str, &[&str]); 4] = [
+pub(crate) const ALTERNATIVES: [(&str, &[&str]); 4] = [
     ("pga", &["scale", "match"]),
     ("scale", &["pga", "match"]),
     ("match", &["pga", "scale"]),
@@ -210,7 +210,7 @@ impl ModelTree {
 }
 
 /// The steps of a path.
-fn parts(path: &str) -> Result<Vec<Part>, String> {
+pub(crate) fn parts(path: &str) -> Result<Vec<Part>, String> {
     const EXAMPLE: &str = "write it like gap[0].width, gap[*].width or building.J1.damping.ratio";
     let mut parts = Vec::new();
     for piece in path.split('.') {
@@ -342,7 +342,7 @@ fn collect(node: &Node, parts: &[Part], into: &mut Vec<TreeValue>) {
 }
 
 /// The name by which an entry of a list can be called: its `name`, or for a gap its neighbours.
-fn name_of(node: &Node) -> String {
+pub(crate) fn name_of(node: &Node) -> String {
     let Value::Table(table) = &node.value else {
         return String::new();
     };
@@ -393,7 +393,7 @@ pub(crate) fn quantity_text(number: f64, unit: &str) -> String {
 }
 
 impl TreeValue {
-    fn node(&self) -> Node {
+    pub(crate) fn node(&self) -> Node {
         let value = match self {
             Self::Text(text) => Value::Text(text.clone()),
             Self::Integer(value) => Value::Integer(*value),

@@ -70,10 +70,8 @@ class TimeChart {
   constructor(host, view, { title, unit, series, levels = [], zone, height = 190, seek }) {
     Object.assign(this, { view, unit, series, levels, zone, height, seek, title });
     this.figure = html("figure", "chart", undefined, host);
-    const caption = html("figcaption", "", undefined, this.figure);
-    html("span", "unit", ` [${unit}]`, html("span", "chart-title", title, caption));
-    this.readouts = this.makeLegend(caption);
-    this.svg = svg("svg", { role: "img", "aria-label": `${title} over time`, tabindex: 0 }, this.figure);
+    this.caption = html("figcaption", "", undefined, this.figure);
+    this.svg = svg("svg", { role: "img", tabindex: 0 }, this.figure);
     this.clip = `clip-${TimeChart.count++}`;
     this.layers = {};
     const definitions = svg("clipPath", { id: this.clip }, svg("defs", {}, this.svg));
@@ -82,9 +80,7 @@ class TimeChart {
       const inside = name === "grid" || name === "levels" ? {} : { "clip-path": `url(#${this.clip})` };
       this.layers[name] = svg("g", { class: name, ...inside }, this.svg);
     }
-    this.paths = this.series.map((s) =>
-      svg("path", { class: `line${s.dashed ? " dashed" : ""}${s.area ? " area" : ""}`, style: `--c:${s.colour}` }, this.layers.lines),
-    );
+    this.name();
     this.cursorLine = svg("line", { class: "cursor" }, this.layers.marks);
     this.pointerLine = svg("line", { class: "pointer" }, this.layers.marks);
     this.selection = svg("rect", { class: "selection" }, this.layers.marks);
@@ -92,6 +88,28 @@ class TimeChart {
     view.charts.add(this);
     this.observer = new ResizeObserver(() => requestAnimationFrame(() => this.draw()));
     this.observer.observe(this.figure);
+  }
+
+  /** Title, legend and lines, anew. */
+  name() {
+    this.caption.replaceChildren();
+    html("span", "unit", ` [${this.unit}]`, html("span", "chart-title", this.title, this.caption));
+    this.readouts = this.makeLegend(this.caption);
+    this.instant = html("output", "hover-time", "", this.caption);
+    this.svg.setAttribute("aria-label", `${this.title} over time`);
+    this.layers.lines.replaceChildren();
+    this.paths = this.series.map((s) =>
+      svg("path", { class: `line${s.dashed ? " dashed" : ""}${s.area ? " area" : ""}`, style: `--c:${s.colour}` }, this.layers.lines),
+    );
+  }
+
+  /** Shows other data in the same place. */
+  update({ title, unit, series, levels = [], zone, height = 190 }) {
+    const named = (chart) => JSON.stringify([chart.title, chart.unit, chart.series.map((s) => [s.label, s.colour, s.dashed, s.area])]);
+    const before = named(this);
+    Object.assign(this, { title, unit, series, levels, zone, height });
+    if (named(this) !== before) this.name();
+    this.draw();
   }
 
   static count = 0;
@@ -254,6 +272,7 @@ class TimeChart {
     place(this.cursorLine, this.view.cursor);
     place(this.pointerLine, this.view.pointer);
     const t = this.view.pointer ?? this.view.cursor;
+    this.instant.textContent = this.view.pointer === null ? "" : `at ${fixed(t, 3)} s`;
     this.series.forEach((s, i) => {
       const values = s.read ?? s.values;
       this.readouts[i].textContent = values.length ? readable(interpolate(s.time, values, t)) : "";

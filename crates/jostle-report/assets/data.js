@@ -1,18 +1,21 @@
-// What the page carries: histories packed as integers in base64, geometry, impacts.
+// What a run shows: histories, geometry, impacts. A report carries it in its text; a live page loads run after run.
 
-const page = JSON.parse(document.getElementById("page-data").textContent);
+let page = null;
+/** Numbers beside the text of a live page. */
+let numbers = null;
 
-/** Numbers of a packed list: offset + scale · integer, little-endian. */
-function unpack({ kind, offset, scale, data }) {
+/** Numbers of a packed list: a part of `numbers`, or offset + scale · integer, little-endian, in base64. */
+function unpack({ kind, offset, scale, data, at, count }) {
+  if (at !== undefined) return numbers.subarray(at, at + count);
   const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
   const view = new DataView(bytes.buffer);
   const size = kind === "u32" ? 4 : 2;
-  const numbers = new Float64Array(bytes.length / size);
-  for (let i = 0; i < numbers.length; i++) {
+  const values = new Float64Array(bytes.length / size);
+  for (let i = 0; i < values.length; i++) {
     const integer = kind === "u32" ? view.getUint32(4 * i, true) : view.getInt16(2 * i, true);
-    numbers[i] = offset + scale * integer;
+    values[i] = offset + scale * integer;
   }
-  return numbers;
+  return values;
 }
 
 /** Index of the last entry ≤ value in a rising list; -1 before the first. */
@@ -44,13 +47,23 @@ function unpackTable(table) {
   };
 }
 
-const run = unpackTable(page.run);
-const without = unpackTable(page.without);
-const ground = { time: unpack(page.ground.time), values: unpack(page.ground.values) };
-const forces = page.forces.map((force) => ({ time: unpack(force.time), values: unpack(force.values) }));
-
+let run, without, ground, forces;
 /** All contacts by their index, each with its gap. */
-const contacts = page.gaps.flatMap((gap) => gap.contacts.map((contact) => ({ ...contact, gap })));
+let contacts;
+
+/** Takes over the data of a run. */
+function load(data, beside) {
+  page = data;
+  numbers = beside;
+  run = unpackTable(page.run);
+  without = unpackTable(page.without);
+  ground = { time: unpack(page.ground.time), values: unpack(page.ground.values) };
+  forces = page.forces.map((force) => ({ time: unpack(force.time), values: unpack(force.values) }));
+  contacts = page.gaps.flatMap((gap) => gap.contacts.map((contact) => ({ ...contact, gap })));
+}
+
+const embedded = document.getElementById("page-data");
+if (embedded) load(JSON.parse(embedded.textContent), null);
 
 /** Displacement history of a building at a height: of a floor, or between floors on a straight line. */
 function displacementColumn(table, building, floor, height) {

@@ -1,15 +1,20 @@
 // What cracks and yields: where its marks are drawn, how many there are, and the loops of the worst.
 
-/** A place that can yield, as the page carries it. */
-const hinges = page.hinges.map(([building, kind, level, line, end, cracked, yielded]) => ({
-  building,
-  kind,
-  level,
-  line,
-  end,
-  cracked: cracked ?? Infinity,
-  yielded: yielded ?? Infinity,
-}));
+/** Places that can yield. */
+let hinges = [];
+
+/** Takes over the places of the run that is loaded. */
+function loadHinges() {
+  hinges = page.hinges.map(([building, kind, level, line, end, cracked, yielded]) => ({
+    building,
+    kind,
+    level,
+    line,
+    end,
+    cracked: cracked ?? Infinity,
+    yielded: yielded ?? Infinity,
+  }));
+}
 
 const stageNames = ["not cracked", "cracked", "yielded"];
 
@@ -30,7 +35,8 @@ function markOutline(stage, x, y, size) {
 /** The legend below the buildings, with counts that follow the clock. */
 class HingeLegend {
   constructor(host) {
-    if (!host) return;
+    if (!host || !hinges.length) return host?.replaceChildren();
+    host.replaceChildren();
     const named = page.buildings.length > 1;
     this.rows = stageNames.map((name, stage) => {
       const key = html("span", "key", undefined, host);

@@ -5,20 +5,39 @@ class Scene {
   constructor(host) {
     this.host = host;
     this.svg = svg("svg", { role: "img", "aria-label": "The buildings at the current instant" }, host);
-    this.top = Math.max(...page.buildings.flatMap((b) => b.heights));
-    this.peak = Math.max(1e-9, ...this.columns(run).flat().filter(Boolean).map(greatest));
-    this.groundPeak = greatest(ground.values) || 1;
-    this.hardest = Math.max(1e-9, ...page.impacts.map((impact) => impact.peak));
-    this.exaggeration = this.fitting();
     this.ghost = false;
     this.marked = true;
     this.time = 0;
+    this.take();
+    this.exaggeration = this.fitting();
+    this.build();
+    new ResizeObserver(() => requestAnimationFrame(() => this.layout())).observe(host);
+  }
+
+  /** What the run that is loaded says. */
+  take() {
+    this.top = Math.max(...page.buildings.flatMap((b) => b.heights));
     this.run = this.columns(run);
+    this.peak = Math.max(1e-9, ...this.run.flat().filter(Boolean).map(greatest));
+    this.groundPeak = greatest(ground.values) || 1;
+    this.hardest = Math.max(1e-9, ...page.impacts.map((impact) => impact.peak));
     this.other = without && this.columns(without);
     this.byContact = contacts.map((contact) => page.impacts.filter((impact) => impact.contact === contact.index));
     this.starts = this.byContact.map((list) => list.map((impact) => impact.start));
+  }
+
+  /** Shows another run; the picture keeps its exaggeration and its instant. */
+  refresh() {
+    this.take();
+    this.svg.replaceChildren();
     this.build();
-    new ResizeObserver(() => requestAnimationFrame(() => this.layout())).observe(host);
+    this.layout();
+  }
+
+  /** Keeps the present run, to be drawn behind others of the same floors; `null` forgets it. */
+  pin(kept) {
+    this.pinned = kept && { table: run, columns: this.run, floors: page.buildings.map((b) => b.heights.length).join() };
+    this.draw(this.time);
   }
 
   /** Displacement columns: per building, per floor from the ground up. */
@@ -37,6 +56,7 @@ class Scene {
     this.parts = page.buildings.map((building, i) => {
       const group = svg("g", { class: "building", style: `--c:var(--c${i % 7})` }, this.svg);
       return {
+        pinned: svg("path", { class: "pinned" }, group),
         ghost: svg("path", { class: "ghost" }, group),
         columns: svg("path", { class: "columns" }, group),
         floors: svg("path", { class: building.frame ? "beams" : "slabs" }, group),
@@ -211,7 +231,11 @@ class Scene {
     part.floors.setAttribute("d", floor(sway));
     this.drawHinges(part, lines, heights, sway, t);
     const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
-    part.ghost.setAttribute("d", ghost ? column(lines[0], ghost) + column(lines[lines.length - 1], ghost) + floor(ghost) : "");
+    const outline = (places) => column(lines[0], places) + column(lines[lines.length - 1], places) + floor(places);
+    part.ghost.setAttribute("d", ghost ? outline(ghost) : "");
+    const floors = this.pinned && page.buildings.map((b) => b.heights.length).join();
+    const pinned = this.pinned?.floors === floors ? this.pinned : null;
+    part.pinned.setAttribute("d", pinned ? outline(this.places(pinned.columns[i], pinned.table, t)) : "");
     const roof = sway[sway.length - 1];
     part.sway.setAttribute("x", this.px(this.left[i] + this.widths[i] / 2));
     part.sway.setAttribute("y", this.py(heights[heights.length - 1]) - 12);

@@ -5,7 +5,7 @@ use jostle::contact::{CollisionPoint, FreeCollision};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::format;
-use crate::page::{POLICY, STYLE};
+use crate::page::{POLICY, STYLE, theme_button, theme_script};
 
 /// A law and what came of it.
 #[derive(Clone, Debug)]
@@ -93,7 +93,7 @@ pub fn render_collisions(collisions: &Collisions) -> String {
                     p.kicker { "Collision of two free masses" }
                     h1 { (title) }
                     p { "Restitution asked for: " (format::plain(collisions.restitution, 3)) ". " (collisions.stiffnesses) }
-                } }
+                } (theme_button()) }
                 main {
                     section { h2 { "Numbers" } (table(collisions)) }
                     @for (across, heading) in [(Across::Time, "Force over time"), (Across::Indentation, "Force over indentation")] {
@@ -108,6 +108,7 @@ pub fn render_collisions(collisions: &Collisions) -> String {
                     }
                 }
                 footer { "Made by jostle. One file, nothing is loaded from elsewhere." }
+                (theme_script())
             }
         }
     };

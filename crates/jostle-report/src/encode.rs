@@ -4,14 +4,60 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-/// Numbers as little-endian integers in base64; a value is `offset + scale · integer`.
+/// Numbers of a list, ready for the scripts of a page.
 #[derive(Debug, Serialize)]
-pub(crate) struct Packed {
-    /// `u32` or `i16`.
-    kind: &'static str,
-    offset: f64,
-    scale: f64,
-    data: String,
+#[serde(untagged)]
+pub(crate) enum Packed {
+    /// Little-endian integers in base64; a value is `offset + scale · integer`.
+    Text {
+        /// `u32` or `i16`.
+        kind: &'static str,
+        offset: f64,
+        scale: f64,
+        data: String,
+    },
+    /// A part of an array of `f32` that travels beside the text.
+    Floats {
+        /// Index of the first value.
+        at: usize,
+        count: usize,
+    },
+}
+
+/// Where the numbers of a page go.
+#[derive(Debug)]
+pub(crate) enum Packer {
+    /// Into the text, for a page in one file.
+    Text,
+    /// Into an array beside it.
+    Floats(Vec<f32>),
+}
+
+impl Packer {
+    /// Instants \[s\].
+    pub(crate) fn instants(&mut self, values: &[f64]) -> Packed {
+        match self {
+            Self::Text => Packed::instants(values),
+            Self::Floats(floats) => append(floats, values.iter().copied()),
+        }
+    }
+
+    /// Values; what is not a number becomes zero.
+    pub(crate) fn values(&mut self, values: impl Iterator<Item = f64> + Clone) -> Packed {
+        match self {
+            Self::Text => Packed::values(values),
+            Self::Floats(floats) => append(floats, values),
+        }
+    }
+}
+
+fn append(floats: &mut Vec<f32>, values: impl Iterator<Item = f64>) -> Packed {
+    let at = floats.len();
+    floats.extend(values.map(|value| if value.is_finite() { value as f32 } else { 0.0 }));
+    Packed::Floats {
+        at,
+        count: floats.len() - at,
+    }
 }
 
 impl Packed {
@@ -23,7 +69,7 @@ impl Packed {
             .iter()
             .flat_map(|value| (((value - low) / scale).round() as u32).to_le_bytes())
             .collect();
-        Self {
+        Self::Text {
             kind: "u32",
             offset: low,
             scale,
@@ -41,7 +87,7 @@ impl Packed {
         let bytes: Vec<u8> = values
             .flat_map(|value| ((value / scale).round() as i16).to_le_bytes())
             .collect();
-        Self {
+        Self::Text {
             kind: "i16",
             offset: 0.0,
             scale,

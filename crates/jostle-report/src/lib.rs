@@ -22,6 +22,7 @@ mod study_page;
 mod tables;
 mod thin_loop;
 mod verdict;
+mod viewer;
 
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use method::render_method;
@@ -33,6 +34,7 @@ pub use study_page::{
     Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, render_study,
 };
 pub use verdict::verdict;
+pub use viewer::{Frame, Viewer, frame};
 
 use jostle::history::SpringHistory;
 use jostle::method::MethodSurvey;

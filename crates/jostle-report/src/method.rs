@@ -3,7 +3,7 @@
 use jostle::method::{MethodSurvey, StepAccuracy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::page::{POLICY, STYLE};
+use crate::page::{POLICY, STYLE, theme_button, theme_script};
 
 /// Which error of a row to show.
 type ErrorOf = fn(&StepAccuracy) -> f64;
@@ -35,11 +35,13 @@ pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
                         h1 { (title) }
                         p { "How large the equations of one step are in each form, and how many digits each form keeps as the step shrinks. Impacts need steps below a millisecond." }
                     }
+                    (theme_button())
                 }
                 main {
                     @for survey in surveys { section { h2 { (survey.name) } (building(survey)) } }
                     (explanation(surveys))
                 }
+                (theme_script())
             }
         }
     };

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::encode::Packed;
 use crate::format;
-use crate::page::{POLICY, STYLE};
+use crate::page::{POLICY, STYLE, theme_button};
 
 /// What the page of a motion shows.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +93,7 @@ pub(crate) fn frame(title: &str, kicker: &str, body: &Markup, data: &Value) -> S
             body {
                 header.head {
                     div { p.kicker { (kicker) } h1 { (title) } }
-                    button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+                    (theme_button())
                 }
                 main { (body) }
                 footer { "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file, nothing is loaded from elsewhere." }

@@ -8,18 +8,34 @@ use crate::{Page, describe, format, hinges, method, payload, tables};
 
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
 /// The scripts, in the order of their dependence; together they are one module.
-const SCRIPTS: [&str; 7] = [
+pub(crate) const SCRIPTS: [&str; 8] = [
     include_str!("../assets/data.js"),
     include_str!("../assets/chart.js"),
     include_str!("../assets/hinges.js"),
     include_str!("../assets/loop.js"),
     include_str!("../assets/scene.js"),
     include_str!("../assets/player.js"),
+    include_str!("../assets/panels.js"),
     include_str!("../assets/main.js"),
 ];
 /// Nothing may be loaded: everything is in the file.
 pub(crate) const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+
+/// Makes [`theme_button`] work, on pages without other scripts.
+const THEME_SCRIPT: &str = include_str!("../assets/theme.js");
+
+/// The button that switches between light and dark.
+pub(crate) fn theme_button() -> Markup {
+    html! {
+        button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+    }
+}
+
+/// The script of that button, for pages without other scripts.
+pub(crate) fn theme_script() -> Markup {
+    html! { script type="module" { (PreEscaped(THEME_SCRIPT)) } }
+}
 
 /// The style attribute that gives an element the colour of a building.
 pub(crate) fn colour(building: usize) -> String {
@@ -35,6 +51,11 @@ pub(crate) fn page(page: &Page) -> Markup {
         .map(|history| envelope::of_history(page.model, history));
     let without = without.as_deref();
     let recorded = page.history.len() > 1;
+    let yields = page
+        .model
+        .buildings
+        .iter()
+        .any(|building| building.may_yield());
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -54,14 +75,14 @@ pub(crate) fn page(page: &Page) -> Markup {
                         p.kicker { "Seismic pounding report" }
                         h1 { (page.summary.title) }
                     }
-                    button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+                    (theme_button())
                 }
                 main {
                     p.verdict { (headline) }
                     (tiles(page))
                     @if recorded {
-                        (motion_section(page))
-                        (chart_section(page))
+                        (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), yields))
+                        (chart_section(page.without_contact.is_some() && !page.model.gaps.is_empty()))
                     } @else {
                         p.note { "No time histories were recorded, so there is nothing to play." }
                     }
@@ -81,7 +102,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     }
                     @if !page.model.gaps.is_empty() {
                         section #joints {
-                            h2 { "Beside the code" }
+                            h2 { "Comparison with code requirements" }
                             (tables::joints(page, &run, without))
                         }
                     }
@@ -96,7 +117,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     "Made by jostle " (page.summary.jostle) ". One file, nothing is loaded from elsewhere."
                 }
                 @if recorded {
-                    (player(page))
+                    (player(page.summary.gaps.iter().any(|gap| gap.impact_count > 0)))
                     noscript { p.note { "The animation and the time charts need JavaScript." } }
                     script #page-data type="application/json" { (PreEscaped(payload::payload(page))) }
                     script type="module" { (PreEscaped(SCRIPTS.concat())) }
@@ -106,7 +127,7 @@ pub(crate) fn page(page: &Page) -> Markup {
     }
 }
 
-fn warnings(page: &Page) -> Markup {
+pub(crate) fn warnings(page: &Page) -> Markup {
     let summary = page.summary;
     html! {
         @if summary.ended_early.is_some() || !summary.warnings.is_empty() {
@@ -122,7 +143,7 @@ fn warnings(page: &Page) -> Markup {
     }
 }
 
-fn tiles(page: &Page) -> Markup {
+pub(crate) fn tiles(page: &Page) -> Markup {
     let summary = page.summary;
     let mut tiles: Vec<(String, String, String)> = Vec::new();
     let mut tile = |name: &str, value: String, note: String| {
@@ -234,7 +255,8 @@ fn tiles(page: &Page) -> Markup {
     }
 }
 
-fn motion_section(page: &Page) -> Markup {
+/// The animation, with the controls of a run without contact and of yielding places.
+pub(crate) fn motion_section(compares: bool, yields: bool) -> Markup {
     html! {
         section #motion {
             h2 { "How they move" }
@@ -244,14 +266,14 @@ fn motion_section(page: &Page) -> Markup {
                     input #exaggeration type="range" min="0" max="2" step="0.01" value="1";
                     output #exaggeration-value for="exaggeration" { "10×" }
                 }
-                @if page.without_contact.is_some() && !page.model.gaps.is_empty() {
+                @if compares {
                     label { input #ghost type="checkbox"; " also without contact (dashed)" }
                 }
-                @if page.model.buildings.iter().any(|building| building.may_yield()) {
+                @if yields {
                     label { input #show-hinges type="checkbox" checked; " cracking and yielding" }
                 }
             }
-            @if page.model.buildings.iter().any(|building| building.may_yield()) {
+            @if yields {
                 div #hinge-legend.hinge-legend {}
             }
             p.quiet {
@@ -262,7 +284,8 @@ fn motion_section(page: &Page) -> Markup {
     }
 }
 
-fn chart_section(page: &Page) -> Markup {
+/// Charts over time.
+pub(crate) fn chart_section(compares: bool) -> Markup {
     html! {
         section #charts {
             h2 { "Over time" }
@@ -280,14 +303,14 @@ fn chart_section(page: &Page) -> Markup {
                 "On a chart with the keyboard focus, the wheel zooms (elsewhere with Shift or Ctrl); arrow keys move the cursor, + and − zoom."
             }
             div #time-charts {}
-            @if page.without_contact.is_some() && !page.model.gaps.is_empty() {
+            @if compares {
                 p.quiet { "Dashed: the same buildings passing through each other." }
             }
         }
     }
 }
 
-fn legend(page: &Page, without: bool) -> Markup {
+pub(crate) fn legend(page: &Page, without: bool) -> Markup {
     html! {
         p.legend {
             @for (i, building) in page.model.buildings.iter().enumerate() {
@@ -298,8 +321,8 @@ fn legend(page: &Page, without: bool) -> Markup {
     }
 }
 
-fn player(page: &Page) -> Markup {
-    let impacts = page.summary.gaps.iter().any(|gap| gap.impact_count > 0);
+/// The bar of playback, with buttons that jump from impact to impact.
+pub(crate) fn player(impacts: bool) -> Markup {
     html! {
         div #player.player role="group" aria-label="Playback" {
             div.player-row {
@@ -311,7 +334,7 @@ fn player(page: &Page) -> Markup {
                     button #next type="button" aria-label="Next impact" title="Next impact (])" { (icon("", "M3 3v14l10-7zM14 3h3v14h-3z")) }
                 }
                 output #clock.clock { "0.000 s" }
-                span #force-now.force-now {}
+                span #force-now.force-now { span.wordy hidden { "total " } span {} }
                 label.speed { span.wordy { "Speed " }
                     select #speed aria-label="Speed" {
                         @for speed in ["0.01", "0.1", "0.25", "0.5", "1", "2", "4"] {

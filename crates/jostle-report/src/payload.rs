@@ -7,21 +7,47 @@ use jostle::summary::{ContactSummary, SpringSummary, Summary};
 use serde::Serialize;
 
 use crate::Page;
-use crate::encode::{Packed, thin_impacts, thin_rows};
+use crate::encode::{Packed, Packer, thin_impacts, thin_rows};
 use crate::hinges::{self, Place};
 use crate::thin_loop::thin_loop;
 use crate::verdict::place;
 
-/// Bytes of base64 text to spend on the histories of the run, of the run without contact, and on forces.
-const RUN_BYTES: usize = 330_000;
-const WITHOUT_BYTES: usize = 170_000;
-const FORCE_BYTES: usize = 200_000;
-/// Bytes of base64 text to spend on all loops of hinges.
-const LOOP_BYTES: usize = 100_000;
-/// Most instants of either run: finer would not be seen.
-const MOST_ROWS: usize = 6000;
-/// Most points of the ground motion.
-const MOST_GROUND_POINTS: usize = 8000;
+/// How much of a run goes into a page.
+pub(crate) struct Budget {
+    /// Numbers of the histories of the run.
+    run: usize,
+    /// Numbers of the histories of the run without contact.
+    without: usize,
+    /// Numbers of the contact forces.
+    forces: usize,
+    /// Numbers of all loops of hinges.
+    loops: usize,
+    /// Most instants of either run: finer would not be seen.
+    rows: usize,
+    /// Most points of the ground motion.
+    ground: usize,
+}
+
+/// A page in one file, below 1 MB.
+const FILE: Budget = Budget {
+    run: 124_000,
+    without: 64_000,
+    forces: 50_000,
+    loops: 37_000,
+    rows: 6000,
+    ground: 8000,
+};
+
+/// A frame of a page that shows run after run.
+const LIVE: Budget = Budget {
+    run: 60_000,
+    without: 30_000,
+    forces: 20_000,
+    loops: 20_000,
+    rows: 2500,
+    ground: 3000,
+};
+
 /// Most impacts the player can jump to.
 const MOST_IMPACTS: usize = 2000;
 
@@ -123,6 +149,23 @@ struct Table {
 
 /// The JSON text, safe inside a script element.
 pub(crate) fn payload(page: &Page) -> String {
+    text(page, &FILE, &mut Packer::Text)
+        .replace('<', "\\u003c")
+        .replace('\u{2028}', "\\u2028")
+        .replace('\u{2029}', "\\u2029")
+}
+
+/// The JSON text and the numbers that it refers to.
+pub(crate) fn frame(page: &Page) -> (String, Vec<f32>) {
+    let mut pack = Packer::Floats(Vec::new());
+    let text = text(page, &LIVE, &mut pack);
+    match pack {
+        Packer::Floats(floats) => (text, floats),
+        Packer::Text => (text, Vec::new()),
+    }
+}
+
+fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
     let time = page.history.column(Column::Time).unwrap_or_default();
     let force = forces(page);
     let places = hinges::places(page.model);
@@ -131,22 +174,33 @@ pub(crate) fn payload(page: &Page) -> String {
         buildings: page.model.buildings.iter().map(outline).collect(),
         gaps: gaps(page),
         links: links(page),
-        ground: ground(page.motion),
-        run: table(page, page.history, &force, RUN_BYTES, true),
-        without: page
-            .without_contact
-            .map(|history| table(page, history, &[], WITHOUT_BYTES, false)),
-        forces: force_series(&time, &force),
+        ground: ground(page.motion, budget.ground, pack),
+        run: table(
+            page,
+            page.history,
+            &force,
+            [budget.run, budget.rows],
+            true,
+            pack,
+        ),
+        without: page.without_contact.map(|history| {
+            table(
+                page,
+                history,
+                &[],
+                [budget.without, budget.rows],
+                false,
+                pack,
+            )
+        }),
+        forces: force_series(&time, &force, budget.forces, pack),
         impacts: impacts(page.summary),
         hysteretic: page.summary.energy.hysteretic_j != 0.0,
         hinges: hinge_data(page, &places),
-        loops: loops(page, &places, &time),
+        loops: loops(page, &places, &time, budget.loops, pack),
     };
     // Finite numbers and strings only: this cannot fail.
-    let text = serde_json::to_string(&payload).unwrap_or_else(|_| "{}".into());
-    text.replace('<', "\\u003c")
-        .replace('\u{2028}', "\\u2028")
-        .replace('\u{2029}', "\\u2029")
+    serde_json::to_string(&payload).unwrap_or_else(|_| "{}".into())
 }
 
 fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
@@ -167,25 +221,27 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
     data
 }
 
-fn loops(page: &Page, places: &[Place], time: &[f64]) -> Vec<LoopData> {
+fn loops(
+    page: &Page,
+    places: &[Place],
+    time: &[f64],
+    budget: usize,
+    pack: &mut Packer,
+) -> Vec<LoopData> {
     let Some(springs) = page.springs else {
         return Vec::new();
     };
     let order = hinges::in_order(page, places);
     let chosen = hinges::worst(&order);
-    // Eight bytes a row, four thirds of that as text.
-    let budget = LOOP_BYTES * 3 / 4 / 8 / chosen.len().max(1);
+    // Two values and an instant of twice their size in a row.
+    let budget = budget / 4 / chosen.len().max(1);
     let of_place = |(place, spring): &(Place, &SpringSummary)| {
         let points: Vec<[f32; 2]> = springs.of(place.spring).collect();
         let rows = thin_loop(time, &points, budget);
         let instants: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
-        let values = |part: usize| {
+        let values = |part: usize, pack: &mut Packer| {
             let rows = rows.iter();
-            Packed::values(
-                rows.map(|row| f64::from(points[*row][part]))
-                    .collect::<Vec<_>>()
-                    .into_iter(),
-            )
+            pack.values(rows.map(|row| f64::from(points[*row][part])))
         };
         let reach = [spring.deformation_max, spring.deformation_min];
         LoopData {
@@ -195,9 +251,9 @@ fn loops(page: &Page, places: &[Place], time: &[f64]) -> Vec<LoopData> {
             ductility: spring.ductility,
             dissipated: spring.dissipated_j,
             backbone: hinges::outline(place.hysteresis.backbone(), reach),
-            time: Packed::instants(&instants),
-            deformation: values(0),
-            force: values(1),
+            time: pack.instants(&instants),
+            deformation: values(0, pack),
+            force: values(1, pack),
         }
     };
     chosen.iter().map(of_place).collect()
@@ -270,7 +326,7 @@ fn links(page: &Page) -> Vec<LinkData> {
     all.collect()
 }
 
-fn ground(motion: &GroundMotion) -> Series {
+fn ground(motion: &GroundMotion, most: usize, pack: &mut Packer) -> Series {
     let step = match &motion.wave {
         Wave::Sampled { step, .. } => *step,
         Wave::Sine { period, .. } | Wave::Ricker { period, .. } => period / 40.0,
@@ -286,17 +342,15 @@ fn ground(motion: &GroundMotion) -> Series {
     } else {
         motion.duration / 1e6
     };
-    let rows: Vec<usize> = if points <= MOST_GROUND_POINTS {
+    let rows: Vec<usize> = if points <= most {
         (0..=points).collect()
     } else {
-        extremes(points, MOST_GROUND_POINTS, |i| {
-            motion.acceleration(i as f64 * step)
-        })
+        extremes(points, most, |i| motion.acceleration(i as f64 * step))
     };
     let time: Vec<f64> = rows.iter().map(|i| *i as f64 * step).collect();
     Series {
-        values: Packed::values(time.iter().map(|t| motion.acceleration(*t))),
-        time: Packed::instants(&time),
+        values: pack.values(time.iter().map(|t| motion.acceleration(*t))),
+        time: pack.instants(&time),
     }
 }
 
@@ -332,9 +386,8 @@ fn forces(page: &Page) -> Vec<Vec<f64>> {
         .collect()
 }
 
-fn force_series(time: &[f64], force: &[Vec<f64>]) -> Vec<Series> {
-    // Six bytes a point, four thirds of that as text.
-    let kept = thin_impacts(force, FORCE_BYTES / 8);
+fn force_series(time: &[f64], force: &[Vec<f64>], budget: usize, pack: &mut Packer) -> Vec<Series> {
+    let kept = thin_impacts(force, budget / 2);
     force
         .iter()
         .zip(kept)
@@ -344,8 +397,8 @@ fn force_series(time: &[f64], force: &[Vec<f64>]) -> Vec<Series> {
                 .filter_map(|row| time.get(*row).copied())
                 .collect();
             Series {
-                time: Packed::instants(&instants),
-                values: Packed::values(rows.iter().map(|row| force[*row])),
+                time: pack.instants(&instants),
+                values: pack.values(rows.iter().map(|row| force[*row])),
             }
         })
         .collect()
@@ -356,8 +409,9 @@ fn table(
     page: &Page,
     history: &History,
     force: &[Vec<f64>],
-    bytes: usize,
+    [numbers, most_rows]: [usize; 2],
     energies: bool,
+    pack: &mut Packer,
 ) -> Table {
     let time = history.column(Column::Time).unwrap_or_default();
     let columns: Vec<(String, Vec<f64>)> = wanted(page, energies)
@@ -373,15 +427,15 @@ fn table(
         .filter(|(name, _)| name.starts_with('u'))
         .flat_map(|(_, values)| peaks(values))
         .collect();
-    // Two bytes a value and four an instant, four thirds of that as text.
-    let budget = (bytes * 3 / 4 / (2 * columns.len() + 4)).min(MOST_ROWS);
+    // An instant takes as much as two values.
+    let budget = (numbers / (columns.len() + 2)).min(most_rows);
     let rows = thin_rows(&time, &closed, &always, budget);
     let kept: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
     Table {
-        time: Packed::instants(&kept),
+        time: pack.instants(&kept),
         columns: columns
             .into_iter()
-            .map(|(name, values)| (name, Packed::values(rows.iter().map(|row| values[*row]))))
+            .map(|(name, values)| (name, pack.values(rows.iter().map(|row| values[*row]))))
             .collect(),
     }
 }

@@ -5,7 +5,7 @@ use jostle_section::{Analysis, EndCurve, Section, SectionSurvey};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::format::{fixed, significant};
-use crate::page::{POLICY, STYLE};
+use crate::page::{POLICY, STYLE, theme_button, theme_script};
 
 /// Plot area: left, top, width, height.
 const AREA: [f64; 4] = [64.0, 14.0, 420.0, 260.0];
@@ -32,6 +32,7 @@ pub fn render_sections(title: &str, surveys: &[SectionSurvey]) -> String {
                         h1 { (title) }
                         p { "Where members crack and yield: by formulas, and by bending the section fibre by fibre." }
                     }
+                    (theme_button())
                 }
                 main {
                     @for survey in surveys { (sheet(survey)) }
@@ -40,6 +41,7 @@ pub fn render_sections(title: &str, surveys: &[SectionSurvey]) -> String {
                         "Fibre: trilinear curve of the same area as moment and curvature, integrated along the member, with the slip of the bars at its end. K = 6EI/L of the gross section."
                     }
                 }
+                (theme_script())
             }
         }
     };

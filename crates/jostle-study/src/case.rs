@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use jostle::stepping::{ContactSteps, modal};
+use jostle::stepping::{ContactSteps, Progress, modal};
 use jostle::{
     Gap, GroundMotion, Model, Outcome, Plan, RunEnd, Settings, Solver, StepError, Summary, System,
     simulate,
@@ -95,7 +95,11 @@ impl Workshop {
         self.assemble(tree.input()?)
     }
 
-    pub(crate) fn assemble(&self, input: Input) -> Result<Prepared, CaseError> {
+    /// Assembles a model that has been read, finds its motion, and plans its steps.
+    ///
+    /// # Errors
+    /// [`CaseError`], as the reader of model files says it.
+    pub fn assemble(&self, input: Input) -> Result<Prepared, CaseError> {
         let assembled = self.assembled(&input)?;
         let motion = self.motion(&input)?;
         let system = assembled.system.as_ref();
@@ -218,32 +222,47 @@ pub struct Ran {
 }
 
 impl Prepared {
+    /// Steps the case; `watch` is told how far it has come, and can stop it.
+    #[must_use]
+    pub fn step(
+        &self,
+        settings: Settings,
+        watch: impl FnMut(Progress) -> ControlFlow<()>,
+    ) -> Outcome {
+        let (system, motion, plan) = (&self.system, &self.motion, &self.plan);
+        match &self.shapes {
+            Some(shapes) => modal::simulate(system, motion, plan, settings, shapes, watch),
+            None => simulate(system, motion, plan, settings, watch),
+        }
+    }
+
+    /// An outcome in numbers; without wall time, so that it is the same on every machine.
+    #[must_use]
+    pub fn summary(&self, outcome: &Outcome, without_contact: Option<&Outcome>) -> Summary {
+        Summary::of(&jostle::Run {
+            model: &self.input.model,
+            system: &self.system,
+            motion: &self.motion,
+            plan: &self.plan,
+            outcome,
+            without_contact,
+            wall: 0.0,
+        })
+    }
+
     /// Steps the case; `None` when `stop` asked to.
     pub fn run(self, settings: Settings, stop: &(dyn Fn() -> bool + Sync)) -> Option<Ran> {
-        let (system, motion, plan) = (&self.system, &self.motion, &self.plan);
-        let watch = |_| {
+        let outcome = self.step(settings, |_| {
             if stop() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
-        };
-        let outcome = match &self.shapes {
-            Some(shapes) => modal::simulate(system, motion, plan, settings, shapes, watch),
-            None => simulate(system, motion, plan, settings, watch),
-        };
+        });
         if outcome.end == RunEnd::Stopped {
             return None;
         }
-        let summary = Summary::of(&jostle::Run {
-            model: &self.input.model,
-            system: &self.system,
-            motion: &self.motion,
-            plan: &self.plan,
-            outcome: &outcome,
-            without_contact: None,
-            wall: 0.0,
-        });
+        let summary = self.summary(&outcome, None);
         Some(Ran {
             prepared: self,
             outcome,

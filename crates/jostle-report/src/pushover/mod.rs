@@ -8,7 +8,7 @@ use jostle::statics::{Bilinear, LoadPattern, PushEnd, PushPoint, PushedBuilding,
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::format;
-use crate::page::{POLICY, STYLE};
+use crate::page::{POLICY, STYLE, theme_button};
 use chart::Chart;
 
 const OWN_STYLE: &str = include_str!("../../assets/pushover.css");
@@ -40,7 +40,7 @@ pub fn render_pushover(title: &str, pushed: &[PushedBuilding]) -> String {
                         p.kicker { "Pushover" }
                         h1 { (title) }
                     }
-                    button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+                    (theme_button())
                 }
                 main {
                     @for sentence in &headline { p.verdict { (sentence) } }

@@ -34,20 +34,87 @@ pub struct Cell {
     pub link: Option<String>,
 }
 
-const WIDTH: f64 = 420.0;
+const WIDTH: f64 = 460.0;
 const LEFT: f64 = 52.0;
+/// Room for the colour bar.
+const RIGHT: f64 = 62.0;
 const BOTTOM: f64 = 44.0;
-const TOP: f64 = 6.0;
+/// Room for the title of the upward axis.
+const TOP: f64 = 24.0;
 /// Numbers are written into cells at least this wide.
 const ROOM: f64 = 30.0;
-/// Labels on an axis at most.
-const LABELS: usize = 9;
+/// Widest cell.
+const WIDEST: f64 = 90.0;
+/// Steps of the colour bar.
+const SHADES: usize = 24;
+
+/// Cells along an axis, as far apart as their values.
+struct Spacing {
+    /// Ends of the cells, one more than there are values.
+    edges: Vec<f64>,
+    /// Places of the values.
+    places: Vec<f64>,
+}
+
+impl Spacing {
+    /// Cells on a length. Values that grow by ratios, so that the first cells would be too narrow to see, are spaced by
+    /// their logarithms.
+    fn new(values: &[f64], length: f64) -> Self {
+        let spaced = |by: fn(f64) -> f64| -> Vec<f64> {
+            let at: Vec<f64> = values.iter().map(|value| by(*value)).collect();
+            match at[..] {
+                [] => vec![0.0, 1.0],
+                [one] => vec![one - 0.5, one + 0.5],
+                [first, second, ..] => {
+                    let n = at.len();
+                    let mut edges = vec![1.5 * first - 0.5 * second];
+                    edges.extend(at.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
+                    edges.push(1.5 * at[n - 1] - 0.5 * at[n - 2]);
+                    edges
+                }
+            }
+        };
+        let narrowest = |edges: &[f64]| {
+            let whole = edges[edges.len() - 1] - edges[0];
+            let cells = edges.windows(2).map(|pair| (pair[1] - pair[0]) / whole);
+            cells.fold(f64::INFINITY, f64::min)
+        };
+        let linear = spaced(|value| value);
+        let few = 0.35 / values.len().max(1) as f64;
+        let by_ratio = values.iter().all(|value| *value > 0.0) && narrowest(&linear) < few;
+        let by: fn(f64) -> f64 = if by_ratio { f64::ln } else { |value| value };
+        let edges = spaced(by);
+        let (from, whole) = (edges[0], edges[edges.len() - 1] - edges[0]);
+        let place = |at: f64| (at - from) / whole * length;
+        Self {
+            places: values.iter().map(|value| place(by(*value))).collect(),
+            edges: edges.into_iter().map(place).collect(),
+        }
+    }
+
+    /// Indices of the values whose labels do not touch each other.
+    fn labelled(&self, apart: f64) -> Vec<usize> {
+        let mut last = f64::NEG_INFINITY;
+        let mut labelled = Vec::new();
+        for (index, place) in self.places.iter().enumerate() {
+            if place - last >= apart {
+                last = *place;
+                labelled.push(index);
+            }
+        }
+        labelled
+    }
+}
 
 pub(super) fn figure(map: &HeatMap) -> Markup {
     let (nx, ny) = (map.columns.len().max(1), map.rows.len().max(1));
-    let cell = ((WIDTH - LEFT - 8.0) / nx as f64).min(90.0);
-    let tall = (220.0 / ny as f64).clamp(8.0, 34.0);
-    let height = TOP + tall * ny as f64 + BOTTOM;
+    let length = (WIDTH - LEFT - RIGHT).min(WIDEST * nx as f64);
+    let tall = ny as f64 * (220.0 / ny as f64).clamp(8.0, 34.0);
+    let height = TOP + tall + BOTTOM;
+    let (across, up) = (
+        Spacing::new(&map.columns, length),
+        Spacing::new(&map.rows, tall),
+    );
     let present = || map.cells.iter().filter_map(|cell| cell.value);
     let (low, high) = (
         present().fold(f64::INFINITY, f64::min).min(0.0),
@@ -60,40 +127,51 @@ pub(super) fn figure(map: &HeatMap) -> Markup {
             0.0
         }
     };
-    let every = |count: usize| count.div_ceil(LABELS).max(1);
     let label = format!("{} over {} and {}", map.value.name, map.x.name, map.y.name);
+    let bar = LEFT + length + 14.0;
     html! {
         figure.study-map {
             figcaption { span.chart-title { (map.value.name) } @if !map.value.unit.is_empty() { span.unit { " [" (map.value.unit) "]" } } }
             svg viewBox=(format!("0 0 {WIDTH} {height}")) role="img" aria-label=(label) {
                 @for (index, one) in map.cells.iter().enumerate() {
                     @let (column, row) = (index % nx, index / nx);
-                    @let (x, y) = (LEFT + cell * column as f64, TOP + tall * (ny - 1 - row) as f64);
+                    @let (left, right) = (across.edges[column], across.edges[column + 1]);
+                    @let (low_edge, high_edge) = (up.edges[row], up.edges[row + 1]);
+                    @let (x, y) = (LEFT + left, TOP + tall - high_edge);
+                    @let size = [right - left, high_edge - low_edge];
                     @let place = format!("{} {} {}, {} {} {}", map.x.name, number(map.columns[column]), map.x.unit, map.y.name, number(map.rows[row]), map.y.unit);
                     @let said = one.value.map_or_else(|| map.nothing.clone(), |value| format!("{} {}", number(value), map.value.unit));
                     @let shade = one.value.map_or(0.0, share);
                     @if let Some(link) = &one.link {
-                        a href=(link) { (rect(x, y, [cell, tall], one, shade, true, &format!("{place}: {said} ({})", one.cases))) }
+                        a href=(link) { (rect(x, y, size, one, shade, true, &format!("{place}: {said} ({})", one.cases))) }
                     } @else {
-                        (rect(x, y, [cell, tall], one, shade, false, &format!("{place}: {said} ({})", one.cases)))
+                        (rect(x, y, size, one, shade, false, &format!("{place}: {said} ({})", one.cases)))
                     }
-                    @if cell >= ROOM && tall >= 13.0 {
+                    @if size[0] >= ROOM && size[1] >= 13.0 {
                         @if let Some(value) = one.value {
-                            text.study-number.on-dark[shade > 0.5] x=(x + 0.5 * cell) y=(y + 0.5 * tall + 4.0) text-anchor="middle" { (number(value)) }
+                            text.study-number.on-dark[shade > 0.5] x=(x + 0.5 * size[0]) y=(y + 0.5 * size[1] + 4.0) text-anchor="middle" { (number(value)) }
                         }
                     }
                 }
-                @for (column, value) in map.columns.iter().enumerate() {
-                    @if column % every(nx) == 0 {
-                        text x=(LEFT + cell * (column as f64 + 0.5)) y=(height - BOTTOM + 15.0) text-anchor="middle" { (number(*value)) }
+                @for column in across.labelled(34.0) {
+                    text x=(LEFT + across.places[column]) y=(height - BOTTOM + 15.0) text-anchor="middle" { (number(map.columns[column])) }
+                }
+                @for row in up.labelled(14.0) {
+                    text x=(LEFT - 6.0) y=(TOP + tall - up.places[row] + 4.0) text-anchor="end" { (number(map.rows[row])) }
+                }
+                text x=(LEFT + 0.5 * length) y=(height - 10.0) text-anchor="middle" { (map.x.label()) }
+                text x="0" y="12" { (map.y.label()) }
+                @if high > low {
+                    g.colour-bar {
+                        @for step in 0..SHADES {
+                            @let part = tall / SHADES as f64;
+                            rect.study-cell x=(bar) y=(format!("{:.2}", TOP + tall - part * (step + 1) as f64)) width="12" height=(format!("{:.2}", part + 0.3)) style=(format!("--s:{:.1}%", 100.0 * (step as f64 + 0.5) / SHADES as f64)) {}
+                        }
+                        @for value in [low, 0.5 * (low + high), high] {
+                            text x=(bar + 16.0) y=(format!("{:.1}", TOP + tall * (1.0 - share(value)) + 4.0)) { (number(value)) }
+                        }
                     }
                 }
-                @for (row, value) in map.rows.iter().enumerate() {
-                    @if row % every(ny) == 0 {
-                        text x=(LEFT - 6.0) y=(TOP + tall * (ny as f64 - row as f64 - 0.5) + 4.0) text-anchor="end" { (number(*value)) }
-                    }
-                }
-                text x=(LEFT) y=(height - 8.0) { "→ " (map.x.label()) "   ↑ " (map.y.label()) }
             }
         }
     }
@@ -113,5 +191,32 @@ fn rect(
         rect.study-cell.empty[cell.value.is_none()].linked[linked] x=(x + 0.5) y=(y + 0.5) width=(format!("{:.2}", width - 1.0)) height=(format!("{:.2}", height - 1.0)) style=(style) {
             title { (title) }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_as_far_apart_as_their_values() {
+        let even = Spacing::new(&[10.0, 20.0, 30.0], 300.0);
+        assert_eq!(even.edges, [0.0, 100.0, 200.0, 300.0]);
+        assert_eq!(even.places, [50.0, 150.0, 250.0]);
+        // Edges at −5, 5, 25 and 55.
+        let uneven = Spacing::new(&[0.0, 10.0, 40.0], 60.0);
+        assert_eq!(uneven.edges, [0.0, 10.0, 30.0, 60.0]);
+        assert_eq!(uneven.places, [5.0, 15.0, 45.0]);
+        // Doublings are equally wide.
+        let ratios = Spacing::new(&[1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0], 70.0);
+        for pair in ratios.edges.windows(2) {
+            assert!(
+                (pair[1] - pair[0] - 10.0).abs() < 1e-9,
+                "{:?}",
+                ratios.edges
+            );
+        }
+        assert_eq!(Spacing::new(&[5.0], 90.0).edges, [0.0, 90.0]);
+        assert_eq!(even.labelled(120.0), [0, 2]);
     }
 }

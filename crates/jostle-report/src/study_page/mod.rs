@@ -7,14 +7,13 @@ mod heat_map;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::format;
-use crate::page::{POLICY, STYLE};
+use crate::page::{POLICY, STYLE, theme_button, theme_script};
 
 pub use bars::{Bar, Bars};
 pub use chart::{Chart, Level, Series, Stroke};
 pub use heat_map::{Cell, HeatMap};
 
 const OWN_STYLE: &str = include_str!("../../assets/study.css");
-const SCRIPT: &str = include_str!("../../assets/study.js");
 
 /// Characters beyond which a cell of a table is broken into lines.
 const LONG: usize = 60;
@@ -89,7 +88,7 @@ pub fn render_study(page: &StudyPage) -> String {
                         p.kicker { "Study" }
                         h1 { (page.title) }
                     }
-                    button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+                    (theme_button())
                 }
                 main {
                     @for sentence in &page.headline { p.verdict { (sentence) } }
@@ -107,7 +106,7 @@ pub fn render_study(page: &StudyPage) -> String {
                 footer {
                     "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file, nothing is loaded from elsewhere."
                 }
-                script type="module" { (PreEscaped(SCRIPT)) }
+                (theme_script())
             }
         }
     };

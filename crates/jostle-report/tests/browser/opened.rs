@@ -28,17 +28,24 @@ pub(crate) struct Opened {
     complaints: Arc<Mutex<Vec<String>>>,
     // Dropped last: closing the browser ends the tab, and the folder holds the page.
     _browser: Browser,
-    _folder: tempfile::TempDir,
+    _folder: Option<tempfile::TempDir>,
 }
 
 /// Opens a page in a window of the given size; `None` when browser tests are switched off.
 pub(crate) fn open_page(page: &str, width: u32, height: u32) -> Option<Opened> {
-    if std::env::var_os("JOSTLE_SKIP_BROWSER").is_some() {
-        return None;
-    }
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("report.html");
     std::fs::write(&file, page).unwrap();
+    let mut opened = open_address(&format!("file://{}", file.display()), width, height)?;
+    opened._folder = Some(folder);
+    Some(opened)
+}
+
+/// Opens an address in a window of the given size; `None` when browser tests are switched off.
+pub(crate) fn open_address(address: &str, width: u32, height: u32) -> Option<Opened> {
+    if std::env::var_os("JOSTLE_SKIP_BROWSER").is_some() {
+        return None;
+    }
     let options = LaunchOptions::default_builder()
         .path(Some(chromium()))
         .sandbox(false)
@@ -71,15 +78,14 @@ pub(crate) fn open_page(page: &str, width: u32, height: u32) -> Option<Opened> {
     tab.call_method(Runtime::Enable(None)).unwrap();
     tab.call_method(Log::Enable(None)).unwrap();
     resize(&tab, width, height);
-    tab.navigate_to(&format!("file://{}", file.display()))
-        .unwrap();
+    tab.navigate_to(address).unwrap();
     tab.wait_until_navigated().unwrap();
     std::thread::sleep(Duration::from_millis(300));
     Some(Opened {
         tab,
         complaints,
         _browser: browser,
-        _folder: folder,
+        _folder: None,
     })
 }
 
@@ -142,12 +148,37 @@ impl Opened {
             .unwrap();
     }
 
+    /// Presses a key where the focus is.
+    #[allow(dead_code, reason = "not every test file presses keys")]
+    pub(crate) fn press(&self, key: &str) {
+        self.tab.press_key(key).unwrap();
+    }
+
+    /// The page is asked not to move.
+    #[allow(dead_code, reason = "not every test file asks for it")]
+    pub(crate) fn emulate_reduced_motion(&self) {
+        self.tab
+            .call_method(Emulation::SetEmulatedMedia {
+                media: None,
+                features: Some(vec![Emulation::MediaFeature {
+                    name: "prefers-reduced-motion".into(),
+                    value: "reduce".into(),
+                }]),
+            })
+            .unwrap();
+    }
+
     /// Keeps a picture of the whole page among the build outputs.
     pub(crate) fn picture(&self, name: &str) {
         let [width, height] = ["innerWidth", "document.documentElement.scrollHeight"]
             .map(|script| self.number(script) as u32);
         resize(&self.tab, width, height);
         std::thread::sleep(Duration::from_millis(300));
+        self.glance(name);
+    }
+
+    /// Keeps a picture of what the window shows.
+    pub(crate) fn glance(&self, name: &str) {
         let png = self
             .tab
             .capture_screenshot(Page::CaptureScreenshotFormatOption::Png, None, None, true)

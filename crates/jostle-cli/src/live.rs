@@ -1,0 +1,63 @@
+//! `jostle live`: a page that runs the model at every change.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use jostle_live::{Engine, Server};
+
+use crate::failure::Failure;
+use crate::open::EXAMPLE;
+use crate::run::stop_on_interrupt;
+use crate::terminal;
+
+/// The program ends by itself once all pages have been gone for so long.
+const PATIENCE: Duration = Duration::from_secs(30 * 60);
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct LiveArgs {
+    /// Model file (TOML or JSON), or the name of a built-in example; without it, the built-in "paper"
+    model: Option<PathBuf>,
+    /// Do not open the browser
+    #[arg(long)]
+    no_open: bool,
+    /// Port on this machine; 0 takes any free one
+    #[arg(long, default_value_t = 0)]
+    port: u16,
+}
+
+pub(crate) fn live(args: &LiveArgs) -> Result<(), Failure> {
+    let engine = Engine::open(args.model.as_deref().unwrap_or(Path::new(EXAMPLE)))?;
+    let server =
+        Server::start(engine, args.port).map_err(|error| Failure::Input(error.to_string()))?;
+    let address = server.address();
+    terminal::print(&format!("{address}\n"))?;
+    terminal::remark(
+        "Ctrl-C ends it. The page is for this machine only; its address holds the key.",
+    );
+    if !args.no_open && !open_browser(&address) {
+        terminal::remark("No browser could be opened; open the address above yourself.");
+    }
+    let stop = stop_on_interrupt();
+    server.wait(&|| stop.load(Ordering::Relaxed), PATIENCE);
+    Ok(())
+}
+
+/// Opens the address in the browser of this desktop; `false` if that cannot even be tried.
+fn open_browser(address: &str) -> bool {
+    let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "windows") {
+        ("rundll32", &["url.dll,FileProtocolHandler"])
+    } else if cfg!(target_os = "macos") {
+        ("open", &[])
+    } else {
+        ("xdg-open", &[])
+    };
+    let mut command = Command::new(program);
+    command.args(arguments).arg(address);
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    command.spawn().is_ok()
+}

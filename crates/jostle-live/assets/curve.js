@@ -1,0 +1,395 @@
+// Results over one key: a curve that is drawn as its points come, with the present value as a line to drag.
+
+const results = [
+  { name: "Peak force", unit: "kN" },
+  { name: "Number of impacts", unit: "" },
+  { name: "Peak storey drift", unit: "%" },
+  { name: "Peak floor acceleration", unit: "m/s²" },
+];
+const curvePoints = 120;
+const pointsPerRecord = 60;
+
+const curve = {
+  path: null,
+  unit: "",
+  from: 0,
+  to: 1,
+  whole: false,
+  /** Whether its ends were typed. */
+  fixed: false,
+  records: [],
+  id: 0,
+  of: 0,
+  /** Points per record, rising. */
+  lines: [],
+  marks: [],
+  problem: "",
+  stale: true,
+  /** Whether what is drawn belongs to the latest request. */
+  fresh: true,
+};
+let restored = null;
+
+const curveState = () => ({ path: curve.path, from: curve.from, to: curve.to, fixed: curve.fixed, records: curve.records, measure: byId("measure").value });
+function restoreCurve(kept) {
+  restored = kept ?? null;
+  if (kept) byId("measure").value = kept.measure;
+}
+
+/** Knobs that a curve can run over. */
+const runsOver = (knob) => knob.number !== null && (knob.kind === "quantity" || knob.kind === "count") && Number.isFinite(knob.number);
+
+/** The number of the knob of the curve, in its unit. */
+function present() {
+  const path = curve.path?.replace("[*]", "[0]");
+  const knob = knobs.find((one) => one.path === path);
+  return knob && knob.unit === curve.unit ? knob.number : null;
+}
+
+/** Fills the list of keys and chooses one: the gap, unless another was chosen. */
+function fillOver() {
+  const select = byId("over");
+  const usable = knobs.filter(runsOver);
+  const gaps = usable.filter((knob) => /^gap\[\d+\]\.width$/.test(knob.path));
+  const entries = gaps.length > 1 ? [["gap[*].width", "all gaps"]] : [];
+  for (const knob of gaps) entries.push([knob.path, `gap ${knob.group}`]);
+  for (const knob of usable.filter((knob) => !gaps.includes(knob))) {
+    entries.push([knob.path, `${knob.group}: ${knob.name.replaceAll("_", " ")}`]);
+  }
+  const described = JSON.stringify(entries);
+  if (select.dataset.entries !== described) {
+    select.dataset.entries = described;
+    select.replaceChildren(...entries.map(([path, name]) => new Option(name, path)));
+  }
+  const known = (path) => entries.some(([other]) => other === path);
+  if (restored && known(restored.path)) {
+    Object.assign(curve, { path: restored.path, from: restored.from, to: restored.to, fixed: restored.fixed, records: restored.records ?? [] });
+    const knob = knobs.find((one) => one.path === curve.path.replace("[*]", "[0]"));
+    Object.assign(curve, { unit: knob.unit, whole: knob.kind === "count" });
+  } else if (!known(curve.path)) chooseOver(entries[0]?.[0] ?? null);
+  restored = null;
+  const unit = knobs.find((one) => one.path === curve.path?.replace("[*]", "[0]"))?.unit;
+  if (unit !== undefined && unit !== curve.unit) chooseOver(curve.path);
+  select.value = curve.path;
+  byId("curve").hidden = !curve.path;
+}
+
+/** Runs the curve over another key, around its present value. */
+function chooseOver(path) {
+  curve.path = path;
+  const knob = knobs.find((one) => one.path === path?.replace("[*]", "[0]"));
+  if (!knob) return;
+  Object.assign(curve, { unit: knob.unit, whole: knob.kind === "count", fixed: false });
+  fitRange(knob);
+  curveChanged();
+}
+
+/** Ends of the curve that show what matters: for a gap, all that still pounds. */
+function fitRange(knob) {
+  const range = sliderRange(knob) ?? { low: 0.5 * knob.number, high: 1.5 * knob.number };
+  Object.assign(curve, { from: range.log ? knob.number / 4 : range.low, to: range.log ? 4 * knob.number : range.high });
+  const needed = Math.max(...(latest?.needed ?? []).map((width) => width ?? 0), 0);
+  if (knob.path.startsWith("gap") && needed > 0) {
+    const perUnit = { mm: 1e-3, cm: 1e-2, m: 1, "": 1 }[knob.unit];
+    if (perUnit) curve.to = Math.max(Number(((1.4 * needed) / perUnit).toPrecision(2)), 1.1 * knob.number);
+  }
+}
+
+/** Notes that the curve no longer belongs to the model. */
+function curveChanged() {
+  curve.stale = true;
+}
+
+let computing = 0;
+/** Computes the curve a moment after the last change. */
+function computeCurve() {
+  clearTimeout(computing);
+  if (!curve.stale || !curve.path) return;
+  // The curve before stays, pale, until points of the new one come.
+  byId("curve-picture").classList.add("stale");
+  byId("curve-note").textContent = "Computing the curve …";
+  computing = setTimeout(() => {
+    curve.stale = false;
+    const knob = knobs.find((one) => one.path === curve.path.replace("[*]", "[0]"));
+    if (!knob) return;
+    if (!curve.fixed) fitRange(knob);
+    curve.id += 1;
+    curve.fresh = false;
+    send(curveRequest("curve"));
+    byId("from").value = written(curve.from);
+    byId("to").value = written(curve.to);
+    byId("unit").textContent = curve.unit;
+  }, 220);
+}
+
+function curveRequest(op) {
+  const { path, unit, from, to, whole, records, id } = curve;
+  const several = records.length > 1;
+  const points = whole ? Math.min(Math.round(to - from) + 1, curvePoints) : several ? pointsPerRecord : curvePoints;
+  return { op, ...request(), id, path, unit, from, to, whole, records, points };
+}
+
+/** Removes the curve before, once anything is known of the new one. */
+function beginCurve() {
+  if (curve.fresh) return;
+  Object.assign(curve, { fresh: true, lines: [], marks: [], problem: "", of: 0 });
+  byId("curve-picture").classList.remove("stale");
+}
+
+function addPoints({ id, points, of }) {
+  if (id !== curve.id) return;
+  beginCurve();
+  curve.of = of;
+  for (const point of points) {
+    const line = (curve.lines[point.record] ??= []);
+    line.splice(indexBefore(line.map((p) => p.x), point.x) + 1, 0, point);
+  }
+  drawCurve();
+}
+
+function addMarks({ id, marks }) {
+  if (id !== curve.id) return;
+  beginCurve();
+  curve.marks = marks;
+  drawCurve();
+}
+
+function noCurve({ id, problem }) {
+  if (id !== curve.id) return;
+  beginCurve();
+  curve.problem = problem;
+  drawCurve();
+}
+
+const picture = { height: 260, left: 62, right: 16, top: 30, bottom: 40 };
+
+/** Percentile of a sorted list, 0 to 1. */
+function percentile(sorted, p) {
+  const at = p * (sorted.length - 1);
+  const low = Math.floor(at);
+  return sorted[low] + (at - low) * ((sorted[low + 1] ?? sorted[low]) - sorted[low]);
+}
+
+/** Mean and 16th and 84th percentile of all records where all have a value. */
+function spread(lines, measure) {
+  const byValue = new Map();
+  for (const line of lines) for (const point of line) if (point.y) byValue.set(point.x, [...(byValue.get(point.x) ?? []), point.y[measure]]);
+  return [...byValue]
+    .filter(([, values]) => values.length === lines.length)
+    .sort(([a], [b]) => a - b)
+    .map(([x, values]) => {
+      const sorted = values.sort((a, b) => a - b);
+      return { x, mean: sorted.reduce((sum, value) => sum + value, 0) / sorted.length, low: percentile(sorted, 0.16), high: percentile(sorted, 0.84) };
+    });
+}
+
+function drawCurve() {
+  const host = byId("curve-picture");
+  const measure = Number(byId("measure").value);
+  const { name, unit } = results[measure];
+  const width = Math.max(host.clientWidth, 240);
+  const { height, left, right, top, bottom } = picture;
+  const lines = curve.lines.filter(Boolean);
+  const all = lines.flat().filter((point) => point.y);
+  const high = Math.max(...all.map((point) => point.y[measure]), 0) * 1.08 || 1;
+  const { from, to } = curve;
+  const px = (x) => left + ((x - from) / (to - from)) * (width - left - right);
+  const py = (y) => height - bottom - (y / high) * (height - top - bottom);
+  Object.assign(picture, { width, px });
+  const image = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${name} over ${curve.path}` });
+  const grid = svg("g", { class: "grid" }, image);
+  const ys = ticks(0, high, 5);
+  for (const value of ys.values) {
+    svg("line", { x1: left, x2: width - right, y1: py(value), y2: py(value), class: value === 0 ? "zero" : "" }, grid);
+    svg("text", { x: left - 7, y: py(value) + 3.5, "text-anchor": "end" }, grid).textContent = fixed(value, ys.decimals);
+  }
+  const xs = ticks(from, to, Math.max(3, width / 110));
+  for (const value of xs.values) {
+    svg("line", { x1: px(value), x2: px(value), y1: top, y2: height - bottom }, grid);
+    svg("text", { x: px(value), y: height - bottom + 15, "text-anchor": "middle" }, grid).textContent = fixed(value, xs.decimals);
+  }
+  const over = byId("over").selectedOptions[0]?.textContent ?? curve.path;
+  svg("text", { x: (left + width - right) / 2, y: height - 5, "text-anchor": "middle", class: "axis" }, grid).textContent = `${over} [${curve.unit || "–"}]`;
+  const path = (points, y) => {
+    let text = "";
+    let pen = "M";
+    for (const point of points) {
+      if (!point.y && !Number.isFinite(y(point))) { pen = "M"; continue; }
+      text += `${pen}${px(point.x).toFixed(1)},${py(y(point)).toFixed(1)}`;
+      pen = "L";
+    }
+    return text;
+  };
+  const drawing = svg("g", {}, image);
+  const valueOf = (point) => (point.y ? point.y[measure] : NaN);
+  if (lines.length > 1) {
+    const stats = spread(lines, measure);
+    if (stats.length > 1) {
+      const edge = (key) => stats.map((point) => `${px(point.x).toFixed(1)},${py(point[key]).toFixed(1)}`);
+      svg("path", { class: "spread", d: `M${edge("high").join("L")}L${edge("low").reverse().join("L")}Z` }, drawing);
+    }
+    lines.forEach((line, i) => svg("path", { class: "line thin", style: `--c:${colours(i)}`, d: path(line, valueOf) }, drawing));
+    if (stats.length > 1) svg("path", { class: "line mean", d: path(stats.map((s) => ({ x: s.x, y: [s.mean] })), (p) => p.y[0]) }, drawing);
+  } else if (lines.length) svg("path", { class: "line curve-line", style: "--c:var(--c0)", d: path(lines[0], valueOf) }, drawing);
+  drawMarks(image, px, width);
+  const focused = document.activeElement === picture.handle;
+  drawCursor(image);
+  host.replaceChildren(image);
+  if (focused) picture.handle.focus({ preventScroll: true });
+  const records = curve.records.length > 1 ? `, ${curve.records.length} records: thin lines, mean bold, 16 to 84 % shaded` : "";
+  byId("curve-caption").textContent = `${name}${unit ? ` [${unit}]` : ""} against ${over}${curve.unit ? ` [${curve.unit}]` : ""}${records}`;
+  const needed = knownMarks().find((mark) => mark.needed);
+  const done = all.length ? `${lines.flat().length} of ${curve.of} points. ` : "";
+  const found = needed ? `Smallest gap without pounding: ${fixed(1e3 * needed.width, 1)} mm. ` : "";
+  if (curve.fresh && !curve.stale) byId("curve-note").textContent = curve.problem || `${found}${lines.flat().length < curve.of ? done : ""}Drag the line, or use the arrow keys, to change the value.`;
+}
+
+const isWidth = () => /^gap\[.*\]\.width$/.test(curve.path ?? "");
+
+/** Marks of the curve; until they come, what the run without contact says. */
+function knownMarks() {
+  if (curve.marks.length || !isWidth()) return curve.marks;
+  const gap = /^gap\[(\d+)\]/.exec(curve.path)?.[1];
+  const width = gap === undefined ? null : latest?.needed[Number(gap)];
+  return width > 0 ? [{ name: "no pounding", source: "greatest closing without contact", width, needed: true }] : [];
+}
+
+/** The smallest gap without pounding, and rules, as marks with their names above each other. */
+function drawMarks(image, px, width) {
+  const perUnit = { mm: 1e-3, cm: 1e-2, m: 1, "": 1 }[curve.unit];
+  if (!isWidth() || !perUnit) return;
+  const seen = knownMarks()
+    .map((mark) => ({ ...mark, x: mark.width / perUnit }))
+    .filter((mark) => mark.x >= curve.from && mark.x <= curve.to)
+    .sort((a, b) => a.x - b.x);
+  const ends = [];
+  const group = svg("g", { class: "code-marks" }, image);
+  for (const mark of seen) {
+    const x = px(mark.x);
+    const line = svg("g", { class: mark.needed ? "needed" : "" }, group);
+    svg("title", {}, line).textContent = `${mark.name}: ${fixed(1e3 * mark.width, 1)} mm. ${mark.source}`;
+    const length = 6.1 * mark.name.length;
+    const anchor = x + length > width - picture.right ? "end" : "start";
+    const start = anchor === "end" ? x - length : x;
+    let row = ends.findIndex((end) => end < start - 6);
+    if (row < 0) row = ends.length;
+    ends[row] = start + length;
+    const y = picture.top + 4 + 13 * row;
+    svg("line", { x1: x, x2: x, y1: y - 8, y2: picture.height - picture.bottom }, line);
+    svg("text", { x: anchor === "end" ? x - 3 : x + 3, y, "text-anchor": anchor }, line).textContent = mark.name;
+  }
+}
+
+/** The present value, as a line that can be dragged and moved with the arrow keys. */
+function drawCursor(image) {
+  const x = present();
+  const handle = svg("g", { class: "handle", tabindex: 0, role: "slider", "aria-label": byId("over").selectedOptions[0]?.textContent ?? "value" }, image);
+  svg("line", { class: "handle-line", y1: picture.top - 14, y2: picture.height - picture.bottom }, handle);
+  svg("path", { class: "handle-knob", d: "M-7,-9h14v8l-7,8l-7,-8z" }, handle);
+  svg("text", { class: "handle-value", y: picture.top - 18, "text-anchor": "middle" }, handle);
+  picture.handle = handle;
+  moveCursor(x);
+}
+
+function moveCursor(x) {
+  const { handle, px, width } = picture;
+  if (!handle) return;
+  const seen = x !== null && x >= curve.from - 1e-9 && x <= curve.to * (1 + 1e-9);
+  handle.style.display = seen ? "" : "none";
+  if (!seen) return;
+  const at = px(x);
+  const [line, knob, text] = handle.children;
+  line.setAttribute("x1", at);
+  line.setAttribute("x2", at);
+  knob.setAttribute("transform", `translate(${at},${picture.top - 4})`);
+  text.setAttribute("x", Math.min(Math.max(at, 40), width - 40));
+  text.textContent = `${written(x)} ${curve.unit}`;
+  handle.setAttribute("aria-valuemin", curve.from);
+  handle.setAttribute("aria-valuemax", curve.to);
+  handle.setAttribute("aria-valuenow", x);
+  handle.setAttribute("aria-valuetext", text.textContent);
+}
+
+/** Sets the key of the curve to a value. */
+function setPresent(x) {
+  const inside = Math.min(Math.max(x, curve.from), curve.to);
+  const value = curve.whole ? Math.round(inside) : Number(inside.toPrecision(4));
+  moveCursor(value);
+  change(curve.path, `${value} ${curve.unit}`.trim());
+}
+
+function bindCurve() {
+  const host = byId("curve-picture");
+  let dragging = false;
+  const at = (event) => {
+    const share = (event.clientX - host.getBoundingClientRect().left - picture.left) / (picture.width - picture.left - picture.right);
+    return curve.from + share * (curve.to - curve.from);
+  };
+  host.addEventListener("pointerdown", (event) => {
+    if (event.button || !curve.path) return;
+    event.preventDefault();
+    host.setPointerCapture(event.pointerId);
+    dragging = true;
+    setPresent(at(event));
+    picture.handle?.focus({ preventScroll: true });
+  });
+  host.addEventListener("pointermove", (event) => dragging && setPresent(at(event)));
+  for (const end of ["pointerup", "pointercancel"]) host.addEventListener(end, () => (dragging = false));
+  host.addEventListener("keydown", (event) => {
+    const step = curve.whole ? 1 : (curve.to - curve.from) / (event.shiftKey ? 20 : 200);
+    const moves = { ArrowLeft: -step, ArrowDown: -step, ArrowRight: step, ArrowUp: step, PageDown: -10 * step, PageUp: 10 * step };
+    const x = present();
+    if (x === null || !(event.key in moves) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    setPresent(x + moves[event.key]);
+  });
+  byId("measure").addEventListener("change", () => {
+    drawCurve();
+    keepInAddress();
+  });
+  byId("over").addEventListener("change", (event) => {
+    chooseOver(event.target.value);
+    computeCurve();
+    keepInAddress();
+  });
+  for (const end of ["from", "to"]) {
+    byId(end).addEventListener("change", (event) => {
+      const typed = Number(event.target.value);
+      const ends = { from: curve.from, to: curve.to, [end]: typed };
+      const good = event.target.value.trim() !== "" && Number.isFinite(typed) && ends.from < ends.to;
+      event.target.setAttribute("aria-invalid", String(!good));
+      if (!good) {
+        byId("curve-note").textContent = "The curve needs two numbers, the first smaller than the second.";
+        return;
+      }
+      Object.assign(curve, ends, { fixed: true });
+      curveChanged();
+      computeCurve();
+      keepInAddress();
+    });
+  }
+  byId("save-study").addEventListener("click", () => send({ ...curveRequest("study"), id: curve.id }));
+  new ResizeObserver(() => requestAnimationFrame(drawCurve)).observe(host.parentElement);
+}
+
+/** Boxes for the records of the curve. */
+function fillCurveRecords() {
+  const host = byId("curve-records");
+  const names = [...new Set([...(latest?.records ?? []), ...knownRecords])];
+  if (host.dataset.names === names.join()) return;
+  host.dataset.names = names.join();
+  host.replaceChildren();
+  for (const name of names) {
+    const label = html("label", "", undefined, host);
+    const box = html("input", "", undefined, label);
+    box.type = "checkbox";
+    box.checked = curve.records.includes(name);
+    label.append(` ${name}`);
+    box.addEventListener("change", () => {
+      curve.records = names.filter((_, i) => host.querySelectorAll("input")[i].checked);
+      curveChanged();
+      computeCurve();
+      keepInAddress();
+    });
+  }
+}

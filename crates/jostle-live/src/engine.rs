@@ -1,0 +1,583 @@
+//! From the text of a model to everything that the page shows.
+
+use std::ops::ControlFlow;
+use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use jostle::stepping::Progress;
+use jostle::{GroundMotion, Model, Outcome, Pounding, RunEnd, Settings, Summary};
+use jostle_io::{Format, InputError, ModelTree, TreeValue};
+use jostle_report::Page;
+use jostle_study::{CaseError, Prepared, Workshop};
+use serde::Serialize;
+
+use crate::message::{Fault, Run, fault, faults};
+
+/// Most files of the model's folder that are offered as records.
+const MOST_FILES: usize = 60;
+/// Names of files that may be records.
+const RECORD_ENDINGS: [&str; 10] = [
+    "at2", "csv", "v1", "v2", "v2a", "smc", "mseed", "sac", "ns", "asc",
+];
+
+/// A model that was opened, and what runs of it share.
+pub struct Engine {
+    name: String,
+    text: String,
+    base: PathBuf,
+    /// Folder of the model, without links.
+    folder: PathBuf,
+    /// Files that the opened model names, without links.
+    picked: Vec<PathBuf>,
+    workshop: Workshop,
+    /// The last runs without contact, the most recent at the end.
+    apart: Mutex<Vec<Apart>>,
+}
+
+/// A run without contact, which does not depend on the widths of the gaps.
+struct Apart {
+    /// Its model, with all gaps closed.
+    model: Model,
+    motion: GroundMotion,
+    outcome: Arc<Outcome>,
+}
+
+/// Runs without contact that are kept.
+const MOST_APART: usize = 4;
+
+/// Why there is no frame.
+#[derive(Debug)]
+pub(crate) enum Trouble {
+    /// The model is wrong.
+    Faults(Vec<Fault>),
+    /// Stopped.
+    Stopped,
+}
+
+impl From<CaseError> for Trouble {
+    fn from(error: CaseError) -> Self {
+        match error {
+            CaseError::Path(error) => Self::Faults(fault(&error.path, error.problem)),
+            CaseError::Input(error) => Self::from(error),
+        }
+    }
+}
+
+impl From<InputError> for Trouble {
+    fn from(error: InputError) -> Self {
+        Self::Faults(faults(&error))
+    }
+}
+
+/// One number of a run, to be compared with that of another.
+#[derive(Debug, Serialize)]
+pub(crate) struct Number {
+    name: String,
+    unit: &'static str,
+    value: f64,
+}
+
+/// A model that was run.
+struct Solved {
+    prepared: Prepared,
+    outcome: Outcome,
+    without: Option<Arc<Outcome>>,
+    summary: Summary,
+}
+
+/// What a frame says beside its data.
+#[derive(Serialize)]
+struct Head<'a> {
+    op: &'static str,
+    id: u64,
+    text: &'a str,
+    knobs: Vec<jostle_io::Knob>,
+    records: Vec<String>,
+    headline: &'a str,
+    parts: &'a [(&'static str, String)],
+    numbers: Vec<Number>,
+    /// Warnings of the model and notes of the run.
+    notes: &'a [String],
+    /// Smallest gap without pounding of every gap, from the run without contact \[m\].
+    needed: Vec<Option<f64>>,
+}
+
+impl Engine {
+    /// Opens a model file, or a built-in model.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is not TOML or JSON.
+    pub fn open(model: &Path) -> Result<Self, InputError> {
+        let tree = ModelTree::find(model)?;
+        let base = tree.base().to_owned();
+        let here = if base.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            &base
+        };
+        let folder = here.canonicalize().unwrap_or_else(|_| here.to_owned());
+        let files = files(&tree).into_iter();
+        let picked = files.filter_map(|(_, name)| base.join(name).canonicalize().ok());
+        Ok(Self {
+            name: tree.name().to_owned(),
+            text: tree.text().to_owned(),
+            picked: picked.collect(),
+            base,
+            folder,
+            workshop: Workshop::default(),
+            apart: Mutex::default(),
+        })
+    }
+
+    /// Name of the file.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Text of the file.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Names of records to choose from: the built-in ones, and files of the model's folder.
+    pub(crate) fn records(&self) -> Vec<String> {
+        let builtin = jostle_io::builtin_motions().into_iter();
+        let mut names: Vec<String> = builtin.map(|(name, _)| name.to_owned()).collect();
+        let ours = |path: &Path| {
+            let ending = path
+                .extension()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .to_lowercase();
+            RECORD_ENDINGS.contains(&ending.as_str())
+        };
+        let entries = std::fs::read_dir(&self.folder)
+            .into_iter()
+            .flatten()
+            .flatten();
+        let mut files: Vec<String> = entries
+            .filter(|entry| ours(&entry.path()))
+            .take(MOST_FILES)
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .collect();
+        files.sort();
+        names.extend(files);
+        names
+    }
+
+    /// The tree of a text with changes made.
+    pub(crate) fn tree(&self, run: &Run) -> Result<ModelTree, Trouble> {
+        let mut tree = self.parse(&run.text)?;
+        for (path, typed) in &run.edits {
+            let value = (!typed.trim().is_empty()).then(|| TreeValue::typed(typed));
+            let text = tree
+                .rewritten(path, value.as_ref())
+                .map_err(|error| Trouble::Faults(fault(&error.path, error.problem)))?;
+            tree = self.parse(&text)?;
+        }
+        Ok(tree)
+    }
+
+    fn parse(&self, text: &str) -> Result<ModelTree, InputError> {
+        ModelTree::parse(&self.name, text, Format::of_text(text), &self.base)
+    }
+
+    /// Reads a tree that names no file out of reach, and plans its run.
+    pub(crate) fn prepare(&self, tree: &ModelTree, record: usize) -> Result<Prepared, Trouble> {
+        for (path, name) in files(tree) {
+            self.confine(path, &name)?;
+        }
+        let mut tree = tree.clone();
+        let several = tree.records().len();
+        if several > 1 {
+            tree.keep_record(record.min(several - 1));
+        }
+        let mut prepared = self.workshop.assemble(tree.input()?)?;
+        prepared.input.note_system(&prepared.system);
+        if let Some(warning) = prepared.input.unusual_motion(&prepared.motion) {
+            prepared.input.warnings.push(warning);
+        }
+        Ok(prepared)
+    }
+
+    /// Refuses a file outside the folder of the model that the opened model does not name.
+    fn confine(&self, path: &'static str, name: &str) -> Result<(), Trouble> {
+        let file = self.base.join(name);
+        let within = match file.canonicalize() {
+            Ok(file) => file.starts_with(&self.folder) || self.picked.contains(&file),
+            // The reader says that there is none; it must not look elsewhere for similar names.
+            Err(_) => Path::new(name)
+                .components()
+                .all(|part| matches!(part, Component::Normal(_) | Component::CurDir)),
+        };
+        if within {
+            return Ok(());
+        }
+        let mut found = fault(
+            path,
+            format!(
+                "\"{name}\" lies outside the folder of the model, and a live page reads no other"
+            ),
+        );
+        found[0].remedy = Some(
+            "copy the file into that folder, or name it in the model file and start jostle live again".into(),
+        );
+        Err(Trouble::Faults(found))
+    }
+
+    fn solve(
+        &self,
+        prepared: Prepared,
+        watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
+    ) -> Result<Solved, Trouble> {
+        let begun = Instant::now();
+        let compares = !prepared.system.contacts.is_empty();
+        let apart = Settings {
+            pounding: Pounding::Excluded,
+            ..Settings::default()
+        };
+        let model = with_closed_gaps(&prepared.input.model);
+        let known = {
+            let kept = self.apart.lock().unwrap_or_else(PoisonError::into_inner);
+            let same = |run: &&Apart| run.model == model && run.motion == prepared.motion;
+            kept.iter().find(same).map(|run| Arc::clone(&run.outcome))
+        };
+        let wanted = compares && known.is_none();
+        let (outcome, computed) = std::thread::scope(|scope| {
+            let computing = wanted.then(|| scope.spawn(|| prepared.step(apart, watch)));
+            let outcome = prepared.step(Settings::default(), watch);
+            (outcome, computing.and_then(|run| run.join().ok()))
+        });
+        let without = known.or(computed.map(Arc::new));
+        let stopped = |outcome: &Outcome| outcome.end == RunEnd::Stopped;
+        if stopped(&outcome) || without.as_ref().is_some_and(|run| stopped(run)) {
+            return Err(Trouble::Stopped);
+        }
+        let without = without.filter(|run| run.end == RunEnd::Completed);
+        if let Some(run) = without.as_ref().filter(|_| wanted) {
+            let mut kept = self.apart.lock().unwrap_or_else(PoisonError::into_inner);
+            if kept.len() >= MOST_APART {
+                kept.remove(0);
+            }
+            kept.push(Apart {
+                model,
+                motion: prepared.motion.clone(),
+                outcome: Arc::clone(run),
+            });
+        }
+        let mut summary = prepared.summary(&outcome, without.as_deref());
+        summary.work.wall_s = begun.elapsed().as_secs_f64();
+        prepared.input.add_notes(&mut summary);
+        Ok(Solved {
+            prepared,
+            outcome,
+            without,
+            summary,
+        })
+    }
+
+    /// Runs a model: the binary message of its frame.
+    pub(crate) fn frame(
+        &self,
+        id: u64,
+        tree: &ModelTree,
+        record: usize,
+        watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
+    ) -> Result<Vec<u8>, Trouble> {
+        let solved = self.solve(self.prepare(tree, record)?, watch)?;
+        let Some(page) = solved.page() else {
+            return Err(Trouble::Stopped);
+        };
+        let frame = jostle_report::frame(&page);
+        let summary = &solved.summary;
+        let head = Head {
+            op: "frame",
+            id,
+            text: tree.text(),
+            knobs: tree.knobs(),
+            records: tree.records(),
+            headline: &frame.headline,
+            parts: &frame.parts,
+            numbers: numbers(summary),
+            notes: &summary.notes,
+            needed: summary
+                .gaps
+                .iter()
+                .map(|gap| gap.closing_without_contact_m)
+                .collect(),
+        };
+        let head = serde_json::to_string(&head).unwrap_or_default();
+        // Two texts, so that the data need not be written twice.
+        let json = format!("[{head},{}]", frame.data);
+        Ok(crate::message::binary(&json, &frame.numbers))
+    }
+
+    /// Runs a model: the report as one HTML file.
+    pub(crate) fn report(
+        &self,
+        tree: &ModelTree,
+        record: usize,
+        watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
+    ) -> Result<String, Trouble> {
+        let mut solved = self.solve(self.prepare(tree, record)?, watch)?;
+        let prepared = &solved.prepared;
+        jostle::stepping::find_sensitivity(
+            &prepared.system,
+            &prepared.motion,
+            &prepared.plan,
+            &mut solved.outcome,
+            watch,
+        );
+        let mut summary = prepared.summary(&solved.outcome, solved.without.as_deref());
+        summary.work.wall_s = solved.summary.work.wall_s;
+        prepared.input.add_notes(&mut summary);
+        solved.summary = summary;
+        let page = solved.page().ok_or(Trouble::Stopped)?;
+        Ok(jostle_report::render(&page))
+    }
+}
+
+impl Solved {
+    /// What the report shows; `None` without histories.
+    fn page(&self) -> Option<Page<'_>> {
+        Some(Page {
+            model: &self.prepared.input.model,
+            motion: &self.prepared.motion,
+            summary: &self.summary,
+            history: self.outcome.history.as_ref()?,
+            without_contact: self.without.as_ref().and_then(|run| run.history.as_ref()),
+            springs: self.outcome.spring_history.as_ref(),
+            sections: &[],
+            methods: &[],
+        })
+    }
+}
+
+/// A model with all gaps closed: what runs without contact have in common.
+fn with_closed_gaps(model: &Model) -> Model {
+    let mut model = model.clone();
+    for gap in &mut model.gaps {
+        for width in &mut gap.widths {
+            *width = 0.0;
+        }
+    }
+    model
+}
+
+/// Files that a model names, each with its key. Built-in records are none.
+fn files(tree: &ModelTree) -> Vec<(&'static str, String)> {
+    let mut found = Vec::new();
+    for path in ["motion.record", "motion.match.spectrum"] {
+        for value in tree.values(path) {
+            let texts = match value {
+                TreeValue::List(list) => list,
+                one => vec![one],
+            };
+            for text in texts {
+                if let TreeValue::Text(name) = text {
+                    found.push((path, name));
+                }
+            }
+        }
+    }
+    let builtin = |name: &str| {
+        jostle_io::builtin_motions()
+            .iter()
+            .any(|(known, _)| *known == name)
+    };
+    found.retain(|(path, name)| {
+        *path != "motion.record" || !builtin(name) && jostle_io::builtin_record(name).is_none()
+    });
+    found
+}
+
+/// The numbers of a run that two runs are compared by.
+fn numbers(summary: &Summary) -> Vec<Number> {
+    let mut list = Vec::new();
+    let mut add = |name: String, unit, value: f64| list.push(Number { name, unit, value });
+    let several = summary.gaps.len() > 1;
+    for gap in &summary.gaps {
+        let pair = if several {
+            format!(" {}–{}", gap.between[0], gap.between[1])
+        } else {
+            String::new()
+        };
+        add(format!("Gap{pair}"), "mm", 1e3 * gap.width_m);
+        add(format!("Peak force{pair}"), "kN", 1e-3 * gap.peak_force_n);
+        add(format!("Impacts{pair}"), "", gap.impact_count as f64);
+        if let Some(first) = gap.first_impact_s {
+            add(format!("First impact{pair}"), "s", first);
+        }
+        if let Some(closing) = gap.closing_without_contact_m {
+            add(
+                format!("Smallest gap without pounding{pair}"),
+                "mm",
+                1e3 * closing,
+            );
+        }
+    }
+    for building in &summary.buildings {
+        let name = &building.name;
+        let floors = || building.floors.iter();
+        let most =
+            |of: fn(&jostle::summary::FloorSummary) -> f64| floors().map(of).fold(0.0, f64::max);
+        let sway = most(|f| f.displacement_max_m.max(-f.displacement_min_m));
+        add(format!("Displacement of {name}"), "mm", 1e3 * sway);
+        add(
+            format!("Storey drift of {name}"),
+            "%",
+            100.0 * most(|f| f.storey_drift_peak),
+        );
+        add(
+            format!("Floor acceleration of {name}"),
+            "m/s²",
+            most(|f| f.total_acceleration_peak_m_s2),
+        );
+        add(
+            format!("Base shear of {name}"),
+            "kN",
+            1e-3 * building.base_shear_peak_n,
+        );
+    }
+    add(
+        "Peak ground acceleration".into(),
+        "m/s²",
+        summary.motion.pga_m_s2,
+    );
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn engine(folder: &Path) -> Engine {
+        let model = folder.join("model.toml");
+        let text = jostle_io::model_text("paper").unwrap_or_default();
+        std::fs::write(&model, text).unwrap_or_else(|error| panic!("{error}"));
+        Engine::open(&model).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    #[test]
+    fn a_kept_run_without_contact_is_that_of_the_other_width() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let [kept, fresh] = [engine(folder.path()), engine(folder.path())];
+        let run = |width: &str| Run {
+            id: 1,
+            text: kept.text.clone(),
+            edits: vec![("gap[0].width".into(), width.into())],
+            record: 0,
+        };
+        let solve = |engine: &Engine, width: &str| {
+            let tree = engine
+                .tree(&run(width))
+                .unwrap_or_else(|error| panic!("{error:?}"));
+            let prepared = engine
+                .prepare(&tree, 0)
+                .unwrap_or_else(|error| panic!("{error:?}"));
+            let solved = engine.solve(prepared, &|_| ControlFlow::Continue(()));
+            solved.unwrap_or_else(|error| panic!("{error:?}"))
+        };
+        let first = solve(&kept, "90 mm").without;
+        let second = solve(&kept, "40 mm");
+        let alone = solve(&fresh, "40 mm");
+        match (first, &second.without, &alone.without) {
+            (Some(first), Some(second), Some(alone)) => {
+                assert!(Arc::ptr_eq(&first, second), "computed twice");
+                assert_eq!(second.closing, alone.closing);
+                assert_eq!(second.floors, alone.floors);
+                assert_eq!(second.base_shear, alone.base_shear);
+            }
+            _ => panic!("no run without contact"),
+        }
+        assert_eq!(second.summary.gaps, alone.summary.gaps);
+    }
+
+    fn with_record(engine: &Engine, record: &str) -> Result<Prepared, Trouble> {
+        let run = Run {
+            id: 1,
+            text: engine.text.clone(),
+            edits: vec![("motion.record".into(), record.into())],
+            record: 0,
+        };
+        engine.prepare(&engine.tree(&run)?, 0)
+    }
+
+    #[test]
+    fn records_outside_the_folder_are_refused() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let inside = folder.path().join("inside");
+        std::fs::create_dir(&inside).unwrap_or_else(|error| panic!("{error}"));
+        let record = "0.0 0.0\n0.1 1.0\n0.2 -1.0\n0.3 0.0\n";
+        for name in ["outside.csv", "inside/own.csv"] {
+            std::fs::write(folder.path().join(name), record)
+                .unwrap_or_else(|error| panic!("{error}"));
+        }
+        let engine = engine(&inside);
+        // Whether it is a record at all is for the reader to say.
+        let own = with_record(&engine, "own.csv");
+        assert!(!matches!(own, Err(Trouble::Faults(f)) if f[0].problem.contains("outside")));
+        let outside = folder.path().join("outside.csv");
+        let outside = outside.to_string_lossy();
+        for name in [
+            "../outside.csv",
+            &*outside,
+            "../nothing.csv",
+            "/etc/passwd",
+            "/etc/nothing",
+        ] {
+            match with_record(&engine, name) {
+                Err(Trouble::Faults(faults)) => {
+                    assert!(
+                        faults[0].problem.contains("outside the folder"),
+                        "{faults:?}"
+                    );
+                    assert_eq!(faults[0].path, "motion.record");
+                }
+                other => panic!("{name}: {:?}", other.err()),
+            }
+        }
+        match with_record(&engine, "nothing.csv") {
+            Err(Trouble::Faults(faults)) => {
+                assert!(faults[0].problem.contains("there is no record"));
+            }
+            other => panic!("{:?}", other.err()),
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_do_not_lead_out_of_the_folder() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let engine = engine(folder.path());
+        std::os::unix::fs::symlink("/etc/passwd", folder.path().join("link.csv"))
+            .unwrap_or_else(|error| panic!("{error}"));
+        assert!(
+            matches!(with_record(&engine, "link.csv"), Err(Trouble::Faults(f)) if f[0].problem.contains("outside"))
+        );
+    }
+
+    #[test]
+    fn a_spectrum_file_is_confined_too() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let engine = engine(folder.path());
+        let run = Run {
+            id: 1,
+            text: engine.text.clone(),
+            edits: vec![(
+                "motion.match".into(),
+                "{ spectrum = \"/etc/passwd\", at = \"1 s\" }".into(),
+            )],
+            record: 0,
+        };
+        let tree = engine
+            .tree(&run)
+            .unwrap_or_else(|error| panic!("{error:?}"));
+        assert!(
+            matches!(engine.prepare(&tree, 0), Err(Trouble::Faults(f)) if f[0].problem.contains("outside"))
+        );
+    }
+}

@@ -1,0 +1,118 @@
+//! The page: the viewer of the report with knobs around it.
+
+use jostle_report::Viewer;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+const STYLE: &str = include_str!("../assets/live.css");
+/// Scripts after those of the viewer, in the order of their dependence.
+const SCRIPTS: [&str; 4] = [
+    include_str!("../assets/model.js"),
+    include_str!("../assets/knobs.js"),
+    include_str!("../assets/curve.js"),
+    include_str!("../assets/live.js"),
+];
+
+/// The page of a model, and its security policy.
+pub(crate) fn page(name: &str, port: u16, token: &str) -> (String, String) {
+    let viewer = Viewer::new();
+    let name = std::path::Path::new(name)
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy();
+    // The token is random and known to this page alone, so it also marks its scripts.
+    let policy = format!(
+        "default-src 'none'; script-src 'nonce-{token}'; style-src 'unsafe-inline'; img-src data:; \
+         connect-src ws://127.0.0.1:{port} ws://localhost:{port}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    );
+    let script = format!("{}\n{}", viewer.script, SCRIPTS.concat());
+    let markup = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (name) " – jostle live" }
+                link rel="icon" href="data:,";
+                style { (PreEscaped(viewer.style)) (PreEscaped(STYLE)) }
+            }
+            body.live {
+                a.skip href="#headline" { "Skip to the results" }
+                header.topbar {
+                    h1 { "jostle live " span #model-name.quiet { (name) } }
+                    div.buttons role="group" aria-label="This model" {
+                        button #undo type="button" title="Undo (Ctrl+Z)" disabled { "Undo" }
+                        button #redo type="button" title="Redo (Ctrl+Shift+Z)" disabled { "Redo" }
+                        button #pin type="button" aria-pressed="false" title="Keep this run to compare others with it" { "Pin" }
+                        button #save-model type="button" { "Save model" }
+                        button #save-report type="button" { "Save report" }
+                        button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+                    }
+                }
+                p #connection.connection role="status" hidden {}
+                div.columns-of-page {
+                    (knobs())
+                    main {
+                        div #working.working hidden { progress #progress max="1" value="0" aria-label="Share of the run that is done" {} button #stop type="button" { "Stop" } }
+                        p #headline.verdict tabindex="-1" aria-live="polite" { "Running the model …" }
+                        div #part-warnings {}
+                        div.pair {
+                            (curve())
+                            div #animation { (PreEscaped(viewer.motion)) }
+                        }
+                        section #compare hidden { h2 { "Compared with the pinned run" } div.scroll { table #comparison {} } }
+                        div #result {
+                            (PreEscaped(viewer.sections))
+                            div #notes.note hidden {}
+                        }
+                    }
+                }
+                footer { "jostle " (env!("CARGO_PKG_VERSION")) " on this machine. Nothing is loaded from elsewhere, and nothing is sent elsewhere." }
+                (PreEscaped(viewer.player))
+                noscript { p.note { "This page needs JavaScript." } }
+                script type="module" nonce=(token) { (PreEscaped(script)) }
+            }
+        }
+    };
+    (markup.into_string(), policy)
+}
+
+fn knobs() -> Markup {
+    html! {
+        aside.knobs aria-label="The model" {
+            label.search-label { span.wordy-label { "Find any value" }
+                input #search type="search" placeholder="damping, stiffness, column …" autocomplete="off" spellcheck="false";
+            }
+            label #record-choice hidden { "Record of the list " select #several {} }
+            div #faults.faults role="alert" hidden {}
+            div #knob-list {}
+            datalist #record-names {}
+            details #editor {
+                summary { "Model file" }
+                textarea #text rows="24" spellcheck="false" autocomplete="off" aria-label="Text of the model file" {}
+            }
+        }
+    }
+}
+
+fn curve() -> Markup {
+    html! {
+        section #curve aria-label="Curve" {
+            div.controls {
+                label { select #measure aria-label="Result" {
+                    option value="0" { "Peak force" }
+                    option value="1" { "Number of impacts" }
+                    option value="2" { "Peak storey drift" }
+                    option value="3" { "Peak floor acceleration" }
+                } }
+                label { "over " select #over {} }
+                label { "from " input #from size="7" inputmode="decimal"; }
+                label { "to " input #to size="7" inputmode="decimal"; }
+                output #unit.quiet {}
+                details.records-of-curve { summary { "Records" } div #curve-records {} }
+                button #save-study type="button" { "Save study" }
+            }
+            figure.chart { figcaption #curve-caption {} div #curve-picture {} }
+            p #curve-note.quiet { "Drag the line, or use the arrow keys, to change the value." }
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! The server: one page and one WebSocket on the loopback address.
+
+use std::io::Write;
+use std::net::{Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use crate::engine::Engine;
+use crate::http::{self, Refusal, Wanted};
+use crate::{page, session};
+
+/// Most connections at a time.
+const MOST_CONNECTIONS: usize = 32;
+/// Most time that a read or a write of a request may wait.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Bytes of randomness in the token.
+const TOKEN_BYTES: usize = 24;
+
+const BUSY: Refusal = Refusal(503, "Service Unavailable", "Too many connections.");
+
+/// Why there is no server.
+#[derive(Debug, thiserror::Error)]
+pub enum LiveError {
+    /// The port is taken, or not allowed.
+    #[error("cannot listen at 127.0.0.1:{port}: {error}; --port 0 takes any free port")]
+    Listen {
+        /// Port as asked for.
+        port: u16,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// The system has no random numbers.
+    #[error("the system gives no random numbers for a token: {0}")]
+    Token(String),
+}
+
+/// A running server; dropped, it ends.
+pub struct Server {
+    shared: Arc<Shared>,
+    acceptor: Option<JoinHandle<()>>,
+}
+
+/// What all connections share.
+pub(crate) struct Shared {
+    pub(crate) engine: Engine,
+    port: u16,
+    token: String,
+    connections: AtomicUsize,
+    ending: AtomicBool,
+    pages: Mutex<Pages>,
+    changed: Condvar,
+}
+
+/// Pages that are open.
+struct Pages {
+    open: usize,
+    /// When the last one went.
+    gone: Option<Instant>,
+}
+
+impl Server {
+    /// Starts to serve a model; port 0 takes a free one.
+    ///
+    /// # Errors
+    /// [`LiveError`].
+    pub fn start(engine: Engine, port: u16) -> Result<Self, LiveError> {
+        let refused = |error| LiveError::Listen { port, error };
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(refused)?;
+        let port = listener.local_addr().map_err(refused)?.port();
+        let mut random = [0; TOKEN_BYTES];
+        getrandom::fill(&mut random).map_err(|error| LiveError::Token(error.to_string()))?;
+        let shared = Arc::new(Shared {
+            engine,
+            port,
+            token: random.iter().map(|byte| format!("{byte:02x}")).collect(),
+            connections: AtomicUsize::new(0),
+            ending: AtomicBool::new(false),
+            pages: Mutex::new(Pages {
+                open: 0,
+                gone: None,
+            }),
+            changed: Condvar::new(),
+        });
+        let accepting = Arc::clone(&shared);
+        let acceptor = std::thread::spawn(move || accept(&listener, &accepting));
+        Ok(Self {
+            shared,
+            acceptor: Some(acceptor),
+        })
+    }
+
+    /// Where the page is, its token included.
+    #[must_use]
+    pub fn address(&self) -> String {
+        format!(
+            "http://127.0.0.1:{}/?token={}",
+            self.shared.port, self.shared.token
+        )
+    }
+
+    /// Waits until `stop` says so, asked several times a second, or until a page was open and none has been for
+    /// `patience`.
+    pub fn wait(&self, stop: &dyn Fn() -> bool, patience: Duration) {
+        const EVERY: Duration = Duration::from_millis(200);
+        let mut pages = self
+            .shared
+            .pages
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        while !stop() && pages.gone.is_none_or(|gone| gone.elapsed() <= patience) {
+            let waited = self.shared.changed.wait_timeout(pages, EVERY);
+            pages = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.shared.ending.store(true, Ordering::Relaxed);
+        // A last connection wakes the acceptor.
+        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, self.shared.port));
+        let woken = TcpStream::connect_timeout(&address, PATIENCE).is_ok();
+        if let Some(acceptor) = self.acceptor.take().filter(|_| woken) {
+            let _ = acceptor.join();
+        }
+    }
+}
+
+impl Shared {
+    pub(crate) fn is_ending(&self) -> bool {
+        self.ending.load(Ordering::Relaxed)
+    }
+
+    fn count_pages(&self, come: bool) {
+        let mut pages = self.pages.lock().unwrap_or_else(PoisonError::into_inner);
+        if come {
+            pages.open += 1;
+        } else {
+            pages.open -= 1;
+        }
+        pages.gone = (pages.open == 0).then(Instant::now);
+        self.changed.notify_all();
+    }
+}
+
+fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
+    for stream in listener.incoming() {
+        if shared.is_ending() {
+            return;
+        }
+        let Ok(mut stream) = stream else {
+            // Out of handles, say: give others time to end.
+            std::thread::sleep(Duration::from_millis(50));
+            continue;
+        };
+        let timeouts = [
+            stream.set_read_timeout(Some(PATIENCE)),
+            stream.set_write_timeout(Some(PATIENCE)),
+            stream.set_nodelay(true),
+        ];
+        if timeouts.iter().any(Result::is_err) {
+            continue;
+        }
+        if shared.connections.fetch_add(1, Ordering::Relaxed) >= MOST_CONNECTIONS {
+            let _ = http::refuse(&mut stream, BUSY);
+            shared.connections.fetch_sub(1, Ordering::Relaxed);
+            continue;
+        }
+        let shared = Arc::clone(shared);
+        std::thread::spawn(move || {
+            // A connection that fails is gone; the page connects again.
+            let _ = answer(&mut stream, &shared);
+            shared.connections.fetch_sub(1, Ordering::Relaxed);
+        });
+    }
+}
+
+fn answer(stream: &mut TcpStream, shared: &Shared) -> std::io::Result<()> {
+    let judged =
+        http::read_head(stream).and_then(|head| http::judge(&head, shared.port, &shared.token));
+    match judged {
+        Ok(Wanted::Page) => {
+            let (page, policy) = page::page(shared.engine.name(), shared.port, &shared.token);
+            http::send_page(stream, &page, &policy)?;
+        }
+        Ok(Wanted::Socket { key }) => {
+            http::upgrade(stream, &key)?;
+            shared.count_pages(true);
+            let served = session::serve(stream, shared);
+            shared.count_pages(false);
+            return served;
+        }
+        Err(refusal) => {
+            http::refuse(stream, refusal)?;
+            // What still comes is read and dropped, so that the answer arrives before the connection is reset.
+            stream.shutdown(Shutdown::Write)?;
+            stream.set_read_timeout(Some(Duration::from_millis(200)))?;
+            let mut rest = std::io::Read::take(&mut *stream, 1 << 20);
+            let _ = std::io::copy(&mut rest, &mut std::io::sink());
+        }
+    }
+    stream.flush()
+}

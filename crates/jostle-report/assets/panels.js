@@ -1,0 +1,149 @@
+// What the charts over time show of the run that is loaded.
+
+const colours = (i) => `var(--c${i % 7})`;
+
+/** The contacts with an impact, hardest first. */
+const struckContacts = () => contacts.filter((c) => c.impacts > 0).sort((a, b) => b.peak - a.peak);
+
+/** Name of a side of a gap; null is a wall. */
+function sideName(building) {
+  return building === null ? "wall" : page.buildings[building].name;
+}
+
+function contactName(contact) {
+  const [left, right] = contact.gap.between.map(sideName);
+  return page.gaps.length > 1 ? `${left}–${right}, ${contact.label}` : contact.label;
+}
+
+function groundChart() {
+  const series = [{ label: "ground", colour: "var(--ink-2)", ...ground }];
+  return { title: "Ground acceleration", unit: "m/s²", series, height: 150 };
+}
+
+/** Forces of at most as many contacts as there are colours. */
+function forceChart() {
+  const struck = struckContacts();
+  const shown = struck.slice(0, 7).sort((a, b) => b.height - a.height);
+  const series = shown.map((contact, i) => ({
+    label: contactName(contact),
+    colour: `var(--f${i % 7})`,
+    time: forces[contact.index].time,
+    values: scaled(forces[contact.index].values, 1e-3),
+  }));
+  const title = struck.length > shown.length ? `Contact force, ${shown.length} hardest of ${struck.length} contacts` : "Contact force";
+  return { title, unit: "kN", series };
+}
+
+/** Energies, stacked: their sum meets the input. */
+function energyChart() {
+  const terms = ["contact", "hysteretic", "damped", "strain", "kinetic"].filter(
+    (term) => run.columns.has(`e:${term}`) && (term !== "hysteretic" || page.hysteretic),
+  );
+  const input = run.columns.get("e:input");
+  if (!terms.length || !input) return null;
+  const largest = greatest(input);
+  const [factor, unit] = largest >= 1e6 ? [1e-6, "MJ"] : largest >= 1e3 ? [1e-3, "kJ"] : [1, "J"];
+  let pile = new Float64Array(run.time.length);
+  const series = terms.map((term) => {
+    const own = scaled(run.columns.get(`e:${term}`), factor);
+    pile = pile.map((sum, i) => sum + own[i]);
+    return { label: term, colour: `var(--e-${term})`, time: run.time, values: pile, read: own, area: true };
+  });
+  series.reverse();
+  series.push({ label: "input", colour: "var(--ink)", time: run.time, values: scaled(input, factor) });
+  return { title: "Energy balance (stacked)", unit, series };
+}
+
+/** Both sides of a contact with and without pounding, and the closing between them. */
+function contactCharts(contact) {
+  const sides = [0, 1].map((side) => {
+    const building = contact.gap.between[side];
+    const name = sideName(building);
+    // A wall moves with the ground.
+    const still = (table) => table && new Float64Array(table.time.length);
+    if (building === null) return { building, name, run: still(run), without: still(without) };
+    const of = (table) => table && displacementColumn(table, building, contact.floors[side], contact.height);
+    return { building, name, run: of(run), without: of(without) };
+  });
+  if (sides.some((side) => !side.run)) return [];
+  const series = [];
+  const moving = sides.filter((side) => side.building !== null);
+  for (const side of moving) {
+    series.push({ label: side.name, colour: colours(side.building), time: run.time, values: scaled(side.run, 1e3) });
+  }
+  for (const side of moving.filter((s) => s.without)) {
+    const values = scaled(side.without, 1e3);
+    series.push({ label: `${side.name} without`, colour: colours(side.building), time: without.time, values, dashed: true });
+  }
+  const closing = ([left, right]) => left.map((u, i) => (u - right[i]) * 1e3);
+  const closings = [
+    { label: "closing", colour: "var(--ink)", time: run.time, values: closing(sides.map((s) => s.run)) },
+  ];
+  if (sides.every((side) => side.without)) {
+    const values = closing(sides.map((s) => s.without));
+    closings.push({ label: "without", colour: "var(--ink-2)", time: without.time, values, dashed: true });
+  }
+  const width = contact.width * 1e3;
+  const levels = [{ value: width, label: `gap ${readableLength(contact.width)}` }];
+  const name = contactName(contact);
+  return [
+    { title: `Displacement, ${name}`, unit: "mm", series },
+    { title: `Closing, ${name}`, unit: "mm", series: closings, levels, zone: width },
+  ];
+}
+
+function floorCharts(building, floor) {
+  const column = `u:${building}:${floor}`;
+  const values = run.columns.get(column);
+  if (!values) return [];
+  const name = page.buildings[building].name;
+  const series = [{ label: name, colour: colours(building), time: run.time, values: scaled(values, 1e3) }];
+  if (without && page.gaps.length) {
+    const free = scaled(without.columns.get(column) ?? new Float64Array(), 1e3);
+    if (free.length) series.push({ label: "without", colour: colours(building), time: without.time, values: free, dashed: true });
+  }
+  return [{ title: `Displacement, ${name}, floor ${floor}`, unit: "mm", series }];
+}
+
+/** Charts in a host, one for each description; those that are there take the new data over. */
+class ChartList {
+  constructor(host, view, seek) {
+    Object.assign(this, { host, view, seek, charts: [] });
+  }
+
+  show(descriptions) {
+    descriptions.forEach((description, i) => {
+      if (this.charts[i]) this.charts[i].update(description);
+      else this.charts.push(new TimeChart(this.host, this.view, { ...description, seek: this.seek }));
+    });
+    for (const chart of this.charts.splice(descriptions.length)) chart.remove();
+  }
+}
+
+/** Fills the list of places; keeps the chosen one if it is still there. */
+function fillPlaces(select) {
+  const kept = select.value;
+  select.replaceChildren();
+  const addGroup = (label, entries) => {
+    if (!entries.length) return;
+    const group = document.createElement("optgroup");
+    group.label = label;
+    for (const [value, text] of entries) group.append(new Option(text, value));
+    select.append(group);
+  };
+  const byHeight = [...contacts].sort((a, b) => b.height - a.height);
+  addGroup("Contacts", byHeight.map((contact) => [`contact ${contact.index}`, contactName(contact)]));
+  page.buildings.forEach((building, i) => {
+    const floors = building.heights.map((_, k) => building.heights.length - k);
+    addGroup(building.name, floors.map((floor) => [`floor ${i} ${floor}`, `${building.name}, floor ${floor}`]));
+  });
+  const start = struckContacts()[0] ?? byHeight[0];
+  const wanted = kept || (start && `contact ${start.index}`);
+  if ([...select.options].some((option) => option.value === wanted)) select.value = wanted;
+}
+
+/** The charts of the place that is chosen. */
+function placeCharts(value) {
+  const [kind, first, second] = value.split(" ");
+  return kind === "contact" ? contactCharts(contacts[Number(first)]) : floorCharts(Number(first), Number(second));
+}
