@@ -1,0 +1,4 @@
+# %% [markdown]
+# # From Python
+# %%
+1 + 1
