@@ -115,7 +115,7 @@ class Study:
 
     @property
     def seed(self) -> int:
-        """Seed of everything drawn."""
+        """Random seed."""
         return self._core.seed
 
     @property
