@@ -48,4 +48,4 @@ def on_page_markdown(markdown, page, config, files):
     markdown = re.sub(
         r"\]\((?:\.\./)+(examples/[\w./-]+\.(?:toml|py))\)", lambda match: f"]({up}{match[1]}.txt)", markdown
     )
-    return re.sub(r"\[(`[^`]*`|[^\]]*)\]\((?:\.\./)+(?:examples|crates)[\w./-]*\)", r"\1", markdown)
+    return re.sub(r"\[(`[^`]*`|[^\]]*)\]\((?:\.\./)+(?:examples|crates|CITATION)[\w./-]*\)", r"\1", markdown)
