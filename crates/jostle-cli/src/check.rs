@@ -417,7 +417,10 @@ fn describe_work(
 ) -> std::fmt::Result {
     let modal = plan.solver == Solver::Modal;
     if modal {
-        writeln!(text, "  modal stepping, exact between the points of the record")?;
+        writeln!(
+            text,
+            "  modal stepping, exact between the points of the record"
+        )?;
     } else {
         writeln!(text, "  {}, {}", plan.solver.name(), plan.integrator)?;
     }
@@ -427,11 +430,7 @@ fn describe_work(
         "  {} steps of {} ms through {duration:.2} s, more during contact{}",
         grouped(steps),
         decimals(plan.step * 1e3, 4),
-        if modal {
-            " and for history output"
-        } else {
-            ""
-        }
+        if modal { " and for history output" } else { "" }
     )?;
     if modal {
         return writeln!(text);
