@@ -80,6 +80,16 @@ impl Building {
 /// default: the building is fixed to the ground.
 ///
 /// The dashpots are all the damping there is here: Rayleigh damping of the building does not act on a base.
+///
+/// ```
+/// use jostle::{Base, Gravity};
+///
+/// // Springs under a shear building; it starts from rest under self weight, with P-Delta.
+/// let base = Base { horizontal_stiffness: Some(500e6), horizontal_damping: 2e6, ..Base::default() };
+/// assert!(!base.is_fixed());
+/// let gravity = Gravity { preload: true, p_delta: true };
+/// assert_ne!(gravity, Gravity::default());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Base {
     /// Moment per rotation, > 0; `None` is rigid; frames only \[N·m/rad\].

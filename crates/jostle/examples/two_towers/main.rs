@@ -1,12 +1,15 @@
 //! Two shear buildings, several gaps: how many impacts, and how strong. `cargo run -p jostle --example two_towers`
 
+#![allow(clippy::print_stdout, reason = "an example prints")]
+
 use std::error::Error;
 use std::ops::ControlFlow;
 
-use jostle::{
-    Analysis, Base, Building, ContactLaw, Damping, Gap, Gravity, GroundMotion, LawKind, Model,
-    ModelFault, Plan, RestitutionIs, Settings, Shear, Structure, System, simulate,
-};
+use jostle::{GroundMotion, ModelFault, Plan, Settings, System, simulate};
+
+mod pair;
+
+use pair::pair;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Ten seconds of a sine that grows and fades, 3 m/s² at its peak.
@@ -50,40 +53,4 @@ fn first(faults: Vec<ModelFault>) -> Box<dyn Error> {
         .into_iter()
         .next()
         .map_or_else(|| "no fault named".into(), Into::into)
-}
-
-/// A soft tower beside a stiff one, `gap` metres apart.
-fn pair(gap: f64) -> Model {
-    let law = ContactLaw {
-        kind: LawKind::HertzDamp,
-        stiffness: 2e9,
-        restitution: 0.65,
-        restitution_is: RestitutionIs::Realised,
-    };
-    Model {
-        title: "Soft and stiff".to_owned(),
-        buildings: vec![tower("soft", 40e3, 20e6), tower("stiff", 60e3, 90e6)],
-        gaps: vec![Gap::after(0, gap, law)],
-        links: Vec::new(),
-        analysis: Analysis::default(),
-    }
-}
-
-/// Three storeys with masses \[kg\] and stiffnesses \[N/m\].
-fn tower(name: &str, mass: f64, stiffness: f64) -> Building {
-    Building {
-        name: name.to_owned(),
-        structure: Structure::Shear(Shear {
-            mass: vec![mass; 3],
-            stiffness: vec![stiffness; 3],
-            storey_heights: vec![3.2; 3],
-        }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
-    }
 }
