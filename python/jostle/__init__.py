@@ -1,12 +1,13 @@
 """Seismic pounding of neighbouring buildings by the transfer matrix method.
 
->>> import jostle
->>> result = jostle.run(jostle.Model.paper_example())
->>> print(result)
-
 Quantities are texts with units (``"20 mm"``, ``"0.35 g"``), bare numbers in SI, or keywords with the unit in their
 name (``width_mm=20``). Arrays and results are in SI. Displacements are relative to the ground and positive to the
 right; forces of contacts are positive in compression.
+
+Examples:
+    >>> import jostle
+    >>> result = jostle.run(jostle.Model.paper_example())
+    >>> print(result)
 """
 
 from ._animation import Animation

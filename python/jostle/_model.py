@@ -101,7 +101,7 @@ class Model:
 
     @classmethod
     def of(cls, model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> Model:
-        """A model from whatever names one: a model, a model file, a built-in name such as ``"paper"``, or a tree.
+        """Returns a model from a model, a model file, a built-in name such as ``"paper"``, or a tree.
 
         A file comes before a built-in model of the same name, as on the command line.
 

@@ -35,7 +35,7 @@ _Base = tuple[str, str, bool, str]
 
 
 class Study:
-    """Many cases of one model: lists, ranges and distributions of whatever stands in a model file.
+    """Many cases of one model: lists, ranges and distributions of any key of the model file.
 
     The table has one row a case and is the same, bit for bit, for any number of threads, processes, workers and
     interruptions. ``docs/studies.md`` describes what a study can hold.
@@ -115,7 +115,7 @@ class Study:
 
     @property
     def seed(self) -> int:
-        """Seed of everything drawn."""
+        """Random seed."""
         return self._core.seed
 
     @property
@@ -133,13 +133,13 @@ class Study:
         progress: bool | Observer = False,
         report: bool = True,
     ) -> StudyResult:
-        """Runs what is not finished in a folder. The same call goes on where an earlier one stopped, whatever
+        """Runs what is not finished in a folder. The same call continues where an earlier one stopped, whatever
         stopped it. Ctrl-C raises ``KeyboardInterrupt`` within a second; finished cases stay. Finished parts are verified:
         one that is damaged or belongs elsewhere is moved to ``set-aside`` with a ``StudyWarning``, and computed again.
 
         Args:
             out: folder of the results; with a client, one that all workers see.
-            jobs: threads; one for every core by default. Without effect with a client, whose workers each bring theirs.
+            jobs: threads; one for every core by default. Without effect with a client, whose workers have their own.
             shard: ``(i, n)`` computes the i-th of n equal shares, i from 1; all may use one folder.
             client: a ``dask.distributed.Client``: its workers compute the parts of the table. A part whose worker
                 dies is taken over by another, from the last finished case on.
@@ -262,7 +262,7 @@ class StudyResult:
 
 @dataclass(frozen=True)
 class RuleGap:
-    """The gap that a rule asks for, and what it would have led to.
+    """The gap that a rule requires, and the outcome with it.
 
     Attributes:
         rule: short name.

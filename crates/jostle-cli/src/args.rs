@@ -5,12 +5,12 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
-/// What happens when neighbouring buildings hit each other in an earthquake.
+/// Simulates neighbouring buildings that hit each other during an earthquake.
 #[derive(Debug, Parser)]
 #[command(
     name = "jostle",
     version,
-    about = "What happens when neighbouring buildings hit each other in an earthquake",
+    about = "Simulates neighbouring buildings that hit each other during an earthquake",
     after_help = "Quantities carry units: --pga 220cm/s2, --pga 0.35g, --gap 100mm.\n\
                   Exit codes: 0 done, 1 the analysis failed or a set of motions does not meet its code,\n\
                   2 the input is wrong, 130 stopped by Ctrl-C."
@@ -35,28 +35,28 @@ impl Args {
 pub(crate) enum Command {
     /// Analyse a model and write summary, histories, impacts and a report
     Run(RunArgs),
-    /// Validate a model and show what it amounts to, without running it
+    /// Check a model and print masses, periods, contacts and expected work, without running it
     Check(ModelArgs),
-    /// Natural periods, participation and shapes
+    /// Print natural periods, participation and mode shapes
     Modes(ModesArgs),
-    /// Two free masses meet under one contact law, or under all of them
+    /// Collide two free masses under one contact law, or under all laws
     Collide(Box<CollideArgs>),
-    /// The model as a script for another program, to check one with the other
+    /// Write the model as a script for another program, to compare results
     Export(crate::export::ExportArgs),
-    /// Size and accuracy of the step equations in every form, on your own buildings
+    /// Print how accurate each solver formulation is on your model
     Method(MethodArgs),
-    /// Cracking and yield of reinforced-concrete sections, by formulas and fibre by fibre
+    /// Compute cracking and yield of reinforced-concrete sections, by formulas and by fibre analysis
     Section(SectionArgs),
-    /// Ground motions: look at them, convert them, make them
+    /// Show, convert, make and select ground motions
     #[command(subcommand)]
     Motion(Box<crate::motion::MotionCommand>),
-    /// Many cases of one model: lists, ranges and distributions of whatever stands in the model file
+    /// Run many cases of one model; any key of the model file can vary
     Study(crate::study::StudyArgs),
-    /// The smallest gap without pounding, beside what rules and codes ask for
+    /// Find the smallest gap without pounding, and compare it with rules and codes
     Gap(crate::gap::GapArgs),
-    /// A page on this machine that runs the model at every change
+    /// Open a page on this machine that runs the model at every change
     Live(crate::live::LiveArgs),
-    /// Push buildings sideways until they have swayed far enough or can stand no more
+    /// Push buildings sideways to a target drift or loss of strength
     Pushover(PushoverArgs),
     /// Write a commented starter file
     New(NewArgs),
@@ -82,12 +82,12 @@ pub(crate) struct CompletionsArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct SchemaArgs {
-    /// Print the page of all keys in Markdown instead
+    /// Print a page of all keys in Markdown instead
     #[arg(long)]
     pub(crate) markdown: bool,
 }
 
-/// A model, and what to change of it.
+/// A model, and options that change it.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ModelArgs {
     /// Model file (TOML or JSON), or the name of a built-in example; without it, the built-in "paper"
@@ -95,10 +95,10 @@ pub(crate) struct ModelArgs {
     /// Scale the motion to this peak ground acceleration
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) pga: Option<String>,
-    /// Width of every gap
+    /// Smallest width of every gap; listed widths shift by the same amount
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     pub(crate) gap: Option<String>,
-    /// Another ground motion: a built-in name or a file
+    /// Use this ground motion: a built-in name or a file
     #[arg(long, value_name = "RECORD")]
     pub(crate) record: Option<String>,
     /// Accept values outside their usual ranges, as accept_unusual = true of the model file
@@ -113,20 +113,20 @@ pub(crate) struct RunArgs {
     /// Folder for the results [default: jostle-out/MODEL; with --json, none]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Neither a report nor the second run without contact that it compares with; under --json without
-    /// --out no histories either
+    /// Omit the report and the second run without contact; with --json and without --out, also the
+    /// histories
     #[arg(long)]
     pub(crate) no_report: bool,
-    /// Add to the report what `jostle method` tells of these buildings
+    /// Add the results of `jostle method` to the report
     #[arg(long, conflicts_with = "no_report")]
     pub(crate) method: bool,
-    /// Another solver than that of the model
+    /// Use this solver instead of that of the model
     #[arg(long, value_enum)]
     pub(crate) solver: Option<SolverName>,
     /// Print summary.json and nothing else
     #[arg(long)]
     pub(crate) json: bool,
-    /// Run even where solver = "product" is expected to lose its digits, and replace files in the folder for results
+    /// Run solver = "product" even if it is expected to lose all digits, and replace files in the results folder
     /// that jostle did not write
     #[arg(long)]
     pub(crate) force: bool,
@@ -135,15 +135,15 @@ pub(crate) struct RunArgs {
 /// Equations that advance a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum SolverName {
-    /// Modes where buildings are elastic and steps automatic, otherwise Riccati
+    /// Modal for elastic buildings with automatic steps, otherwise Riccati
     Auto,
     /// Riccati transfer recursion
     Riccati,
-    /// Direct stiffness, the independent check
+    /// Direct stiffness, an independent check
     Stiffness,
-    /// The published product of transfer matrices
+    /// Product of transfer matrices, as published
     Product,
-    /// Elastic buildings by their modes
+    /// Mode superposition, for elastic buildings
     Modal,
 }
 
@@ -164,16 +164,16 @@ pub(crate) struct CollideArgs {
     /// Contact law
     #[arg(long, value_name = "LAW", default_value = "hertz-damp", value_parser = jostle_io::LAW_NAMES)]
     pub(crate) law: String,
-    /// Every law
+    /// Compare all laws
     #[arg(long, conflicts_with = "law")]
     pub(crate) all: bool,
-    /// Mass of the one body
+    /// Mass of the left body
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) m1: String,
-    /// Mass of the other
+    /// Mass of the right body
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) m2: String,
-    /// Speed at which they close
+    /// Closing speed at the touch
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) speed: String,
     /// Contact stiffness in N/m^1.5 or N/m; for laws of the other family the one with the same secant at the greatest
@@ -183,22 +183,22 @@ pub(crate) struct CollideArgs {
     /// Coefficient of restitution
     #[arg(long, value_name = "NUMBER", default_value = "0.65")]
     pub(crate) restitution: String,
-    /// Whether the published formula takes it, or the masses really rebound with it
+    /// input: used in the published formula; realised: damping is calibrated so that free masses rebound with it
     #[arg(long, value_name = "MEANING", default_value = "input", value_parser = ["input", "realised"])]
     pub(crate) restitution_is: String,
-    /// Of modified-kelvin
+    /// Variant of modified-kelvin
     #[arg(long, default_value = "ye", value_parser = ["ye", "mahmoud-jankowski"])]
     pub(crate) variant: String,
-    /// Of bilinear: yield ÷ greatest design indentation
+    /// bilinear: yield indentation ÷ greatest design indentation
     #[arg(long, value_name = "NUMBER", default_value = "0.1")]
     pub(crate) yield_share: String,
-    /// Of bilinear: speed for which its stiffnesses are computed [default: --speed]
+    /// bilinear: speed for which its stiffnesses are computed [default: --speed]
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) design_speed: Option<String>,
-    /// Of rubber: thickness of the bumper
+    /// rubber: thickness of the bumper
     #[arg(long, value_name = "QUANTITY", default_value = "50 mm")]
     pub(crate) thickness: String,
-    /// Of rubber: exponent of the compression
+    /// rubber: exponent of the compression
     #[arg(long, value_name = "NUMBER", default_value = "2.65")]
     pub(crate) exponent: String,
     /// Write the curves to this file
@@ -249,7 +249,7 @@ pub(crate) struct SectionArgs {
     /// Grade HRB335 to HRB500, or yield strength
     #[arg(long, value_name = "GRADE", default_value = "HRB400")]
     pub(crate) steel: String,
-    /// Strength that a grade stands for
+    /// Strength that belongs to a grade
     #[arg(long, value_name = "LEVEL", default_value = jostle_section::StrengthLevel::NAMES[0], value_parser = jostle_section::StrengthLevel::NAMES)]
     pub(crate) strength: String,
     /// Concrete over the surfaces of the bars
@@ -282,13 +282,13 @@ pub(crate) struct PushoverArgs {
     /// Push only this building
     #[arg(long, value_name = "NAME")]
     pub(crate) building: Option<String>,
-    /// How the load is spread over the height: mass times first mode, mass, or mass times height
+    /// Load over the height: mass × first mode, mass, or mass × height
     #[arg(long, value_enum, default_value_t = Spread::FirstMode)]
     pub(crate) pattern: Spread,
-    /// Roof displacement over height at which to stop
+    /// Roof displacement ÷ height at which to stop
     #[arg(long, value_name = "RATIO", default_value = "0.02")]
     pub(crate) drift: String,
-    /// Which way to push
+    /// Direction of the push
     #[arg(long, value_enum, default_value_t = Push::Right)]
     pub(crate) direction: Push,
     /// Folder for the results [default: jostle-out/MODEL; with --json, none]
@@ -322,7 +322,7 @@ pub(crate) enum Push {
 pub(crate) struct NewArgs {
     /// Name of the file to write; ".toml" is added when it has no extension
     pub(crate) name: PathBuf,
-    /// What to start from
+    /// Template to start from
     #[arg(long, value_name = "TEMPLATE", default_value = jostle_io::TEMPLATE_NAMES[0], value_parser = jostle_io::TEMPLATE_NAMES)]
     pub(crate) template: String,
 }

@@ -69,7 +69,7 @@ fn records(opened: &Opened) -> Result<String, Failure> {
     }
     let _ = writeln!(
         text,
-        "{} a run takes one of them, with --record; a study and \"jostle gap\" take all {}",
+        "{} a run uses one of them, chosen with --record; a study and \"jostle gap\" use all {}",
         styled(LOUD, "note:"),
         inputs.len()
     );
@@ -309,10 +309,10 @@ fn special(building: &Building) -> Vec<String> {
         }
     }
     if building.gravity.preload {
-        lines.push("gravity: starts from the displacements under its weight".into());
+        lines.push("gravity: starts from the displacements under self weight".into());
     }
     if building.gravity.p_delta {
-        lines.push("P-Delta: the weight above leans on the sway of every column".into());
+        lines.push("P-Delta included, from the weight above".into());
     }
     if let Structure::Frame(frame) = &building.structure {
         let least = |sections: &[jostle::Section]| {
@@ -417,21 +417,20 @@ fn describe_work(
 ) -> std::fmt::Result {
     let modal = plan.solver == Solver::Modal;
     if modal {
-        writeln!(text, "  modes, exact between the points of the record")?;
+        writeln!(
+            text,
+            "  modal stepping, exact between the points of the record"
+        )?;
     } else {
         writeln!(text, "  {}, {}", plan.solver.name(), plan.integrator)?;
     }
     let steps = (duration / plan.step).ceil() as u64;
     writeln!(
         text,
-        "  {} steps of {} ms through {duration:.2} s, more while buildings touch{}",
+        "  {} steps of {} ms through {duration:.2} s, more during contact{}",
         grouped(steps),
         decimals(plan.step * 1e3, 4),
-        if modal {
-            " and for rows of histories"
-        } else {
-            ""
-        }
+        if modal { " and for history output" } else { "" }
     )?;
     if modal {
         return writeln!(text);
@@ -483,7 +482,7 @@ mod tests {
                 "base on springs: sideways 5.00e8 N/m",
                 "base with dashpots: sideways 2.00e6 N.s/m",
                 "footings of 3.00 t",
-                "P-Delta: the weight above leans on the sway of every column",
+                "P-Delta included, from the weight above",
             ]
         );
     }

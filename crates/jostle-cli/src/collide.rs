@@ -274,7 +274,7 @@ fn curves(collisions: &Collisions) -> String {
 fn describe(text: &mut String, collisions: &Collisions, args: &CollideArgs) -> std::fmt::Result {
     let [m1, m2] = collisions.masses;
     let heading = format!(
-        "{} t meets {} t at {} m/s, restitution {} ({})",
+        "{} t against {} t at {} m/s, restitution {} ({})",
         m1 * 1e-3,
         m2 * 1e-3,
         collisions.speed,

@@ -14,7 +14,7 @@ use crate::terminal;
 pub(crate) struct ExportArgs {
     #[command(flatten)]
     model: ModelArgs,
-    /// The program it is for
+    /// Program to write for
     #[arg(long, value_enum)]
     to: Target,
     /// File to write; without it, the script is printed
@@ -60,7 +60,7 @@ pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
     for remark in &exported.remarks {
         terminal::remark(&format!(
             "{} {remark}",
-            terminal::styled(terminal::LOUD, "not quite the same:")
+            terminal::styled(terminal::LOUD, "difference:")
         ));
     }
     match &args.output {

@@ -22,19 +22,19 @@ pub(crate) struct GapArgs {
     /// Scale the motions to this peak ground acceleration
     #[arg(long, value_name = "QUANTITY")]
     pga: Option<String>,
-    /// Another ground motion: a built-in name or a file; repeated, a set of records [default: all that the model lists]
+    /// Use this ground motion: a built-in name or a file; repeat for a set of records [default: all records of the model]
     #[arg(long, value_name = "RECORD")]
     record: Vec<String>,
-    /// How closely the gap is found
+    /// Precision of the gap
     #[arg(long, value_name = "QUANTITY", default_value = "0.1mm")]
     tolerance: String,
-    /// Structural system for GB 50011: the one of both that needs the wider joint
+    /// Structural system for GB 50011: of the two buildings, the one that needs the wider joint
     #[arg(long, value_enum, default_value_t = SystemChoice::Frame)]
     system: SystemChoice,
     /// Accept values outside their usual ranges, as accept_unusual = true of the model file
     #[arg(long)]
     accept_unusual: bool,
-    /// Do not run the gaps of the rules
+    /// Do not run the model with the gaps of the rules
     #[arg(long)]
     no_outcomes: bool,
     /// Print JSON and nothing else
@@ -207,8 +207,8 @@ fn describe(title: &str, found: &[CriticalGap]) -> String {
             100.0 * gap.pga_m_s2
         );
         let bracket = match gap.pounding_at_m {
-            Some(hit) => format!("at {} they still meet", millimetres(hit)),
-            None => "they do not even meet when they touch at rest".to_owned(),
+            Some(hit) => format!("at {} there is an impact", millimetres(hit)),
+            None => "no impact even if they touch at rest".to_owned(),
         };
         text += &format!(
             "  smallest gap without pounding {}  ({bracket}; {}, closest at {:.2} m)\n",
@@ -225,7 +225,7 @@ fn describe(title: &str, found: &[CriticalGap]) -> String {
                 100.0 * gap.damping[1]
             );
         }
-        text += "  rule             gap       of need   would have led to\n";
+        text += "  rule             gap    ÷ smallest   outcome with this gap\n";
         for rule in &gap.rules {
             let ratio = rule
                 .ratio

@@ -157,7 +157,7 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
             kn(gap.peak_force_n)
         ),
         None => {
-            format!("no contact; they come within {} mm", mm(gap.clearance_m))
+            format!("no contact; smallest clearance {} mm", mm(gap.clearance_m))
         }
     };
     writeln!(
@@ -203,7 +203,7 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
     if gap.multiple_pounding_count > 0 {
         writeln!(
             text,
-            "  {} of {} at several floors at the same time, at most {} at once.",
+            "  {} of {} at several floors at the same time, up to {} at once.",
             gap.multiple_pounding_count,
             counted(gap.pounding_count, "pounding"),
             gap.most_at_once
@@ -212,7 +212,7 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
     if let Some(closing) = gap.closing_without_contact_m {
         writeln!(
             text,
-            "  Passing through each other they would close {} mm: the smallest gap without pounding.",
+            "  Minimum gap to avoid pounding: {} mm (from a run without contact).",
             mm(closing)
         )?;
     }
@@ -251,7 +251,7 @@ fn write_code_joint(text: &mut String, gap: &GapSummary, summary: &Summary) -> s
         .collect();
     writeln!(
         text,
-        "  GB 50011 asks frames {lower:.1} m high for {} mm at intensity 6 / 7 / 8 / 9.",
+        "  GB 50011 requires {} mm at intensity 6 / 7 / 8 / 9 for frames {lower:.1} m high.",
         joints.join(" / ")
     )
 }

@@ -19,7 +19,7 @@ fn a_script_is_printed_or_written() {
         script.contains(", -0.06, 1.5)"),
         "the gap that was asked for"
     );
-    assert!(complained(&output).contains("not quite the same"));
+    assert!(complained(&output).contains("difference:"));
     let arguments = [
         "export",
         "--to",

@@ -52,7 +52,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::HingeSide,
         "`positive`, `negative` of a hinge",
-        "What is given here holds for that side alone.",
+        "Values given here apply to that side only.",
     ),
     (Section::StoreyHinges, "`hinges` of a shear building", ""),
     (

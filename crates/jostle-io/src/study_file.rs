@@ -58,7 +58,7 @@ pub struct Design {
     pub sampling: Sampling,
     /// Number of draws, of base samples or of trajectories; `None` where nothing is drawn.
     pub samples: Option<u64>,
-    /// Seed of everything drawn.
+    /// Random seed.
     pub seed: u64,
     /// Correlations of the normal scores (Gaussian copula).
     pub correlations: Vec<Correlation>,

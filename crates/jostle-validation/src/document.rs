@@ -8,15 +8,15 @@ use crate::{Extent, Family, misses};
 const ILL_CONDITIONED: &str = "\
 ## What to know before reading the tables
 
-- **Impacts are sensitive by nature.** A late impact follows from all earlier ones, and a graze may or may not happen.
-  Early impacts, peaks, impulses and energies are compared; counts are compared exactly where grazes play no part and
+- **Impact sequences are sensitive.** A small change in timing can alter all later impacts, and a grazing impact may or may not happen.
+  Early impacts, peaks, impulses and energies are compared; counts are compared exactly where grazing impacts play no part and
   up to one impact where they do.
 - **Many frequencies of a frame lie close together**; single mode shapes are therefore not compared, frequencies are.
 - **Two closed forms are met by stepping**, so that their rows show the error of the step, not of the formula; the step
   stands in the row.
 - **A row marked *known*** does not agree within its tolerance; the reason is given below its table. All of them are one
-  graze of 10 kN beside impacts of 190 kN.
-- **Small steps gain nothing for ever.** In double precision the step equations carry a relative error of about
+  grazing impact of 10 kN next to impacts of 190 kN.
+- **Below some step size accuracy stops improving.** In double precision the step equations carry a relative error of about
   10⁻¹⁵/(ωh)², so that below some 10 µs rounding outgrows the error of the method for slow structures.
 - **Not compared**: contact laws that OpenSees has otherwise or not at all; the tables of Zhang et al. (2019),
   whose inputs are not available; structures measured in laboratories.

@@ -135,7 +135,7 @@ pub fn page(ways: &[Way]) -> String {
     let mut text = format!(
         "# Work and precision\n\n\
          <!-- Written by `cargo run --release -p jostle-validation -- --work-precision`; do not edit. -->\n\n\
-         What a digit costs: automatic steps beside fixed ones, on random pairs of shear buildings (seeds {} to {}, those \
+         Cost of accuracy: automatic steps compared with fixed ones, on random pairs of shear buildings (seeds {} to {}, those \
          that touch; one to three storeys, all laws whose force acts over time, 4 s of strong shaking). Errors are those \
          of the greatest force of the gap and of the sum of all impulses, relative to uniform steps of {} µs. Work is the \
          number of solutions of one building, a factorisation counted as three, mean of a run.\n\n\

@@ -305,6 +305,21 @@ fn at_heights(
 
 /// Floors of two neighbours that stand within the height of the other and meet nothing, because `floors = "common"`
 /// pairs floors at equal height only.
+///
+/// ```
+/// use jostle::Structure;
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # use towers::pair;
+///
+/// let mut model = pair(0.02);
+/// assert!(model.unmatched_floors().is_empty());
+/// if let Structure::Shear(tower) = &mut model.buildings[1].structure {
+///     tower.storey_heights = vec![3.2, 2.8, 3.2];
+/// }
+/// let unmatched = model.unmatched_floors();
+/// assert_eq!(unmatched[0].between, [0, 1]);
+/// assert!(!unmatched[0].floors[1].is_empty());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnmatchedFloors {
     /// The first gap of these neighbours with common floors, by its place in [`Model::gaps`].

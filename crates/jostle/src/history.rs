@@ -3,6 +3,16 @@
 use crate::hysteresis::{HysteresisMemory, Stage};
 
 /// Time histories at the recorded instants: one row per instant, one column per quantity.
+///
+/// ```
+/// use jostle::{Column, EnergyTerm, History};
+///
+/// let columns = vec![Column::Time, Column::Energy(EnergyTerm::Input)];
+/// let history = History::from_rows(columns, vec![0.0, 0.0, 0.01, 2.5]); // two rows
+/// assert_eq!(history.len(), 2);
+/// assert_eq!(history.column(Column::Energy(EnergyTerm::Input)), Some(vec![0.0, 2.5]));
+/// assert_eq!(history.column(Column::GroundAcceleration), None);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
     columns: Vec<Column>,

@@ -1,4 +1,89 @@
 //! Seismic pounding of neighbouring buildings by the transfer matrix method for multibody systems.
+//!
+//! A [`Model`] describes buildings in a row and the gaps between them. [`System::assemble`] turns it into equations,
+//! [`Plan::choose`] picks solver and steps, [`simulate`] runs it through a [`GroundMotion`], and [`Summary::of`] gives the peaks.
+//! All quantities are in SI units and radians.
+//!
+//! # Two buildings, one record, an impact
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//!
+//! use jostle::{
+//!     Analysis, Base, Building, ContactLaw, Damping, Gap, Gravity, GroundMotion, LawKind, Model, Plan,
+//!     RestitutionIs, RunEnd, Settings, Shear, Structure, System, simulate,
+//! };
+//!
+//! // A shear building of equal storeys: mass [kg] and stiffness [N/m] of each, 3.2 m high.
+//! fn tower(name: &str, storeys: usize, mass: f64, stiffness: f64) -> Building {
+//!     Building {
+//!         name: name.to_owned(),
+//!         structure: Structure::Shear(Shear {
+//!             mass: vec![mass; storeys],
+//!             stiffness: vec![stiffness; storeys],
+//!             storey_heights: vec![3.2; storeys],
+//!         }),
+//!         damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+//!         base: Base::default(),
+//!         gravity: Gravity::default(),
+//!         hinges: None,
+//!     }
+//! }
+//!
+//! let law = ContactLaw {
+//!     kind: LawKind::HertzDamp,
+//!     stiffness: 2e9, // N/m^1.5
+//!     restitution: 0.65,
+//!     restitution_is: RestitutionIs::Realised,
+//! };
+//! let model = Model {
+//!     title: "Soft and stiff".to_owned(),
+//!     buildings: vec![tower("soft", 3, 40e3, 20e6), tower("stiff", 3, 60e3, 90e6)],
+//!     gaps: vec![Gap::after(0, 0.02, law)], // 20 mm, right of building 0
+//!     links: Vec::new(),
+//!     analysis: Analysis::default(),
+//! };
+//! // A record: ground acceleration [m/s²] at equal steps, here five seconds of a sine of 0.7 s.
+//! let wave: Vec<f64> = (0..=500).map(|i| 3.0 * (0.01 * f64::from(i) * 9.0).sin()).collect();
+//! let motion = GroundMotion::sampled("sine", 0.01, wave);
+//!
+//! let system = System::assemble(&model).map_err(|faults| faults[0].clone())?;
+//! let plan = Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+//! let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+//!
+//! assert_eq!(outcome.end, RunEnd::Completed);
+//! let first = outcome.impacts.iter().min_by(|a, b| a.start.total_cmp(&b.start)).expect("they collide");
+//! assert!(first.peak_force > 1e5 && first.impact_speed > 0.0);
+//! assert!(outcome.energy.imbalance() < 1e-6);
+//! # Ok::<(), jostle::ModelFault>(())
+//! ```
+//!
+//! # A contact law of your own
+//!
+//! [`contact::ForceLaw`] holds the force laws with their coefficients. A contact can carry any of them, with coefficients that no
+//! published formula gives. Here Hertz's law gets a damping factor fitted to measured rebounds:
+//!
+//! ```
+//! use jostle::contact::{ForceLaw, FreeCollision};
+//!
+//! // F = k δ^1.5 (1 + d δ̇/v₀) with d of our own.
+//! let law = ForceLaw::Hertz { stiffness: 1.2e9, damping: 0.9 };
+//! let collision = FreeCollision::of(&law, 40e3, 60e3, 0.4); // 40 t against 60 t at 0.4 m/s
+//! assert!((0.5..0.7).contains(&collision.realised_restitution()));
+//!
+//! // The force of one instant: indentation 2 mm, closing at 0.1 m/s after a touch at 0.4 m/s.
+//! let response = law.respond(2e-3, 0.1, 0.4);
+//! let expected = 1.2e9 * 2e-3_f64.powf(1.5) * (1.0 + 0.9 * 0.1 / 0.4);
+//! assert!((response.force / expected - 1.0).abs() < 1e-12);
+//! ```
+//!
+//! In a run, set it on the contacts of a system before [`simulate`]:
+//! `for contact in &mut system.contacts { contact.law = law; }`. A formula of another form is a new variant of `ForceLaw`; the Python
+//! package can try one out without that (`jostle.ContactLaw`).
+//!
+//! # Examples
+//!
+//! `cargo run -p jostle --example two_towers` prints the impacts of the pair above for several gaps.
 
 pub mod contact;
 pub mod counting;

@@ -8,6 +8,33 @@ use crate::hysteresis::Hysteresis;
 use crate::stepping::Integrator;
 
 /// Buildings in a row, what stands between neighbours, and the settings of the analysis.
+///
+/// [`Model::check`] finds all faults at once:
+///
+/// ```
+/// use jostle::{Analysis, Base, Building, Damping, Gravity, Model, Shear, Structure};
+///
+/// let model = Model {
+///     title: "One storey too few".to_owned(),
+///     buildings: vec![Building {
+///         name: "A".to_owned(),
+///         structure: Structure::Shear(Shear {
+///             mass: vec![40e3, 40e3],
+///             stiffness: vec![60e6], // one storey has no stiffness
+///             storey_heights: vec![3.0, 3.0],
+///         }),
+///         damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+///         base: Base::default(),
+///         gravity: Gravity::default(),
+///         hinges: None,
+///     }],
+///     gaps: Vec::new(),
+///     links: Vec::new(),
+///     analysis: Analysis::default(),
+/// };
+/// let faults = model.check().expect_err("the stiffness is missing");
+/// assert!(faults[0].path.starts_with("building[0].stiffness"));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Title printed on summaries and reports.
@@ -53,6 +80,16 @@ impl Building {
 /// default: the building is fixed to the ground.
 ///
 /// The dashpots are all the damping there is here: Rayleigh damping of the building does not act on a base.
+///
+/// ```
+/// use jostle::{Base, Gravity};
+///
+/// // Springs under a shear building; it starts from rest under self weight, with P-Delta.
+/// let base = Base { horizontal_stiffness: Some(500e6), horizontal_damping: 2e6, ..Base::default() };
+/// assert!(!base.is_fixed());
+/// let gravity = Gravity { preload: true, p_delta: true };
+/// assert_ne!(gravity, Gravity::default());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Base {
     /// Moment per rotation, > 0; `None` is rigid; frames only \[N·m/rad\].
@@ -127,6 +164,31 @@ pub enum Structure {
 }
 
 /// Plane frame: `storey_heights.len()` storeys, `spans.len() + 1` column lines.
+///
+/// ```
+/// use jostle::{Axial, Frame, Joint, Section};
+///
+/// // Concrete of 30 GPa: columns 500 × 500 mm, beams 300 × 600 mm.
+/// let section = |width: f64, depth: f64| Section {
+///     flexural_rigidity: 30e9 * width * depth.powi(3) / 12.0,
+///     axial_rigidity: None,
+///     shear_rigidity: None,
+///     line_mass: 2500.0 * width * depth,
+/// };
+/// let frame = Frame {
+///     storey_heights: vec![3.2; 2],
+///     spans: vec![6.0, 6.0],
+///     columns: vec![section(0.5, 0.5); 2],
+///     beams: vec![section(0.3, 0.6); 2],
+///     beam_mass: vec![3000.0; 2],
+///     floor_mass: vec![0.0; 2],
+///     column_segments: 4,
+///     beam_segments: vec![4, 4],
+///     axial: Axial::default(), // members keep their length
+///     joint: Joint::default(), // rigid
+/// };
+/// assert_eq!(frame.spans.len() + 1, 3); // column lines
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Storey heights from the ground up, > 0 \[m\].
@@ -207,6 +269,14 @@ pub fn usual_damping_modes(lateral_modes: usize) -> &'static [usize] {
 }
 
 /// Rayleigh damping C = α M + β K, or what defines it.
+///
+/// ```
+/// use jostle::Damping;
+///
+/// let two_percent = Damping::Ratio { ratio: 0.02, modes: vec![1, 3] };
+/// let usual = Damping::Ratio { ratio: 0.05, modes: Vec::new() }; // jostle chooses the modes
+/// assert_ne!(two_percent, usual);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Damping {
     /// The same ratio in one or two lateral modes (counted from 1). One mode: mass-proportional.
@@ -232,6 +302,23 @@ pub enum Damping {
 
 /// The space between two neighbours, or between the building at an end of the row and a rigid wall there. A pair may
 /// have several gaps, such as bumpers at some floors and bare concrete at others.
+///
+/// ```
+/// use jostle::{ContactLaw, FloorPairs, Gap, LawKind, RestitutionIs};
+///
+/// let law = ContactLaw {
+///     kind: LawKind::Hertz,
+///     stiffness: 2e9,
+///     restitution: 1.0,
+///     restitution_is: RestitutionIs::Input,
+/// };
+/// let mut gap = Gap::after(0, 0.04, law); // 40 mm between the first building and the second
+/// gap.widths = vec![0.04, 0.04, 2.0]; // the third contact is set back
+/// gap.floors = FloorPairs::listed(&[(1, 1), (2, 2), (3, 3)]);
+/// gap.set_width(0.05); // the smallest width; all others shift by the same amount
+/// assert_eq!(gap.width(), 0.05);
+/// assert!((gap.width_of(2) - 2.01).abs() < 1e-12);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
     /// Indices of the left and of the right building, the one after it; `None` is a rigid wall that moves with the
@@ -295,6 +382,19 @@ impl Gap {
 /// Linear springs and dashpots that join floors of two neighbours, or of a building and a rigid wall, and act in both
 /// directions. They are free of force while the buildings are at rest. Rayleigh damping of the buildings does not act
 /// on them.
+///
+/// ```
+/// use jostle::{FloorPairs, Link};
+///
+/// let damper = Link {
+///     between: [Some(0), Some(1)],
+///     floors: FloorPairs::listed(&[(3, 3)]),
+///     level_tolerance: 1e-3,
+///     stiffness: 0.0,
+///     damping: 400e3, // N·s/m
+/// };
+/// assert_eq!(damper.floors, FloorPairs::listed(&[(3, 3)]));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Left and right building, or a wall, as in [`Gap::between`].
@@ -313,6 +413,16 @@ pub struct Link {
 pub const LEVEL_TOLERANCE: f64 = 1e-3;
 
 /// Which points of two neighbours can touch, or are joined.
+///
+/// ```
+/// use jostle::{FloorPairs, Level};
+///
+/// let pairs = FloorPairs::Listed(vec![
+///     [Level::Floor(4), Level::Floor(5)],
+///     [Level::Floor(3), Level::Height(9.6)], // against a column
+/// ]);
+/// assert_ne!(pairs, FloorPairs::Common);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum FloorPairs {
     /// Every pair of floors at equal height; all floors before a wall.
@@ -350,6 +460,18 @@ impl FloorPairs {
 }
 
 /// How to compute.
+///
+/// ```
+/// use jostle::{Analysis, Integrator, Solver};
+///
+/// let analysis = Analysis {
+///     tolerance: 1e-4,
+///     solver: Some(Solver::Riccati),
+///     integrator: Integrator::hht(0.05),
+///     ..Analysis::default()
+/// };
+/// assert_eq!(analysis.solver.map(Solver::name), Some("riccati"));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
     /// Step in free flight; `None` chooses it from `tolerance` \[s\].

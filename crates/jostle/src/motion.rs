@@ -3,6 +3,18 @@
 use std::f64::consts::PI;
 
 /// Horizontal ground acceleration a_g(t), positive to the right; zero outside `0..=duration`.
+///
+/// ```
+/// use jostle::{GroundMotion, Wave};
+///
+/// let record = GroundMotion::sampled("three values", 0.02, vec![0.0, 1.0, -0.5]);
+/// assert_eq!(record.duration, 0.04);
+/// assert!((record.acceleration(0.01) - 0.5).abs() < 1e-15); // straight lines between values
+///
+/// let wave = Wave::Sine { amplitude: 2.0, period: 0.7 };
+/// let sine = GroundMotion { name: "sine".into(), scale: 1.5, duration: 8.0, wave };
+/// assert!((sine.peak() - 3.0).abs() < 1e-12);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundMotion {
     /// Name shown on summaries.

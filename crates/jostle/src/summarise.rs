@@ -18,6 +18,40 @@ use crate::summary::{
 use crate::system::{BuildingSystem, System};
 
 /// What a summary is made of.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, StepError, Summary, System, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # use towers::pair;
+///
+/// let model = pair(0.02);
+/// let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// let motion = GroundMotion::sampled("sine", 0.01, wave);
+/// let system = System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// let plan = Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+/// let run = |pounding| -> Outcome {
+///     let settings = Settings { pounding, ..Settings::default() };
+///     simulate(&system, &motion, &plan, settings, |_| ControlFlow::Continue(()))
+/// };
+/// let (with, without) = (run(Pounding::Included), run(Pounding::Excluded));
+/// if let RunEnd::Failed(StepError::Unsuited { reason }) = &with.end {
+///     panic!("{reason}");
+/// }
+/// let summary = Summary::of(&Run {
+///     model: &model,
+///     system: &system,
+///     motion: &motion,
+///     plan: &plan,
+///     outcome: &with,
+///     without_contact: Some(&without),
+///     wall: 0.0,
+/// });
+/// assert!(summary.gaps[0].impact_count > 0);
+/// assert!(summary.gaps[0].closing_without_contact_m > Some(0.02)); // the gap needed
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a> {
     /// What was asked for.

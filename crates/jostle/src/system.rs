@@ -15,6 +15,19 @@ use crate::state::State;
 use crate::transfer::riccati::RiccatiSweep;
 
 /// Buildings in a row and what stands between them, ready to be stepped.
+///
+/// ```
+/// use jostle::{State, System};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # use towers::pair;
+///
+/// let model = pair(0.02); // two towers of three storeys, 20 mm apart
+/// let system = System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// assert_eq!(system.contacts.len(), 3); // floors at equal height
+/// let state = State::at_rest(&system, 0.0);
+/// assert!(state.displacement.iter().all(|&u| u == 0.0));
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct System {
     /// Buildings from left to right.

@@ -6,11 +6,11 @@ use clap::{Args, Subcommand, ValueEnum};
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum MotionCommand {
-    /// Motions that come with the program
+    /// List built-in motions
     List,
-    /// Peaks, durations, intensities and spectra of a motion
+    /// Show peaks, durations, intensities and spectra of a motion
     Show(ShowArgs),
-    /// Response spectra of a motion
+    /// Compute response spectra of a motion
     Spectrum(SpectrumArgs),
     /// Cut, correct, filter, resample, scale and write a motion as AT2 or CSV
     Convert(ConvertArgs),
@@ -26,10 +26,10 @@ pub(crate) enum MotionCommand {
 pub(crate) struct RecordArgs {
     /// A built-in name, or a file
     pub(crate) record: String,
-    /// Unit of the numbers, if the file does not say it, such as g or cm/s2
+    /// Unit of the numbers, if the file does not state it, such as g or cm/s2
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<String>,
-    /// Time step, if the file does not say it
+    /// Time step, if the file does not state it
     #[arg(long, value_name = "TIME")]
     pub(crate) step: Option<String>,
     /// Column of the acceleration in a text file, counted from 1
@@ -41,10 +41,10 @@ pub(crate) struct RecordArgs {
     /// Factor on the numbers of the file, such as the size of one count
     #[arg(long, value_name = "FACTOR")]
     pub(crate) record_scale: Option<f64>,
-    /// Take the mean off
+    /// Remove the mean
     #[arg(long)]
     pub(crate) remove_mean: bool,
-    /// Format of the file, where it should not be told from the content
+    /// Format of the file, if auto-detection is wrong
     #[arg(long, value_name = "FORMAT")]
     pub(crate) format: Option<String>,
 }
@@ -67,9 +67,9 @@ pub(crate) struct ShowArgs {
 /// Where peaks of responses are read.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum PeaksAt {
-    /// At steps, at least twenty in a period: the reading of published tables, up to 1.2 % low
+    /// At steps, at least twenty per period, as in published tables; up to 1.2 % low
     Steps,
-    /// Wherever they are: exact for straight lines of acceleration
+    /// Anywhere in time: exact for piecewise linear acceleration
     Between,
 }
 
@@ -89,7 +89,7 @@ pub(crate) struct SpectrumArgs {
     /// Ductilities of bilinear oscillators, for inelastic spectra as well
     #[arg(long, value_delimiter = ',', value_name = "MU")]
     pub(crate) ductility: Vec<String>,
-    /// Stiffness after yield, as a share of the elastic one
+    /// Ratio of post-yield to elastic stiffness
     #[arg(long, default_value = "0", value_name = "RATIO")]
     pub(crate) post_yield: String,
     /// Print JSON and nothing else
@@ -119,10 +119,10 @@ pub(crate) struct ConvertArgs {
     /// Keep until this time
     #[arg(long, value_name = "TIME")]
     pub(crate) to: Option<String>,
-    /// Take off the polynomial of this degree that fits the acceleration best
+    /// Subtract the best-fit polynomial of this degree from the acceleration
     #[arg(long, value_name = "DEGREE")]
     pub(crate) detrend: Option<usize>,
-    /// Take off the derivative of the polynomial of this degree that fits the velocity best
+    /// Subtract the derivative of the best-fit polynomial of this degree of the velocity
     #[arg(long, value_name = "DEGREE")]
     pub(crate) detrend_velocity: Option<usize>,
     /// Zero-phase Butterworth high-pass
@@ -137,10 +137,10 @@ pub(crate) struct ConvertArgs {
     /// New time step
     #[arg(long, value_name = "TIME")]
     pub(crate) resample: Option<String>,
-    /// Rest before the motion
+    /// Time at rest before the motion
     #[arg(long, value_name = "TIME")]
     pub(crate) pad_before: Option<String>,
-    /// Rest after the motion
+    /// Time at rest after the motion
     #[arg(long, value_name = "TIME")]
     pub(crate) pad_after: Option<String>,
     /// Let velocity and displacement end at zero
@@ -241,7 +241,7 @@ pub(crate) struct SynthSpectrumArgs {
     /// Match this record (a built-in name or a file) instead of sines; its step and duration stay
     #[arg(long)]
     pub(crate) record: Option<String>,
-    /// Chooses the phases
+    /// Seed of the phases
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
     /// Length of the motion
@@ -268,7 +268,7 @@ pub(crate) struct SynthNoiseArgs {
     /// Peak acceleration
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) pga: String,
-    /// Chooses the noise
+    /// Seed of the noise
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
     /// Length of the motion
@@ -280,7 +280,7 @@ pub(crate) struct SynthNoiseArgs {
     /// Damping of the ground
     #[arg(long, default_value = "0.6")]
     pub(crate) ground_damping: String,
-    /// Frequency of the second filter; 0 leaves it away
+    /// Frequency of the second filter; 0 disables it
     #[arg(long, default_value = "0.25 Hz")]
     pub(crate) corner: String,
     /// Damping of the second filter
@@ -307,10 +307,10 @@ pub(crate) struct SynthPulseArgs {
     /// Phase of a mavroeidis pulse in rad
     #[arg(long, default_value = "0", allow_hyphen_values = true)]
     pub(crate) phase: String,
-    /// Rest before the pulse
+    /// Time at rest before the pulse
     #[arg(long, default_value = "1 s", value_name = "TIME")]
     pub(crate) before: String,
-    /// Rest after the pulse
+    /// Time at rest after the pulse
     #[arg(long, default_value = "5 s", value_name = "TIME")]
     pub(crate) after: String,
 }
@@ -349,7 +349,7 @@ pub(crate) struct SelectArgs {
     /// Peak acceleration of every motion [default: that of the code for time histories]
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) pga: Option<String>,
-    /// Leave the motions as they are
+    /// Do not scale the motions
     #[arg(long, conflicts_with = "pga")]
     pub(crate) unscaled: bool,
     /// Print JSON and nothing else

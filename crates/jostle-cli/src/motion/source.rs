@@ -49,7 +49,7 @@ pub(super) fn open(name: &str) -> Result<Named, Failure> {
         let asks = problem.contains(BESIDE);
         let problem = as_options(&problem);
         Failure::Input(if asks {
-            format!("{problem}; say it to \"jostle motion convert {name} new.at2\" and take the new file")
+            format!("{problem}; give it to \"jostle motion convert {name} new.at2\" and use the new file")
         } else {
             problem
         })

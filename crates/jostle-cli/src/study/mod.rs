@@ -26,27 +26,27 @@ const RESULTS: &str = "jostle-out";
                   jostle study gap-sweep --base model.toml"
 )]
 pub(crate) struct StudyArgs {
-    /// Study file (TOML or JSON), the name of a ready-made study, or a folder of results to go on with
+    /// Study file (TOML or JSON), the name of a ready-made study, or a results folder to continue
     study: PathBuf,
-    /// Another base model: a file, or the name of a built-in example
+    /// Use this base model: a file, or the name of a built-in example
     #[arg(long, value_name = "MODEL")]
     base: Option<PathBuf>,
     /// Folder for the results [default: jostle-out/STUDY]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Threads [default: one for every core]
+    /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     jobs: Option<u32>,
-    /// Only the I-th of N equal shares, for arrays of jobs; all may use one folder
+    /// Run only the I-th of N equal shares, for job arrays; all may use one folder
     #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<(u64, u64)>,
-    /// Only this case, with its histories and report, in runs/ of the folder; may be repeated
+    /// Run only this case, with histories and report, in runs/ of the folder; may be repeated
     #[arg(long, value_name = "NUMBER", conflicts_with = "shard")]
     case: Vec<u64>,
-    /// Neither the report nor the tables beside it when all cases are finished
+    /// Omit the report and its tables when all cases are finished
     #[arg(long)]
     no_report: bool,
-    /// Check the study, say how many cases it has and what their columns are, and run nothing
+    /// Check the study and print the number of cases and the columns; run nothing
     #[arg(long)]
     check: bool,
 }

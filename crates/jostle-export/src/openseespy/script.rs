@@ -482,7 +482,7 @@ impl<'a> Script<'a> {
         )?;
         writeln!(out, "#   python FILE --help\n#")?;
         if !self.remarks.is_empty() {
-            writeln!(out, "# What is not quite the same:")?;
+            writeln!(out, "# Differences from jostle:")?;
             for remark in &self.remarks {
                 for (index, line) in wrapped(remark, 110).iter().enumerate() {
                     let bullet = if index == 0 { "-" } else { " " };

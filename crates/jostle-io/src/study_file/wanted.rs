@@ -15,7 +15,7 @@ pub struct FragilityWanted {
     pub demand: String,
     /// The event is a demand above this \[SI\]; zero with `impact_count` is pounding.
     pub threshold: f64,
-    /// Factors for each of whose values a curve of its own is fitted.
+    /// Factors; one curve is fitted for each of their values.
     pub by: Vec<String>,
     /// How it is fitted.
     pub method: FragilityMethod,

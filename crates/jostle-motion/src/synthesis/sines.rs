@@ -26,7 +26,7 @@ pub struct SineSettings {
     pub step: f64,
     /// Growth and fading; also the duration.
     pub envelope: Envelope,
-    /// Chooses the phases.
+    /// Seed of the phases.
     pub seed: u64,
     /// What to match.
     pub matching: MatchSettings,

@@ -48,7 +48,7 @@ pub struct StochasticSettings {
     pub step: f64,
     /// Growth and fading; also the duration.
     pub envelope: Envelope,
-    /// Chooses the noise.
+    /// Seed of the noise.
     pub seed: u64,
     /// The ground.
     pub filter: GroundFilter,

@@ -35,6 +35,20 @@ use kelvin::{
 };
 
 /// A contact law as described in a model.
+///
+/// ```
+/// use jostle::{ContactLaw, LawKind, RestitutionIs};
+///
+/// let mut law = ContactLaw {
+///     kind: LawKind::HertzDamp,
+///     stiffness: 2e9, // N/m^1.5
+///     restitution: 0.65,
+///     restitution_is: RestitutionIs::Input,
+/// };
+/// assert!((law.free_restitution() - 0.775).abs() < 1e-3); // the published formula rebounds more
+/// law.restitution_is = RestitutionIs::Realised;
+/// assert!((law.free_restitution() - 0.65).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactLaw {
     /// Which formula.

@@ -1,0 +1,51 @@
+"""Adds to the site what lies outside docs/: examples, the pages for developers, and the scripts that pages load."""
+
+import re
+from pathlib import Path
+
+from mkdocs.structure.files import File
+
+ROOT = Path(__file__).resolve().parents[2]
+FETCHED = ROOT / "target" / "docs"
+
+# Page in the site → file of the repository.
+DEVELOPERS = {
+    "developers/contributing.md": "CONTRIBUTING.md",
+    "developers/architecture.md": "ARCHITECTURE.md",
+    "developers/changelog.md": "CHANGELOG.md",
+}
+
+
+def on_files(files, config):
+    """Adds files of the repository and of npm packages."""
+    for page, source in DEVELOPERS.items():
+        files.append(File.generated(config, page, abs_src_path=str(ROOT / source)))
+    for path in sorted((ROOT / "examples").rglob("*")):
+        if path.suffix in {".toml", ".py"}:
+            name = path.relative_to(ROOT).as_posix()
+            # A script is downloaded, not executed as a page.
+            files.append(File.generated(config, name + ".txt", content=path.read_text(encoding="utf-8")))
+    fetched = [(FETCHED / "katex" / "dist", "assets/katex"), (FETCHED / "iframe-worker", "assets/iframe-worker")]
+    for folder, where in fetched:
+        for path in sorted(folder.rglob("*")):
+            if path.suffix in {".js", ".css", ".woff2"} and not path.name.endswith((".mjs", "katex.js", "katex.css")):
+                uri = f"{where}/{path.relative_to(folder).as_posix()}"
+                files.append(File.generated(config, uri, abs_src_path=str(path)))
+    return files
+
+
+def on_page_markdown(markdown, page, config, files):
+    """Points links that are right in the repository at the pages of the site."""
+    uri = page.file.src_uri
+    if uri in DEVELOPERS:
+        markdown = re.sub(r"\]\(docs/", "](../", markdown)
+        markdown = re.sub(
+            r"\]\((CONTRIBUTING|ARCHITECTURE|CHANGELOG)\.md", lambda match: f"]({match[1].lower()}.md", markdown
+        )
+        markdown = markdown.replace("](README.md", "](../index.md")
+    up = "../" * uri.count("/")
+    # docs/page.md names ../examples, docs/how-to/page.md names ../../examples.
+    markdown = re.sub(
+        r"\]\((?:\.\./)+(examples/[\w./-]+\.(?:toml|py))\)", lambda match: f"]({up}{match[1]}.txt)", markdown
+    )
+    return re.sub(r"\[(`[^`]*`|[^\]]*)\]\((?:\.\./)+(?:examples|crates|CITATION)[\w./-]*\)", r"\1", markdown)
