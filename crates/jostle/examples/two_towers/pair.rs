@@ -6,7 +6,7 @@ use jostle::{
 };
 
 /// A soft tower beside a stiff one, `gap` metres apart.
-pub fn pair(gap: f64) -> Model {
+pub(crate) fn pair(gap: f64) -> Model {
     let law = ContactLaw {
         kind: LawKind::HertzDamp,
         stiffness: 2e9,
