@@ -451,10 +451,11 @@ fn sets_are_judged_by_the_rules_of_their_code() {
             json.get("base_shear_agrees").is_none(),
             "a rule of GB 50011: {json}"
         );
-        let weak = judge(count, &["--pga", "0.1 g", "--html", "page.html"]);
+        let page = format!("{name}.html");
+        let weak = judge(count, &["--pga", "0.1 g", "--html", &page]);
         assert_eq!(weak.status.code(), Some(1));
         let text = printed(&weak);
-        let page = std::fs::read_to_string(folder.path().join("page.html")).expect("a page");
+        let page = std::fs::read_to_string(folder.path().join(page)).expect("a page");
         for written in [&text, &page] {
             assert!(!written.contains("GB 50011"), "{written}");
             let clause = if name == "en1998" {
