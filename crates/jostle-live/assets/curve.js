@@ -184,6 +184,7 @@ function spread(lines, measure) {
 }
 
 function drawCurve() {
+  if (!curve.path) return;
   const host = byId("curve-picture");
   const measure = Number(byId("measure").value);
   const { name, unit } = results[measure];

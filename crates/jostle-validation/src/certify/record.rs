@@ -99,9 +99,7 @@ impl Record {
 }
 
 /// Numbers beyond three tolerances in runs that did not warn, the worst first.
-fn silent_misses<'a>(
-    records: &'a [Record],
-) -> Vec<(&'a Record, &'a RunRecord, &'a NumberRecord, f64)> {
+fn silent_misses(records: &[Record]) -> Vec<(&Record, &RunRecord, &NumberRecord, f64)> {
     let mut misses = Vec::new();
     for record in records {
         for run in record.runs.iter().filter(|run| !run.warned) {
