@@ -193,8 +193,9 @@ def test_pounding_can_be_left_out(towers: jostle.Model, result: jostle.Result) -
     with_twin = jostle.run(towers, without_contact=True)
     closing = with_twin.summary["gaps"][0]["closing_without_contact_m"]
     assert closing == max(c["closing_peak_m"] for c in free.summary["gaps"][0]["contacts"])
-    # What it says: from that width on they no longer touch.
-    assert len(jostle.run(towers, gap=closing * (1 + 1e-9)).impacts) == 0
+    # What it says: from that width on they no longer touch, though they miss by less than the tolerance.
+    with pytest.warns(jostle.JostleWarning, match="sensitive"):
+        assert len(jostle.run(towers, gap=closing * (1 + 1e-9)).impacts) == 0
     # A touch within the tolerance is made or missed, and says so.
     with pytest.warns(jostle.JostleWarning, match="sensitive"):
         assert len(jostle.run(towers, gap=closing * 0.999).impacts) > 0
