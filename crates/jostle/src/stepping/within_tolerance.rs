@@ -59,7 +59,8 @@ pub(super) fn within_tolerance<E: StepEquations>(
         let mut outcome = run(&fine);
         outcome.work.repeated_runs = refinements;
         if outcome.end != RunEnd::Completed {
-            return outcome;
+            // A refinement that was stopped or failed must not cost the run before it.
+            return if refinements > 0 { before } else { outcome };
         }
         let ratio = coarse.step / fine.step;
         let change = if before.end == RunEnd::Completed {
@@ -79,11 +80,15 @@ pub(super) fn within_tolerance<E: StepEquations>(
         if residual <= tolerance || refinements == MOST_REFINEMENTS || !converges {
             return outcome;
         }
-        refinements += 1;
-        last = residual;
         let [least, most] = REFINEMENT;
         let wanted = (residual / (AIM * tolerance)).sqrt().clamp(least, most);
-        (before, coarse) = (outcome, fine);
-        fine = fine.refined(wanted, motion);
+        let finer = fine.refined(wanted, motion);
+        // The product of transfer matrices loses its digits at short steps.
+        if finer.check_digits(system).is_err() {
+            return outcome;
+        }
+        refinements += 1;
+        last = residual;
+        (before, coarse, fine) = (outcome, fine, finer);
     }
 }
