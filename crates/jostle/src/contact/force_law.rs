@@ -92,6 +92,9 @@ const REST: f64 = 1e-3;
 /// Laws that divide by a speed see at least this much \[m/s\].
 const SLOWEST: f64 = 1e-9;
 
+/// A force that grows as this power of the indentation, or a higher one, ends without a corner that shows.
+const SMOOTH_ONSET: f64 = 1.5;
+
 impl ForceLaw {
     /// The memory of an impact that begins at a closing rate ≥ 0 \[m/s\].
     #[must_use]
@@ -173,6 +176,21 @@ impl ForceLaw {
     #[must_use]
     pub fn jumps_at_release(&self) -> bool {
         matches!(self, Self::Kelvin { damping, tension: true, .. } if *damping > 0.0)
+    }
+
+    /// Whether the slope of the force over time jumps where the force ends, because it falls to zero along a straight
+    /// line or is cut there.
+    #[must_use]
+    pub(crate) fn has_corner_at_release(&self) -> bool {
+        match self {
+            Self::Kelvin { .. } => !self.jumps_at_release(),
+            Self::ApproachKelvin { .. }
+            | Self::DampedLinear { .. }
+            | Self::Bilinear(_)
+            | Self::Restitution { .. } => true,
+            Self::Rubber(rubber) => rubber.exponent < SMOOTH_ONSET,
+            Self::Hertz { .. } | Self::Jankowski { .. } => false,
+        }
     }
 
     /// Whether the slope of the force over time jumps where the motion turns, because a damper or a

@@ -22,15 +22,20 @@ impl Episode {
         let deepest = turn.map_or(curve.end, |peak| peak.value);
         self.peak_indentation = self.peak_indentation.max(deepest);
         if self.force > 0.0 && trial.force <= 0.0 {
-            let rate = |at: f64| curve.rise(at) / step;
-            let at = bisect(0.0, 1.0, |at| {
-                law.follow(curve.value(at), rate(at), &self.memory).force <= 0.0
-            });
-            (self.end, self.separation_speed) = (start + at * step, -rate(at));
+            let at = self.force_ends(law, curve, step);
+            (self.end, self.separation_speed) = (start + at * step, -curve.rise(at) / step);
         } else if trial.force > 0.0 {
             (self.end, self.separation_speed) = (start + step, -trial.rate);
         }
         turn
+    }
+
+    /// At which share of a step over which the indentation follows a curve the force ends.
+    pub(super) fn force_ends(&self, law: &ForceLaw, curve: &Cubic, step: f64) -> f64 {
+        bisect(0.0, 1.0, |at| {
+            let rate = curve.rise(at) / step;
+            law.follow(curve.value(at), rate, &self.memory).force <= 0.0
+        })
     }
 
     /// Takes in the force over the same step, of these `slopes` at its ends \[N/s\]: the greatest may lie within.

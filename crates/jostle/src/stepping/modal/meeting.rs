@@ -15,6 +15,8 @@ use crate::stepping::impacts::{
 };
 use crate::stepping::outcome::StepError;
 
+/// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
+const AHEAD: f64 = 1e-3;
 /// Parts of a step in which a force sets in or ends.
 const CORNER_PARTS: u32 = 16;
 
@@ -38,7 +40,7 @@ impl Foreseen {
 
 impl Walk<'_> {
     /// Motion of contact `index` over the tried step.
-    fn indentation_curve(&self, index: usize, step: f64) -> Cubic {
+    pub(super) fn indentation_curve(&self, index: usize, step: f64) -> Cubic {
         let trial = &self.trials[index];
         Cubic::new(
             self.reduced.closing(index, &self.u[0]) - self.system.contacts[index].width,
@@ -296,8 +298,9 @@ impl Walk<'_> {
         }
         self.contact_division[index] = division;
         self.finest_in_contact = self.finest_in_contact.max(division);
-        self.jump(index, episode.force);
         self.phases[index] = ContactPhase::Closed(episode);
+        self.reduced.push_apart(index, episode.force, &mut self.p[0]);
+        self.start_anew();
     }
 
     /// A sudden change of a contact force.
@@ -374,6 +377,25 @@ impl Walk<'_> {
             response.by_indentation * rate + response.by_rate * acceleration
         };
         Foreseen { end, slope, rise }
+    }
+
+    /// Rate of a contact force just after the present; modal accelerations stand in `scratch` \[N/s\].
+    pub(super) fn slope_from_here(&self, index: usize) -> f64 {
+        let ContactPhase::Closed(episode) = self.phases[index] else {
+            return 0.0;
+        };
+        let law = &self.system.contacts[index].law;
+        if law.starts_steeply() && episode.since == self.time {
+            // No cubic follows a root of the time.
+            return 0.0;
+        }
+        let ahead = AHEAD * self.plan.step / f64::from(self.contact_division[index]);
+        let acceleration = self.relative_acceleration(index);
+        let width = self.system.contacts[index].width;
+        let rate = self.reduced.closing(index, &self.rate[0]) + acceleration * ahead;
+        let indentation = self.reduced.closing(index, &self.u[0]) - width + rate * ahead;
+        let response = law.follow(indentation, rate, &episode.memory);
+        response.by_indentation * rate + response.by_rate * acceleration
     }
 
     /// Relative acceleration of the faces of a contact; modal ones stand in `scratch` \[m/s²\].

@@ -6,6 +6,7 @@
 //! parabolas. What it cannot do is refused by [`refusals`].
 
 mod basis;
+mod corners;
 mod damped;
 mod defects;
 mod estimate;

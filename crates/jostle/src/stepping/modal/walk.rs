@@ -337,7 +337,16 @@ impl<'a> Walk<'a> {
             let stride = self.next_stride();
             let slot = self.table_for(&stride);
             self.try_step(slot, stride.end)?;
-            let Some(event) = self.first_event(stride.length) else {
+            let event = self.first_event(stride.length);
+            let before = event.map_or(1.0, |event| event.at);
+            if let Some(corner) = self.first_corner(stride.length, before) {
+                self.work.repeated_steps += 1;
+                if self.step_to_corner(corner, &stride)? {
+                    return Ok(());
+                }
+                continue;
+            }
+            let Some(event) = event else {
                 let unseen = self.opens_unseen(stride.length);
                 let unseen = unseen.or_else(|| self.goes_unforeseen());
                 if let Some(contact) = unseen.filter(|_| halvings < MOST_HALVINGS) {
@@ -552,10 +561,16 @@ impl<'a> Walk<'a> {
         );
     }
 
-    /// Accelerations after a sudden change of loads.
+    /// Accelerations and their rates after a sudden change of loads or of their rates.
     pub(super) fn start_anew(&mut self) {
         self.accelerations();
         self.jerks();
+        for index in 0..self.phases.len() {
+            let slope = self.slope_from_here(index);
+            if slope != 0.0 {
+                self.reduced.push_apart(index, slope, &mut self.jerk);
+            }
+        }
         self.show_accelerations();
     }
 

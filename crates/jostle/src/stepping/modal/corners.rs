@@ -1,0 +1,130 @@
+//! Corners of contact forces over time: where the slope of a force jumps, so does that of accelerations, which are often
+//! greatest there. Steps end at corners.
+
+use super::walk::Walk;
+use crate::state::ContactPhase;
+use crate::stepping::clock::Stride;
+use crate::stepping::events::{Cubic, bisect};
+use crate::stepping::impacts::AT_ONCE;
+use crate::stepping::outcome::StepError;
+
+/// Share of a step to which a corner is found, in tolerances, and the greatest \[–\].
+const CLOSENESS: f64 = 0.1;
+const WIDEST: f64 = 1e-4;
+/// Most tries for it.
+const MOST_TRIES: usize = 6;
+/// How far a step may be extended to reach a corner, as a share of it.
+const EXTENSION: f64 = 1.5;
+
+/// A corner of a contact force within a tried step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    contact: usize,
+    kind: Kind,
+    /// Share of the step.
+    at: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    /// The force ends.
+    Release,
+    /// The motion turns, and a damper or a slider ends or begins to act; with the sign of the rate before.
+    Turn { sign: f64 },
+    /// The stiffness changes at an indentation \[m\]; with the sign of the rate before.
+    Kink { sign: f64, indentation: f64 },
+}
+
+impl Walk<'_> {
+    /// The first corner within the tried step and before a share of it.
+    pub(super) fn first_corner(&self, step: f64, before: f64) -> Option<Corner> {
+        let mut first: Option<Corner> = None;
+        for closed in &self.coupling.closed {
+            let index = closed.contact;
+            for kind in self.kinds(index).into_iter().flatten() {
+                let reached = first.map_or(before, |first| first.at);
+                // A corner nearer than this is the one at which the last step has ended.
+                if let Some(at) = self.corner_at(index, kind, step, 1.0)
+                    && at < reached
+                    && at > AT_ONCE
+                {
+                    let contact = index;
+                    first = Some(Corner { contact, kind, at });
+                }
+            }
+        }
+        first
+    }
+
+    /// Corners that the force of a closed contact may reach next.
+    fn kinds(&self, index: usize) -> [Option<Kind>; 3] {
+        let ContactPhase::Closed(episode) = self.phases[index] else {
+            return [None; 3];
+        };
+        let law = &self.system.contacts[index].law;
+        let rate = self.reduced.closing(index, &self.rate[0]);
+        let sign = rate.signum();
+        let release = episode.force > 0.0 && law.has_corner_at_release();
+        let indentation = law.kink(rate > 0.0, &episode.memory);
+        [
+            release.then_some(Kind::Release),
+            law.has_corner_at_turn().then_some(Kind::Turn { sign }),
+            indentation
+                .is_finite()
+                .then_some(Kind::Kink { sign, indentation }),
+        ]
+    }
+
+    /// At which share of the tried step a corner is reached, if it is before `most`.
+    fn corner_at(&self, index: usize, kind: Kind, step: f64, most: f64) -> Option<f64> {
+        let ContactPhase::Closed(episode) = self.phases[index] else {
+            return None;
+        };
+        let law = &self.system.contacts[index].law;
+        let curve = self.indentation_curve(index, step);
+        let ends = |curve: &Cubic, at: f64| {
+            let rate = curve.rise(at) / step;
+            law.follow(curve.value(at), rate, &episode.memory).force <= 0.0
+        };
+        let past = |at: f64| match kind {
+            Kind::Release => ends(&curve, at),
+            Kind::Turn { sign } => sign * curve.rise(at) <= 0.0,
+            Kind::Kink { sign, indentation } => sign * (curve.value(at) - indentation) >= 0.0,
+        };
+        let end = [1.0, most].into_iter().find(|at| past(*at))?;
+        Some(bisect(0.0, end, past))
+    }
+
+    /// Repeats the step so that it ends at a corner, or on an event met before it; false when that one happened at the
+    /// start, and time stands still.
+    pub(super) fn step_to_corner(
+        &mut self,
+        corner: Corner,
+        stride: &Stride,
+    ) -> Result<bool, StepError> {
+        let Corner { contact, kind, at } = corner;
+        let close = (CLOSENESS * self.tolerance).min(WIDEST);
+        let mut length = at * stride.length;
+        for _ in 0..MOST_TRIES {
+            self.set_odd(length);
+            self.try_step(0, self.clock.after(length))?;
+            if let Some(event) = self.first_event(length) {
+                let shorter = Stride { length, ..*stride };
+                return self.step_to(event, &shorter);
+            }
+            let Some(share) = self.corner_at(contact, kind, length, EXTENSION) else {
+                break;
+            };
+            let corrected = share * length;
+            if (share - 1.0).abs() <= close || corrected >= stride.length {
+                break;
+            }
+            length = corrected;
+            self.work.repeated_steps += 1;
+        }
+        let tried = self.tables[0].step;
+        self.accept(0, self.clock.after(tried));
+        self.start_anew();
+        Ok(true)
+    }
+}
