@@ -309,7 +309,7 @@ fn answers_to_inertia(
 }
 
 /// A rate at which stiffness does not count beside inertia \[1/s\].
-fn at_once(equations: &Equations) -> f64 {
+pub(super) fn at_once(equations: &Equations) -> f64 {
     let stiffest = equations
         .mass
         .iter()

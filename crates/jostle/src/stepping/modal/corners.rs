@@ -123,7 +123,9 @@ impl Walk<'_> {
             self.work.repeated_steps += 1;
         }
         let tried = self.tables[0].step;
+        self.at_corner = true;
         self.accept(0, self.clock.after(tried));
+        self.at_corner = false;
         self.start_anew();
         Ok(true)
     }

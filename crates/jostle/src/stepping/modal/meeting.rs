@@ -299,7 +299,8 @@ impl Walk<'_> {
         self.contact_division[index] = division;
         self.finest_in_contact = self.finest_in_contact.max(division);
         self.phases[index] = ContactPhase::Closed(episode);
-        self.reduced.push_apart(index, episode.force, &mut self.p[0]);
+        self.reduced
+            .push_apart(index, episode.force, &mut self.p[0]);
         self.start_anew();
     }
 
@@ -435,8 +436,19 @@ impl Walk<'_> {
                 self.coupling.closed[closed].turn,
             );
             let response = law.follow(trial.indentation, trial.rate, &episode.memory);
-            let slope = response.by_indentation * trial.rate
-                + response.by_rate * self.relative_acceleration(index);
+            let acceleration = self.relative_acceleration(index);
+            let slope = if self.at_corner {
+                // Before the corner at which the step ends, on its own side.
+                let back = -AHEAD * step;
+                let (depth, rate) = (
+                    trial.indentation + trial.rate * back,
+                    trial.rate + acceleration * back,
+                );
+                let before = law.follow(depth, rate, &episode.memory);
+                before.by_indentation * rate + before.by_rate * acceleration
+            } else {
+                response.by_indentation * trial.rate + response.by_rate * acceleration
+            };
             let slopes = [self.coupling.closed[closed].start_slope, slope];
             episode.follow_force(&law, &trial, slopes, turn, start, step);
             // Still the slope at the end when the contact opens there.

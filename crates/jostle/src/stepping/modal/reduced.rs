@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pulp::Arch;
 
-use super::basis::{Basis, Demand};
+use super::basis::{self, Basis, Demand};
 use super::damped::{Damped, Rules};
 use super::defects::Defects;
 use super::kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
@@ -78,15 +78,22 @@ impl Reduced {
                 let law = matches!(contact.law, ForceLaw::Restitution { .. });
                 law && contact.faces.buildings().contains(&Some(index))
             });
+            let jumps = system.contacts.iter().any(|contact| {
+                contact.law.onset(1.0) > 0.0 && contact.faces.buildings().contains(&Some(index))
+            });
+            // A force that begins with a jump moves at first the mass that is struck alone.
+            let at_once = jumps.then(|| basis::at_once(&building.equations));
+            let met: Vec<f64> = [0.0].into_iter().chain(at_once).chain([pushed]).collect();
             let demand = Demand {
                 faces: &faces,
                 floors: &places[..building.floors.len()],
-                met: &[0.0, pushed],
+                met: &met,
                 compared: &[high, low, 3.0 * swaying, swaying],
                 tolerance: closeness,
             };
-            // At once nothing moves but the mass that is struck, which no few modes can show.
-            let basis = if struck.next().is_some() {
+            // At once nothing moves but the mass that is struck, which no few modes can show; and damping given mode by mode
+            // is that of all natural modes.
+            let basis = if struck.next().is_some() || building.modal_damping.is_some() {
                 Basis::complete(building)
             } else {
                 Basis::of(building, &demand)

@@ -84,6 +84,8 @@ pub(super) struct Walk<'a> {
     pub(super) reached: Reached,
     /// Whether velocities have jumped at the start of this step.
     pub(super) struck: bool,
+    /// Whether this step ends at a corner of a contact force.
+    pub(super) at_corner: bool,
     /// How far every open contact has opened since it was closed; infinite before it ever was \[m\].
     pub(super) clearance: Vec<f64>,
     /// Relative tolerance of peaks \[–\].
@@ -220,6 +222,7 @@ impl<'a> Walk<'a> {
             tolerance,
             doubtful_from: None,
             struck: false,
+            at_corner: false,
             pounding: settings.pounding == Pounding::Included,
             system,
             motion,
