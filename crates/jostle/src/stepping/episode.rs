@@ -69,6 +69,19 @@ impl Episode {
         }
     }
 
+    /// Takes in a sudden change of velocities: the force that the law says now, and by how much it has changed \[N\].
+    pub(super) fn jump(&mut self, law: &ForceLaw, trial: &ContactTrial, time: f64) -> f64 {
+        let force = law
+            .follow(trial.indentation, trial.rate, &self.memory)
+            .force;
+        let change = force - self.force;
+        self.force = force;
+        if force > self.peak_force {
+            (self.peak_force, self.peak_force_at) = (force, time);
+        }
+        change
+    }
+
     /// Stands at the end of the step; returns whether the faces have parted for good.
     pub(super) fn advance(
         &mut self,

@@ -216,7 +216,22 @@ impl<E: StepEquations> Simulation<'_, E> {
                         .is_some()
             });
         }
+        if struck {
+            self.follow_jumps();
+        }
         struck
+    }
+
+    /// Forces of closed contacts with dashpots after velocities have jumped.
+    fn follow_jumps(&mut self) {
+        for index in 0..self.system.contacts.len() {
+            if let ContactPhase::Closed(mut episode) = self.state.contacts[index] {
+                let law = &self.system.contacts[index].law;
+                let change = episode.jump(law, &self.trials[index], self.state.time);
+                self.state.contacts[index] = ContactPhase::Closed(episode);
+                self.jump(index, change);
+            }
+        }
     }
 
     /// A contact begins to push.

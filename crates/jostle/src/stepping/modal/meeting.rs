@@ -15,6 +15,8 @@ use crate::stepping::impacts::{
 };
 use crate::stepping::outcome::StepError;
 
+/// Division of free steps after velocities have jumped: dashpots and high modes answer at once, and soon no more.
+const AFTER_BLOW: u32 = 16;
 /// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
 const AHEAD: f64 = 1e-3;
 /// Parts of a step in which a force sets in or ends.
@@ -231,9 +233,22 @@ impl Walk<'_> {
         }
         if struck {
             self.struck = true;
+            self.follow_jumps();
             self.start_anew();
         }
         struck
+    }
+
+    /// Forces of closed contacts with dashpots after velocities have jumped.
+    fn follow_jumps(&mut self) {
+        for index in 0..self.phases.len() {
+            if let ContactPhase::Closed(mut episode) = self.phases[index] {
+                let law = &self.system.contacts[index].law;
+                let change = episode.jump(law, &self.trials[index], self.time);
+                self.phases[index] = ContactPhase::Closed(episode);
+                self.reduced.push_apart(index, change, &mut self.p[0]);
+            }
+        }
     }
 
     /// A contact closing at `rate` opens at once with `restitution` times that.
@@ -242,6 +257,8 @@ impl Walk<'_> {
         let impulse = momentum::impulse(restitution, contact.effective_mass(), rate);
         let before: f64 = self.v[0].iter().map(|v| 0.5 * v * v).sum();
         self.reduced.push_apart(index, impulse, &mut self.v[0]);
+        self.contact_division[index] = self.contact_division[index].max(AFTER_BLOW);
+        self.open_steps[index] = 0;
         let dissipated = before - self.v[0].iter().map(|v| 0.5 * v * v).sum::<f64>();
         self.energy.contact += dissipated;
         let watched = [&mut self.u[0][..], &mut self.rate[0][..]];
