@@ -61,6 +61,22 @@ pub(super) struct ReducedBuilding {
     basis: Arc<Basis>,
 }
 
+/// Damping ratio at which what shapes miss answers their residuals no more than statically, as far as random models show
+/// \[–\].
+const WELL_DAMPED: f64 = 0.05;
+/// Most that it answers more where it is damped less \[–\].
+const MOST_RESONANCE: f64 = 20.0;
+
+/// By how much more than statically natural modes that are not among the shapes may answer, as a resonance grows with
+/// 1/(2ζ); with d = 2ζω \[–\].
+fn resonance(damping: &[f64], stiffness: &[f64]) -> f64 {
+    let ratios = damping.iter().zip(stiffness);
+    let least = ratios
+        .map(|(d, k)| 0.5 * d / k.sqrt())
+        .fold(WELL_DAMPED, f64::min);
+    (WELL_DAMPED / least).min(MOST_RESONANCE)
+}
+
 impl Reduced {
     /// `rates`: how quickly things happen to every building; `closeness`: how well its answers must be met.
     pub(super) fn of(
@@ -208,9 +224,10 @@ impl Reduced {
             work.factorizations += 1;
             work.solves += basis.len() as u64;
             let detuned = defects.detuned(&basis.modes, &self.damping[start..]);
+            let resonance = resonance(&self.damping[start..], &basis.modes.stiffness);
             for (row, shape) in defects.rows.iter_mut().zip(&shown) {
                 for ((value, shape), detuned) in row.iter_mut().zip(shape).zip(&detuned) {
-                    *value += shape * detuned;
+                    *value = resonance * (*value + shape * detuned);
                 }
             }
             missed = in_blocks(&defects.rows, basis.len());
