@@ -69,7 +69,7 @@ const TYPICAL_SPEED: f64 = 0.5;
 /// an analytic motion.
 const MODAL_STEPS_PER_FIRST: f64 = 20.0;
 const MODAL_STEPS_PER_THIRD: f64 = 7.5;
-const MODAL_STEPS_PER_MOTION_PERIOD: f64 = 150.0;
+const MODAL_STEPS_PER_MOTION_PERIOD: f64 = 300.0;
 /// And where nothing else limits it \[s\].
 const LONGEST_MODAL_STEP: f64 = 0.05;
 /// Steps per elastic impact of modal stepping, at a tolerance of 1e-3.

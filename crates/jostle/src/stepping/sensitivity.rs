@@ -8,7 +8,7 @@ use super::peak_change::{change_of_peaks, impacts};
 use super::plan::Plan;
 use super::simulation::simulate_once;
 use crate::motion::GroundMotion;
-use crate::system::{BuildingSystem, System};
+use crate::system::{BuildingSystem, Contact, System};
 
 /// By how much gaps are changed, in tolerances of their greatest closing.
 const CHANGE: f64 = 0.1;
@@ -16,13 +16,17 @@ const CHANGE: f64 = 0.1;
 /// By how much the gap of a contact that was just missed is narrowed, in tolerances of its greatest closing.
 const NARROWER: f64 = 1.0;
 
+/// Share of the displacements of struck floors that counts like a closing: the closing of a gap of no width stays small.
+const SWAY: f64 = 0.1;
+
 /// Most impacts that are trusted not to multiply small errors.
 const FEW_IMPACTS: usize = 12;
 
 /// Finds the instant from which the answers of a run hang on contacts made or missed within the tolerance, and notes it in
 /// the outcome.
 ///
-/// Each gap is made wider by a tenth of the tolerance of its greatest closing and the run is repeated. If reported peaks
+/// Each gap is made wider by a tenth of the tolerance of its greatest closing, or of a tenth of the displacement of the
+/// struck floors where that is more, and the run is repeated. If reported peaks
 /// change by more than the tolerance, relative to the greatest of their kind in the building or gap, the runs part at the
 /// first impact that differs by as much. Where a contact stays open and its closing comes within the tolerance of the gap,
 /// the gap is made narrower by that much instead, so that the contact is made. Other runs with a dozen impacts at most, none of them in doubt, are not repeated; nor
@@ -64,7 +68,8 @@ fn sensitive_from(
     let contacts = changed.contacts.iter_mut().zip(&outcome.closing);
     for ((contact, closing), near_miss) in contacts.zip(&near_misses) {
         let change = if *near_miss { -NARROWER } else { CHANGE };
-        contact.width += change * tolerance * contact.width.max(closing.value);
+        let sway = SWAY * greatest_displacement(contact, outcome);
+        contact.width += change * tolerance * contact.width.max(closing.value).max(sway);
     }
     let settings = Settings {
         record_interval: None,
@@ -89,6 +94,22 @@ fn sensitive_from(
         .min_by(f64::total_cmp);
     let first = outcome.impacts.iter().map(|impact| impact.start);
     parted.or(doubtful).or(first.min_by(f64::total_cmp))
+}
+
+/// Greatest displacement of the floors that meet at a contact, or of their buildings where it lies between floors \[m\].
+fn greatest_displacement(contact: &Contact, outcome: &Outcome) -> f64 {
+    let sides = contact.faces.buildings().into_iter();
+    let sides = sides.zip(contact.faces.floors());
+    sides
+        .filter_map(|(building, floor)| {
+            let floors = &outcome.floors[building?];
+            let met = floor.map_or(&floors[..], |floor| &floors[floor - 1..floor]);
+            let sizes = met
+                .iter()
+                .map(|f| f.displacement_max.value.max(-f.displacement_min.value));
+            sizes.max_by(f64::total_cmp)
+        })
+        .fold(0.0, f64::max)
 }
 
 /// Whether a contact without impact comes within the tolerance of one.

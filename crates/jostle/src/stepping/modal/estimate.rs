@@ -43,6 +43,9 @@ impl Widened {
     }
 }
 
+/// Errors of modes between steps may fall together.
+const MARGIN: f64 = 2.0;
+
 /// Steps between one look at what is missed and the next.
 const LOOK_EVERY: u32 = 4;
 
@@ -178,7 +181,7 @@ pub(super) struct Estimate {
 impl Estimate {
     /// Both together; they have nothing to do with each other.
     pub(super) fn both(&self) -> f64 {
-        self.shapes.hypot(self.between)
+        self.shapes.hypot(MARGIN * self.between)
     }
 
     pub(super) fn of(reduced: &Reduced, system: &System, reached: &Reached, peaks: &Peaks) -> Self {

@@ -15,8 +15,11 @@ use crate::stepping::impacts::{
 };
 use crate::stepping::outcome::StepError;
 
-/// Division of free steps after velocities have jumped: dashpots and high modes answer at once, and soon no more.
-const AFTER_BLOW: u32 = 16;
+/// Fewest and most parts of a free step after velocities have jumped: dashpots and high modes answer at once, and soon no
+/// more.
+const AFTER_BLOW: [u32; 2] = [16, 1024];
+/// Steps then per radian of the quickest mode.
+const STEPS_PER_RADIAN: f64 = 2.0;
 /// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
 const AHEAD: f64 = 1e-3;
 /// Parts of a step in which a force sets in or ends.
@@ -257,7 +260,8 @@ impl Walk<'_> {
         let impulse = momentum::impulse(restitution, contact.effective_mass(), rate);
         let before: f64 = self.v[0].iter().map(|v| 0.5 * v * v).sum();
         self.reduced.push_apart(index, impulse, &mut self.v[0]);
-        self.contact_division[index] = self.contact_division[index].max(AFTER_BLOW);
+        let division = self.division_after_blow(index);
+        self.contact_division[index] = self.contact_division[index].max(division);
         self.open_steps[index] = 0;
         let dissipated = before - self.v[0].iter().map(|v| 0.5 * v * v).sum::<f64>();
         self.energy.contact += dissipated;
@@ -278,6 +282,19 @@ impl Walk<'_> {
             impulse,
             dissipated,
         });
+    }
+
+    /// Division of free steps with which the quickest modes of buildings that have struck each other are seen.
+    fn division_after_blow(&self, index: usize) -> u32 {
+        let struck = self.system.contacts[index].faces.buildings();
+        let modes = struck.into_iter().flatten().flat_map(|building| {
+            let modes = self.reduced.buildings[building].modes.clone();
+            &self.reduced.stiffness[modes]
+        });
+        let quickest = modes.fold(0.0_f64, |most, k| most.max(*k)).sqrt();
+        let wanted = (STEPS_PER_RADIAN * quickest * self.plan.step).ceil() as u32;
+        let [fewest, most] = AFTER_BLOW;
+        wanted.next_power_of_two().clamp(fewest, most)
     }
 
     /// A contact begins to push.

@@ -63,7 +63,7 @@ pub(super) struct ReducedBuilding {
 
 /// Damping ratio at which what shapes miss answers their residuals no more than statically, as far as random models show
 /// \[–\].
-const WELL_DAMPED: f64 = 0.05;
+const WELL_DAMPED: f64 = 0.035;
 /// Most that it answers more where it is damped less \[–\].
 const MOST_RESONANCE: f64 = 20.0;
 
@@ -74,7 +74,11 @@ fn resonance(damping: &[f64], stiffness: &[f64]) -> f64 {
     let least = ratios
         .map(|(d, k)| 0.5 * d / k.sqrt())
         .fold(WELL_DAMPED, f64::min);
-    (WELL_DAMPED / least).min(MOST_RESONANCE)
+    if least < WELL_DAMPED {
+        (2.0 * WELL_DAMPED / least).min(MOST_RESONANCE)
+    } else {
+        1.0
+    }
 }
 
 impl Reduced {
@@ -97,9 +101,14 @@ impl Reduced {
             let jumps = system.contacts.iter().any(|contact| {
                 contact.law.onset(1.0) > 0.0 && contact.faces.buildings().contains(&Some(index))
             });
-            // A force that begins with a jump moves at first the mass that is struck alone.
+            // A force that begins with a jump moves at first the mass that is struck alone, then those beside it.
             let at_once = jumps.then(|| basis::at_once(&building.equations));
-            let met: Vec<f64> = [0.0].into_iter().chain(at_once).chain([pushed]).collect();
+            let met: Vec<f64> = [0.0]
+                .into_iter()
+                .chain(at_once)
+                .chain(jumps.then_some(SOON * pushed))
+                .chain([pushed])
+                .collect();
             let demand = Demand {
                 faces: &faces,
                 floors: &places[..building.floors.len()],
@@ -519,5 +528,7 @@ fn filled(values: &[f64]) -> [f64; LANES] {
 
 /// Rates at which answers are compared, in units of that of the quickest push \[–\].
 const COMPARED: [f64; 2] = [0.5, 2.0];
+/// Rate at which the answer to a force that begins with a jump is met, in rates of an impact.
+const SOON: f64 = 5.0;
 /// Modes up to which wide registers are not worth their call.
 const FEW_MODES: usize = 8;
