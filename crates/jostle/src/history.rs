@@ -220,6 +220,10 @@ pub struct FloorPeaks {
     pub total_acceleration: f64,
     /// Greatest drift ratio of the storey below, either sign \[–\].
     pub storey_drift: f64,
+    /// Greatest shear of the storey below, either sign \[N\].
+    pub storey_shear: f64,
+    /// Greatest overturning moment about the base of the storey below, either sign \[N·m\].
+    pub overturning_moment: f64,
 }
 
 /// Energies \[J\] and the greatest error of their balance so far.

@@ -102,6 +102,7 @@ pub mod state;
 pub mod statics;
 pub mod stepping;
 pub mod stiffness;
+pub mod storey_forces;
 pub mod summary;
 pub mod system;
 pub mod transfer;

@@ -140,6 +140,8 @@ fn building_summary(index: usize, system: &System, outcome: &Outcome) -> Buildin
             displacement_min_at_s: peaks.displacement_min.at,
             total_acceleration_peak_m_s2: peaks.total_acceleration,
             storey_drift_peak: peaks.storey_drift,
+            storey_shear_peak_n: peaks.storey_shear,
+            overturning_moment_peak_n_m: peaks.overturning_moment,
             residual_drift,
         });
     BuildingSummary {

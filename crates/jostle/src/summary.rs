@@ -134,6 +134,10 @@ pub struct FloorSummary {
     pub total_acceleration_peak_m_s2: f64,
     /// Greatest drift ratio of the storey below, either sign \[–\].
     pub storey_drift_peak: f64,
+    /// Greatest shear of the storey below, either sign: the horizontal forces above its base \[N\].
+    pub storey_shear_peak_n: f64,
+    /// Greatest moment of these forces about the base of the storey below, either sign \[N·m\].
+    pub overturning_moment_peak_n_m: f64,
     /// Drift ratio of the storey below at the end, positive to the right \[–\].
     pub residual_drift: f64,
 }

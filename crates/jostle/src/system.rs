@@ -12,6 +12,7 @@ use crate::model::{Damping, LEVEL_TOLERANCE, Model, ModelFault, usual_damping_mo
 use crate::row::Row;
 use crate::skeleton::Idealisation;
 use crate::state::State;
+use crate::storey_forces::{StoreyForce, StoreyForces};
 use crate::transfer::riccati::RiccatiSweep;
 
 /// Buildings in a row and what stands between them, ready to be stepped.
@@ -51,6 +52,8 @@ pub struct BuildingSystem {
     pub offset: usize,
     /// Floors from the ground up.
     pub floors: Vec<Floor>,
+    /// How storey shears and overturning moments follow from displacements.
+    pub storeys: StoreyForces,
     /// Displacements under self weight, from which a run starts; empty where weight is left out \[m, rad\].
     pub rest: Vec<f64>,
     /// What springs that yield remember then.
@@ -326,6 +329,8 @@ impl BuildingSystem {
             }
             below = height;
         }
+        let tops: Vec<f64> = floors.iter().map(|floor| floor.height).collect();
+        let storeys = StoreyForces::new(&idealisation.skeleton, &equations, &tops);
         let foot = idealisation
             .foot
             .and_then(|node| equations.horizontal(node));
@@ -336,6 +341,7 @@ impl BuildingSystem {
             offset: 0,
             foot,
             floors,
+            storeys,
             rest: Vec::new(),
             rest_springs: Vec::new(),
             spring_offset: 0,
@@ -404,6 +410,14 @@ impl BuildingSystem {
             .filter(|(spring, _)| spring.carries_base_shear)
             .map(|(_, memory)| memory.force());
         elastic + yielding.sum::<f64>()
+    }
+
+    /// Calls `take` with every storey, from the top down, its shear \[N\] and overturning moment \[N·m\].
+    pub fn storey_forces(&self, state: &State, take: impl FnMut(usize, StoreyForce)) {
+        let springs = &state.springs[self.spring_range()];
+        let force = |spring: usize| springs[spring].force();
+        self.storeys
+            .for_each(&state.displacement[self.range()], force, take);
     }
 
     /// Springs that yield of this building in the list of a [`crate::State`].

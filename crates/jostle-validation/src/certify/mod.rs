@@ -110,6 +110,8 @@ pub struct Certified {
     pub truth: Arc<Truth>,
     /// Runs.
     pub runs: Vec<Held>,
+    /// Solvers that refuse the model, and why.
+    pub refusals: Vec<(&'static str, String)>,
     /// Touches of the reference.
     pub touches: u64,
     /// Lasting contacts of the momentum law.
@@ -131,6 +133,7 @@ impl Certified {
             buildings: String::new(),
             truth: Arc::default(),
             runs: Vec::new(),
+            refusals: Vec::new(),
             touches: 0,
             lasting: 0,
             steps: 0,
@@ -253,11 +256,14 @@ fn ran(
     motion: &GroundMotion,
     solver: Solver,
     tolerance: f64,
-) -> Option<Ran> {
+) -> Result<Ran, String> {
     let mut model = input.model.clone();
     model.analysis.tolerance = tolerance;
     model.analysis.solver = Some(solver);
-    let plan = Plan::choose(system, motion, &model.analysis).ok()?;
+    let plan = Plan::choose(system, motion, &model.analysis).map_err(|faults| {
+        let problems = faults.iter().map(|fault| fault.problem.clone());
+        problems.collect::<Vec<_>>().join("; ")
+    })?;
     let begun = std::time::Instant::now();
     let settings = Settings {
         pounding: Pounding::Included,
@@ -283,7 +289,7 @@ fn ran(
         RunEnd::Completed => None,
         other => Some(format!("{other:?}")),
     };
-    Some(Ran {
+    Ok(Ran {
         summary,
         failed,
         seconds,
@@ -310,7 +316,7 @@ fn hold(
     truth: &Arc<Truth>,
     solver: Solver,
     tolerance: f64,
-) -> Option<Held> {
+) -> Result<Held, String> {
     let mut run = ran(input, system, motion, solver, tolerance)?;
     let seconds = run.seconds;
     let mut truth = truth.clone();
@@ -329,12 +335,14 @@ fn hold(
         // Nothing happens, and nothing is promised, before the first points of the motion.
         let promised = end > LEAST_CUT;
         let again = promised.then(|| ran(input, system, &shorter, solver, tolerance));
-        let Some(again) = again.flatten() else {
+        let Some(Ok(again)) = again else {
             truth = Arc::default();
             break;
         };
         run = again;
-        match true_peaks(system, &shorter) {
+        let mut sooner = shorter.clone();
+        sooner.duration = end - ENDS_SOONER;
+        match true_peaks(system, [&shorter, &sooner]) {
             Ok((own, ..)) => truth = Arc::new(own),
             Err(why) => run.failed = Some(format!("no reference up to {end:.3} s: {why}")),
         }
@@ -344,7 +352,7 @@ fn hold(
     } else {
         values_of(&run.summary, system)
     };
-    Some(Held {
+    Ok(Held {
         solver: solver.name(),
         tolerance,
         errors: errors(&truth, &got, tolerance),
@@ -357,6 +365,9 @@ fn hold(
     })
 }
 
+/// By how much the perturbed reference of a cut motion ends sooner: an impact at the very end is in one run or in the other
+/// \[s\].
+const ENDS_SOONER: f64 = 1e-4;
 /// Shortest motion that a cut leaves \[s\].
 const LEAST_CUT: f64 = 0.01;
 
@@ -381,13 +392,17 @@ fn errors(truth: &Truth, got: &[f64], tolerance: f64) -> Vec<Option<f64>> {
     .collect()
 }
 
-/// The reference of a motion with its change under the perturbation, and the peaks it comes from.
-fn true_peaks(system: &System, motion: &GroundMotion) -> Result<(Truth, Peaks), String> {
+/// The reference of a motion with its change under the perturbation, for which the motion may be another, and the peaks it
+/// comes from.
+fn true_peaks(
+    system: &System,
+    [motion, perturbed]: [&GroundMotion; 2],
+) -> Result<(Truth, Peaks), String> {
     let peaks = reference(system, motion, Accuracy::FINE)?;
     let other = if system.contacts.is_empty() {
         peaks.clone()
     } else {
-        reference(system, motion, Accuracy::OTHER)?
+        reference(system, perturbed, Accuracy::OTHER)?
     };
     let quantities = quantities_of(system, &peaks);
     let others = quantities_of(system, &other);
@@ -434,20 +449,22 @@ fn fill(drawn: &Drawn, runs: &[(Solver, f64)], certified: &mut Certified) -> Res
             .join("; ")
     })?;
     let begun = std::time::Instant::now();
-    let (truth, peaks) = true_peaks(&system, &motion)?;
+    let (truth, peaks) = true_peaks(&system, [&motion; 2])?;
     certified.seconds = begun.elapsed().as_secs_f64();
     (certified.touches, certified.lasting, certified.steps) =
         (peaks.touches, peaks.lasting, peaks.steps);
     certified.truth = Arc::new(truth);
     for &(solver, tolerance) in runs {
-        certified.runs.extend(hold(
-            &input,
-            &system,
-            &motion,
-            &certified.truth,
-            solver,
-            tolerance,
-        ));
+        let truth = &certified.truth;
+        match hold(&input, &system, &motion, truth, solver, tolerance) {
+            Ok(held) => certified.runs.push(held),
+            Err(why) => {
+                let refusal = (solver.name(), why);
+                if !certified.refusals.contains(&refusal) {
+                    certified.refusals.push(refusal);
+                }
+            }
+        }
     }
     Ok(())
 }
@@ -671,6 +688,17 @@ pub fn describe(all: &[Certified]) -> String {
         text,
         "{cut} runs were sensitive: their peaks before the sensitive instant are counted; {nothing} of them promise nothing.",
     );
+    let mut refused: BTreeMap<String, usize> = BTreeMap::new();
+    for (solver, why) in all.iter().flat_map(|model| &model.refusals) {
+        // Without the names of buildings.
+        let why: Vec<&str> = why.split('"').step_by(2).collect();
+        *refused
+            .entry(format!("{solver}: {}", why.join("…")))
+            .or_default() += 1;
+    }
+    for (why, models) in refused {
+        let _ = writeln!(text, "{models} models are refused by {why}");
+    }
     let spent: f64 = all.iter().map(|model| model.seconds).sum();
     let own: f64 = all
         .iter()

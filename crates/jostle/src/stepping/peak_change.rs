@@ -6,11 +6,13 @@ use crate::system::System;
 
 /// Greatest difference of peaks, relative to the greatest of its kind in the building or gap \[–\].
 pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
-    let kinds: [fn(&FloorPeaks) -> f64; 4] = [
+    let kinds: [fn(&FloorPeaks) -> f64; 6] = [
         |floor| floor.displacement_max.value,
         |floor| floor.displacement_min.value,
         |floor| floor.storey_drift,
         |floor| floor.total_acceleration,
+        |floor| floor.storey_shear,
+        |floor| floor.overturning_moment,
     ];
     let mut worst = 0.0_f64;
     for (index, (a_floors, b_floors)) in a.floors.iter().zip(&b.floors).enumerate() {

@@ -129,6 +129,12 @@ impl Recorder {
                     .max(((now.0 - below) / floor.storey_height).abs());
                 below = now.0;
             }
+            let floors = &mut self.floors[index];
+            building.storey_forces(state, |storey, force| {
+                let peaks = &mut floors[storey];
+                peaks.storey_shear = peaks.storey_shear.max(force.shear.abs());
+                peaks.overturning_moment = peaks.overturning_moment.max(force.moment.abs());
+            });
             let shear = building.base_shear(state);
             self.base_shear[index] = self.base_shear[index].max(shear.abs());
         }

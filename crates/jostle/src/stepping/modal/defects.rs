@@ -4,6 +4,7 @@
 //! residual of a motion Σ φ q in the equations of the whole building is −Σ (r/θ)(q̈ + α q̇): it is driven by modal
 //! accelerations, and vanishes for natural modes (theory, Eq. Q7).
 
+use super::reduced::forces_of;
 use super::span::RitzModes;
 use crate::stepping::NotPositive;
 use crate::system::BuildingSystem;
@@ -11,8 +12,8 @@ use crate::transfer::riccati::rates::RATES;
 
 /// What every Ritz mode of a building misses at some places, for a unit modal acceleration.
 pub(super) struct Defects {
-    /// d = (K + s²M)⁻¹ r/θ at a rate s near ω, at every place mode by mode, and last its base shear
-    /// \[s²·kg^−½, N·s²·m⁻¹·kg^−½\].
+    /// d = (K + s²M)⁻¹ r/θ at a rate s near ω, at every place mode by mode, then its base shear, the shears of storeys and
+    /// their overturning moments \[s²·kg^−½, N·s²·m⁻¹·kg^−½\].
     pub(super) rows: Vec<Vec<f64>>,
     /// How much too high θ is, relative \[–\].
     detuning: Vec<f64>,
@@ -31,7 +32,7 @@ impl Defects {
     ) -> Result<Self, NotPositive> {
         let count = modes.stiffness.len();
         let mut found = Self {
-            rows: vec![vec![0.0; count]; places.len() + 1],
+            rows: vec![vec![0.0; count]; places.len() + 1 + 2 * building.storeys.len()],
             detuning: vec![0.0; count],
         };
         let all: Vec<usize> = (0..count).collect();
@@ -42,8 +43,13 @@ impl Defects {
                 row[mode] = (shape[*place] - whole * answer[*place]) / theta;
             }
             let shear = |vector: &[f64]| building.equations.base_shear(vector);
-            if let Some(row) = found.rows.last_mut() {
-                row[mode] = (shear(shape) - whole * shear(answer)) / theta;
+            let bases = [shape, answer].map(shear);
+            let forces = [shape, answer].map(|vector| forces_of(building, vector));
+            let of_shape = bases[..1].iter().chain(&forces[0]);
+            let of_answer = bases[1..].iter().chain(&forces[1]);
+            let rows = found.rows[places.len()..].iter_mut();
+            for (row, (of_shape, of_answer)) in rows.zip(of_shape.zip(of_answer)) {
+                row[mode] = (of_shape - whole * of_answer) / theta;
             }
             let own = shape.iter().zip(mass).zip(answer);
             let own: f64 = own.map(|((v, m), y)| v * m * y).sum();

@@ -6,8 +6,8 @@ use super::reduced::{Reduced, ReducedBuilding};
 use crate::history::FloorPeaks;
 use crate::system::System;
 
-/// Kinds of peaks of a building: displacements, drifts, total accelerations, base shear.
-const KINDS: usize = 4;
+/// Kinds of peaks of a building: displacements, drifts, total accelerations, base shear, storey shears, overturning moments.
+const KINDS: usize = 6;
 
 /// What a run has shown of its own errors so far.
 #[derive(Clone, Debug)]
@@ -16,11 +16,13 @@ pub(super) struct Reached {
     free: Vec<f64>,
     /// The same in all steps, as it is \[m/s²·kg^½\].
     all: Vec<f64>,
-    /// Of every floor: displacement, drift, acceleration and, of the lowest, base shear.
+    /// Of every floor: displacement, drift, acceleration, of the lowest the base shear, then shear and overturning moment of
+    /// the storey below.
     floors: Vec<Vec<[Widened; KINDS]>>,
     /// Accelerations times ω², and what both miss.
     quickened: Vec<f64>,
     missed: [Vec<f64>; 2],
+    forces_missed: Vec<f64>,
     until_look: u32,
 }
 
@@ -59,6 +61,7 @@ impl Reached {
             floors: reduced.buildings.iter().map(floors).collect(),
             quickened: vec![0.0; modes],
             missed: [(); 2].map(|()| vec![0.0; reduced.watched()]),
+            forces_missed: vec![0.0; reduced.forces()],
             until_look: 1,
         }
     }
@@ -91,6 +94,7 @@ impl Reached {
         accelerations: &[f64],
         watched: Watched<'_>,
         ground: f64,
+        forces: &[f64],
     ) {
         let quickened = self.quickened.iter_mut().zip(accelerations);
         for ((quick, a), k) in quickened.zip(&reduced.stiffness) {
@@ -108,6 +112,14 @@ impl Reached {
                 modal: [&accelerations[modes.clone()], &self.quickened[modes]],
                 watched: [&mut *slow, &mut *quick],
             });
+            let own_forces = own.forces.clone();
+            reduced.arch().dispatch(Show {
+                blocks: &own.forces_off,
+                modal: [&accelerations[own.modes.clone()]],
+                watched: [&mut self.forces_missed[own_forces.clone()]],
+            });
+            let (known, missed) = (&forces[own_forces.clone()], &self.forces_missed[own_forces]);
+            let storeys = system.buildings[index].storeys.len();
             let (u, a) = (&watched.u[places.clone()], &watched.acceleration[places]);
             let mut below = (0.0, 0.0);
             let shear = own.shear - own.watched.start;
@@ -116,6 +128,8 @@ impl Reached {
                 widened[0].widen(u[at], slow[at]);
                 widened[1].widen((u[at] - below.0) / height, (slow[at] - below.1) / height);
                 widened[2].widen(a[at] + ground, quick[at]);
+                widened[4].widen(known[at], missed[at]);
+                widened[5].widen(known[storeys + at], missed[storeys + at]);
                 below = (u[at], slow[at]);
             }
             if let Some(first) = self.floors[index].first_mut() {
@@ -152,6 +166,13 @@ impl Reached {
                     below = missed;
                 }
                 let shear = missed(own.shear - own.watched.start) / scales[3];
+                for storey in 0..floors.len() {
+                    let force = |place: usize| own.of_blocks(&own.forces_off, place, mode);
+                    let moment = force(floors.len() + storey) / scales[5];
+                    most = most
+                        .max((force(storey) / scales[4]).abs())
+                        .max(moment.abs());
+                }
                 most.max(shear.abs()) * self.all[own.modes.start + mode]
             };
             if own.missed.is_empty() {
@@ -211,6 +232,13 @@ impl Estimate {
                 between[1] = between[1].max(sum(&drift));
                 between[2] = between[2].max(sum(&|mode| k(mode) * shape(place, mode)));
             }
+            let storeys = building.storeys.len();
+            for storey in 0..storeys {
+                let force =
+                    |place: usize, mode: usize| own.of_blocks(&own.force_blocks, place, mode);
+                between[4] = between[4].max(sum(&|mode| force(storey, mode)));
+                between[5] = between[5].max(sum(&|mode| force(storeys + storey, mode)));
+            }
             between[3] = sum(&|mode| shape(own.shear - own.watched.start, mode));
             for kind in 0..KINDS {
                 let floors = reached.floors[index].iter();
@@ -232,6 +260,8 @@ fn scales(floors: &[FloorPeaks], shear: f64) -> [f64; KINDS] {
         most(|f| f.storey_drift),
         most(|f| f.total_acceleration),
         shear.max(f64::MIN_POSITIVE),
+        most(|f| f.storey_shear),
+        most(|f| f.overturning_moment),
     ]
 }
 

@@ -183,7 +183,7 @@ impl Walk<'_> {
             return false;
         }
         for step in 0..free {
-            self.take(step);
+            self.take(step, free);
         }
         self.land(free);
         true
@@ -281,8 +281,8 @@ impl Walk<'_> {
             .unwrap_or(planned)
     }
 
-    /// Books a step of the flight: energies, peaks, and a row where one is due.
-    fn take(&mut self, index: usize) {
+    /// Books a step of a flight of so many: energies, peaks, and a row where one is due.
+    fn take(&mut self, index: usize, free: usize) {
         let (flight, places) = (&self.flight, self.reduced.watched());
         let step = flight.step;
         let [g0, g1] = [flight.ground[index], flight.ground[index + 1]];
@@ -314,6 +314,13 @@ impl Walk<'_> {
             struck: std::mem::take(&mut self.struck),
         };
         self.peaks.after_step(self.system, self.reduced, &taken);
+        if (index + 1) % self.rows_per_step == 0 || index + 1 == free {
+            let modes = self.reduced.modes();
+            let [q, v] = flight.state(modes, index + 1);
+            let a = &flight.modal[2][index * flight.start[0].len()..][..modes];
+            self.peaks
+                .follow_forces(self.system, self.reduced, [q, v, a], self.time);
+        }
         if self.peaks.is_due(self.time, false) {
             let instant = (self.time, g1);
             self.peaks.record(
@@ -339,8 +346,10 @@ impl Walk<'_> {
             if self.reached.widen(accelerations, Some(flight.step)) {
                 let (watched, ground) = (flight.watched(places, step + 1), flight.ground[step + 1]);
                 let (system, reduced) = (self.system, self.reduced);
+                reduced.show_forces(flight.state(modes, step + 1)[0], &mut self.looked_at);
+                let forces = &self.looked_at;
                 self.reached
-                    .look(system, reduced, accelerations, watched, ground);
+                    .look(system, reduced, accelerations, watched, ground, forces);
             }
         }
         let [q, v] = flight.state(self.reduced.modes(), steps);

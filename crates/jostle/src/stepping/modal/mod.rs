@@ -67,7 +67,7 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
 /// Impact speed at which a contact is judged \[m/s\].
 const TYPICAL_SPEED: f64 = 0.5;
 /// Share of the tolerance that flexibilities may be off.
-const FLEXIBILITY_SHARE: f64 = 0.1;
+const FLEXIBILITY_SHARE: f64 = 0.02;
 
 /// The shapes that stand for the buildings of a system. They depend on buildings, on where these meet and by which law,
 /// and on the tolerance; not on the widths of gaps nor on motions, so that runs of many of these may share them.

@@ -21,8 +21,22 @@ pub(super) struct Peaks {
     /// What a unit ground acceleration takes from the accelerations of everything watched, and its rate from their rates.
     driven: Vec<f64>,
     limits: Limits,
+    /// Forces of storeys as they were last looked at and before, and their rates at both ends where they are looked at
+    /// \[N, N·m; N/s, N·m/s\].
+    forces: [Vec<f64>; 2],
+    force_rates: [Vec<f64>; 2],
+    /// What modal accelerations add to them at both ends.
+    forces_missed: [Vec<f64>; 2],
+    before: Before,
     /// Blocks of what is watched that may exceed a limit in the step looked at.
     seen: Vec<bool>,
+}
+
+/// When forces of storeys were last looked at, and modal velocities and accelerations then.
+struct Before {
+    time: f64,
+    velocities: Vec<f64>,
+    accelerations: Vec<f64>,
 }
 
 /// What is watched at an instant, place by place.
@@ -73,6 +87,14 @@ impl Peaks {
             base_shear: vec![0.0; system.buildings.len()],
             driven,
             limits: Limits::none(reduced),
+            forces: [(); 2].map(|()| vec![0.0; reduced.forces()]),
+            force_rates: [(); 2].map(|()| vec![0.0; reduced.forces()]),
+            forces_missed: [(); 2].map(|()| vec![0.0; reduced.forces()]),
+            before: Before {
+                time: 0.0,
+                velocities: vec![0.0; reduced.modes()],
+                accelerations: vec![0.0; reduced.modes()],
+            },
             seen: vec![false; watched / ROWS],
         }
     }
@@ -110,6 +132,97 @@ impl Peaks {
             };
             ends.raise(closing, taken.start, taken.step);
         }
+    }
+
+    /// Updates forces of storeys with what happened since they were last looked at: modal displacements, velocities and
+    /// accelerations at an instant.
+    pub(super) fn follow_forces(
+        &mut self,
+        system: &System,
+        reduced: &Reduced,
+        modal: [&[f64]; 3],
+        time: f64,
+    ) {
+        let [q, velocities, accelerations] = modal;
+        self.forces.swap(0, 1);
+        reduced.show_forces(q, &mut self.forces[0]);
+        if self.are_forces_near_peaks(reduced) {
+            self.look_at_forces(system, reduced, [velocities, accelerations], time);
+        }
+        let Before {
+            time: then,
+            velocities: before,
+            accelerations: quickened,
+        } = &mut self.before;
+        *then = time;
+        before.copy_from_slice(velocities);
+        quickened.copy_from_slice(accelerations);
+    }
+
+    fn are_forces_near_peaks(&self, reduced: &Reduced) -> bool {
+        let mut buildings = self.floors.iter().zip(&reduced.buildings);
+        buildings.any(|(floors, own)| {
+            let shears = floors.iter().map(|floor| floor.storey_shear);
+            let moments = floors.iter().map(|floor| floor.overturning_moment);
+            let mut all = (own.forces.start..).zip(shears.chain(moments));
+            all.any(|(at, peak)| self.is_near(at, peak))
+        })
+    }
+
+    fn is_near(&self, at: usize, peak: f64) -> bool {
+        let [now, then] = &self.forces;
+        now[at].abs().max(then[at].abs()) > NEAR * peak
+    }
+
+    fn look_at_forces(
+        &mut self,
+        system: &System,
+        reduced: &Reduced,
+        [velocities, accelerations]: [&[f64]; 2],
+        time: f64,
+    ) {
+        let [missed_then, missed_now] = &mut self.forces_missed;
+        reduced.show_forces_missed(&self.before.accelerations, missed_then);
+        reduced.show_forces_missed(accelerations, missed_now);
+        let [rate_then, rate_now] = &mut self.force_rates;
+        reduced.show_forces(&self.before.velocities, rate_then);
+        reduced.show_forces(velocities, rate_now);
+        let step = time - self.before.time;
+        for (index, own) in reduced.buildings.iter().enumerate() {
+            let storeys = system.buildings[index].storeys.len();
+            for storey in 0..self.floors[index].len() {
+                let peaks = self.floors[index][storey];
+                let raised = [
+                    (own.forces.start + storey, peaks.storey_shear),
+                    (
+                        own.forces.start + storeys + storey,
+                        peaks.overturning_moment,
+                    ),
+                ]
+                .map(|(at, mut peak)| {
+                    if self.is_near(at, peak) {
+                        self.ends_of_force(at).widen(&mut peak, step);
+                    }
+                    peak
+                });
+                let peaks = &mut self.floors[index][storey];
+                [peaks.storey_shear, peaks.overturning_moment] = raised;
+            }
+        }
+    }
+
+    fn ends_of_force(&self, at: usize) -> Ends {
+        let [now, then] = &self.forces;
+        let [missed_then, missed_now] = &self.forces_missed;
+        Ends {
+            then: [then[at] + missed_then[at], self.force_rates[0][at]],
+            now: [now[at] + missed_now[at], self.force_rates[1][at]],
+        }
+    }
+
+    /// Forces of storeys at the end of the last step \[N, N·m\].
+    pub(super) fn forces(&self) -> &[f64] {
+        &self.forces[0]
     }
 
     /// Whether a floor, a storey or a base shear may go beyond what it did before.
@@ -250,6 +363,8 @@ impl Peaks {
     }
 }
 
+/// Share of the peak so far below which no force of a storey exceeds it within a step: of steps that see the third mode.
+const NEAR: f64 = 0.8;
 /// By how much, in steps times the sum of its end slopes, a cubic may leave the range of its ends: 4/27.
 const BEYOND: f64 = 0.15;
 

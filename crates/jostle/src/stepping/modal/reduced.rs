@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 use super::basis::{self, Basis, Demand};
 use super::damped::{Damped, Rules};
@@ -15,7 +15,7 @@ use crate::contact::ForceLaw;
 use crate::history::Work;
 use crate::lanes;
 use crate::stepping::NotPositive;
-use crate::system::System;
+use crate::system::{BuildingSystem, System};
 
 /// A row of buildings as oscillators, and how they show at floors and contacts.
 pub(super) struct Reduced {
@@ -48,11 +48,20 @@ pub(super) struct ReducedBuilding {
     /// What is watched of it among all: displacements of floors from the ground up, then of other faces of contacts, the
     /// base shear \[m, N\], and nothing up to a whole block.
     pub(super) watched: Range<usize>,
+    /// Shears of its storeys from the ground up, then their overturning moments, among all \[N, N·m\], and nothing up to a
+    /// whole block.
+    pub(super) forces: Range<usize>,
     /// Number of floors, and the place of the base shear.
     pub(super) floors: usize,
     pub(super) shear: usize,
     /// Shapes at so many watched displacements at once, mode by mode; rows that fill up the last block are zero \[kg^−½\].
     pub(super) blocks: Vec<[f64; ROWS]>,
+    /// Shapes as forces of storeys, likewise \[N·kg^−½, N·m·kg^−½\].
+    pub(super) force_blocks: Vec<[f64; ROWS]>,
+    /// What a unit acceleration of every mode adds to forces of storeys beyond that, statically, and how far they may be
+    /// off even so; empty where all natural modes are kept \[N·s²·m⁻¹·kg^−½, N·s²·kg^−½\].
+    pub(super) forces_missed: Vec<[f64; ROWS]>,
+    pub(super) forces_off: Vec<[f64; ROWS]>,
     /// What a unit acceleration of every mode misses at everything watched, statically; empty where all natural modes are
     /// kept.
     pub(super) missed: Vec<[f64; ROWS]>,
@@ -64,6 +73,8 @@ pub(super) struct ReducedBuilding {
 /// Damping ratio at which what shapes miss answers their residuals no more than statically, as far as random models show
 /// \[–\].
 const WELL_DAMPED: f64 = 0.035;
+/// Share of what shapes miss of forces that is left when it has been added, as far as random models show \[–\].
+const SECOND_ORDER: f64 = 0.5;
 /// Most that it answers more where it is damped less \[–\].
 const MOST_RESONANCE: f64 = 20.0;
 
@@ -227,25 +238,38 @@ impl Reduced {
             .map(|&dof| basis.of_shapes(|vector| vector[dof]))
             .chain([shear])
             .collect();
-        let mut missed = Vec::new();
+        let storeys = storey_forms(building, &basis);
+        let forcing = self.forces();
+        let (mut missed, mut forces_missed, mut forces_off) = (Vec::new(), Vec::new(), Vec::new());
         if !basis.is_complete {
             let mut defects = Defects::of(building, &basis.modes, &places)?;
             work.factorizations += 1;
             work.solves += basis.len() as u64;
             let detuned = defects.detuned(&basis.modes, &self.damping[start..]);
             let resonance = resonance(&self.damping[start..], &basis.modes.stiffness);
-            for (row, shape) in defects.rows.iter_mut().zip(&shown) {
+            forces_missed = in_blocks(&defects.rows[shown.len()..], basis.len());
+            for row in &mut defects.rows[shown.len()..] {
+                // What is missed statically is added to forces; what is left is of second order.
+                row.iter_mut().for_each(|value| *value *= SECOND_ORDER);
+            }
+            let lists = shown.iter().chain(&storeys);
+            for (row, shape) in defects.rows.iter_mut().zip(lists) {
                 for ((value, shape), detuned) in row.iter_mut().zip(shape).zip(&detuned) {
                     *value = resonance * (*value + shape * detuned);
                 }
             }
-            missed = in_blocks(&defects.rows, basis.len());
+            missed = in_blocks(&defects.rows[..shown.len()], basis.len());
+            forces_off = in_blocks(&defects.rows[shown.len()..], basis.len());
         }
         let blocks = in_blocks(&shown, basis.len());
         let rows = shown.len().div_ceil(ROWS) * ROWS;
         self.buildings.push(ReducedBuilding {
             modes: start..self.stiffness.len(),
             watched: watching..watching + rows,
+            forces: forcing..forcing + storeys.len().div_ceil(ROWS) * ROWS,
+            force_blocks: in_blocks(&storeys, basis.len()),
+            forces_missed,
+            forces_off,
             floors: building.floors.len(),
             shear: watching + shown.len() - 1,
             blocks,
@@ -271,6 +295,34 @@ impl Reduced {
         self.buildings
             .last()
             .map_or(0, |building| building.watched.end)
+    }
+
+    /// Number of forces of storeys, in whole blocks.
+    pub(super) fn forces(&self) -> usize {
+        self.buildings
+            .last()
+            .map_or(0, |building| building.forces.end)
+    }
+
+    /// What modal displacements or velocities make of the forces of all storeys.
+    pub(super) fn show_forces(&self, modal: &[f64], forces: &mut [f64]) {
+        self.arch.dispatch(ShowForces {
+            buildings: &self.buildings,
+            blocks: |building| &building.force_blocks,
+            modal,
+            forces,
+        });
+    }
+
+    /// What modal accelerations add to them, as shapes do not follow the members between masses exactly: the
+    /// mode-acceleration correction (R. R. Craig, A. J. Kurdila, 2006, Fundamentals of Structural Dynamics, section 11.4).
+    pub(super) fn show_forces_missed(&self, accelerations: &[f64], forces: &mut [f64]) {
+        self.arch.dispatch(ShowForces {
+            buildings: &self.buildings,
+            blocks: |building| &building.forces_missed,
+            modal: accelerations,
+            forces,
+        });
     }
 
     /// What two lists of modal values show at everything watched.
@@ -372,6 +424,62 @@ impl Watched {
 }
 
 /// Rows of values of all modes, so many rows at once; those that fill up the last block are zero.
+/// Shears of all storeys, then their overturning moments, of every shape.
+fn storey_forms(building: &BuildingSystem, basis: &Basis) -> Vec<Vec<f64>> {
+    let storeys = building.storeys.len();
+    let mut rows = Vec::with_capacity(2 * storeys);
+    let of_vectors: Vec<Vec<f64>> = basis
+        .modes
+        .vectors
+        .iter()
+        .map(|vector| forces_of(building, vector))
+        .collect();
+    for row in 0..2 * storeys {
+        let own: Vec<f64> = of_vectors.iter().map(|forces| forces[row]).collect();
+        let shapes = basis.modes.parts.iter();
+        rows.push(shapes.map(|parts| lanes::dot(parts, &own)).collect());
+    }
+    rows
+}
+
+/// Shears of all storeys under displacements of an elastic building, then overturning moments \[N, N·m\].
+pub(super) fn forces_of(building: &BuildingSystem, displacement: &[f64]) -> Vec<f64> {
+    let storeys = building.storeys.len();
+    let mut forces = vec![0.0; 2 * storeys];
+    let elastic = |_| 0.0;
+    building
+        .storeys
+        .for_each(displacement, elastic, |storey, force| {
+            forces[storey] = force.shear;
+            forces[storeys + storey] = force.moment;
+        });
+    forces
+}
+
+/// Forces of the storeys of all buildings.
+struct ShowForces<'a> {
+    buildings: &'a [ReducedBuilding],
+    blocks: fn(&ReducedBuilding) -> &[[f64; ROWS]],
+    modal: &'a [f64],
+    forces: &'a mut [f64],
+}
+
+impl WithSimd for ShowForces<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for building in self.buildings {
+            let show = Show {
+                blocks: (self.blocks)(building),
+                modal: [&self.modal[building.modes.clone()]],
+                watched: [&mut self.forces[building.forces.clone()]],
+            };
+            show.with_simd(simd);
+        }
+    }
+}
+
 fn in_blocks(rows: &[Vec<f64>], modes: usize) -> Vec<[f64; ROWS]> {
     let mut blocks = Vec::with_capacity(modes * rows.len().div_ceil(ROWS));
     for block in rows.chunks(ROWS) {

@@ -43,6 +43,8 @@ pub(super) struct Walk<'a> {
     divisions: Vec<u32>,
     /// Division of free flight, so that histories have their rows.
     pub(super) least_division: u32,
+    /// How many times as many steps that are as the tolerance asks for.
+    pub(super) rows_per_step: usize,
     pub(super) flight: Flight,
     rules: Rules,
     pub(super) clock: Clock,
@@ -82,6 +84,8 @@ pub(super) struct Walk<'a> {
     pub(super) work: Work,
     pub(super) peaks: Peaks,
     pub(super) reached: Reached,
+    /// Forces of storeys where errors are looked at \[N, N·m\].
+    pub(super) looked_at: Vec<f64>,
     /// Whether velocities have jumped at the start of this step.
     pub(super) struck: bool,
     /// Whether this step ends at a corner of a contact force.
@@ -189,6 +193,7 @@ impl<'a> Walk<'a> {
             tables: vec![Table::default()],
             divisions: vec![0],
             least_division: division.max(rows_per_step(plan, settings)),
+            rows_per_step: (rows_per_step(plan, settings) / division).max(1) as usize,
             rules: Rules::new(),
             clock: Clock::new(plan.step),
             time: 0.0,
@@ -218,6 +223,7 @@ impl<'a> Walk<'a> {
             work,
             peaks,
             reached: Reached::new(reduced),
+            looked_at: vec![0.0; reduced.forces()],
             clearance: vec![f64::INFINITY; contacts],
             tolerance,
             doubtful_from: None,
@@ -517,8 +523,14 @@ impl<'a> Walk<'a> {
             };
             let (system, reduced) = (self.system, self.reduced);
             let ground = self.ground[0];
-            self.reached
-                .look(system, reduced, &self.scratch, watched, ground);
+            self.reached.look(
+                system,
+                reduced,
+                &self.scratch,
+                watched,
+                ground,
+                self.peaks.forces(),
+            );
         }
         let energy = self.balance();
         self.take_row(was_closed, &energy);
@@ -555,6 +567,9 @@ impl<'a> Walk<'a> {
             struck: std::mem::take(&mut self.struck),
         };
         self.peaks.after_step(self.system, reduced, &taken);
+        let modal = [&self.q[0][..], &self.v[0], &self.scratch];
+        self.peaks
+            .follow_forces(self.system, reduced, modal, self.time);
     }
 
     fn show_accelerations(&mut self) {
