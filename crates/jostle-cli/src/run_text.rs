@@ -4,7 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use jostle::separation::gb50011_frame_joint;
-use jostle::summary::{BuildingSummary, ContactSummary, GapSummary, LinkSummary, Summary};
+use jostle::summary::{
+    BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, LinkSummary,
+    Summary,
+};
 
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::terminal::{BOLD, DIM, LOUD, styled};
@@ -52,6 +55,9 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     }
     for link in &summary.links {
         write_link(text, link)?;
+    }
+    if summary.gaps.iter().any(|gap| gap.impact_count > 0) {
+        write_changes(text, &summary.buildings)?;
     }
     for warning in &summary.warnings {
         writeln!(text, "{} {warning}", styled(LOUD, "warning:"))?;
@@ -119,6 +125,59 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
             roof.displacement_min_m * 1e3,
             drift * 100.0,
             kn(building.base_shear_peak_n)
+        )?;
+    }
+    Ok(())
+}
+
+/// What contact does to every building: the least and the greatest ratio over the height, and where the greatest is.
+fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    let width = buildings
+        .iter()
+        .map(|building| building.name.chars().count())
+        .fold(20, usize::max);
+    let mut rows = String::new();
+    for building in buildings {
+        type Peak = (
+            fn(&FloorSummary) -> f64,
+            fn(&FloorWithoutContact) -> f64,
+            &'static str,
+        );
+        let kinds: [Peak; 3] = [
+            (|f| f.storey_drift_peak, |f| f.storey_drift_peak, "storey"),
+            (
+                |f| f.storey_shear_peak_n,
+                |f| f.storey_shear_peak_n,
+                "storey",
+            ),
+            (
+                |f| f.total_acceleration_peak_m_s2,
+                |f| f.total_acceleration_peak_m_s2,
+                "floor",
+            ),
+        ];
+        let cells = kinds.map(|(with, without, place)| {
+            let ratios = building.floors.iter().filter_map(|floor| {
+                let before = without(&floor.without_contact?);
+                (before > 0.0).then(|| (with(floor) / before, floor.floor))
+            });
+            let least = ratios.clone().min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let (most, at) = ratios.max_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some(format!("{:.2} – {most:.2} ({place} {at})", least.0))
+        });
+        if let [Some(drift), Some(shear), Some(acceleration)] = cells {
+            writeln!(
+                rows,
+                "{:width$}  {drift:>24}  {shear:>24}  {acceleration:>24}",
+                building.name
+            )?;
+        }
+    }
+    if !rows.is_empty() {
+        writeln!(
+            text,
+            "\n{:width$}  {:>24}  {:>24}  {:>24}\n{rows}",
+            "with/without contact", "storey drift", "storey shear", "acceleration"
         )?;
     }
     Ok(())

@@ -17,6 +17,10 @@ pub(crate) struct Envelope {
     pub(crate) drift: Vec<f64>,
     /// Greatest total acceleration, either sign \[m/s²\]; empty if it was not recorded.
     pub(crate) acceleration: Vec<f64>,
+    /// Greatest storey shear and overturning moment about the base of the storey, either sign; empty if unknown
+    /// \[N, N·m\].
+    pub(crate) shear: Vec<f64>,
+    pub(crate) moment: Vec<f64>,
     /// Storey drift ratio at the end, positive to the right \[–\].
     pub(crate) residual: Vec<f64>,
 }
@@ -35,6 +39,11 @@ pub(crate) fn of_run(page: &Page) -> Vec<Envelope> {
                 acceleration: floors
                     .iter()
                     .map(|f| f.total_acceleration_peak_m_s2)
+                    .collect(),
+                shear: floors.iter().map(|f| f.storey_shear_peak_n).collect(),
+                moment: floors
+                    .iter()
+                    .map(|f| f.overturning_moment_peak_n_m)
                     .collect(),
                 residual: floors.iter().map(|f| f.residual_drift).collect(),
             }
@@ -80,6 +89,17 @@ pub(crate) fn of_history(model: &Model, history: &History) -> Vec<Envelope> {
         .collect()
 }
 
+/// Envelopes of the run without contact, if there was one: from its history, and what the summary has of its forces.
+pub(crate) fn without_contact(page: &Page) -> Option<Vec<Envelope>> {
+    let mut envelopes = of_history(page.model, page.without_contact?);
+    for (envelope, building) in envelopes.iter_mut().zip(&page.summary.buildings) {
+        let floors = building.floors.iter().filter_map(|f| f.without_contact);
+        envelope.shear = floors.clone().map(|f| f.storey_shear_peak_n).collect();
+        envelope.moment = floors.map(|f| f.overturning_moment_peak_n_m).collect();
+    }
+    Some(envelopes)
+}
+
 /// One line of a small picture: (value, height) from the base up.
 struct Line {
     building: usize,
@@ -100,6 +120,7 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
     let mut displacement = Vec::new();
     let mut drift = Vec::new();
     let mut acceleration = Vec::new();
+    let (mut shear, mut moment) = (Vec::new(), Vec::new());
     let mut residual = Vec::new();
     let yields = page.summary.buildings.iter().any(|b| b.hinges.yielded > 0);
     let sets = without.map(|w| (w, true)).into_iter().chain([(run, false)]);
@@ -121,6 +142,11 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
             drift.push(line(
                 steps(&envelope.drift, heights, 100.0),
                 "drift of the storey",
+            ));
+            shear.push(line(steps(&envelope.shear, heights, 1e-3), "storey shear"));
+            moment.push(line(
+                at_bases(&envelope.moment, heights, 1e-6),
+                "overturning moment",
             ));
             residual.push(line(
                 steps(&envelope.residual, heights, 100.0),
@@ -149,6 +175,8 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
             (picture("Displacement", "mm", top, &displacement, page))
             (picture("Storey drift", "%", top, &drift, page))
             (picture("Total acceleration", "m/s²", top, &acceleration, page))
+            (picture("Storey shear", "kN", top, &shear, page))
+            (picture("Overturning moment", "MN·m", top, &moment, page))
             @if yields { (picture("Residual drift", "%", top, &residual, page)) }
         }
     }
@@ -163,6 +191,14 @@ fn from_base(values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
                 .zip(heights.iter().copied()),
         )
         .collect()
+}
+
+/// A value at the base of each storey, none at the top.
+fn at_bases(values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
+    let bases = std::iter::once(0.0).chain(heights.iter().copied());
+    let points = values.iter().map(|value| value * factor).zip(bases);
+    let top = heights.last().filter(|_| !values.is_empty());
+    points.chain(top.map(|top| (0.0, *top))).collect()
 }
 
 /// A value constant over each storey.

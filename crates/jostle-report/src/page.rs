@@ -46,9 +46,7 @@ pub(crate) fn colour(building: usize) -> String {
 pub(crate) fn page(page: &Page) -> Markup {
     let headline = verdict(page.summary);
     let run = envelope::of_run(page);
-    let without = page
-        .without_contact
-        .map(|history| envelope::of_history(page.model, history));
+    let without = envelope::without_contact(page);
     let without = without.as_deref();
     let recorded = page.history.len() > 1;
     let yields = page

@@ -67,9 +67,7 @@ pub struct Frame {
 #[must_use]
 pub fn frame(page: &Page) -> Frame {
     let run = envelope::of_run(page);
-    let without = page
-        .without_contact
-        .map(|history| envelope::of_history(page.model, history));
+    let without = envelope::without_contact(page);
     let without = without.as_deref();
     let impacts = html! {
         @if page.model.gaps.is_empty() {

@@ -3,7 +3,7 @@
 use crate::check_row::WALL;
 use crate::contact::{LawKind, RestitutionIs};
 use crate::counting::{CountedImpact, counted, find_simultaneous};
-use crate::history::Impact;
+use crate::history::{FloorPeaks, Impact};
 use crate::hysteresis::{Side, Stage};
 use crate::member_end::{ductility, end_stiffnesses};
 use crate::model::{Gap, Model};
@@ -11,9 +11,9 @@ use crate::motion::GroundMotion;
 use crate::skeleton::SpringPlace;
 use crate::stepping::{Accuracy, Outcome, Plan, RunEnd};
 use crate::summary::{
-    BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
-    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SpringSummary,
-    Summary, WorkSummary,
+    BuildingSummary, BuildingWithoutContact, ContactSummary, EnergySummary, FloorSummary,
+    FloorWithoutContact, GapSummary, HingeSummary, ImpactSummary, LinkFloorSummary, LinkSummary,
+    MotionSummary, PromiseSummary, SpringSummary, Summary, WorkSummary,
 };
 use crate::system::{BuildingSystem, System};
 
@@ -82,7 +82,7 @@ impl Summary {
             ..
         } = *run;
         let buildings = (0..system.buildings.len())
-            .map(|index| building_summary(index, system, outcome))
+            .map(|index| building_summary(index, run))
             .collect();
         let gaps = model
             .gaps
@@ -123,8 +123,9 @@ impl Summary {
     }
 }
 
-fn building_summary(index: usize, system: &System, outcome: &Outcome) -> BuildingSummary {
-    let building = &system.buildings[index];
+fn building_summary(index: usize, run: &Run) -> BuildingSummary {
+    let outcome = run.outcome;
+    let building = &run.system.buildings[index];
     let floors = building
         .floors
         .iter()
@@ -143,6 +144,9 @@ fn building_summary(index: usize, system: &System, outcome: &Outcome) -> Buildin
             storey_shear_peak_n: peaks.storey_shear,
             overturning_moment_peak_n_m: peaks.overturning_moment,
             residual_drift,
+            without_contact: run
+                .without_contact
+                .map(|without| floor_without_contact(&without.floors[index][k])),
         });
     BuildingSummary {
         name: building.name.clone(),
@@ -155,8 +159,24 @@ fn building_summary(index: usize, system: &System, outcome: &Outcome) -> Buildin
         rayleigh_beta_s: building.equations.beta,
         floors: floors.collect(),
         base_shear_peak_n: outcome.base_shear[index],
+        without_contact: run.without_contact.map(|without| BuildingWithoutContact {
+            base_shear_peak_n: without.base_shear[index],
+        }),
         residual_roof_displacement_m: roof_displacement(building, outcome),
         hinges: hinge_summary(building, outcome),
+    }
+}
+
+fn floor_without_contact(peaks: &FloorPeaks) -> FloorWithoutContact {
+    FloorWithoutContact {
+        displacement_max_m: peaks.displacement_max.value,
+        displacement_max_at_s: peaks.displacement_max.at,
+        displacement_min_m: peaks.displacement_min.value,
+        displacement_min_at_s: peaks.displacement_min.at,
+        total_acceleration_peak_m_s2: peaks.total_acceleration,
+        storey_drift_peak: peaks.storey_drift,
+        storey_shear_peak_n: peaks.storey_shear,
+        overturning_moment_peak_n_m: peaks.overturning_moment,
     }
 }
 

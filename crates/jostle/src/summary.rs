@@ -65,6 +65,8 @@ pub struct BuildingSummary {
     pub floors: Vec<FloorSummary>,
     /// Greatest elastic base shear, either sign \[N\].
     pub base_shear_peak_n: f64,
+    /// The same of the run without contact, if it was made.
+    pub without_contact: Option<BuildingWithoutContact>,
     /// Roof displacement at the end \[m\].
     pub residual_roof_displacement_m: f64,
     /// Hinge counts.
@@ -140,6 +142,29 @@ pub struct FloorSummary {
     pub overturning_moment_peak_n_m: f64,
     /// Drift ratio of the storey below at the end, positive to the right \[–\].
     pub residual_drift: f64,
+    /// The same peaks of the run without contact, if it was made.
+    pub without_contact: Option<FloorWithoutContact>,
+}
+
+/// Peaks of one floor where buildings pass through each other; meanings as in [`FloorSummary`].
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+#[allow(missing_docs, reason = "the names of FloorSummary")]
+pub struct FloorWithoutContact {
+    pub displacement_max_m: f64,
+    pub displacement_max_at_s: f64,
+    pub displacement_min_m: f64,
+    pub displacement_min_at_s: f64,
+    pub total_acceleration_peak_m_s2: f64,
+    pub storey_drift_peak: f64,
+    pub storey_shear_peak_n: f64,
+    pub overturning_moment_peak_n_m: f64,
+}
+
+/// Peaks of one building where buildings pass through each other.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct BuildingWithoutContact {
+    /// Greatest elastic base shear, either sign \[N\].
+    pub base_shear_peak_n: f64,
 }
 
 /// One gap and its contacts.
@@ -311,10 +336,10 @@ impl PromiseSummary {
         let tolerance = self.tolerance;
         let estimate = match (self.residual, self.met) {
             (Some(residual), Some(true)) => format!(
-                "estimated error of floor peaks and base shears {residual:.1e} of the greatest of their kind, within the tolerance {tolerance:.0e}"
+                "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, within the tolerance {tolerance:.0e}"
             ),
             (Some(residual), _) => format!(
-                "estimated error of floor peaks and base shears {residual:.1e} of the greatest of their kind, beyond the tolerance {tolerance:.0e}"
+                "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, beyond the tolerance {tolerance:.0e}"
             ),
             (None, _) => {
                 "not estimated: buildings yield, or the integrator is not the usual one".to_owned()

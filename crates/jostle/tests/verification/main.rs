@@ -17,6 +17,7 @@ mod no_impact_is_lost_or_counted_twice;
 mod riccati_equals_direct_stiffness;
 mod rows_of_buildings;
 mod same_input_same_bits;
+mod storey_forces;
 mod support;
 mod wide_gap_leaves_buildings_independent;
 mod yielding_frames;
