@@ -45,8 +45,8 @@ impl Widened {
     }
 }
 
-/// Errors of modes between steps may fall together.
-const MARGIN: f64 = 2.0;
+/// Errors of modes between steps may fall together where no impact, which is followed by short steps, decides the peaks.
+const TOGETHER: f64 = 2.0;
 
 /// Steps between one look at what is missed and the next.
 const LOOK_EVERY: u32 = 4;
@@ -202,10 +202,17 @@ pub(super) struct Estimate {
 impl Estimate {
     /// Both together; they have nothing to do with each other.
     pub(super) fn both(&self) -> f64 {
-        self.shapes.hypot(MARGIN * self.between)
+        self.shapes.hypot(self.between)
     }
 
-    pub(super) fn of(reduced: &Reduced, system: &System, reached: &Reached, peaks: &Peaks) -> Self {
+    pub(super) fn of(
+        reduced: &Reduced,
+        system: &System,
+        reached: &Reached,
+        peaks: &Peaks,
+        struck: bool,
+    ) -> Self {
+        let together = if struck { 1.0 } else { TOGETHER };
         let mut worst = Self::default();
         for (index, building) in system.buildings.iter().enumerate() {
             let own = &reduced.buildings[index];
@@ -245,7 +252,7 @@ impl Estimate {
                 let off = floors.map(|floor| floor[kind].off()).fold(0.0, f64::max);
                 let raise = |to: &mut f64, value: f64| *to = to.max(value / scales[kind]);
                 raise(&mut worst.shapes, off);
-                raise(&mut worst.between, between[kind]);
+                raise(&mut worst.between, together * between[kind]);
             }
         }
         worst

@@ -268,7 +268,9 @@ impl<'a> Walk<'a> {
                 break;
             }
         }
-        let estimate = Estimate::of(self.reduced, self.system, &self.reached, &self.peaks);
+        let struck = !self.impacts.is_empty();
+        let (reduced, system) = (self.reduced, self.system);
+        let estimate = Estimate::of(reduced, system, &self.reached, &self.peaks, struck);
         let lacking = if estimate.both() > tolerance && estimate.shapes > LEAST_SHARE * tolerance {
             let (reduced, system) = (self.reduced, self.system);
             self.reached
