@@ -330,6 +330,7 @@ mod tests {
             rayleigh_beta_s: 0.0,
             floors: Vec::new(),
             base_shear_peak_n: 0.0,
+            without_contact: None,
             residual_roof_displacement_m: 0.0,
             hinges,
         }
