@@ -902,6 +902,9 @@ impl<'a> Run<'a> {
         if touching && v0 > 1e-13 {
             return Some(0.0);
         }
+        if h <= 0.0 {
+            return None;
+        }
         let top = hermite_top(x0, v0, x1, v1, h);
         if !touching
             && x1 <= 0.0
