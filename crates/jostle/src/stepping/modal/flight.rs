@@ -311,10 +311,10 @@ impl Walk<'_> {
             ground: [g0, g1],
             start,
             step,
-            struck: std::mem::take(&mut self.struck),
+            struck: false,
         };
         self.peaks.after_step(self.system, self.reduced, &taken);
-        if (index + 1) % self.rows_per_step == 0 || index + 1 == free {
+        if (index + 1).is_multiple_of(self.rows_per_step) || index + 1 == free {
             let modes = self.reduced.modes();
             let [q, v] = flight.state(modes, index + 1);
             let a = &flight.modal[2][index * flight.start[0].len()..][..modes];

@@ -18,7 +18,9 @@ use crate::stepping::outcome::StepError;
 /// Fewest and most parts of a free step after velocities have jumped: dashpots and high modes answer at once, and soon no
 /// more.
 const AFTER_BLOW: [u32; 2] = [16, 1024];
-/// Steps then per radian of the quickest mode.
+/// Steps then in which accelerations are taken at their ends only.
+const STRUCK_STEPS: u32 = 2;
+/// Steps per radian of the quickest mode after a blow.
 const STEPS_PER_RADIAN: f64 = 2.0;
 /// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
 const AHEAD: f64 = 1e-3;
@@ -235,7 +237,7 @@ impl Walk<'_> {
             });
         }
         if struck {
-            self.struck = true;
+            self.struck = STRUCK_STEPS;
             self.follow_jumps();
             self.start_anew();
         }

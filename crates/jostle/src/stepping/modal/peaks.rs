@@ -64,7 +64,7 @@ pub(super) struct Taken<'a> {
     pub(super) ground: [f64; 2],
     pub(super) start: f64,
     pub(super) step: f64,
-    /// Whether velocities have jumped at its start.
+    /// Whether velocities have jumped at its start or shortly before.
     pub(super) struck: bool,
 }
 

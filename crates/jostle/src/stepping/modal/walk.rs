@@ -86,8 +86,8 @@ pub(super) struct Walk<'a> {
     pub(super) reached: Reached,
     /// Forces of storeys where errors are looked at \[N, N·m\].
     pub(super) looked_at: Vec<f64>,
-    /// Whether velocities have jumped at the start of this step.
-    pub(super) struck: bool,
+    /// Steps left in which accelerations may still follow a jump of velocities, unlike a cubic.
+    pub(super) struck: u32,
     /// Whether this step ends at a corner of a contact force.
     pub(super) at_corner: bool,
     /// How far every open contact has opened since it was closed; infinite before it ever was \[m\].
@@ -227,7 +227,7 @@ impl<'a> Walk<'a> {
             clearance: vec![f64::INFINITY; contacts],
             tolerance,
             doubtful_from: None,
-            struck: false,
+            struck: 0,
             at_corner: false,
             pounding: settings.pounding == Pounding::Included,
             system,
@@ -566,9 +566,10 @@ impl<'a> Walk<'a> {
             ground,
             start,
             step,
-            struck: std::mem::take(&mut self.struck),
+            struck: self.struck > 0,
         };
         self.peaks.after_step(self.system, reduced, &taken);
+        self.struck = self.struck.saturating_sub(1);
         let modal = [&self.q[0][..], &self.v[0], &self.scratch];
         self.peaks
             .follow_forces(self.system, reduced, modal, self.time);
