@@ -7,36 +7,43 @@ use crate::faces::Face;
 use crate::history::Impact;
 use crate::system::{BuildingSystem, System};
 
-/// K + G M with G so large that massive degrees of freedom do not give way: what massless ones do when those move.
+/// K + K′ + s C + G M with s and G so large that damping says how massless degrees of freedom follow, where it acts on
+/// them, and that massive ones do not give way.
 pub(super) struct BlowFactor<E: StepEquations> {
     factor: E::Factor,
     mass_factor: f64,
 }
 
-/// How much larger G M is than K.
+/// How much larger G M is than the rest.
 const HEAVY: f64 = 1e13;
+/// s: what is slower than this does not matter at a sudden change \[1/s\].
+const SUDDEN: f64 = 1e9;
 
 impl<E: StepEquations> BlowFactor<E> {
     /// `None` when every degree of freedom has mass, or nothing can be said about the others.
     fn of(building: &BuildingSystem, equations: &E) -> Option<Self> {
         let own = &building.equations;
-        let stiffest = own.mass.iter().zip(&own.stiffness.diagonal);
+        let mut matrix = StepMatrix {
+            stiffness: 1.0 + own.beta * SUDDEN,
+            mass: 0.0,
+            dashpots: SUDDEN,
+        };
+        let stiffest = (0..own.len()).filter(|&dof| own.mass[dof] > 0.0);
         let stiffest = stiffest
-            .filter(|(mass, _)| **mass > 0.0)
-            .map(|(mass, stiffness)| stiffness / mass)
-            .fold(0.0, f64::max);
-        let mass_factor = HEAVY * stiffest.max(1.0);
+            .map(|dof| {
+                let stiffness = matrix.stiffness * own.stiffness.diagonal[dof];
+                let dashpots = matrix.dashpots * own.dashpots.diagonal[dof];
+                (stiffness + dashpots + own.undamped.diagonal[dof]) / own.mass[dof]
+            })
+            .fold(1.0, f64::max);
+        matrix.mass = HEAVY * stiffest;
         let mut factor = E::Factor::default();
         equations
-            .factorize(
-                &StepMatrix::new(1.0, mass_factor),
-                &own.initial_tangents(),
-                &mut factor,
-            )
+            .factorize(&matrix, &own.initial_tangents(), &mut factor)
             .ok()
             .map(|()| Self {
                 factor,
-                mass_factor,
+                mass_factor: matrix.mass,
             })
     }
 
