@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use jostle_io::write_atomically;
 use jostle_validation::certify::record::{self, Record};
 use jostle_validation::{
-    Extent, certify, document, families, loops, misses, pairs, paper, work_precision,
+    Extent, bits, certify, document, families, loops, misses, pairs, paper, work_precision,
 };
 
 const USAGE: &str = "\
@@ -22,6 +22,7 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
   --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files
   --certify-dump K FOLDER [--seed S]  writes random model K as a model file
   --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
+  --bits [--write]  compares digests of the results of many models with those on record, or records them
   --reference   makes the reference runs of the built-in model anew; takes minutes";
 
 fn main() -> ExitCode {
@@ -37,6 +38,9 @@ fn main() -> ExitCode {
         .is_some_and(|a| a.starts_with("--certify"))
     {
         return certified(&arguments);
+    }
+    if arguments.first().is_some_and(|a| a == "--bits") {
+        return bits_of(&arguments[1..]);
     }
     if arguments.first().is_some_and(|a| a == "--work-precision") {
         let ways = work_precision::study();
@@ -91,6 +95,43 @@ fn main() -> ExitCode {
         ExitCode::FAILURE
     } else {
         ExitCode::SUCCESS
+    }
+}
+
+/// Compares the digests of many results with those on record, or records them.
+fn bits_of(arguments: &[String]) -> ExitCode {
+    let pins = bits::pins();
+    if arguments.iter().any(|argument| argument == "--write") {
+        return written(&in_crate("data/bits.txt"), &bits::describe(&pins));
+    }
+    let file = in_crate("data/bits.txt");
+    let Ok(recorded) = std::fs::read_to_string(&file) else {
+        say(&format!("{}: cannot be read", file.display()));
+        return ExitCode::FAILURE;
+    };
+    match bits::moved(&pins, &recorded) {
+        None => {
+            say(
+                "the mathematical library differs from the recorded one: nothing can be compared bit by bit",
+            );
+            ExitCode::SUCCESS
+        }
+        Some(moved) if moved.is_empty() => {
+            say(&format!(
+                "{} results, every bit as recorded",
+                pins.len() - 1
+            ));
+            ExitCode::SUCCESS
+        }
+        Some(moved) => {
+            say(&format!(
+                "{} of {} results moved: {}",
+                moved.len(),
+                pins.len() - 1,
+                moved.join(", ")
+            ));
+            ExitCode::FAILURE
+        }
     }
 }
 

@@ -1,0 +1,284 @@
+//! Digests of the results of many models: what a change of structure must leave as it is, bit by bit.
+
+use std::fmt::Write;
+use std::ops::ControlFlow;
+
+use jostle::stepping::find_sensitivity;
+use jostle::{Outcome, Plan, Pounding, Run, Settings, Solver, Summary, System, simulate};
+use jostle_io::{Format, Input, builtin_model, read_model_text};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+
+use crate::certify::draw;
+
+/// Random models, of a seed that nothing else uses.
+const DRAWN: u64 = 48;
+const SEED: u64 = 2024;
+/// Longest motion of a drawn model \[s\].
+const LONGEST: f64 = 4.0;
+/// Every law beside others that drawn models seldom have.
+const LAWS: [&str; 12] = [
+    r#""law": "linear", "stiffness": 4e8"#,
+    r#""law": "kelvin", "stiffness": 4e8, "restitution": 0.6"#,
+    r#""law": "kelvin-no-tension", "stiffness": 4e8, "restitution": 0.6"#,
+    r#""law": "modified-kelvin", "stiffness": 4e8, "restitution": 0.6"#,
+    r#""law": "modified-kelvin", "variant": "mahmoud-jankowski", "stiffness": 4e8, "restitution": 0.6"#,
+    r#""law": "hertz", "stiffness": 3e9"#,
+    r#""law": "hertz-damp", "stiffness": 3e9, "restitution": 0.6"#,
+    r#""law": "ye", "stiffness": 3e9, "restitution": 0.6"#,
+    r#""law": "jankowski", "stiffness": 3e9, "restitution": 0.6"#,
+    r#""law": "bilinear", "stiffness": 2e9, "restitution": 0.6"#,
+    r#""law": "restitution", "restitution": 0.6"#,
+    r#""law": "rubber", "stiffness": 3e7, "thickness": 0.02, "restitution": 0.5"#,
+];
+const TOWERS: &str = r#"{"motion": {"record": "el-centro-1940-ns", "pga": 3.4, "duration": 5},
+"building": [
+  {"name": "A", "kind": "shear", "mass": [4e4, 4e4, 3e4], "stiffness": [3e7, 3e7, 2e7], "storey_height": 3.2},
+  {"name": "B", "kind": "shear", "mass": [6e4, 6e4, 5e4], "stiffness": [9e7, 9e7, 8e7], "storey_height": 3.2}],
+"gap": [{"between": ["A", "B"], "width": 0.02, LAW}]}"#;
+
+/// One run and the digest of its results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pin {
+    /// Model and solver.
+    pub name: String,
+    /// SHA-256 of summary, impacts and histories, shortened; or that the solver refuses the model.
+    pub digest: String,
+}
+
+struct Case {
+    name: String,
+    input: Option<Input>,
+    solver: Solver,
+}
+
+fn read(tree: &Value) -> Option<Input> {
+    read_model_text("bits", &tree.to_string(), Format::Json, "".as_ref()).ok()
+}
+
+fn cases() -> Vec<Case> {
+    let mut cases = Vec::new();
+    let mut add = |name: String, input: Option<Input>, solver: Solver| {
+        cases.push(Case {
+            name: format!("{name} {}", solver.name()),
+            input,
+            solver,
+        });
+    };
+    for number in 1..=DRAWN {
+        let mut tree = draw(SEED, number).tree;
+        let longest = tree["motion"]["duration"].as_f64().unwrap_or(LONGEST);
+        tree["motion"]["duration"] = json!(longest.min(LONGEST));
+        let input = read(&tree);
+        let name = format!("drawn-{number}");
+        add(name.clone(), input.clone(), Solver::Modal);
+        add(name.clone(), input.clone(), Solver::Riccati);
+        if number % 6 == 0 {
+            add(name.clone(), input.clone(), Solver::Stiffness);
+        }
+    }
+    for (number, law) in LAWS.iter().enumerate() {
+        let tree = serde_json::from_str(&TOWERS.replace("LAW", law)).ok();
+        let input = tree.and_then(|tree: Value| read(&tree));
+        for solver in [Solver::Modal, Solver::Riccati] {
+            add(format!("law-{}", number + 1), input.clone(), solver);
+        }
+    }
+    for (name, duration) in [("paper", 8.0), ("paper-inelastic", 3.0)] {
+        let input = builtin_model(name).map(|mut input| {
+            if let Some(motion) = &mut input.motion {
+                motion.duration = Some(duration);
+            }
+            input
+        });
+        let input = input.ok();
+        for solver in [Solver::Modal, Solver::Riccati, Solver::Stiffness] {
+            add(name.to_owned(), input.clone(), solver);
+        }
+    }
+    cases
+}
+
+/// Feeds every number of a tree with its path, times of the wall left out.
+fn numbers(path: &mut String, value: &Value, digest: &mut Sha256) {
+    let length = path.len();
+    match value {
+        Value::Object(map) => {
+            for (key, value) in map.iter().filter(|(key, _)| *key != "wall_s") {
+                let _ = write!(path, ".{key}");
+                numbers(path, value, digest);
+                path.truncate(length);
+            }
+        }
+        Value::Array(list) => {
+            for (index, value) in list.iter().enumerate() {
+                let _ = write!(path, "[{index}]");
+                numbers(path, value, digest);
+                path.truncate(length);
+            }
+        }
+        Value::Number(number) => {
+            digest.update(path.as_bytes());
+            digest.update(number.to_string().as_bytes());
+        }
+        Value::Bool(_) | Value::Null | Value::String(_) => {}
+    }
+}
+
+fn feed(outcome: &Outcome, summary: &Value, digest: &mut Sha256) {
+    numbers(&mut String::new(), summary, digest);
+    let mut bits = |values: &[f64]| {
+        for value in values {
+            digest.update(value.to_bits().to_le_bytes());
+        }
+    };
+    for impact in &outcome.impacts {
+        bits(&[
+            impact.contact as f64,
+            impact.start,
+            impact.end,
+            impact.peak_force,
+            impact.peak_force_at,
+            impact.peak_indentation,
+            impact.impact_speed,
+            impact.separation_speed,
+            impact.impulse,
+            impact.dissipated,
+        ]);
+    }
+    if let Some(history) = &outcome.history {
+        for row in 0..history.len() {
+            bits(history.row(row));
+        }
+    }
+    if let Some(springs) = &outcome.spring_history {
+        for spring in 0..outcome.springs.len() {
+            for [deformation, force] in springs.of(spring) {
+                bits(&[deformation.into(), force.into()]);
+            }
+        }
+    }
+}
+
+/// `None` where the solver refuses the model.
+fn digest(case: &Case) -> Option<String> {
+    let input = case.input.clone()?;
+    let motion = input.ground_motion().ok()?;
+    let mut model = input.model;
+    model.analysis.solver = Some(case.solver);
+    let system = System::assemble(&model).ok()?;
+    let plan = Plan::choose(&system, &motion, &model.analysis).ok()?;
+    let mut digest = Sha256::new();
+    for pounding in [Pounding::Included, Pounding::Excluded] {
+        let settings = Settings {
+            pounding,
+            record_interval: Some(0.01),
+        };
+        let go_on = |_| ControlFlow::Continue(());
+        let mut outcome = simulate(&system, &motion, &plan, settings, go_on);
+        if pounding == Pounding::Included {
+            find_sensitivity(&system, &motion, &plan, &mut outcome, go_on);
+        }
+        let summary = Summary::of(&Run {
+            model: &model,
+            system: &system,
+            motion: &motion,
+            plan: &plan,
+            outcome: &outcome,
+            without_contact: None,
+            wall: 0.0,
+        });
+        let summary = serde_json::to_value(summary).ok()?;
+        feed(&outcome, &summary, &mut digest);
+    }
+    Some(
+        digest.finalize()[..12]
+            .iter()
+            .fold(String::new(), |mut text, byte| {
+                let _ = write!(text, "{byte:02x}");
+                text
+            }),
+    )
+}
+
+/// Digest of what the functions of the system's mathematical library give: other ones, other bits everywhere.
+fn library() -> Pin {
+    let mut digest = Sha256::new();
+    for step in 1..2000 {
+        let x = f64::from(step) * 0.007_31;
+        for value in [
+            x.sin(),
+            x.cos(),
+            x.tan(),
+            x.exp(),
+            (-x).exp_m1(),
+            x.ln(),
+            x.powf(1.5),
+            x.powf(0.4),
+            x.atan2(2.0),
+            x.tanh(),
+            x.cbrt(),
+            (x / 20.0).asin(),
+        ] {
+            digest.update(value.to_bits().to_le_bytes());
+        }
+    }
+    let bytes = digest.finalize();
+    Pin {
+        name: LIBRARY.into(),
+        digest: bytes[..12].iter().map(|b| format!("{b:02x}")).collect(),
+    }
+}
+
+/// Name of the pin of the mathematical library.
+pub const LIBRARY: &str = "library";
+
+/// Runs every model; the pin of the mathematical library comes first.
+#[must_use]
+pub fn pins() -> Vec<Pin> {
+    let mut pins = vec![library()];
+    let all: Vec<Pin> = cases()
+        .into_par_iter()
+        .map(|case| Pin {
+            digest: digest(&case).unwrap_or_else(|| "none".into()),
+            name: case.name,
+        })
+        .collect();
+    pins.extend(all);
+    pins
+}
+
+/// Pins as the file of data has them.
+#[must_use]
+pub fn describe(pins: &[Pin]) -> String {
+    pins.iter().fold(String::new(), |mut text, pin| {
+        let _ = writeln!(text, "{}: {}", pin.name, pin.digest);
+        text
+    })
+}
+
+/// Names of pins that differ from a file of data; `None` where another mathematical library makes other bits.
+#[must_use]
+pub fn moved(pins: &[Pin], recorded: &str) -> Option<Vec<String>> {
+    let recorded: std::collections::HashMap<&str, &str> = recorded
+        .lines()
+        .filter_map(|line| line.split_once(": "))
+        .collect();
+    let same = |pin: &Pin| recorded.get(pin.name.as_str()) == Some(&pin.digest.as_str());
+    let own = pins.iter().find(|pin| pin.name == LIBRARY)?;
+    if !same(own) {
+        return None;
+    }
+    let mut names: Vec<String> = pins
+        .iter()
+        .filter(|pin| !same(pin))
+        .map(|pin| pin.name.clone())
+        .collect();
+    let gone = recorded
+        .keys()
+        .filter(|name| pins.iter().all(|pin| pin.name != **name));
+    names.extend(gone.map(|name| format!("{name} (no longer run)")));
+    names.sort();
+    Some(names)
+}
