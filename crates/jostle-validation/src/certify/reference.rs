@@ -1103,35 +1103,79 @@ impl<'a> Run<'a> {
         let before_signals: Vec<Vec<(f64, f64)>> = (0..self.components.len())
             .map(|component| self.with_forces(component, 0.0, pushes))
             .collect();
-        let mut wanted: Vec<(usize, f64)> = Vec::new();
         let old = std::mem::replace(&mut self.q, after);
-        for component in 0..self.components.len() {
+        let mut after_signals = Vec::with_capacity(before_signals.len());
+        for (component, before) in before_signals.iter().enumerate() {
             self.read_signals(component);
-            let after_signals = self.with_forces(component, reach, pushes);
-            self.take(component, &before_signals[component]);
-            self.take(component, &after_signals);
-            if h > 0.0 {
-                self.tops(
-                    component,
-                    &before_signals[component],
-                    &after_signals,
-                    h,
-                    &mut wanted,
-                );
-            }
+            let signals = self.with_forces(component, reach, pushes);
+            self.take(component, before);
+            self.take(component, &signals);
+            after_signals.push(signals);
         }
-        if wanted.is_empty() {
+        if h > 0.0 {
+            let now = std::mem::replace(&mut self.q, old);
+            for (component, ends) in before_signals.iter().zip(&after_signals).enumerate() {
+                self.explore(component, [0.0, reach], [ends.0, ends.1], pushes, 0);
+            }
+            self.q = now;
+        }
+    }
+
+    /// Takes peaks inside a part of a step: parts are halved until a cubic meets the exact motion in the middle.
+    fn explore(
+        &mut self,
+        component: usize,
+        [from, to]: [f64; 2],
+        ends: [&[(f64, f64)]; 2],
+        pushes: &Pushes,
+        depth: u32,
+    ) {
+        const DEEPEST: u32 = 10;
+        let h = (to - from) * pushes.step;
+        let near = self.near(component, ends, h);
+        if near.is_empty() {
             return;
         }
-        let now = std::mem::replace(&mut self.q, old);
-        let mut q = Vec::new();
-        for (component, share) in wanted {
-            self.at(component, share * reach, pushes, &mut q);
-            let bare = self.watch[component].values(&q, horner(&pushes.ground, share * reach));
-            let own = self.add_forces(component, bare, share * reach, pushes);
-            self.take(component, &own);
+        let share = 0.5 * (from + to);
+        let middle = self.exact(component, share, pushes);
+        self.take(component, &middle);
+        let rough = near.iter().any(|&(place, peak)| {
+            let ((x0, v0), (x1, v1)) = (ends[0][place], ends[1][place]);
+            let cubic = 0.5 * (x0 + x1) + 0.125 * h * (v0 - v1);
+            (cubic - middle[place].0).abs() > ROUGH * peak
+        });
+        let halves = [
+            ([from, share], [ends[0], &middle]),
+            ([share, to], [&middle, ends[1]]),
+        ];
+        for (span, ends) in halves {
+            if rough && depth < DEEPEST {
+                self.explore(component, span, ends, pushes, depth + 1);
+                continue;
+            }
+            for (place, peak) in self.near(component, ends, 0.5 * h) {
+                let ((x0, v0), (x1, v1)) = (ends[0][place], ends[1][place]);
+                let tops = [
+                    hermite_top(x0, v0, x1, v1, 0.5 * h),
+                    hermite_top(-x0, -v0, -x1, -v1, 0.5 * h),
+                ];
+                for (part, value) in tops.into_iter().flatten() {
+                    if value > (1.0 - 1e-3) * peak {
+                        let share = span[0] + part * (span[1] - span[0]);
+                        let own = self.exact(component, share, pushes);
+                        self.take(component, &own);
+                    }
+                }
+            }
         }
-        self.q = now;
+    }
+
+    /// Signals at a share of the step.
+    fn exact(&self, component: usize, share: f64, pushes: &Pushes) -> Vec<(f64, f64)> {
+        let mut q = Vec::new();
+        self.at(component, share, pushes, &mut q);
+        let bare = self.watch[component].values(&q, horner(&pushes.ground, share));
+        self.add_forces(component, bare, share, pushes)
     }
 
     fn read_signals(&mut self, component: usize) {
@@ -1193,30 +1237,18 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Shares of the step where something may be greater than ever before.
-    fn tops(
-        &self,
-        component: usize,
-        before: &[(f64, f64)],
-        after: &[(f64, f64)],
-        h: f64,
-        wanted: &mut Vec<(usize, f64)>,
-    ) {
+    /// Signals that may be greater between two instants than ever before, each with the lesser of its own peaks up and
+    /// down.
+    fn near(&self, component: usize, ends: [&[(f64, f64)]; 2], h: f64) -> Vec<(usize, f64)> {
         let watch = &self.watch[component];
+        let mut near = Vec::new();
         let mut look = |place: usize, most: f64, least: f64| {
-            let ((x0, v0), (x1, v1)) = (before[place], after[place]);
+            let ((x0, v0), (x1, v1)) = (ends[0][place], ends[1][place]);
             let reach = 0.3 * h * (v0.abs() + v1.abs());
-            if x0.max(x1) + reach > most
-                && let Some((share, value)) = hermite_top(x0, v0, x1, v1, h)
-                && value > most * (1.0 - 1e-4)
-            {
-                wanted.push((component, share));
-            }
-            if x0.min(x1) - reach < least
-                && let Some((share, value)) = hermite_top(-x0, -v0, -x1, -v1, h)
-                && value > -least * (1.0 - 1e-4)
-            {
-                wanted.push((component, share));
+            if x0.max(x1) + reach > most {
+                near.push((place, most));
+            } else if x0.min(x1) - reach < least {
+                near.push((place, -least));
             }
         };
         for watched in &watch.buildings {
@@ -1230,8 +1262,12 @@ impl<'a> Run<'a> {
             }
             look(watch.shear(watched.building), peaks.shear, -peaks.shear);
         }
+        near
     }
 }
+
+/// Error of a cubic in the middle of a step from which on the step is halved, relative to the peak.
+const ROUGH: f64 = 1e-6;
 
 /// Top of the cubic between two values with slopes, as a share of the way and a value.
 fn hermite_top(x0: f64, v0: f64, x1: f64, v1: f64, h: f64) -> Option<(f64, f64)> {
