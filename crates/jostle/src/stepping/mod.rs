@@ -3,6 +3,7 @@
 //! [`simulate`] walks a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved alone;
 //! they meet only in `coupling`. A step in which a contact closes is repeated so that it ends on the touch.
 
+mod acceleration_parts;
 mod band;
 mod blow;
 mod clock;

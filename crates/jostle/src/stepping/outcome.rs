@@ -1,6 +1,7 @@
 //! What a run is asked for and what it leaves behind.
 
 use super::NotPositive;
+use super::acceleration_parts::AccelerationParts;
 use crate::history::{
     Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, SpringEvent, SpringHistory,
     SpringTotals, Work,
@@ -58,6 +59,8 @@ pub struct Outcome {
     pub closing: Vec<Extreme>,
     /// Greatest elastic base shear of every building \[N\].
     pub base_shear: Vec<f64>,
+    /// Peak accelerations in parts of a direct run.
+    pub(crate) acceleration_parts: AccelerationParts,
     /// Cracks and first yields, in the order in which they came.
     pub spring_events: Vec<SpringEvent>,
     /// Every spring that yields, from the left building to the right.
@@ -192,6 +195,7 @@ impl Outcome {
             floors: system.buildings.iter().map(floors).collect(),
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
+            acceleration_parts: AccelerationParts::default(),
             spring_events: Vec::new(),
             springs: Vec::new(),
             links: vec![LinkTotals::default(); system.links.len()],

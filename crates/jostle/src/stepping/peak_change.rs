@@ -15,6 +15,7 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         |floor| floor.overturning_moment,
     ];
     let mut worst = 0.0_f64;
+    let mut floors_before = 0;
     for (index, (a_floors, b_floors)) in a.floors.iter().zip(&b.floors).enumerate() {
         let shears = [a.base_shear[index], b.base_shear[index]];
         worst = worst.max(relative([shears].into_iter()));
@@ -22,6 +23,14 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             let pairs = a_floors.iter().zip(b_floors);
             worst = worst.max(relative(pairs.map(|(a, b)| [kind(a), kind(b)])));
         }
+        let both = a_floors.iter().chain(b_floors);
+        let greatest = both.fold(0.0, |most: f64, floor| most.max(floor.total_acceleration));
+        if greatest > 0.0 {
+            let parts = [&a.acceleration_parts, &b.acceleration_parts];
+            let change = parts[0].change(parts[1], floors_before, a_floors.len());
+            worst = worst.max(change / greatest);
+        }
+        floors_before += a_floors.len();
     }
     let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
     for gap in 0..gaps {

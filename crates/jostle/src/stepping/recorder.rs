@@ -1,5 +1,6 @@
 //! Histories and peaks, taken after every accepted step.
 
+use super::acceleration_parts::AccelerationParts;
 use super::energy::EnergyAudit;
 use super::events::Cubic;
 use crate::history::{Column, Energy, EnergyTerm, Extreme, FloorPeaks, History, SpringHistory};
@@ -16,6 +17,7 @@ pub(crate) struct Recorder {
     pub(crate) floors: Vec<Vec<FloorPeaks>>,
     pub(crate) closing: Vec<Extreme>,
     pub(crate) base_shear: Vec<f64>,
+    pub(crate) parts: AccelerationParts,
     /// Displacement and velocity of every floor, and closing and rate of every contact, a step ago.
     before: Vec<(f64, f64)>,
 }
@@ -39,14 +41,11 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
 }
 
 impl Recorder {
-    /// Records histories at least `interval` apart, every step for zero; `None` only takes peaks.
-    pub(crate) fn new(system: &System, interval: Option<f64>) -> Self {
-        let tracked = system
-            .buildings
-            .iter()
-            .map(|building| building.floors.len())
-            .sum::<usize>()
-            + system.contacts.len();
+    /// Records histories at least `interval` apart, every step for zero; `None` only takes peaks. The run takes `duration`.
+    pub(crate) fn new(system: &System, duration: f64, interval: Option<f64>) -> Self {
+        let buildings = system.buildings.iter();
+        let floors: usize = buildings.map(|building| building.floors.len()).sum();
+        let tracked = floors + system.contacts.len();
         Self {
             history: interval.map(|_| History::new(columns(system))),
             springs: interval
@@ -65,6 +64,7 @@ impl Recorder {
                 .collect(),
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
+            parts: AccelerationParts::new(floors, duration),
             before: Vec::with_capacity(tracked),
         }
     }
@@ -104,6 +104,8 @@ impl Recorder {
     pub(crate) fn after_step(&mut self, system: &System, state: &State, step: f64, ground: f64) {
         let (u, v) = (&state.displacement, &state.velocity);
         let start = state.time - step;
+        self.parts.set_time(state.time);
+        let mut floor_of_all = 0;
         let mut before = self.before.iter();
         for (index, building) in system.buildings.iter().enumerate() {
             let mut below = building.foot.map_or(0.0, |dof| u[dof]);
@@ -124,6 +126,8 @@ impl Recorder {
                 }
                 let total = (state.acceleration[floor.dof] + ground).abs();
                 peaks.total_acceleration = peaks.total_acceleration.max(total);
+                self.parts.take(floor_of_all, total);
+                floor_of_all += 1;
                 peaks.storey_drift = peaks
                     .storey_drift
                     .max(((now.0 - below) / floor.storey_height).abs());
@@ -151,10 +155,13 @@ impl Recorder {
 
     /// Updates peaks with accelerations that have jumped.
     pub(crate) fn after_jump(&mut self, system: &System, state: &State, ground: f64) {
+        let mut floor_of_all = 0;
         for (building, floors) in system.buildings.iter().zip(&mut self.floors) {
             for (peaks, floor) in floors.iter_mut().zip(&building.floors) {
                 let total = (state.acceleration[floor.dof] + ground).abs();
                 peaks.total_acceleration = peaks.total_acceleration.max(total);
+                self.parts.take(floor_of_all, total);
+                floor_of_all += 1;
             }
         }
     }

@@ -187,7 +187,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         let joints = Joints::of(system);
         let links = Links::starting_from(system, &state);
         let steps = motion.duration / plan.step;
-        let mut recorder = Recorder::new(system, settings.record_interval);
+        let mut recorder = Recorder::new(system, motion.duration, settings.record_interval);
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
@@ -275,6 +275,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             floors: std::mem::take(&mut self.recorder.floors),
             closing: std::mem::take(&mut self.recorder.closing),
             base_shear: std::mem::take(&mut self.recorder.base_shear),
+            acceleration_parts: std::mem::take(&mut self.recorder.parts),
             spring_history: self.recorder.springs.take(),
             history: self.recorder.into_history(),
             spring_events: self.yielding.events,

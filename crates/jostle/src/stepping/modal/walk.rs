@@ -13,6 +13,7 @@ use crate::history::{Energy, Impact, Work};
 use crate::lanes;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
+use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::clock::{Clock, Stride};
 use crate::stepping::coupling::ContactEquations;
 use crate::stepping::energy::Imbalance;
@@ -302,6 +303,7 @@ impl<'a> Walk<'a> {
         let state = self.full_state();
         Outcome {
             impacts: self.impacts,
+            acceleration_parts: AccelerationParts::default(),
             floors: std::mem::take(&mut self.peaks.floors),
             closing: std::mem::take(&mut self.peaks.closing),
             base_shear: std::mem::take(&mut self.peaks.base_shear),

@@ -1,0 +1,56 @@
+//! Peak accelerations of floors in equal parts of a run.
+
+/// Parts that a run is divided into.
+const PARTS: usize = 32;
+/// A part counts where its peak is at least this share of the floor's greatest.
+const NEAR: f64 = 0.5;
+
+/// Peak total acceleration of every floor in every part of a run \[m/s²\].
+///
+/// Two runs whose free vibrations have lost each other's phase may have the same greatest acceleration by chance. They
+/// seldom have the same peak in every part.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct AccelerationParts {
+    /// Length of a part \[s\].
+    length: f64,
+    part: usize,
+    floors: Vec<[f64; PARTS]>,
+}
+
+impl AccelerationParts {
+    /// For so many floors of all buildings and a run of `duration` \[s\].
+    pub(crate) fn new(floors: usize, duration: f64) -> Self {
+        Self {
+            length: duration / PARTS as f64,
+            part: 0,
+            floors: vec![[0.0; PARTS]; floors],
+        }
+    }
+
+    /// Goes on to the part of an instant.
+    pub(crate) fn set_time(&mut self, time: f64) {
+        self.part = ((time / self.length) as usize).min(PARTS - 1);
+    }
+
+    /// Takes a value of a floor, counted through all buildings.
+    #[inline]
+    pub(crate) fn take(&mut self, floor: usize, magnitude: f64) {
+        let peak = &mut self.floors[floor][self.part];
+        *peak = peak.max(magnitude);
+    }
+
+    /// Greatest difference from another run in any part that counts, over floors `first` to `first + count` \[m/s²\].
+    pub(crate) fn change(&self, other: &Self, first: usize, count: usize) -> f64 {
+        let own = self.floors.iter().zip(&other.floors);
+        let mut worst = 0.0_f64;
+        for (a, b) in own.skip(first).take(count) {
+            let greatest = a.iter().chain(b).fold(0.0, |most: f64, x| most.max(*x));
+            for (a, b) in a.iter().zip(b) {
+                if a.max(*b) >= NEAR * greatest {
+                    worst = worst.max((a - b).abs());
+                }
+            }
+        }
+        worst
+    }
+}
