@@ -4,6 +4,9 @@ use super::outcome::Outcome;
 use crate::history::{FloorPeaks, Impact};
 use crate::system::System;
 
+/// Weight of differences between parts of runs: larger ones than of the peaks themselves are usual.
+const IN_PARTS: f64 = 0.25;
+
 /// Greatest difference of peaks, relative to the greatest of its kind in the building or gap \[–\].
 pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
     let kinds: [fn(&FloorPeaks) -> f64; 6] = [
@@ -28,7 +31,7 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         if greatest > 0.0 {
             let parts = [&a.acceleration_parts, &b.acceleration_parts];
             let change = parts[0].change(parts[1], floors_before, a_floors.len());
-            worst = worst.max(change / greatest);
+            worst = worst.max(IN_PARTS * change / greatest);
         }
         floors_before += a_floors.len();
     }

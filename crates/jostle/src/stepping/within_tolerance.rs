@@ -22,11 +22,14 @@ const REFINEMENT: [f64; 2] = [1.4, 3.0];
 /// Runs do not converge where a refinement leaves more than this share of the error.
 const LEFT_OVER: f64 = 0.8;
 
+/// Share of the lost energy that may have gone into a peak, as a factor of its motion.
+const LOST: f64 = 0.25;
+
 /// What rounding adds to the error: motions that hold the energy which is unaccounted for, relative to all motion \[–\].
 ///
 /// Steps balance their energy exactly, apart from rounding. Very short steps lose digits, and two of them may lose the same.
 fn rounding(outcome: &Outcome) -> f64 {
-    outcome.energy.imbalance().sqrt()
+    LOST * outcome.energy.imbalance().sqrt()
 }
 
 /// Runs an elastic system with automatic steps twice, the second time with steps half as long, and goes on refining them
