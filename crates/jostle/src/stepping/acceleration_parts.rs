@@ -54,3 +54,36 @@ impl AccelerationParts {
         worst
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::AccelerationParts;
+
+    fn of(values: &[(f64, f64)]) -> AccelerationParts {
+        let mut parts = AccelerationParts::new(1, 32.0);
+        for (time, value) in values {
+            parts.set_time(*time);
+            parts.take(0, *value);
+        }
+        parts
+    }
+
+    #[test]
+    fn equal_peaks_at_other_instants_differ() {
+        let (a, b) = (of(&[(3.2, 9.0), (7.5, 6.0)]), of(&[(3.2, 6.0), (7.5, 9.0)]));
+        assert_eq!(a.change(&b, 0, 1), 3.0);
+        assert_eq!(a.change(&a, 0, 1), 0.0);
+    }
+
+    #[test]
+    fn parts_far_below_the_peak_do_not_count() {
+        let (a, b) = (of(&[(3.2, 9.0), (7.5, 4.0)]), of(&[(3.2, 9.0), (7.5, 2.0)]));
+        assert_eq!(a.change(&b, 0, 1), 0.0);
+    }
+
+    #[test]
+    fn the_last_part_takes_the_end_of_the_run() {
+        let (a, b) = (of(&[(31.9, 9.0)]), of(&[(32.0, 9.0)]));
+        assert_eq!(a.change(&b, 0, 1), 0.0);
+    }
+}
