@@ -32,6 +32,9 @@ impl Misfit {
     }
 }
 
+/// Heights are sums of storey heights; this is more than they lose by rounding \[m\].
+const ROUNDING: f64 = 1e-9;
+
 /// One side of a gap or a link.
 struct Side<'a> {
     building: &'a Building,
@@ -46,6 +49,11 @@ impl Side<'_> {
         }
     }
 
+    /// Whether it can be hit between floors.
+    fn has_columns(&self) -> bool {
+        matches!(self.building.structure, Structure::Frame(_))
+    }
+
     fn roof(&self) -> f64 {
         self.floors.last().copied().unwrap_or(0.0)
     }
@@ -56,7 +64,7 @@ impl Side<'_> {
         let nearest = self.floors.iter().copied();
         nearest
             .min_by(|a, b| away(a).total_cmp(&away(b)))
-            .filter(|floor| away(floor) <= tolerance)
+            .filter(|floor| away(floor) <= tolerance + ROUNDING)
     }
 
     /// The point that can be hit at a height: a floor within the tolerance, or the column.
@@ -68,9 +76,9 @@ impl Side<'_> {
         let at = format!("\"{name}\" has no floor at {height:.3} m");
         let nearest = self.floor_near(height, f64::INFINITY).unwrap_or(0.0);
         let hint = format!("(nearest: {nearest:.3} m)");
-        if matches!(self.building.structure, Structure::Shear(_)) {
+        if !self.has_columns() {
             return Err(format!(
-                "{at} {hint}, and a shear building cannot be hit between floors; move the point, raise level_tolerance, or describe it as a frame"
+                "{at} {hint}, and a shear building cannot be hit between floors; give the height of a floor, or describe it as a frame"
             ));
         }
         if height > self.roof() {
@@ -161,11 +169,40 @@ fn common(
         .collect();
     if pairs.is_empty() {
         return Err(Misfit::all(format!(
-            "no floors of \"{}\" and \"{}\" lie at equal height; write floors = \"all\" for floors against columns, list the pairs that can touch, as floors = [[1, 1]], or the heights, or raise level_tolerance",
-            left.building.name, right.building.name
+            "no floors of \"{}\" and \"{}\" lie at equal height; {}, or raise level_tolerance",
+            left.building.name,
+            right.building.name,
+            pairs_to_list(left, right)
         )));
     }
     Ok(pairs)
+}
+
+/// How floors at unequal heights can touch.
+fn pairs_to_list(left: &Side<'_>, right: &Side<'_>) -> String {
+    let has_columns = [left, right].map(|side| side.has_columns());
+    let (shear, frame) = match has_columns {
+        [true, true] => {
+            return "write floors = \"all\" for floors against columns, list the pairs that can touch, as floors = [[1, 1]], or the heights".into();
+        }
+        [false, false] => {
+            return "shear buildings have no columns to hit: describe one as a frame".into();
+        }
+        [true, false] => (right, left),
+        [false, true] => (left, right),
+    };
+    let height = shear.floors.first().copied().unwrap_or(0.0);
+    let mut pair = ["1".to_owned(), format!("\"{height:.3} m\"")];
+    if has_columns[0] {
+        pair.reverse();
+    }
+    format!(
+        "floors of \"{}\" can hit columns of \"{}\": list the pairs, as floors = [[{}], …], or describe \"{}\" as a frame",
+        shear.building.name,
+        frame.building.name,
+        pair.join(", "),
+        shear.building.name
+    )
 }
 
 fn all(
@@ -181,6 +218,14 @@ fn all(
         let met: Vec<f64> = pairs.iter().filter_map(|pair| pair[side]).collect();
         let alone = own.floors.iter().filter(|height| !met.contains(height));
         for &height in alone.filter(|height| **height <= other.roof()) {
+            if !other.has_columns() {
+                return Err(Misfit::all(format!(
+                    "\"all\" takes floors against columns, and \"{}\" has none for the floor of \"{}\" at {height:.3} m; {}",
+                    other.building.name,
+                    own.building.name,
+                    pairs_to_list(a, b)
+                )));
+            }
             let column = other.point(height, LEVEL_TOLERANCE).map_err(Misfit::all)?;
             let mut pair = [Some(height), Some(column)];
             if side == 1 {
@@ -228,7 +273,7 @@ fn listed(
             }
         }
         if let ([Some(a), Some(b)], [Some(left), Some(right)]) = (pair, [left, right])
-            && (a - b).abs() > tolerance
+            && (a - b).abs() > tolerance + ROUNDING
         {
             let [one, other] = [left.describe(levels[0], a), right.describe(levels[1], b)];
             let both_floors = levels.iter().all(|level| matches!(level, Level::Floor(_)));

@@ -472,12 +472,18 @@ fn warnings(run: &Run) -> Vec<String> {
             given * 100.0
         ));
     }
-    warnings.extend(run.outcome.accuracy.iter().flat_map(accuracy_warnings));
+    let remedy = if run.model.analysis.step.is_some() {
+        "use step = \"auto\", or a shorter step"
+    } else {
+        "compare with a run at another tolerance"
+    };
+    let accuracy = run.outcome.accuracy.iter();
+    warnings.extend(accuracy.flat_map(|accuracy| accuracy_warnings(accuracy, remedy)));
     warnings
 }
 
 /// What a run says of its own accuracy.
-fn accuracy_warnings(accuracy: &Accuracy) -> impl Iterator<Item = String> + use<> {
+fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = String> + use<> {
     let Accuracy {
         tolerance,
         residual,
@@ -486,7 +492,7 @@ fn accuracy_warnings(accuracy: &Accuracy) -> impl Iterator<Item = String> + use<
     } = *accuracy;
     let missed = (residual > tolerance).then(|| {
         format!(
-            "the tolerance of {tolerance:.0e} is not met: peaks may be {residual:.1e} off by estimate, as they are sensitive to the steps; use step = \"auto\", and a smaller tolerance where it already is"
+            "the tolerance of {tolerance:.0e} is not met: the estimated error of the peaks is {residual:.1e}, and they are sensitive to the time step; {remedy}"
         )
     });
     let sensitive = sensitive_from.map(|from| {
