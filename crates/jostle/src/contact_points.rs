@@ -464,3 +464,37 @@ pub(crate) fn mean(pair: &PointPair) -> f64 {
         [a, b] => a.or(b).unwrap_or(0.0),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Base, Damping, Gravity, Shear};
+
+    fn tower(height: f64) -> Building {
+        Building {
+            name: "tower".into(),
+            structure: Structure::Shear(Shear {
+                mass: vec![1e4; 3],
+                stiffness: vec![1e7; 3],
+                storey_heights: vec![height; 3],
+            }),
+            damping: Damping::Rayleigh {
+                alpha: 0.1,
+                beta: 0.0,
+            },
+            base: Base::default(),
+            gravity: Gravity::default(),
+            hinges: None,
+        }
+    }
+
+    #[test]
+    fn floors_as_far_apart_as_the_tolerance_can_touch() {
+        let (a, b) = (tower(3.3), tower(3.6));
+        let pairs = |tolerance| point_pairs(&FloorPairs::Common, [Some(&a), Some(&b)], tolerance);
+        assert_eq!(pairs(0.3).map(|pairs| pairs.len()), Ok(1));
+        assert!(pairs(0.2999).is_err());
+        let listed = FloorPairs::listed(&[(2, 2)]);
+        assert!(point_pairs(&listed, [Some(&a), Some(&b)], 0.6).is_ok());
+    }
+}

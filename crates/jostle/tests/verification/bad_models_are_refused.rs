@@ -493,7 +493,15 @@ const CASES: &[Case] = &[
             shear_of(m).storey_heights.fill(3.0);
         },
         "gap[0].floors",
-        "no floors of \"frame\" and \"tower\" lie at equal height",
+        "no floors of \"frame\" and \"tower\" lie at equal height; floors of \"tower\" can hit columns of \"frame\": list the pairs, as floors = [[\"3.000 m\", 1], …]",
+    ),
+    (
+        |m| {
+            shear_of(m).storey_heights.fill(3.0);
+            m.gaps[0].floors = FloorPairs::All;
+        },
+        "gap[0].floors",
+        "\"tower\" has none for the floor of \"frame\" at 3.200 m; floors of \"tower\" can hit columns of \"frame\": list the pairs",
     ),
     (
         |m| m.gaps[0].floors = FloorPairs::listed(&[]),
