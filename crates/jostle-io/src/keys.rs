@@ -436,7 +436,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step in free flight."),
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),
-    default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Largest error of a reported peak, relative to the greatest of its kind in the building or gap, with automatic steps. `promise` in `summary.json` says whether it is met; docs/theory.md, section 14, lists the exceptions."),
+    default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Largest error of a reported peak, from 1e-6 to 0.1, relative to the greatest of its kind in the building or gap, with automatic steps. `promise` in `summary.json` says whether it is met; docs/theory.md, section 14, lists the exceptions."),
     default(S::Analysis, "energy_tolerance", Quantity(D::Dimensionless), "1e-6", "Relative energy imbalance above which a run warns."),
     default(S::Analysis, "solver", Choice(SOLVERS), "\"auto\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, the published product of transfer matrices, or, for elastic buildings, their modes. \"auto\" is modal for elastic buildings with automatic steps, otherwise riccati."),
     default(S::Analysis, "integrator", ChoiceOrTable(INTEGRATORS, S::Integrator), "\"average-acceleration\"", "Time integration rule."),

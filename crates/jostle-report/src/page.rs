@@ -4,7 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
-use crate::{Page, describe, format, hinges, method, payload, tables};
+use crate::{Page, describe, floor_peaks, format, hinges, method, payload, tables};
 
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
 /// The scripts, in the order of their dependence; together they are one module.
@@ -97,6 +97,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         h2 { "Peaks over the height" }
                         (legend(page, without.is_some()))
                         (envelopes(page, &run, without))
+                        (floor_peaks::tables(page))
                     }
                     @if !page.model.gaps.is_empty() {
                         section #joints {
@@ -195,9 +196,9 @@ pub(crate) fn tiles(page: &Page) -> Markup {
         );
         if let Some(closing) = gap.closing_without_contact_m {
             tile(
-                &format!("Gap needed{pair}"),
+                &format!("Smallest gap{pair}"),
                 format::millimetres(closing),
-                "smallest without pounding".into(),
+                "without pounding, from a run without contact".into(),
             );
         }
     }
@@ -353,6 +354,14 @@ fn icon(class: &str, outline: &str) -> Markup {
     html! { svg class=(class) viewBox="0 0 20 20" aria-hidden="true" { path d=(outline) {} } }
 }
 
+/// The estimate of the errors, as a sentence.
+fn accuracy(page: &Page) -> String {
+    let words = page.summary.promise.in_words();
+    let mut letters = words.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+    first.into_iter().chain(letters).chain(['.']).collect()
+}
+
 fn guide(page: &Page) -> Markup {
     html! {
         section #guide {
@@ -360,12 +369,13 @@ fn guide(page: &Page) -> Markup {
             ul {
                 li { "Displacements are relative to the ground and positive to the right; ground acceleration is positive to the right as well." }
                 li { "Closing is the displacement of the left floor minus that of the right one. The floors touch when it exceeds the gap; what is beyond is the indentation." }
-                li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact is one closed episode of one contact." }
+                li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact begins when the surfaces touch and ends with the last instant of force before they part." }
                 li { "Total acceleration includes the ground. Storey drift is the relative displacement of two floors divided by the height between them." }
                 li { "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic and contact energy add up to it. The imbalance is what is missing, relative to the greatest energy until then." }
                 @if page.model.buildings.iter().any(|building| building.may_yield()) {
                     li { "A place has cracked, or yielded, once its deformation has passed the first, or second, corner of its curve, on either side. Ductility is the greatest rotation of a member end, hinge and bent member together, over that at yield, or the greatest deformation of a storey over that of yield; positive stretches the bottom of a beam and the right face of a column. Dissipated is the work done less what unloading would give back." }
                 }
+                li { (accuracy(page)) }
                 li { "Histories are thinned for this page, least of all during impacts; key figures and tables come from the full run." }
             }
         }

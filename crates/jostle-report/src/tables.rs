@@ -160,10 +160,18 @@ pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>
         }
         p.quiet {
             "The line marks the gap. Code: GB 50011-2010 §6.1.4, concrete frames, for the height of the lower building. "
-            "SRSS and ABS combine the peak displacements at the highest common floor "
-            @if without.is_some() { "of the run without contact." } @else { "of this run, impacts included." }
+            @if floors_touch(page) {
+                "SRSS and ABS combine the peak displacements at the highest common floor "
+                @if without.is_some() { "of the run without contact." } @else { "of this run, impacts included." }
+            }
         }
     }
+}
+
+/// Whether floors of two buildings touch anywhere, so that SRSS and ABS have a height.
+fn floors_touch(page: &Page) -> bool {
+    let mut contacts = page.summary.gaps.iter().flat_map(|gap| &gap.contacts);
+    contacts.any(|contact| matches!(contact.floors, [Some(_), Some(_)]))
 }
 
 /// Height of the lower of two neighbours; `None` before a wall, for which the codes say nothing.
