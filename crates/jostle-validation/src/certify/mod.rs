@@ -365,6 +365,15 @@ fn hold(
     })
 }
 
+/// A difference over its scale; none of a quantity that stays zero is none.
+fn share(difference: f64, scale: f64) -> f64 {
+    if difference == 0.0 {
+        0.0
+    } else {
+        difference / scale
+    }
+}
+
 /// By how much the perturbed reference of a cut motion ends sooner: an impact at the very end is in one run or in the other
 /// \[s\].
 const ENDS_SOONER: f64 = 1e-4;
@@ -380,13 +389,7 @@ fn errors(truth: &Truth, got: &[f64], tolerance: f64) -> Vec<Option<f64>> {
         } else {
             got.abs()
         };
-        let relative = |value: f64| {
-            if value == 0.0 {
-                0.0
-            } else {
-                value.abs() / scale
-            }
-        };
+        let relative = |value: f64| share(value, scale).abs();
         (relative(*shift) <= UNCERTAIN * tolerance).then(|| relative(got - quantity.value))
     })
     .collect()
@@ -488,13 +491,13 @@ pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, Str
             quantity.kind,
             quantity.name,
             quantity.value,
-            shift / quantity.scale
+            share(*shift, quantity.scale)
         );
         for run in &certified.runs {
             let _ = write!(text, "  {} {:.0e}: ", run.solver, run.tolerance);
             match (run.truth.quantities.get(k), run.got.get(k)) {
                 (Some(expected), Some(got)) => {
-                    let error = (got - expected.value) / expected.scale;
+                    let error = share(got - expected.value, expected.scale);
                     let _ = write!(text, "{error:+.1e}");
                 }
                 _ => text.push_str("nothing promised"),

@@ -229,15 +229,11 @@ pub fn page(old: &str, records: &[Record]) -> Result<String, String> {
         return Err("the end mark of the page comes before its beginning".to_owned());
     }
     let mut text = old[..from].to_owned();
-    let drawn: Vec<String> = records
-        .iter()
-        .map(|record| format!("{} models of seed {}", record.models, record.seed))
-        .collect();
     let _ = writeln!(
         text,
         "\n{}. Errors are in tolerances, relative to the greatest of their kind in the building or gap.\n\n\
          ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n",
-        drawn.join(", ")
+        drawn(records)
     );
     table(&mut text, "solver and tolerance", records, |run, _| {
         format!("{} at {:.0e}", run.solver, run.tolerance)
@@ -348,6 +344,19 @@ pub fn figure(records: &[Record]) -> String {
         top + height + 42.0
     );
     svg
+}
+
+/// How many models of which seeds.
+fn drawn(records: &[Record]) -> String {
+    let all: usize = records.iter().map(|record| record.models).sum();
+    let seeds: Vec<String> = records
+        .iter()
+        .map(|record| record.seed.to_string())
+        .collect();
+    match seeds.as_slice() {
+        [only] => format!("{all} models of seed {only}"),
+        several => format!("{all} models of the seeds {}", several.join(", ")),
+    }
 }
 
 #[cfg(test)]
