@@ -78,6 +78,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                 main {
                     p.verdict { (headline) }
                     (tiles(page))
+                    (accuracy(page))
                     @if recorded {
                         (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), yields))
                         (chart_section(page.without_contact.is_some() && !page.model.gaps.is_empty()))
@@ -97,6 +98,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         h2 { "Peaks over the height" }
                         (legend(page, without.is_some()))
                         (envelopes(page, &run, without))
+                        (tables::peaks(page))
                     }
                     @if !page.model.gaps.is_empty() {
                         section #joints {
@@ -195,9 +197,9 @@ pub(crate) fn tiles(page: &Page) -> Markup {
         );
         if let Some(closing) = gap.closing_without_contact_m {
             tile(
-                &format!("Gap needed{pair}"),
+                &format!("Smallest gap without pounding{pair}"),
                 format::millimetres(closing),
-                "smallest without pounding".into(),
+                "from a run without contact".into(),
             );
         }
     }
@@ -251,6 +253,13 @@ pub(crate) fn tiles(page: &Page) -> Markup {
             }
         }
     }
+}
+
+/// The estimated error of the peaks, as the command line says it.
+fn accuracy(page: &Page) -> Markup {
+    let words = page.summary.promise.in_words();
+    let words = words.strip_prefix("accuracy: ").unwrap_or(&words);
+    html! { p.quiet #accuracy { b { "Accuracy: " } (words) "." } }
 }
 
 /// The animation, with the controls of a run without contact and of yielding places.
@@ -360,7 +369,7 @@ fn guide(page: &Page) -> Markup {
             ul {
                 li { "Displacements are relative to the ground and positive to the right; ground acceleration is positive to the right as well." }
                 li { "Closing is the displacement of the left floor minus that of the right one. The floors touch when it exceeds the gap; what is beyond is the indentation." }
-                li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact is one closed episode of one contact." }
+                li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact begins when the surfaces touch and ends with the last instant of force before they part." }
                 li { "Total acceleration includes the ground. Storey drift is the relative displacement of two floors divided by the height between them." }
                 li { "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic and contact energy add up to it. The imbalance is what is missing, relative to the greatest energy until then." }
                 @if page.model.buildings.iter().any(|building| building.may_yield()) {
