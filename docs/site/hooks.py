@@ -44,6 +44,8 @@ def on_page_markdown(markdown, page, config, files):
         )
         markdown = markdown.replace("](README.md", "](../index.md")
     up = "../" * uri.count("/")
+    for target, source in DEVELOPERS.items():
+        markdown = re.sub(rf"\]\((?:\.\./)+{re.escape(source)}", f"]({up}{target}", markdown)
     # docs/page.md names ../examples, docs/how-to/page.md names ../../examples.
     markdown = re.sub(
         r"\]\((?:\.\./)+(examples/[\w./-]+\.(?:toml|py))\)", lambda match: f"]({up}{match[1]}.txt)", markdown

@@ -271,7 +271,7 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
     if let Some(closing) = gap.closing_without_contact_m {
         writeln!(
             text,
-            "  Minimum gap to avoid pounding: {} mm (from a run without contact).",
+            "  Smallest gap without pounding: {} mm (from a run without contact).",
             mm(closing)
         )?;
     }

@@ -287,7 +287,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "storeys", Count, "Number of storeys; not needed beside a list per storey."),
     optional(S::Building, "floors", Count, "The same as storeys."),
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; needed for frames, 3 m for shear buildings."),
-    default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping."),
+    default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`."),
     default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight."),
     default(S::Building, "p_delta", Flag, "false", "Include P-Delta from the weight above."),
 
@@ -436,7 +436,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step in free flight."),
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),
-    default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Largest error of a reported peak, from 1e-6 to 0.1, relative to the greatest of its kind in the building or gap, with automatic steps. `promise` in `summary.json` says whether it is met; docs/theory.md, section 14, lists the exceptions."),
+    default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Largest error of a reported peak, relative to the greatest of its kind in the building or gap, with automatic steps; 1e-6 to 0.1. `promise` in `summary.json` says whether it is met; docs/theory.md, section 14, lists the exceptions."),
     default(S::Analysis, "energy_tolerance", Quantity(D::Dimensionless), "1e-6", "Relative energy imbalance above which a run warns."),
     default(S::Analysis, "solver", Choice(SOLVERS), "\"auto\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, the published product of transfer matrices, or, for elastic buildings, their modes. \"auto\" is modal for elastic buildings with automatic steps, otherwise riccati."),
     default(S::Analysis, "integrator", ChoiceOrTable(INTEGRATORS, S::Integrator), "\"average-acceleration\"", "Time integration rule."),

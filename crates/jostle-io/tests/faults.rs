@@ -285,6 +285,75 @@ fn walls_stand_at_the_ends_of_the_row() {
 }
 
 #[test]
+fn remedies_for_unequal_floors_work() {
+    let shear = |name: &str, height: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nkind = \"shear\"\nmass = [\"40 t\", \"40 t\"]\nstiffness = [\"60 MN/m\", \"60 MN/m\"]\nstorey_height = \"{height}\"\n"
+        )
+    };
+    let gap =
+        |names: &str, rest: &str| format!("[[gap]]\nbetween = {names}\nwidth = 0.01\n{rest}\n");
+    let taller = FRAME.replace("\"3 m\"", "\"3.6 m\"");
+    assert_ne!(taller, FRAME);
+    let refused = |buildings: &str, names: &str, rest: &str, remedy: &str| {
+        let text = message(&format!("{buildings}{}", gap(names, rest)));
+        assert!(text.contains(remedy), "{text}");
+    };
+    let accepted = |buildings: &str, names: &str, rest: &str| {
+        let text = format!("{buildings}{}", gap(names, rest));
+        read(&text, Format::Toml).unwrap_or_else(|error| panic!("{rest}: {error}"));
+    };
+    let left = format!("{}{taller}", shear("A", "3.3 m"));
+    for rest in ["", "floors = \"all\""] {
+        refused(
+            &left,
+            "[\"A\", \"B\"]",
+            rest,
+            "floors of \"A\" can hit columns of \"B\": list the pairs, as floors = [[1, \"3.300 m\"], …]; or describe \"A\" as a frame",
+        );
+    }
+    accepted(&left, "[\"A\", \"B\"]", "floors = [[1, \"3.300 m\"]]");
+    let right = format!("{taller}{}", shear("C", "3.3 m"));
+    refused(
+        &right,
+        "[\"B\", \"C\"]",
+        "",
+        "as floors = [[\"3.300 m\", 1], …]",
+    );
+    accepted(&right, "[\"B\", \"C\"]", "floors = [[\"3.300 m\", 1]]");
+    let frames = format!("{taller}{}", FRAME.replace("\"B\"", "\"C\""));
+    refused(
+        &frames,
+        "[\"B\", \"C\"]",
+        "",
+        "write floors = \"all\" for floors against columns, list the pairs that can touch, as floors = [[1, \"3.600 m\"], …], or raise",
+    );
+    accepted(&frames, "[\"B\", \"C\"]", "floors = \"all\"");
+    accepted(&frames, "[\"B\", \"C\"]", "floors = [[1, \"3.600 m\"]]");
+    // A tolerance equal to the difference counts, although 3.6 − 3.3 is a little more than 0.3 in binary numbers.
+    let shears = format!("{}{}", shear("A", "3.3 m"), shear("C", "3.6 m"));
+    let names = "[\"A\", \"C\"]";
+    refused(
+        &shears,
+        names,
+        "",
+        "shear buildings have no columns to hit: raise level_tolerance",
+    );
+    refused(
+        &shears,
+        names,
+        "level_tolerance = \"299 mm\"",
+        "equal height",
+    );
+    accepted(&shears, names, "level_tolerance = \"300 mm\"");
+    accepted(
+        &shears,
+        names,
+        "level_tolerance = \"300 mm\"\nfloors = [[1, 1]]",
+    );
+}
+
+#[test]
 fn points_and_widths_of_a_gap_are_checked_one_by_one() {
     let gap = |rest: &str| format!("{SHEAR}{FRAME}[[gap]]\nbetween = [\"A\", \"B\"]\n{rest}\n");
     for good in [

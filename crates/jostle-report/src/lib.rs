@@ -8,7 +8,6 @@ mod collisions;
 mod describe;
 mod encode;
 mod envelope;
-mod floor_peaks;
 mod format;
 mod hinges;
 mod method;

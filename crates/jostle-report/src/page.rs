@@ -4,7 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
-use crate::{Page, describe, floor_peaks, format, hinges, method, payload, tables};
+use crate::{Page, describe, format, hinges, method, payload, tables};
 
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
 /// The scripts, in the order of their dependence; together they are one module.
@@ -78,6 +78,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                 main {
                     p.verdict { (headline) }
                     (tiles(page))
+                    (accuracy(page))
                     @if recorded {
                         (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), yields))
                         (chart_section(page.without_contact.is_some() && !page.model.gaps.is_empty()))
@@ -97,7 +98,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         h2 { "Peaks over the height" }
                         (legend(page, without.is_some()))
                         (envelopes(page, &run, without))
-                        (floor_peaks::tables(page))
+                        (tables::peaks(page))
                     }
                     @if !page.model.gaps.is_empty() {
                         section #joints {
@@ -196,9 +197,9 @@ pub(crate) fn tiles(page: &Page) -> Markup {
         );
         if let Some(closing) = gap.closing_without_contact_m {
             tile(
-                &format!("Smallest gap{pair}"),
+                &format!("Smallest gap without pounding{pair}"),
                 format::millimetres(closing),
-                "without pounding, from a run without contact".into(),
+                "from a run without contact".into(),
             );
         }
     }
@@ -252,6 +253,13 @@ pub(crate) fn tiles(page: &Page) -> Markup {
             }
         }
     }
+}
+
+/// The estimated error of the peaks, as the command line says it.
+fn accuracy(page: &Page) -> Markup {
+    let words = page.summary.promise.in_words();
+    let words = words.strip_prefix("accuracy: ").unwrap_or(&words);
+    html! { p.quiet #accuracy { b { "Accuracy: " } (words) "." } }
 }
 
 /// The animation, with the controls of a run without contact and of yielding places.
@@ -354,14 +362,6 @@ fn icon(class: &str, outline: &str) -> Markup {
     html! { svg class=(class) viewBox="0 0 20 20" aria-hidden="true" { path d=(outline) {} } }
 }
 
-/// The estimate of the errors, as a sentence.
-fn accuracy(page: &Page) -> String {
-    let words = page.summary.promise.in_words();
-    let mut letters = words.chars();
-    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
-    first.into_iter().chain(letters).chain(['.']).collect()
-}
-
 fn guide(page: &Page) -> Markup {
     html! {
         section #guide {
@@ -375,7 +375,6 @@ fn guide(page: &Page) -> Markup {
                 @if page.model.buildings.iter().any(|building| building.may_yield()) {
                     li { "A place has cracked, or yielded, once its deformation has passed the first, or second, corner of its curve, on either side. Ductility is the greatest rotation of a member end, hinge and bent member together, over that at yield, or the greatest deformation of a storey over that of yield; positive stretches the bottom of a beam and the right face of a column. Dissipated is the work done less what unloading would give back." }
                 }
-                li { (accuracy(page)) }
                 li { "Histories are thinned for this page, least of all during impacts; key figures and tables come from the full run." }
             }
         }

@@ -1,8 +1,11 @@
-//! Impacts one by one, and the joint widths of the codes beside the computed ones.
+//! Impacts one by one, the peaks of every floor, and the joint widths of the codes beside the computed ones.
 
+use jostle::Gap;
 use jostle::contact::{LawKind, RestitutionIs};
 use jostle::separation::{absolute_sum, gb50011_frame_joint, srss};
-use jostle::summary::{ContactSummary, GapSummary, ImpactSummary};
+use jostle::summary::{
+    BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, ImpactSummary,
+};
 use maud::{Markup, html};
 
 use crate::envelope::Envelope;
@@ -124,6 +127,106 @@ fn restitution_note(page: &Page) -> Markup {
     }
 }
 
+/// A peak of a floor with and without contact: name, unit, values in that unit, decimals.
+type Peak = (
+    &'static str,
+    &'static str,
+    fn(&FloorSummary) -> f64,
+    fn(&FloorWithoutContact) -> f64,
+    usize,
+);
+
+const PEAKS: [Peak; 5] = [
+    (
+        "displacement",
+        "mm",
+        |f| 1e3 * f.displacement_max_m.max(-f.displacement_min_m),
+        |f| 1e3 * f.displacement_max_m.max(-f.displacement_min_m),
+        1,
+    ),
+    (
+        "storey drift",
+        "%",
+        |f| 100.0 * f.storey_drift_peak,
+        |f| 100.0 * f.storey_drift_peak,
+        2,
+    ),
+    (
+        "storey shear",
+        "kN",
+        |f| 1e-3 * f.storey_shear_peak_n,
+        |f| 1e-3 * f.storey_shear_peak_n,
+        1,
+    ),
+    (
+        "overturning moment",
+        "kN·m",
+        |f| 1e-3 * f.overturning_moment_peak_n_m,
+        |f| 1e-3 * f.overturning_moment_peak_n_m,
+        0,
+    ),
+    (
+        "total acceleration",
+        "m/s²",
+        |f| f.total_acceleration_peak_m_s2,
+        |f| f.total_acceleration_peak_m_s2,
+        2,
+    ),
+];
+
+/// Peaks of every floor and of the storey below it, with and without contact: one folded table for each building.
+pub(crate) fn peaks(page: &Page) -> Markup {
+    html! {
+        @for building in &page.summary.buildings {
+            details.peaks {
+                summary { "Peaks of " (building.name) " in numbers" }
+                (peaks_of(building))
+            }
+        }
+    }
+}
+
+fn peaks_of(building: &BuildingSummary) -> Markup {
+    let compared = building.floors.iter().any(|f| f.without_contact.is_some());
+    html! {
+        div.scroll {
+            table {
+                thead {
+                    tr {
+                        th scope="col" rowspan=[compared.then_some("2")] { "floor" }
+                        th.number scope="col" rowspan=[compared.then_some("2")] { "height" br; span.unit { "[m]" } }
+                        @for (name, unit, ..) in PEAKS {
+                            th.number scope="colgroup" colspan=[compared.then_some("2")] { (name) br; span.unit { "[" (unit) "]" } }
+                        }
+                    }
+                    @if compared {
+                        tr { @for _ in PEAKS { th.number scope="col" { "with" } th.number scope="col" { "without" } } }
+                    }
+                }
+                tbody {
+                    @for floor in building.floors.iter().rev() {
+                        tr {
+                            th scope="row" { (floor.floor) }
+                            td.number { (format::fixed(floor.height_m, 2)) }
+                            @for (_, _, with, without, decimals) in PEAKS {
+                                td.number { (format::fixed(with(floor), decimals)) }
+                                @if compared {
+                                    td.number { (floor.without_contact.as_ref().map_or(format::NOTHING.into(), |f| format::fixed(without(f), decimals))) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        p.quiet {
+            "Greatest absolute values"
+            @if compared { ", with and without contact" }
+            ". Drift and shear are those of the storey below the floor; the moment is about the base of that storey."
+        }
+    }
+}
+
 /// A length to compare with the gap.
 struct Width {
     name: String,
@@ -133,9 +236,18 @@ struct Width {
 
 /// Joint widths of a gap as bars: the gap, what the run needed, what rules ask for.
 pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
+    let of_gap = |summary, gap: &Gap| {
+        let envelopes = without.unwrap_or(run);
+        widths(page, summary, gap.between, envelopes, without.is_some())
+    };
+    let gaps: Vec<_> = page
+        .gaps()
+        .map(|(summary, gap)| (summary, gap, of_gap(summary, gap)))
+        .collect();
+    let mut all = gaps.iter().flat_map(|(_, _, widths)| widths);
+    let combined = all.any(|width| width.class == "of-rule");
     html! {
-        @for (summary, gap) in page.gaps() {
-            @let widths = widths(page, summary, gap.between, without.unwrap_or(run), without.is_some());
+        @for (summary, gap, widths) in &gaps {
             @let longest = widths.iter().map(|w| w.metres).fold(1e-9, f64::max);
             div.joint {
                 h3 {
@@ -145,7 +257,7 @@ pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>
                     }
                 }
                 div.bars role="table" {
-                    @for width in &widths {
+                    @for width in widths {
                         div.bar-row role="row" {
                             span.bar-name role="rowheader" { (width.name) }
                             span.bar-track role="presentation" {
@@ -159,19 +271,13 @@ pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>
             }
         }
         p.quiet {
-            "The line marks the gap. Code: GB 50011-2010 §6.1.4, concrete frames, for the height of the lower building. "
-            @if floors_touch(page) {
-                "SRSS and ABS combine the peak displacements at the highest common floor "
+            "The line marks the gap. Code: GB 50011-2010 §6.1.4, concrete frames, for the height of the lower building."
+            @if combined {
+                " SRSS and ABS combine the peak displacements at the highest common floor "
                 @if without.is_some() { "of the run without contact." } @else { "of this run, impacts included." }
             }
         }
     }
-}
-
-/// Whether floors of two buildings touch anywhere, so that SRSS and ABS have a height.
-fn floors_touch(page: &Page) -> bool {
-    let mut contacts = page.summary.gaps.iter().flat_map(|gap| &gap.contacts);
-    contacts.any(|contact| matches!(contact.floors, [Some(_), Some(_)]))
 }
 
 /// Height of the lower of two neighbours; `None` before a wall, for which the codes say nothing.

@@ -10,6 +10,7 @@ mod fixture;
 use std::time::Instant;
 
 use fixture::{Run, alone, row_of_three, two_frames, walled, yielding};
+use jostle::summary::FloorWithoutContact;
 use jostle_report::render;
 
 fn pages() -> Vec<(&'static str, Run)> {
@@ -160,6 +161,73 @@ fn warnings_come_first() {
         warning < text.find("<h1>").unwrap(),
         "the warning hides below the title"
     );
+}
+
+#[test]
+fn peaks_of_every_floor_are_in_numbers_with_and_without_contact() {
+    let mut run = two_frames(0.1);
+    let roof = run.summary.buildings[0].floors.last_mut().unwrap();
+    roof.displacement_min_m = -0.1234;
+    roof.displacement_max_m = 0.1;
+    roof.storey_drift_peak = 0.0567;
+    roof.storey_shear_peak_n = 891_200.0;
+    roof.overturning_moment_peak_n_m = 3_456_000.0;
+    roof.total_acceleration_peak_m_s2 = 7.89;
+    roof.without_contact = Some(FloorWithoutContact {
+        displacement_max_m: 0.2345,
+        displacement_max_at_s: 1.0,
+        displacement_min_m: -0.2,
+        displacement_min_at_s: 2.0,
+        total_acceleration_peak_m_s2: 4.56,
+        storey_drift_peak: 0.0123,
+        storey_shear_peak_n: 765_400.0,
+        overturning_moment_peak_n_m: 2_345_000.0,
+    });
+    let text = render(&run.page());
+    let tables: Vec<&str> = text.split("<details class=\"peaks\">").collect();
+    assert_eq!(tables.len() - 1, run.summary.buildings.len());
+    for (table, building) in tables[1..].iter().zip(&run.summary.buildings) {
+        let body = table.split("<tbody>").nth(1).unwrap();
+        let body = body.split("</tbody>").next().unwrap();
+        assert_eq!(body.matches("<tr").count(), building.floors.len());
+    }
+    let first = tables[1].split("<tbody>").nth(1).unwrap();
+    let first = first.split("</tr>").next().unwrap();
+    let cells: Vec<&str> = first
+        .split("<td class=\"number\">")
+        .skip(2)
+        .map(|cell| cell.split('<').next().unwrap())
+        .collect();
+    assert_eq!(
+        cells,
+        [
+            "123.4", "234.5", "5.67", "1.23", "891.2", "765.4", "3456", "2345", "7.89", "4.56"
+        ]
+    );
+    let alone = render(&alone().page());
+    assert!(alone.contains("Peaks of Solo") && !alone.contains(">without<"));
+}
+
+#[test]
+fn accuracy_stands_on_the_page() {
+    let mut run = two_frames(0.1);
+    run.summary.promise.residual = Some(4.2e-4);
+    run.summary.promise.met = Some(true);
+    let text = render(&run.page());
+    let line = text.split("id=\"accuracy\"").nth(1).unwrap();
+    assert!(line.split("</p>").next().unwrap().contains("4.2e-4"));
+}
+
+#[test]
+fn rules_that_are_not_shown_are_not_explained() {
+    let combined = "SRSS and ABS combine";
+    let mut run = two_frames(0.1);
+    assert!(render(&run.page()).contains(combined));
+    for contact in &mut run.summary.gaps[0].contacts {
+        contact.floors[1] = None;
+    }
+    let text = render(&run.page());
+    assert!(text.contains("GB 50011-2010") && !text.contains(combined));
 }
 
 #[test]

@@ -457,7 +457,12 @@ impl Search<'_> {
                 root,
             ),
         ];
-        if self.model.gaps[gap].floors == FloorPairs::Common {
+        let of_gap = &self.model.gaps[gap];
+        let unmatched = self.model.unmatched_floors();
+        let aligned = unmatched
+            .iter()
+            .all(|found| found.between.map(Some) != of_gap.between);
+        if of_gap.floors == FloorPairs::Common && aligned {
             rules.push(rule(
                 "0.7 SRSS",
                 "EN 1998-1 §4.4.2.7(3), floors at equal height",
@@ -525,9 +530,46 @@ fn peak_at(run: &Tried, building: usize, height: f64) -> f64 {
 mod tests {
     use std::cell::RefCell;
 
+    use jostle::Structure;
     use jostle_io::builtin_model;
 
     use super::*;
+
+    /// EN 1998-1 reduces the SRSS only where floors lie at equal height.
+    #[test]
+    fn unequal_floors_get_no_reduced_rule() {
+        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
+        if let Some(motion) = &mut input.motion {
+            motion.duration = Some(1.0);
+        }
+        let motion = input
+            .ground_motion()
+            .unwrap_or_else(|error| panic!("{error}"));
+        let settings = GapSettings {
+            outcomes: false,
+            ..GapSettings::default()
+        };
+        let rules = |model: &Model| -> Vec<String> {
+            let found = critical_gaps(model, &motion, &settings, &|| false, &|_| {});
+            let found = found.unwrap_or_else(|error| panic!("{error}"));
+            found[0].rules.iter().map(|r| r.rule.clone()).collect()
+        };
+        let has = |rules: &[String], name: &str| rules.iter().any(|rule| rule == name);
+        let aligned = rules(&input.model);
+        assert!(
+            has(&aligned, "SRSS") && has(&aligned, "0.7 SRSS"),
+            "{aligned:?}"
+        );
+        let Structure::Frame(frame) = &mut input.model.buildings[1].structure else {
+            panic!("the example has frames");
+        };
+        frame.storey_heights[1] += 0.4;
+        let shifted = rules(&input.model);
+        assert!(
+            has(&shifted, "SRSS") && !has(&shifted, "0.7 SRSS"),
+            "{shifted:?}"
+        );
+    }
 
     /// Gaps that cannot close are not run, none is run twice, and every run is reported.
     #[test]

@@ -32,9 +32,6 @@ impl Misfit {
     }
 }
 
-/// Heights are sums of storey heights; this is more than they lose by rounding \[m\].
-const ROUNDING: f64 = 1e-9;
-
 /// One side of a gap or a link.
 struct Side<'a> {
     building: &'a Building,
@@ -49,11 +46,6 @@ impl Side<'_> {
         }
     }
 
-    /// Whether it can be hit between floors.
-    fn has_columns(&self) -> bool {
-        matches!(self.building.structure, Structure::Frame(_))
-    }
-
     fn roof(&self) -> f64 {
         self.floors.last().copied().unwrap_or(0.0)
     }
@@ -64,7 +56,11 @@ impl Side<'_> {
         let nearest = self.floors.iter().copied();
         nearest
             .min_by(|a, b| away(a).total_cmp(&away(b)))
-            .filter(|floor| away(floor) <= tolerance + ROUNDING)
+            .filter(|floor| level(*floor, height, tolerance))
+    }
+
+    fn has_columns(&self) -> bool {
+        matches!(self.building.structure, Structure::Frame(_))
     }
 
     /// The point that can be hit at a height: a floor within the tolerance, or the column.
@@ -78,7 +74,7 @@ impl Side<'_> {
         let hint = format!("(nearest: {nearest:.3} m)");
         if !self.has_columns() {
             return Err(format!(
-                "{at} {hint}, and a shear building cannot be hit between floors; give the height of a floor, or describe it as a frame"
+                "{at} {hint}, and a shear building cannot be hit between floors; move the point to a floor, raise level_tolerance, or describe \"{name}\" as a frame"
             ));
         }
         if height > self.roof() {
@@ -169,40 +165,77 @@ fn common(
         .collect();
     if pairs.is_empty() {
         return Err(Misfit::all(format!(
-            "no floors of \"{}\" and \"{}\" lie at equal height; {}, or raise level_tolerance",
+            "no floors of \"{}\" and \"{}\" lie at equal height; {}",
             left.building.name,
             right.building.name,
-            pairs_to_list(left, right)
+            remedy(left, right)
         )));
     }
     Ok(pairs)
 }
 
-/// How floors at unequal heights can touch.
-fn pairs_to_list(left: &Side<'_>, right: &Side<'_>) -> String {
-    let has_columns = [left, right].map(|side| side.has_columns());
-    let (shear, frame) = match has_columns {
+/// How to bring neighbours without equal floors into contact.
+fn remedy(left: &Side<'_>, right: &Side<'_>) -> String {
+    let slabs = "raise level_tolerance if slabs overlap";
+    let name = |side: &Side<'_>| format!("\"{}\"", side.building.name);
+    match [left, right].map(Side::has_columns) {
         [true, true] => {
-            return "write floors = \"all\" for floors against columns, list the pairs that can touch, as floors = [[1, 1]], or the heights".into();
+            let listed = example([left, right], 0).or_else(|| example([left, right], 1));
+            format!(
+                "write floors = \"all\" for floors against columns, list the pairs that can touch{}, or {slabs}",
+                listed.unwrap_or_default()
+            )
         }
-        [false, false] => {
-            return "shear buildings have no columns to hit: describe one as a frame".into();
+        [false, false] => format!(
+            "shear buildings have no columns to hit: {slabs}, or describe {} and {} as frames",
+            name(left),
+            name(right)
+        ),
+        [left_has, _] => {
+            let (shear, frame) = if left_has {
+                (right, left)
+            } else {
+                (left, right)
+            };
+            format!(
+                "floors of {} can hit columns of {}: list the pairs{}; or describe {} as a frame, or {slabs}",
+                name(shear),
+                name(frame),
+                example([left, right], usize::from(left_has)).unwrap_or_default(),
+                name(shear)
+            )
         }
-        [true, false] => (right, left),
-        [false, true] => (left, right),
-    };
-    let height = shear.floors.first().copied().unwrap_or(0.0);
-    let mut pair = ["1".to_owned(), format!("\"{height:.3} m\"")];
-    if has_columns[0] {
-        pair.reverse();
     }
-    format!(
-        "floors of \"{}\" can hit columns of \"{}\": list the pairs, as floors = [[{}], …], or describe \"{}\" as a frame",
-        shear.building.name,
-        frame.building.name,
-        pair.join(", "),
-        shear.building.name
-    )
+}
+
+/// The lowest floor of one side that can hit a column of the other, as it is listed.
+fn example(sides: [&Side<'_>; 2], side: usize) -> Option<String> {
+    let other = sides[1 - side];
+    let can_hit = |height: f64| {
+        let floor = other.floor_near(height, LEVEL_TOLERANCE);
+        floor.is_none() && other.point(height, LEVEL_TOLERANCE).is_ok()
+    };
+    let mut floors = sides[side].floors.iter().copied().enumerate();
+    let (floor, height) = floors.find(|(_, height)| can_hit(*height))?;
+    Some(format!(
+        ", as floors = {}",
+        floor_and_height(side, floor + 1, height)
+    ))
+}
+
+/// How a model file lists a floor of the left (0) or right (1) building that hits a column of the other.
+///
+/// ```
+/// assert_eq!(jostle::floor_and_height(0, 1, 3.3), r#"[[1, "3.300 m"], …]"#);
+/// assert_eq!(jostle::floor_and_height(1, 2, 6.8), r#"[["6.800 m", 2], …]"#);
+/// ```
+#[must_use]
+pub fn floor_and_height(side: usize, floor: usize, height: f64) -> String {
+    if side == 0 {
+        format!("[[{floor}, \"{height:.3} m\"], …]")
+    } else {
+        format!("[[\"{height:.3} m\", {floor}], …]")
+    }
 }
 
 fn all(
@@ -218,15 +251,17 @@ fn all(
         let met: Vec<f64> = pairs.iter().filter_map(|pair| pair[side]).collect();
         let alone = own.floors.iter().filter(|height| !met.contains(height));
         for &height in alone.filter(|height| **height <= other.roof()) {
-            if !other.has_columns() {
-                return Err(Misfit::all(format!(
-                    "\"all\" takes floors against columns, and \"{}\" has none for the floor of \"{}\" at {height:.3} m; {}",
+            let column = other.point(height, LEVEL_TOLERANCE).map_err(|problem| {
+                if other.has_columns() {
+                    return Misfit::all(problem);
+                }
+                Misfit::all(format!(
+                    "\"all\" needs columns, and shear building \"{}\" has none at {height:.3} m, where \"{}\" has a floor; {}",
                     other.building.name,
                     own.building.name,
-                    pairs_to_list(a, b)
-                )));
-            }
-            let column = other.point(height, LEVEL_TOLERANCE).map_err(Misfit::all)?;
+                    remedy(a, b)
+                ))
+            })?;
             let mut pair = [Some(height), Some(column)];
             if side == 1 {
                 pair.reverse();
@@ -273,7 +308,7 @@ fn listed(
             }
         }
         if let ([Some(a), Some(b)], [Some(left), Some(right)]) = (pair, [left, right])
-            && (a - b).abs() > tolerance + ROUNDING
+            && !level(a, b, tolerance)
         {
             let [one, other] = [left.describe(levels[0], a), right.describe(levels[1], b)];
             let both_floors = levels.iter().all(|level| matches!(level, Level::Floor(_)));
@@ -407,14 +442,15 @@ impl Model {
             let heights = [a.floor_heights(), b.floor_heights()];
             let floors = [0, 1].map(|side| {
                 let roof = heights[1 - side].last().copied().unwrap_or(0.0);
-                let within = roof + gap.level_tolerance;
+                let within =
+                    |height: f64| height <= roof || level(height, roof, gap.level_tolerance);
                 let met = |height: f64| {
                     let mut points = pairs.iter().filter_map(|pair| pair[side]);
                     points.any(|point| (point - height).abs() <= SAME)
                 };
                 let alone = heights[side].iter().enumerate();
                 alone
-                    .filter(|(_, height)| **height <= within && !met(**height))
+                    .filter(|(_, height)| within(**height) && !met(**height))
                     .map(|(floor, _)| floor + 1)
                     .collect::<Vec<_>>()
             });
@@ -458,43 +494,14 @@ pub(crate) fn crowded(height: f64, others: impl Iterator<Item = f64>) -> Option<
 /// Points closer than this are one \[m\].
 pub(crate) const SAME: f64 = 1e-6;
 
+/// Whether two heights differ by no more than a tolerance, up to the rounding of sums of storey heights \[m\].
+fn level(a: f64, b: f64, tolerance: f64) -> bool {
+    (a - b).abs() <= tolerance + 1e-9 * a.abs().max(b.abs())
+}
+
 pub(crate) fn mean(pair: &PointPair) -> f64 {
     match *pair {
         [Some(a), Some(b)] => 0.5 * (a + b),
         [a, b] => a.or(b).unwrap_or(0.0),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::{Base, Damping, Gravity, Shear};
-
-    fn tower(height: f64) -> Building {
-        Building {
-            name: "tower".into(),
-            structure: Structure::Shear(Shear {
-                mass: vec![1e4; 3],
-                stiffness: vec![1e7; 3],
-                storey_heights: vec![height; 3],
-            }),
-            damping: Damping::Rayleigh {
-                alpha: 0.1,
-                beta: 0.0,
-            },
-            base: Base::default(),
-            gravity: Gravity::default(),
-            hinges: None,
-        }
-    }
-
-    #[test]
-    fn floors_as_far_apart_as_the_tolerance_can_touch() {
-        let (a, b) = (tower(3.3), tower(3.6));
-        let pairs = |tolerance| point_pairs(&FloorPairs::Common, [Some(&a), Some(&b)], tolerance);
-        assert_eq!(pairs(0.3).map(|pairs| pairs.len()), Ok(1));
-        assert!(pairs(0.2999).is_err());
-        let listed = FloorPairs::listed(&[(2, 2)]);
-        assert!(point_pairs(&listed, [Some(&a), Some(&b)], 0.6).is_ok());
     }
 }

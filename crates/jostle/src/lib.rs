@@ -123,7 +123,7 @@ mod stretches;
 mod summarise;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
-pub use contact_points::UnmatchedFloors;
+pub use contact_points::{UnmatchedFloors, floor_and_height};
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Gravity, Hinges,

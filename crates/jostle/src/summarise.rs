@@ -468,7 +468,7 @@ fn warnings(run: &Run) -> Vec<String> {
     let given = -energy.contact / energy.input.abs().max(f64::MIN_POSITIVE);
     if given > MOST_GIVEN {
         warnings.push(format!(
-            "contacts gave {:.1} % of the energy put in, where they should only take some: the contact step is too coarse; use contact_step = \"auto\", and a smaller tolerance where it already is",
+            "contacts gave {:.1} % of the energy put in, where they should only take some: the contact step is too coarse; use contact_step = \"auto\", or a smaller tolerance if it is auto already",
             given * 100.0
         ));
     }
@@ -492,12 +492,12 @@ fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = 
     } = *accuracy;
     let missed = (residual > tolerance).then(|| {
         format!(
-            "the tolerance of {tolerance:.0e} is not met: the estimated error of the peaks is {residual:.1e}, and they are sensitive to the time step; {remedy}"
+            "the tolerance of {tolerance:e} is not met: the estimated error of the peaks is {residual:.1e}, and they are sensitive to the time step; {remedy}"
         )
     });
     let sensitive = sensitive_from.map(|from| {
         format!(
-            "sensitive from t = {from:.3} s: contacts are made or missed there within the tolerance of {tolerance:.0e}, and later impacts and peaks depend on them; what comes before holds"
+            "sensitive from t = {from:.3} s: contacts are made or missed there within the tolerance of {tolerance:e}, and later impacts and peaks depend on them; what comes before holds"
         )
     });
     missed.into_iter().chain(sensitive)

@@ -325,7 +325,7 @@ pub struct PromiseSummary {
     /// Estimated error of the least accurate peak of a building, contact forces and impulses not included: of shapes left out and of values between steps in modal stepping, of
     /// frequencies moved by the steps otherwise; `null` where it is not estimated \[–\].
     pub residual: Option<f64>,
-    /// Instant from which answers hang on contacts made or missed within the tolerance; `null` if they do not \[s\].
+    /// Instant from which results depend on contacts made or missed within the tolerance; `null` if none do \[s\].
     pub sensitive_from_s: Option<f64>,
 }
 
@@ -336,10 +336,10 @@ impl PromiseSummary {
         let tolerance = self.tolerance;
         let estimate = match (self.residual, self.met) {
             (Some(residual), Some(true)) => format!(
-                "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, within the tolerance {tolerance:.0e}"
+                "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, within the tolerance {tolerance:e}"
             ),
             (Some(residual), _) => format!(
-                "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, beyond the tolerance {tolerance:.0e}"
+                "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, beyond the tolerance {tolerance:e}"
             ),
             (None, _) => {
                 "not estimated: buildings yield, or the integrator is not the usual one".to_owned()

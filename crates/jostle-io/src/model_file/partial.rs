@@ -1,6 +1,6 @@
 //! Neighbours whose floors match in part.
 
-use jostle::{Building, Model, Structure, UnmatchedFloors};
+use jostle::{Building, Model, Structure, UnmatchedFloors, floor_and_height};
 
 /// One warning for every pair of neighbours whose common floors leave out floors that could hit the other.
 pub(super) fn warnings(model: &Model) -> Vec<String> {
@@ -48,14 +48,7 @@ fn remedy(buildings: [&Building; 2], found: &UnmatchedFloors) -> String {
                 let height = *buildings[shear]
                     .floor_heights()
                     .get(floor.checked_sub(1)?)?;
-                let pair = [floor.to_string(), format!("\"{height:.3} m\"")];
-                let [a, b] = if shear == 0 {
-                    pair
-                } else {
-                    let [floor, height] = pair;
-                    [height, floor]
-                };
-                Some(format!(" as [[{a}, {b}], …]"))
+                Some(format!(" as {}", floor_and_height(shear, floor, height)))
             });
             format!(
                 "Floors of \"{}\" can hit columns of \"{}\": {listed}{}. Describe \"{}\" as a frame to let floors hit its columns too",

@@ -166,7 +166,7 @@ impl Results<'_> {
             title: "Required gap".into(),
             remark: "Needed: the smallest gap of this study without an impact and without one at any wider gap. ABS, SRSS and DDC come from the peak displacements of cases without contact, at the highest floors that face each other; where even the widest gap is closed there is nothing to show.".into(),
             charts: vec![Chart {
-                title: "Gap without pounding, and rules".into(),
+                title: "Smallest gap without pounding, and rules".into(),
                 x: axis,
                 y: gap_axis,
                 series,

@@ -493,15 +493,15 @@ const CASES: &[Case] = &[
             shear_of(m).storey_heights.fill(3.0);
         },
         "gap[0].floors",
-        "no floors of \"frame\" and \"tower\" lie at equal height; floors of \"tower\" can hit columns of \"frame\": list the pairs, as floors = [[\"3.000 m\", 1], …]",
+        "no floors of \"frame\" and \"tower\" lie at equal height; floors of \"tower\" can hit columns of \"frame\": list the pairs, as floors = [[\"3.000 m\", 1], …]; or describe \"tower\" as a frame, or raise level_tolerance if slabs overlap",
     ),
     (
         |m| {
-            shear_of(m).storey_heights.fill(3.0);
             m.gaps[0].floors = FloorPairs::All;
+            shear_of(m).storey_heights.fill(3.0);
         },
         "gap[0].floors",
-        "\"tower\" has none for the floor of \"frame\" at 3.200 m; floors of \"tower\" can hit columns of \"frame\": list the pairs",
+        "\"all\" needs columns, and shear building \"tower\" has none at 3.200 m, where \"frame\" has a floor; floors of \"tower\" can hit columns of \"frame\": list the pairs, as floors = [[\"3.000 m\", 1], …]; or describe \"tower\" as a frame",
     ),
     (
         |m| m.gaps[0].floors = FloorPairs::listed(&[]),
