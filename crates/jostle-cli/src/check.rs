@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
+use jostle::eigen::Mode;
 use jostle::hysteresis::{Hysteresis, Side};
-use jostle::modal::Mode;
 use jostle::model::{Damping, Hinges, Structure, usual_damping_modes};
-use jostle::stepping::StepEquations;
+use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{Building, Model, Plan, RiccatiSweep, Solver, System};
 
@@ -435,7 +435,10 @@ fn describe_work(
     if modal {
         return writeln!(text);
     }
-    let sweeps = system.buildings.iter().map(RiccatiSweep::of);
+    let sweeps = system
+        .buildings
+        .iter()
+        .map(|building| RiccatiSweep::new(building));
     let couplings: usize = sweeps.map(|sweep| sweep.couplings()).sum();
     writeln!(
         text,

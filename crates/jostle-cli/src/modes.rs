@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use jostle::System;
-use jostle::modal::{self, Mode};
+use jostle::eigen::{self, Mode};
 use jostle::system::BuildingSystem;
 use jostle_io::Overrides;
 use serde_json::{Value, json};
@@ -45,7 +45,7 @@ type Listed<'a> = Vec<(&'a BuildingSystem, Vec<Mode>)>;
 
 fn list(system: &System, count: usize) -> Result<Listed<'_>, String> {
     let modes = system.buildings.iter().map(|building| {
-        let modes = modal::modes(building, count)
+        let modes = eigen::modes(building, count)
             .map_err(|problem| format!("no modes of \"{}\": {problem}", building.name))?;
         Ok((building, modes))
     });
@@ -134,7 +134,7 @@ fn describe(text: &mut String, building: &BuildingSystem, modes: &[Mode]) -> std
         text,
         "  {} of {} modes listed, with {:.1} % of the mass horizontally\n",
         modes.len(),
-        modal::number_of_modes(building),
+        eigen::number_of_modes(building),
         carried * 100.0
     )
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use jostle::statics::{
+use jostle::pushover::{
     LoadPattern, PushDirection, PushSettings, PushedBuilding, Pushover, pushover as push,
 };
 use jostle::system::BuildingSystem;

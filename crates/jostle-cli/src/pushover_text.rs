@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use jostle::hysteresis::Stage;
-use jostle::statics::{Bilinear, PushEnd, PushEventKind, PushPoint, PushedBuilding, Pushover};
+use jostle::pushover::{Bilinear, PushEnd, PushEventKind, PushPoint, PushedBuilding, Pushover};
 
 use crate::numbers::{counted, kn, mm};
 use crate::terminal::{BOLD, DIM, LOUD, styled};

@@ -3,11 +3,11 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use jostle::separation::gb50011_frame_joint;
-use jostle::summary::{
+use jostle::results::summary::{
     BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, LinkSummary,
     Summary,
 };
+use jostle::separation::gb50011_frame_joint;
 
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::terminal::{BOLD, DIM, LOUD, styled};
@@ -317,7 +317,7 @@ fn write_code_joint(text: &mut String, gap: &GapSummary, summary: &Summary) -> s
 
 #[cfg(test)]
 mod tests {
-    use jostle::summary::HingeSummary;
+    use jostle::results::summary::HingeSummary;
 
     use super::*;
 

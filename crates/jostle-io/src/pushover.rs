@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use jostle::hysteresis::Stage;
-use jostle::statics::{Bilinear, PushEnd, PushPoint, PushedBuilding, Pushover};
+use jostle::pushover::{Bilinear, PushEnd, PushPoint, PushedBuilding, Pushover};
 use serde_json::{Value, json};
 
 use crate::csv::csv_field;

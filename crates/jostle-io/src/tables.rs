@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use jostle::skeleton::{BaseMotion, MemberEnd, SpringPlace};
-use jostle::summary::{ContactSummary, ImpactSummary, SpringSummary};
+use jostle::results::summary::{ContactSummary, ImpactSummary, SpringSummary};
+use jostle::structure::{BaseMotion, MemberEnd, SpringPlace};
 use jostle::{Column, EnergyTerm, History, Model, Outcome, Summary, System, springs_of};
 use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type};

@@ -1,7 +1,7 @@
 //! Usual ranges of quantities: every reader of models warns outside the usual range, and refuses what can only be a
 //! slip of units. This file has all the numbers.
 
-use jostle::summary::Summary;
+use jostle::results::summary::Summary;
 use jostle::{GroundMotion, LawKind, Model, System};
 
 use crate::keys::Section::{self as S};

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use jostle::summary::{
+use jostle::results::summary::{
     ContactSummary, EnergySummary, GapSummary, ImpactSummary, LinkFloorSummary, LinkSummary,
     MotionSummary, WorkSummary,
 };

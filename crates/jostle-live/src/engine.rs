@@ -422,8 +422,9 @@ fn numbers(summary: &Summary) -> Vec<Number> {
     for building in &summary.buildings {
         let name = &building.name;
         let floors = || building.floors.iter();
-        let most =
-            |of: fn(&jostle::summary::FloorSummary) -> f64| floors().map(of).fold(0.0, f64::max);
+        let most = |of: fn(&jostle::results::summary::FloorSummary) -> f64| {
+            floors().map(of).fold(0.0, f64::max)
+        };
         let sway = most(|f| f.displacement_max_m.max(-f.displacement_min_m));
         add(format!("Displacement of {name}"), "mm", 1e3 * sway);
         add(

@@ -14,7 +14,7 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
         };
         let periods: Vec<f64> = assembled
             .lateral_modes()
-            .map(jostle::modal::Mode::period)
+            .map(jostle::eigen::Mode::period)
             .collect();
         json!({
             "name": building.name,

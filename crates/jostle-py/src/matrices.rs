@@ -1,7 +1,7 @@
 //! Mass, damping and stiffness of a building as full matrices, and where its floors and contacts are in them.
 
 use jostle::System;
-use jostle::equations::SparseSymmetric;
+use jostle::linear::SparseSymmetric;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 

@@ -3,7 +3,7 @@
 use jostle::contact::RestitutionIs;
 use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Link, Shear, Solver, Structure};
 use jostle::motion::Wave;
-use jostle::summary::{BuildingSummary, GapSummary, LinkSummary};
+use jostle::results::summary::{BuildingSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
 
 use crate::{Page, backbones, format, special};

@@ -2,8 +2,8 @@
 
 use jostle::hysteresis::{Backbone, Hysteresis, Side};
 use jostle::model::{Building, Hinges, Model};
-use jostle::skeleton::{BaseMotion, Idealisation, MemberEnd, SpringPlace};
-use jostle::summary::{HingeSummary, SpringSummary};
+use jostle::results::summary::{HingeSummary, SpringSummary};
+use jostle::structure::{BaseMotion, Idealisation, MemberEnd, SpringPlace};
 use maud::{Markup, html};
 
 use crate::{Page, format};

@@ -38,7 +38,7 @@ pub use viewer::{Frame, Viewer, frame};
 
 use jostle::history::SpringHistory;
 use jostle::method::MethodSurvey;
-use jostle::summary::{GapSummary, LinkSummary};
+use jostle::results::summary::{GapSummary, LinkSummary};
 use jostle::{Gap, GroundMotion, History, Link, Model, Summary};
 use jostle_section::formula::Member;
 

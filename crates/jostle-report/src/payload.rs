@@ -3,7 +3,7 @@
 use jostle::history::{Column, EnergyTerm, History};
 use jostle::model::{Building, Structure};
 use jostle::motion::{GroundMotion, Wave};
-use jostle::summary::{ContactSummary, SpringSummary, Summary};
+use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
 use serde::Serialize;
 
 use crate::Page;

@@ -2,10 +2,10 @@
 
 use jostle::Gap;
 use jostle::contact::{LawKind, RestitutionIs};
-use jostle::separation::{absolute_sum, gb50011_frame_joint, srss};
-use jostle::summary::{
+use jostle::results::summary::{
     BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, ImpactSummary,
 };
+use jostle::separation::{absolute_sum, gb50011_frame_joint, srss};
 use maud::{Markup, html};
 
 use crate::envelope::Envelope;

@@ -1,6 +1,6 @@
 //! What happened, in one sentence of plain words.
 
-use jostle::summary::{ContactSummary, GapSummary, ImpactSummary, Summary};
+use jostle::results::summary::{ContactSummary, GapSummary, ImpactSummary, Summary};
 
 use crate::format;
 

@@ -10,7 +10,7 @@ mod fixture;
 use std::time::Instant;
 
 use fixture::{Run, alone, row_of_three, two_frames, walled, yielding};
-use jostle::summary::FloorWithoutContact;
+use jostle::results::summary::FloorWithoutContact;
 use jostle_report::render;
 
 fn pages() -> Vec<(&'static str, Run)> {

@@ -10,10 +10,10 @@ use std::time::Duration;
 
 use headless_chrome::{Browser, LaunchOptions};
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
-use jostle::skeleton::Idealisation;
-use jostle::statics::{
+use jostle::pushover::{
     LoadPattern, PushDirection, PushSettings, PushedBuilding, Pushover, pushover,
 };
+use jostle::structure::Idealisation;
 use jostle::system::BuildingSystem;
 use jostle::{
     Axial, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section, Structure,

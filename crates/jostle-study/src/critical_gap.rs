@@ -378,7 +378,7 @@ impl Search<'_> {
             .map(|side| side.map(|building| &apart.system.buildings[building]));
         let periods = neighbours.map(|building| {
             let first = building.and_then(|building| building.lateral_modes().next());
-            first.map_or(0.0, jostle::modal::Mode::period)
+            first.map_or(0.0, jostle::eigen::Mode::period)
         });
         let damping = [0, 1].map(|side| {
             let omega = std::f64::consts::TAU / periods[side];

@@ -1,6 +1,6 @@
 //! What a row of a study says about a run: engineering demand parameters by name.
 
-use jostle::summary::{BuildingSummary, GapSummary};
+use jostle::results::summary::{BuildingSummary, GapSummary};
 use jostle::{GroundMotion, Summary, System, Wave};
 use jostle_motion::{Accelerogram, Reading, response_spectrum};
 
@@ -122,8 +122,9 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
         building.periods_s.first().copied(),
     );
     list.real(format!("{name}.sa_t1_m_s2"), sa);
-    let greatest =
-        |of: fn(&jostle::summary::FloorSummary) -> f64| floors.iter().map(of).fold(0.0, f64::max);
+    let greatest = |of: fn(&jostle::results::summary::FloorSummary) -> f64| {
+        floors.iter().map(of).fold(0.0, f64::max)
+    };
     list.real(
         format!("{name}.drift_peak"),
         greatest(|f| f.storey_drift_peak),

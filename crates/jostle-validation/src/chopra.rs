@@ -1,7 +1,7 @@
 //! Examples of a textbook: A. K. Chopra, Dynamics of Structures.
 
-use jostle::modal::modes;
-use jostle::skeleton::Idealisation;
+use jostle::eigen::modes;
+use jostle::structure::Idealisation;
 use jostle::system::BuildingSystem;
 use jostle::{Analysis, Building, Damping, GroundMotion, Plan, Shear, Solver, Structure, System};
 use jostle_io::builtin_record;
@@ -28,7 +28,7 @@ fn newmark_tables() -> Vec<Row> {
     let input = |key: &str| number(&case, &format!("/inputs/{key}"));
     let (m, k, step) = (input("m"), input("k"), input("dt"));
     let mut building = oscillator("oscillator", m, k, 0.0);
-    building.equations.alpha = input("c") / m;
+    building.structure.equations.alpha = input("c") / m;
     let system = System::of_buildings(vec![building]);
     // The load p = 10 sin(πt/0.6) until 0.6 s enters as −m a_g.
     let load = |t: f64| {

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use jostle::skeleton::{Idealisation, Member, Node, Skeleton, Spring, Support};
-use jostle::stepping::StepEquations;
+use jostle::structure::StepEquations;
+use jostle::structure::{Idealisation, Member, Node, Skeleton, Spring, Support};
 use jostle::system::BuildingSystem;
 use jostle::{Damping, GroundMotion, Plan, RiccatiFactor, RiccatiSweep, State, System, Wave};
 use serde_json::Value;
@@ -32,10 +32,10 @@ pub fn rows() -> Vec<Row> {
 
 /// Displacements of a building under a static load.
 pub(crate) fn static_answer(building: &BuildingSystem, mut load: Vec<f64>) -> Vec<f64> {
-    let sweep = RiccatiSweep::of(building);
+    let sweep = RiccatiSweep::new(building);
     let mut factor = RiccatiFactor::default();
     sweep
-        .factorize(&jostle::stepping::StepMatrix::STATIC, &[], &mut factor)
+        .factorize(&jostle::linear::StepMatrix::STATIC, &[], &mut factor)
         .expect("the structure is supported");
     sweep.solve(&factor, &mut load);
     load
@@ -290,7 +290,7 @@ fn equal_storeys(storeys: usize) -> Vec<Row> {
     let formula = |j: usize| {
         2.0 * (stiffness / mass).sqrt() * ((2 * j - 1) as f64 * PI / (4 * storeys + 2) as f64).sin()
     };
-    let modes = jostle::modal::modes(&tower, storeys).expect("the tower stands");
+    let modes = jostle::eigen::modes(&tower, storeys).expect("the tower stands");
     (1..=storeys)
         .map(|j| {
             let quantity = format!("{storeys} equal storeys, ω of mode {j} [rad/s]");

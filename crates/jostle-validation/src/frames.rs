@@ -1,6 +1,6 @@
 //! Seven frames given node by node: frequencies, statics and 200 Newmark steps against independent programs.
 
-use jostle::modal::modes;
+use jostle::eigen::modes;
 use jostle::system::BuildingSystem;
 use jostle::{Plan, Solver, System};
 use serde_json::Value;
@@ -166,7 +166,7 @@ fn gravity(name: &str, frame: &Value, building: &BuildingSystem) -> Vec<Row> {
 fn middle_of_first_beam(building: &BuildingSystem, joints: &[usize]) -> usize {
     let nodes = &building.idealisation.skeleton.nodes;
     let (a, b) = (nodes[joints[0]], nodes[joints[1]]);
-    let there = |node: &&jostle::skeleton::Node| {
+    let there = |node: &&jostle::structure::Node| {
         (node.y - a.y).abs() < 1e-6 && (node.x - 0.5 * (a.x + b.x)).abs() < 1e-6
     };
     let found = nodes
@@ -189,8 +189,8 @@ fn newmark(
     expected: &Value,
 ) -> Vec<Row> {
     let mut building = building.clone();
-    building.equations.alpha = number(frame, "/newmark/alphaM");
-    building.equations.beta = number(frame, "/newmark/betaK");
+    building.structure.equations.alpha = number(frame, "/newmark/alphaM");
+    building.structure.equations.beta = number(frame, "/newmark/betaK");
     let step = number(frame, "/newmark/dt");
     let floors: Vec<usize> = building.floors.iter().map(|floor| floor.dof).collect();
     let system = System::of_buildings(vec![building]);

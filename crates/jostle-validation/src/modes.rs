@@ -1,7 +1,7 @@
 //! Frequencies and masses of frames described in model files.
 
 use jostle::System;
-use jostle::modal::modes;
+use jostle::eigen::modes;
 use jostle_io::{Format, read_model_text};
 use serde_json::Value;
 

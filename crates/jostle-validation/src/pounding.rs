@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use jostle::contact::ForceLaw;
-use jostle::system::Contact;
+use jostle::interface::Contact;
 use jostle::{GroundMotion, System};
 use serde_json::Value;
 
@@ -34,7 +34,10 @@ fn system(stored: &Value) -> System {
     let mut right = explicit_frame("right", at(stored, "/right"));
     let (alpha, beta) = (numbers(stored, "/alphaM"), numbers(stored, "/betaK"));
     for (side, building) in [&mut left, &mut right].into_iter().enumerate() {
-        (building.equations.alpha, building.equations.beta) = (alpha[side], beta[side]);
+        (
+            building.structure.equations.alpha,
+            building.structure.equations.beta,
+        ) = (alpha[side], beta[side]);
     }
     let faces = [
         left.idealisation.right_face.clone(),

@@ -1,6 +1,6 @@
 //! A five-storey beside a ten-storey shear building under El Centro.
 
-use jostle::modal::{Mode, modes};
+use jostle::eigen::{Mode, modes};
 use jostle::{Outcome, Pounding, Settings, System};
 use jostle_io::Input;
 use serde_json::Value;

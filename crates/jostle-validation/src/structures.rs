@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 
 use jostle::contact::ForceLaw;
-use jostle::skeleton::{Hinge, Idealisation, Member, Node, Skeleton, Spring, Support};
+use jostle::interface::Contact;
 use jostle::stepping::{ContactSteps, simulate_from};
-use jostle::system::{BuildingSystem, Contact};
+use jostle::structure::{Hinge, Idealisation, Member, Node, Skeleton, Spring, Support};
+use jostle::system::BuildingSystem;
 use jostle::{GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Solver, State, System};
 use serde_json::Value;
 
@@ -111,7 +112,7 @@ pub(crate) fn free_body(name: &str, mass: f64) -> BuildingSystem {
 /// A mass \[kg\] on a spring \[N/m\] with a damping ratio \[–\].
 pub(crate) fn oscillator(name: &str, mass: f64, stiffness: f64, ratio: f64) -> BuildingSystem {
     let mut building = single_mass(name, mass, Some(stiffness));
-    building.equations.alpha = 2.0 * ratio * (stiffness / mass).sqrt();
+    building.structure.equations.alpha = 2.0 * ratio * (stiffness / mass).sqrt();
     building
 }
 

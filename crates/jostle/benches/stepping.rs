@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use jostle::stepping::StepEquations;
+use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{
     Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind,
@@ -20,7 +20,7 @@ fn main() {
         let building = &System::assemble(&row(1, storeys))
             .expect("a valid model")
             .buildings[0];
-        let couplings = RiccatiSweep::of(building).couplings();
+        let couplings = RiccatiSweep::new(building).couplings();
         println!(
             "{storeys} storeys: {} degrees of freedom, {couplings} couplings",
             building.equations.len()
@@ -105,14 +105,10 @@ fn assemble(bencher: Bencher, storeys: usize) {
 #[divan::bench(args = STOREYS)]
 fn solve(bencher: Bencher, storeys: usize) {
     let building = frame(storeys);
-    let sweep = RiccatiSweep::of(&building);
+    let sweep = RiccatiSweep::new(&building);
     let mut factor = RiccatiFactor::default();
     sweep
-        .factorize(
-            &jostle::stepping::StepMatrix::new(1.0, 1e6),
-            &[],
-            &mut factor,
-        )
+        .factorize(&jostle::linear::StepMatrix::new(1.0, 1e6), &[], &mut factor)
         .expect("positive definite");
     let load: Vec<f64> = (0..building.equations.len())
         .map(|i| (i as f64).sin())
@@ -130,14 +126,10 @@ fn solve(bencher: Bencher, storeys: usize) {
 #[divan::bench(args = STOREYS)]
 fn factorize(bencher: Bencher, storeys: usize) {
     let building = frame(storeys);
-    let sweep = RiccatiSweep::of(&building);
+    let sweep = RiccatiSweep::new(&building);
     let mut factor = RiccatiFactor::default();
     bencher.bench_local(|| {
-        sweep.factorize(
-            &jostle::stepping::StepMatrix::new(1.0, 1e6),
-            &[],
-            &mut factor,
-        )
+        sweep.factorize(&jostle::linear::StepMatrix::new(1.0, 1e6), &[], &mut factor)
     });
 }
 

@@ -86,53 +86,39 @@
 //! `cargo run -p jostle --example two_towers` prints the impacts of the pair above for several gaps.
 
 pub mod contact;
-pub mod counting;
-pub mod equations;
-pub mod faces;
-pub mod gravity;
+pub mod eigen;
 pub mod history;
 pub mod hysteresis;
+pub mod interface;
+pub mod linear;
 pub mod method;
-pub mod modal;
 pub mod model;
 pub mod motion;
+pub mod pushover;
+pub mod results;
 pub mod separation;
-pub mod skeleton;
 pub mod state;
 pub mod statics;
 pub mod stepping;
 pub mod stiffness;
-pub mod storey_forces;
-pub mod summary;
+pub mod structure;
 pub mod system;
 pub mod transfer;
 
 mod check;
-mod check_row;
-mod cholesky;
-mod contact_points;
-mod element;
-mod finite;
-mod full_matrix;
-mod lanes;
-mod member_end;
-mod row;
-mod small_keys;
-mod sparse_cholesky;
-mod stretches;
-mod summarise;
+mod simd;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
-pub use contact_points::{UnmatchedFloors, floor_and_height};
 pub use history::{Column, EnergyTerm, History, Impact};
+pub use interface::{UnmatchedFloors, floor_and_height};
 pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Gravity, Hinges,
-    Joint, Level, Link, Model, ModelFault, Section, Shear, Solver, Structure,
+    Integrator, Joint, Level, Link, Model, ModelFault, Section, Shear, Solver, Structure,
 };
 pub use motion::{GroundMotion, Wave};
+pub use results::summary::Summary;
+pub use results::{Run, springs_of};
 pub use state::State;
-pub use stepping::{Integrator, Outcome, Plan, Pounding, RunEnd, Settings, StepError, simulate};
-pub use summarise::{Run, springs_of};
-pub use summary::Summary;
+pub use stepping::{Outcome, Plan, Pounding, RunEnd, Settings, StepError, simulate};
 pub use system::System;
 pub use transfer::riccati::{RiccatiFactor, RiccatiSweep};

@@ -1,9 +1,11 @@
 //! What the method comes to for one building: its elements, its unknowns, and the digits every way of solving a
 //! step keeps as the step shrinks.
 
-use crate::skeleton::Skeleton;
-use crate::stepping::{Integrator, NotPositive, StepEquations, solve_once};
+use crate::linear::NotPositive;
+use crate::model::Integrator;
 use crate::stiffness::DirectStiffness;
+use crate::structure::Skeleton;
+use crate::structure::{StepEquations, solve_once};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::RiccatiSweep;
 use crate::transfer::{ElementwiseRiccati, ProductEquations, digits_left};
@@ -70,8 +72,8 @@ impl MethodSurvey {
             springs: skeleton.springs.len(),
             degrees_of_freedom: equations.len(),
             stiffness_entries: equations.len() + equations.stiffness.values.len(),
-            couplings: RiccatiSweep::of(building).couplings(),
-            product_unknowns: ProductEquations::of(building).unknowns(),
+            couplings: RiccatiSweep::new(building).couplings(),
+            product_unknowns: ProductEquations::new(building).unknowns(),
             yields: !equations.springs.is_empty(),
             accuracy: SURVEYED_STEPS
                 .iter()
@@ -135,7 +137,7 @@ fn relative_error(answer: &[f64], reference: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::model::{Building, Damping, Shear, Structure};
-    use crate::skeleton::Idealisation;
+    use crate::structure::Idealisation;
 
     #[test]
     fn a_not_a_number_is_no_agreement() {

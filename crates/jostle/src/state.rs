@@ -2,7 +2,8 @@
 
 use crate::contact::Memory;
 use crate::hysteresis::HysteresisMemory;
-use crate::system::System;
+use crate::structure::StoreyForce;
+use crate::system::{BuildingSystem, System};
 
 /// The state of a row of buildings at one instant; a clone is a checkpoint.
 ///
@@ -102,11 +103,11 @@ impl State {
             let equations = &building.equations;
             for (value, rest) in displacement[building.range()]
                 .iter_mut()
-                .zip(&building.rest)
+                .zip(&building.rest.displacement)
             {
                 *value = *rest;
             }
-            springs.extend(&building.rest_springs);
+            springs.extend(&building.rest.springs);
             springs.resize(building.spring_range().end, HysteresisMemory::default());
             let masses = equations.driven_mass.iter().zip(&equations.mass);
             for (value, (driven, mass)) in acceleration[building.range()].iter_mut().zip(masses) {
@@ -123,5 +124,27 @@ impl State {
             springs,
             contacts: vec![ContactPhase::Open; system.contacts.len()],
         }
+    }
+}
+
+impl BuildingSystem {
+    /// Elastic and hysteretic base shear, positive when the building leans to the right \[N\].
+    #[must_use]
+    pub fn base_shear(&self, state: &State) -> f64 {
+        let elastic = self.equations.base_shear(&state.displacement[self.range()]);
+        let springs = self.equations.springs.iter();
+        let yielding = springs
+            .zip(&state.springs[self.spring_range()])
+            .filter(|(spring, _)| spring.carries_base_shear)
+            .map(|(_, memory)| memory.force());
+        elastic + yielding.sum::<f64>()
+    }
+
+    /// Calls `take` with every storey, from the top down, its shear \[N\] and overturning moment \[N·m\].
+    pub fn storey_forces(&self, state: &State, take: impl FnMut(usize, StoreyForce)) {
+        let springs = &state.springs[self.spring_range()];
+        let force = |spring: usize| springs[spring].force();
+        self.storeys
+            .for_each(&state.displacement[self.range()], force, take);
     }
 }

@@ -1,10 +1,11 @@
 //! Direct stiffness: the independent second path. Assembled from element matrices and factorised by a general sparse
 //! elimination with its own ordering; it shares no elimination with the Riccati recursion.
 
-use crate::element::{self, Part};
-use crate::sparse_cholesky::{NoPivot, Pattern, SparseFactor};
-use crate::stepping::{NotPositive, StepEquations, StepMatrix};
-use crate::system::BuildingSystem;
+use crate::linear::sparse_cholesky::{NoPivot, Pattern, SparseFactor};
+use crate::linear::{NotPositive, StepMatrix};
+use crate::structure::AssembledBuilding;
+use crate::structure::StepEquations;
+use crate::structure::element::{self, Part};
 
 /// Element entries of the step matrix of one building.
 #[derive(Clone, Debug)]
@@ -23,7 +24,7 @@ pub struct DirectFactor(SparseFactor);
 impl StepEquations for DirectStiffness {
     type Factor = DirectFactor;
 
-    fn of(building: &BuildingSystem) -> Self {
+    fn new(building: &AssembledBuilding) -> Self {
         let equations = &building.equations;
         let entries = element::stiffnesses(&building.idealisation.skeleton)
             .flat_map(|element| element.entries);
@@ -55,7 +56,7 @@ impl StepEquations for DirectStiffness {
         factor: &mut DirectFactor,
     ) -> Result<(), NotPositive> {
         let members = self.stiffness.iter();
-        let members = members.map(|(part, value)| matrix.weight(*part) * value);
+        let members = members.map(|(part, value)| part.weight(matrix) * value);
         let inertia = self.mass.iter().map(|mass| matrix.mass * mass);
         let springs = self.springs.iter().zip(tangents);
         let springs = springs.flat_map(|(dofs, tangent)| {

@@ -2,7 +2,7 @@
 
 use jostle::contact::ForceLaw;
 use jostle::hysteresis::{Backbone, Hysteresis, HysteresisRule, Side};
-use jostle::system::Contact;
+use jostle::interface::Contact;
 
 /// Materials of a script, numbered from 1, equal ones listed once.
 #[derive(Default)]

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use jostle::gravity::STANDARD_GRAVITY;
 use jostle::hysteresis::Hysteresis;
-use jostle::skeleton::{Skeleton, Support};
+use jostle::statics::STANDARD_GRAVITY;
+use jostle::structure::{Skeleton, Support};
 use jostle::system::BuildingSystem;
 use jostle::{GroundMotion, ModelFault, Wave};
 

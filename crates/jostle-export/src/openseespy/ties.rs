@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use jostle::skeleton::{Skeleton, Support};
+use jostle::structure::{Skeleton, Support};
 
 /// Horizontal, vertical, rotation.
 pub(super) const COMPONENTS: usize = 3;
@@ -126,7 +126,7 @@ pub(super) fn is_vertical(skeleton: &Skeleton, ends: [usize; 2]) -> bool {
 }
 
 /// Stiffness of a hinge in x, y, θ; `None` is rigid.
-pub(super) fn stiffnesses(hinge: &jostle::skeleton::Hinge) -> [Option<f64>; COMPONENTS] {
+pub(super) fn stiffnesses(hinge: &jostle::structure::Hinge) -> [Option<f64>; COMPONENTS] {
     let [horizontal, vertical] = hinge.translational_stiffness;
     [horizontal, vertical, hinge.rotational_stiffness]
 }

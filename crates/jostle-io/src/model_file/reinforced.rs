@@ -2,8 +2,8 @@
 
 use jostle::Building;
 use jostle::Structure;
-use jostle::gravity::{STANDARD_GRAVITY, compressions};
-use jostle::skeleton::Idealisation;
+use jostle::statics::{STANDARD_GRAVITY, compressions};
+use jostle::structure::Idealisation;
 use jostle::system::BuildingSystem;
 use jostle_section::formula::Member;
 use jostle_section::{BarsError, Concrete, Reinforcement, Section, Steel, StrengthLevel, Ties};

@@ -1,7 +1,7 @@
 //! The capacity curve as a picture.
 
 use jostle::hysteresis::Stage;
-use jostle::statics::{Bilinear, PushEventKind, PushPoint, PushedBuilding, Pushover};
+use jostle::pushover::{Bilinear, PushEventKind, PushPoint, PushedBuilding, Pushover};
 use maud::{Markup, html};
 
 use crate::format;

@@ -4,7 +4,7 @@ mod chart;
 mod shapes;
 
 use jostle::hysteresis::Stage;
-use jostle::statics::{Bilinear, LoadPattern, PushEnd, PushPoint, PushedBuilding, Pushover};
+use jostle::pushover::{Bilinear, LoadPattern, PushEnd, PushPoint, PushedBuilding, Pushover};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::format;
@@ -226,7 +226,7 @@ fn pushed_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
                 div { dt { "Driven" } dd { "the roof, to " (percent(curve.settings.drift, 3)) " of " (format::unit(format::plain(curve.height, 4), "m")) } }
                 div { dt { "Weight" } dd { (format::force(curve.weight)) } }
                 div { dt { "Gravity" } dd {
-                    @if one.building.rest.is_empty() { "does not load the hinges" } @else { "loads the hinges first" }
+                    @if one.building.rest.displacement.is_empty() { "does not load the hinges" } @else { "loads the hinges first" }
                     @if one.building.equations.undamped.is_zero() { "; no P-Delta" } @else { "; P-Delta" }
                 } }
                 div { dt { "Floor shares" } dd {

@@ -1,8 +1,8 @@
 //! Shapes and states of hinges, packed for the page.
 
 use jostle::hysteresis::Stage;
-use jostle::skeleton::{MemberEnd, SpringPlace};
-use jostle::statics::{PushEventKind, PushedBuilding, Pushover};
+use jostle::pushover::{PushEventKind, PushedBuilding, Pushover};
+use jostle::structure::{MemberEnd, SpringPlace};
 use serde_json::{Value, json};
 
 use super::chart::Chart;
@@ -22,7 +22,7 @@ pub(super) fn payload(pushed: &[PushedBuilding], charts: &[Chart]) -> String {
 fn building(one: &PushedBuilding, chart: &Chart) -> Value {
     let system = one.building;
     let skeleton = &system.idealisation.skeleton;
-    let across = |value: fn(&jostle::skeleton::Node) -> f64| -> Vec<f64> {
+    let across = |value: fn(&jostle::structure::Node) -> f64| -> Vec<f64> {
         skeleton.nodes.iter().map(value).collect()
     };
     let width = skeleton
@@ -121,7 +121,7 @@ fn curve(one: &PushedBuilding, curve: &Pushover) -> Value {
             }
         }
     }
-    let all = |value: fn(&jostle::statics::PushPoint) -> f64| -> Vec<f64> {
+    let all = |value: fn(&jostle::pushover::PushPoint) -> f64| -> Vec<f64> {
         curve.points.iter().map(value).collect()
     };
     let drifts = curve
@@ -154,7 +154,7 @@ fn kept(curve: &Pushover, most: usize) -> Vec<usize> {
         curve.first(Stage::Yielded),
         Some(curve.peak()),
     ];
-    let of = |wanted: &jostle::statics::PushPoint| {
+    let of = |wanted: &jostle::pushover::PushPoint| {
         curve
             .points
             .iter()

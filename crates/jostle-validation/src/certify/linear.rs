@@ -10,7 +10,7 @@
 use faer::linalg::solvers::{DenseSolveCore, Solve};
 use faer::{Mat, Side, c64};
 use jostle::System;
-use jostle::equations::SparseSymmetric;
+use jostle::linear::SparseSymmetric;
 
 /// Modes of buildings that links join.
 pub(super) struct Component {

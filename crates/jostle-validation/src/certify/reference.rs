@@ -214,7 +214,13 @@ impl<'a> Run<'a> {
             .collect();
         let rest_of = |dof: usize| {
             let building = system.buildings.iter().find(|b| b.range().contains(&dof));
-            building.map_or(0.0, |b| b.rest.get(dof - b.offset).copied().unwrap_or(0.0))
+            building.map_or(0.0, |b| {
+                b.rest
+                    .displacement
+                    .get(dof - b.offset)
+                    .copied()
+                    .unwrap_or(0.0)
+            })
         };
         let mut meetings = Vec::new();
         for contact in &system.contacts {
@@ -1352,6 +1358,7 @@ impl Watch {
             let rest = |dof: usize| {
                 building
                     .rest
+                    .displacement
                     .get(dof - building.offset)
                     .copied()
                     .unwrap_or(0.0)
@@ -1380,10 +1387,10 @@ impl Watch {
                     weights.push((building.offset + dof, weight));
                 }
             }
-            let sinks = if building.rest.is_empty() {
+            let sinks = if building.rest.displacement.is_empty() {
                 0.0
             } else {
-                building.equations.base_shear(&building.rest)
+                building.equations.base_shear(&building.rest.displacement)
             };
             shears.push((component.output(&weights), sinks));
         }

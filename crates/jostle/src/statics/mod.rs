@@ -1,26 +1,19 @@
-//! Nonlinear statics of one building: under its weight, and pushed sideways to collapse.
+//! Statics of one building: under its weight, and along its equilibrium path.
 //!
-//! Springs that yield are straight between corners, so the building is linear from one corner to the next. [`Walk`]
+//! Springs that yield are straight between corners, so the building is linear from one corner to the next. [`EquilibriumPath`]
 //! goes from corner to corner and lands on each: no step size, no iteration for equilibrium (theory, Eqs. X1 to X4).
 
-mod bilinear;
-mod pattern;
-mod pushover;
-mod walk;
+mod equilibrium_path;
+mod gravity;
 
-pub use bilinear::Bilinear;
-pub use pattern::LoadPattern;
-pub use pushover::{
-    NothingToPush, PushDirection, PushEnd, PushEvent, PushEventKind, PushPoint, PushSettings,
-    PushedBuilding, Pushover, pushover,
-};
-pub use walk::{Reached, Walk, WalkError};
+pub use equilibrium_path::{EquilibriumPath, PathError, Reached};
+pub use gravity::{Collapse, STANDARD_GRAVITY, compressions, static_displacement, under_gravity};
 
 use crate::hysteresis::HysteresisMemory;
-use crate::system::BuildingSystem;
+use crate::structure::AssembledBuilding;
 
 /// A building under its own weight.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settled {
     /// Displacement of every degree of freedom \[m, rad\].
     pub displacement: Vec<f64>,
@@ -31,17 +24,17 @@ pub struct Settled {
 /// Lets the weight of a building come on gradually, `gravity` ≥ 0 \[m/s²\]; hinges may crack and yield meanwhile.
 ///
 /// # Errors
-/// [`WalkError`] when the building cannot carry it.
-pub fn settle(building: &BuildingSystem, gravity: f64) -> Result<Settled, WalkError> {
+/// [`PathError`] when the building cannot carry it.
+pub fn settle(building: &AssembledBuilding, gravity: f64) -> Result<Settled, PathError> {
     let weight = building.equations.vertical_mass.iter();
     let pattern = weight.map(|mass| -mass * gravity).collect();
-    let mut walk = Walk::loaded(building, pattern);
-    while walk.load() < 1.0 {
-        walk.find_rates()?;
-        walk.advance((1.0 - walk.load()) / walk.load_rate())?;
+    let mut path = EquilibriumPath::loaded(building, pattern);
+    while path.load() < 1.0 {
+        path.find_rates()?;
+        path.advance((1.0 - path.load()) / path.load_rate())?;
     }
     Ok(Settled {
-        displacement: walk.displacement().to_vec(),
-        springs: walk.memories().to_vec(),
+        displacement: path.displacement().to_vec(),
+        springs: path.memories().to_vec(),
     })
 }

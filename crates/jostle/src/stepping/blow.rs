@@ -1,10 +1,11 @@
 //! Sudden changes of velocity: what the momentum law does to two buildings (docs/contact.md, N1 and N2).
 
 use super::simulation::Simulation;
-use super::{StepEquations, StepMatrix};
 use crate::contact::momentum;
-use crate::faces::Face;
 use crate::history::Impact;
+use crate::interface::Face;
+use crate::linear::StepMatrix;
+use crate::structure::StepEquations;
 use crate::system::{BuildingSystem, System};
 
 /// K + K′ + s C + G M with s and G so large that damping says how massless degrees of freedom follow, where it acts on

@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use super::StepEquations;
 use super::clock::Clock;
 use super::plan::{ContactSteps, Plan};
 use super::simulation::Simulation;
+use crate::interface::Contact;
 use crate::state::Episode;
-use crate::system::Contact;
+use crate::structure::StepEquations;
 
 /// Steps of a half cycle at the present stiffness, relative to those planned, beyond which finer ones gain nothing.
 const MOST_FINER: f64 = 4.0;

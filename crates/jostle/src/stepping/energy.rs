@@ -1,7 +1,7 @@
 //! The energy audit (theory, Eq. E1): sums over steps that must balance if every step is in equilibrium.
 
 use crate::history::Energy;
-use crate::lanes;
+use crate::simd;
 use crate::state::State;
 use crate::system::System;
 
@@ -53,7 +53,7 @@ fn stored(system: &System, state: &State) -> Stored {
     let (mut kinetic, mut strain) = (0.0, 0.0);
     for building in &system.buildings {
         let (equations, own) = (&building.equations, building.range());
-        kinetic += 0.5 * lanes::wide_weighted_square(&equations.mass, &velocity[own.clone()]);
+        kinetic += 0.5 * simd::wide_weighted_square(&equations.mass, &velocity[own.clone()]);
         strain += 0.5 * equations.strain(&displacement[own]);
     }
     let springs = system

@@ -3,7 +3,7 @@
 use super::Plan;
 use crate::model::{Analysis, ModelFault};
 use crate::motion::GroundMotion;
-use crate::skeleton::Skeleton;
+use crate::structure::Skeleton;
 use crate::system::{BuildingSystem, System};
 
 /// Work of a step that does not depend on the displacements of a building, in displacements.
@@ -72,7 +72,7 @@ pub(super) fn too_long(
 
 /// The shortest of the periods that determine automatic steps: the third lateral one, or the last of fewer \[s\].
 fn relevant_period(building: &BuildingSystem) -> Option<f64> {
-    let periods = building.lateral_modes().map(crate::modal::Mode::period);
+    let periods = building.lateral_modes().map(crate::eigen::Mode::period);
     periods.take(3).min_by(f64::total_cmp)
 }
 

@@ -1,10 +1,12 @@
 //! Factorised step equations of all buildings for one step size, and what they say about contacts.
 
-use super::integrator::{BuildingCoefficients, Coefficients, Integrator};
+use super::integrator::{BuildingCoefficients, Coefficients};
 use super::joints::Joints;
 use super::links::LinkFactor;
-use super::{NotPositive, StepEquations};
 use crate::history::Work;
+use crate::linear::NotPositive;
+use crate::model::Integrator;
+use crate::structure::StepEquations;
 use crate::system::System;
 
 /// Everything that depends on the step size but not on the state.

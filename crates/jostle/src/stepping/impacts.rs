@@ -1,6 +1,5 @@
 //! Contacts that close and open: found in tried steps, made to happen, followed to the end.
 
-use super::StepEquations;
 use super::clock::Stride;
 use super::events::Crossing;
 use super::outcome::StepError;
@@ -8,6 +7,7 @@ use super::simulation::Simulation;
 use super::trial::ContactTrial;
 use crate::history::Impact;
 use crate::state::{ContactPhase, Episode};
+use crate::structure::StepEquations;
 
 /// A contact closes or opens within a step.
 #[derive(Clone, Copy, Debug)]

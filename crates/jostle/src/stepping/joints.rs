@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::faces::Faces;
+use crate::interface::Faces;
 use crate::system::System;
 
 /// Contacts and links of a system, counted together: contacts first, then links.

@@ -4,8 +4,8 @@
 use pulp::NullaryFnOnce;
 
 use super::integrator::{BuildingCoefficients, Coefficients};
-use crate::equations::Equations;
-use crate::lanes;
+use crate::simd;
+use crate::structure::Equations;
 
 /// Loads of the incremental step, but for contacts and for what is out of balance (theory, Eq. N3).
 pub(super) struct Loads<'a> {
@@ -76,8 +76,8 @@ impl NullaryFnOnce for Advance<'_> {
             a[k] = a0 + by_mass * change + (b_v * v0 + b_a * a0);
         }
         [
-            lanes::dot(&self.equations.driven_mass, rise),
-            lanes::weighted_square(&self.equations.mass, rise),
+            simd::dot(&self.equations.driven_mass, rise),
+            simd::weighted_square(&self.equations.mass, rise),
         ]
     }
 }

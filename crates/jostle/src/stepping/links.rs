@@ -1,13 +1,14 @@
 //! Links: springs and dashpots between buildings, in every step (theory, Eqs. L1 to L3).
 
-use super::StepEquations;
 use super::band::Band;
 use super::coupling::{Closed, scaled_band};
 use super::simulation::Simulation;
 use crate::contact::ForceLaw;
 use crate::history::{Extreme, LinkTotals};
+use crate::interface::LinkElement;
 use crate::state::State;
-use crate::system::{LinkElement, System};
+use crate::structure::StepEquations;
+use crate::system::System;
 
 /// The factorised equations of all links at one step size, while no contact is closed.
 #[derive(Clone, Debug, Default)]

@@ -1,11 +1,11 @@
 //! What a run is asked for and what it leaves behind.
 
-use super::NotPositive;
 use super::acceleration_parts::AccelerationParts;
 use crate::history::{
     Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, SpringEvent, SpringHistory,
     SpringTotals, Work,
 };
+use crate::linear::NotPositive;
 use crate::state::State;
 use crate::system::{BuildingSystem, System};
 

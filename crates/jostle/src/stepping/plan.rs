@@ -1,11 +1,12 @@
 //! Step sizes: fixed, or chosen from the tolerance (theory, Eqs. G1 and G2).
 
 use super::expected_work::too_long;
-use super::integrator::Integrator;
 use super::modal;
+use crate::interface::Contact;
+use crate::model::Integrator;
 use crate::model::{Analysis, ModelFault, Solver};
 use crate::motion::GroundMotion;
-use crate::system::{BuildingSystem, Contact, System};
+use crate::system::{BuildingSystem, System};
 use crate::transfer::{ProductEquations, ProductRefusal};
 
 /// How a run will step.
@@ -397,7 +398,7 @@ fn modal_step(system: &System, motion: &GroundMotion, refinement: f64) -> f64 {
 fn lateral_period(building: &BuildingSystem, number: usize) -> Option<f64> {
     let periods: Vec<f64> = building
         .lateral_modes()
-        .map(crate::modal::Mode::period)
+        .map(crate::eigen::Mode::period)
         .collect();
     periods.get(number - 1).or(periods.last()).copied()
 }

@@ -7,8 +7,9 @@ use super::outcome::{Outcome, Progress, RunEnd, Settings};
 use super::peak_change::{change_of_peaks, impacts};
 use super::plan::Plan;
 use super::simulation::simulate_once;
+use crate::interface::Contact;
 use crate::motion::GroundMotion;
-use crate::system::{BuildingSystem, Contact, System};
+use crate::system::{BuildingSystem, System};
 
 /// By how much gaps are changed, in tolerances of their greatest closing.
 const CHANGE: f64 = 0.1;

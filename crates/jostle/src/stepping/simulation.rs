@@ -2,14 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use super::StepEquations;
 use super::blow::{BlowFactor, BlowScratch};
 use super::clock::{Clock, Stride};
 use super::coupling::ContactEquations;
 use super::energy::EnergyAudit;
 use super::factors::StepFactors;
 use super::impacts::Landing;
-use super::integrator::Integrator;
 use super::joints::Joints;
 use super::kernels::Advance;
 use super::links::Links;
@@ -20,13 +18,15 @@ use super::recorder::Recorder;
 use super::springs::YieldingSprings;
 use super::trial::ContactTrial;
 use super::within_tolerance::within_tolerance;
-use crate::gravity::STANDARD_GRAVITY;
 use crate::history::{Impact, Work};
-use crate::lanes;
+use crate::model::Integrator;
 use crate::model::Solver;
 use crate::motion::GroundMotion;
+use crate::simd;
 use crate::state::{ContactPhase, State};
+use crate::statics::STANDARD_GRAVITY;
 use crate::stiffness::DirectStiffness;
+use crate::structure::StepEquations;
 use crate::system::System;
 use crate::transfer::ProductEquations;
 use crate::transfer::riccati::RiccatiSweep;
@@ -197,7 +197,11 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             motion,
             plan,
             pounding: settings.pounding == Pounding::Included,
-            equations: system.buildings.iter().map(E::of).collect(),
+            equations: system
+                .buildings
+                .iter()
+                .map(|building| E::new(building))
+                .collect(),
             factors: vec![StepFactors::blank(system, &joints)],
             divisions: vec![0],
             clock: Clock::new(plan.step),
@@ -491,7 +495,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
                 velocity: &mut self.state.velocity[range.clone()],
                 acceleration: &mut self.state.acceleration[range.clone()],
             };
-            let [driven_rise, moved] = lanes::in_wide_registers(range.len(), advance);
+            let [driven_rise, moved] = simd::in_wide_registers(range.len(), advance);
             if !driven_rise.is_finite() {
                 return Err(StepError::NotFinite {
                     time: self.state.time,
@@ -507,8 +511,8 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             if !equations.plain {
                 self.audit.damped += equations.dashpots.quadratic_form(rises) / k.step;
             }
-            if !building.rest.is_empty() {
-                let sunk = lanes::dot(&equations.vertical_mass, rises);
+            if !building.rest.displacement.is_empty() {
+                let sunk = simd::dot(&equations.vertical_mass, rises);
                 self.audit.input -= STANDARD_GRAVITY * sunk;
             }
         }
@@ -547,7 +551,7 @@ fn unbalanced_load(
         }
         for (k, dof) in range.enumerate() {
             let inertia = equations.mass[k] * (state.acceleration[dof] + equations.alpha * v[k]);
-            let weight = if building.rest.is_empty() {
+            let weight = if building.rest.displacement.is_empty() {
                 0.0
             } else {
                 STANDARD_GRAVITY * equations.vertical_mass[k]
@@ -568,7 +572,7 @@ fn unbalanced_load(
     let rounding = if system
         .buildings
         .iter()
-        .any(|building| !building.rest.is_empty())
+        .any(|building| !building.rest.displacement.is_empty())
     {
         1e-9
     } else {

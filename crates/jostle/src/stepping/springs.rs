@@ -5,12 +5,12 @@
 //! with. Forces rise with deformation, so that the step has one solution; lines are finite in number, so that it is
 //! reached exactly.
 
-use super::StepEquations;
 use super::outcome::StepError;
 use super::simulation::Simulation;
 use crate::history::{SpringEvent, SpringTotals};
 use crate::hysteresis::{HysteresisMemory, Stage};
 use crate::state::State;
+use crate::structure::StepEquations;
 use crate::system::{BuildingSystem, System};
 
 /// A spring in the tried step.

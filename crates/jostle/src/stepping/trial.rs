@@ -1,14 +1,14 @@
 //! A step tried but not yet taken.
 
-use super::StepEquations;
 use super::clock::Clock;
 use super::coupling::Closed;
 use super::events::Cubic;
 use super::kernels::Loads;
 use super::outcome::StepError;
 use super::simulation::Simulation;
-use crate::lanes;
+use crate::simd;
 use crate::state::ContactPhase;
+use crate::structure::StepEquations;
 
 /// What a tried step would do at a contact.
 #[derive(Clone, Copy, Debug, Default)]
@@ -75,7 +75,7 @@ impl<E: StepEquations> Simulation<'_, E> {
                 acceleration: &self.state.acceleration[range.clone()],
                 out: &mut self.rise[range.clone()],
             };
-            lanes::in_wide_registers(range.len(), loads);
+            simd::in_wide_registers(range.len(), loads);
         }
         self.add_undamped_loads(slot);
         let weight = self.factors[slot].coefficients.unbalanced;

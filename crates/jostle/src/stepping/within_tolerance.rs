@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use super::StepEquations;
 use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings};
 use super::peak_change::change_of_peaks;
 use super::plan::Plan;
 use super::simulation::Simulation;
 use crate::motion::GroundMotion;
 use crate::state::State;
+use crate::structure::StepEquations;
 use crate::system::System;
 
 /// Refinements before the error that is left is reported.

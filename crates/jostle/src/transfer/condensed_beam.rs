@@ -1,8 +1,8 @@
 //! A beam condensed onto the joints at its ends, in stiffness form (theory, Eq. R3).
 
 use super::layout::{BeamLine, Layout, Link};
-use crate::element::{self, Part, X};
-use crate::stepping::StepMatrix;
+use crate::linear::StepMatrix;
+use crate::structure::element::{self, Part, X};
 
 /// Displacements of the two joints: x, y, θ on the left, then on the right.
 const ENDS: usize = 6;
@@ -126,7 +126,7 @@ impl CondensedBeam {
         let (n, all) = (self.inside, ENDS + self.inside);
         let mut full = vec![0.0; all * all];
         for &(part, row, column, value) in &self.stiffness {
-            full[row * all + column] += matrix.weight(part) * value;
+            full[row * all + column] += part.weight(matrix) * value;
         }
         for (k, mass) in self.mass.iter().enumerate() {
             full[k * all + k] += matrix.mass * mass;

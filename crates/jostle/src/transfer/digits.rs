@@ -2,8 +2,8 @@
 
 use super::layout::{Layout, Link};
 use super::{Heading, StateVector};
-use crate::stepping::StepMatrix;
-use crate::system::BuildingSystem;
+use crate::linear::StepMatrix;
+use crate::structure::AssembledBuilding;
 
 /// Digits that a step should keep.
 pub(super) const DIGITS_WANTED: f64 = 6.0;
@@ -30,9 +30,9 @@ const PER_BEAM_DECADE: f64 = 0.4;
 /// half decades.
 ///
 /// ```
-/// use jostle::skeleton::Idealisation;
-/// use jostle::stepping::StepMatrix;
-/// use jostle::system::BuildingSystem;
+/// use jostle::structure::Idealisation;
+/// use jostle::linear::StepMatrix;
+/// use jostle::system::AssembledBuilding;
 /// use jostle::transfer::digits_left;
 /// use jostle::{Building, Damping, Shear, Structure};
 /// let tower = Building {
@@ -47,13 +47,13 @@ const PER_BEAM_DECADE: f64 = 0.4;
 ///     gravity: Default::default(),
 ///     hinges: None,
 /// };
-/// let tower = BuildingSystem::new("tower", Idealisation::of(&tower));
+/// let tower = AssembledBuilding::new("tower", Idealisation::of(&tower));
 /// let at = |step: f64| digits_left(&tower, &StepMatrix::new(1.0, 4.0 / (step * step)));
 /// assert!(at(2e-2) > 7.0 && at(1e-3) < -10.0);
 /// ```
 #[must_use]
-pub fn digits_left(building: &BuildingSystem, matrix: &StepMatrix) -> f64 {
-    let Ok(layout) = Layout::of(building) else {
+pub fn digits_left(building: &AssembledBuilding, matrix: &StepMatrix) -> f64 {
+    let Ok(layout) = Layout::new(building) else {
         return 0.0;
     };
     let decades = |links: &[Link], nodes: &[usize], heading: Heading| {

@@ -13,9 +13,10 @@
 use super::condensed_beam::{BeamFactor, CondensedBeam};
 use super::layout::{Layout, Link, NotAFrame};
 use super::{Heading, Transfer};
-use crate::full_matrix::{FullMatrix, PivotedLu};
-use crate::stepping::{NotPositive, StepEquations, StepMatrix};
-use crate::system::BuildingSystem;
+use crate::linear::full_matrix::{FullMatrix, PivotedLu};
+use crate::linear::{NotPositive, StepMatrix};
+use crate::structure::AssembledBuilding;
+use crate::structure::StepEquations;
 
 /// Place of the force that belongs to the displacements x, y, θ, among m, qx, qy.
 const FORCE: [usize; 3] = [1, 2, 0];
@@ -84,8 +85,8 @@ struct KeptFloor {
 impl StepEquations for ElementwiseRiccati {
     type Factor = ElementwiseFactor;
 
-    fn of(building: &BuildingSystem) -> Self {
-        let layout = Layout::of(building);
+    fn new(building: &AssembledBuilding) -> Self {
+        let layout = Layout::new(building);
         let (mut passes, mut beams) = (Vec::new(), Vec::new());
         if let Ok(layout) = &layout {
             passes = moves(layout);

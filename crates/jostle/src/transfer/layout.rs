@@ -1,11 +1,11 @@
 //! Column lines and beams, found in the geometry of a skeleton.
 
 use super::{BeamSegment, Heading, LumpedMass, PlanarHinge, Transfer};
-use crate::element::{self, THETA, X, Y};
-use crate::equations::Equations;
-use crate::skeleton::{Skeleton, Support};
-use crate::stepping::StepMatrix;
-use crate::system::BuildingSystem;
+use crate::linear::StepMatrix;
+use crate::structure::AssembledBuilding;
+use crate::structure::Equations;
+use crate::structure::element::{self, THETA, X, Y};
+use crate::structure::{Skeleton, Support};
 
 /// Two heights or places nearer than this are the same \[m\].
 const SAME: f64 = 1e-6;
@@ -105,7 +105,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub(super) fn of(building: &BuildingSystem) -> Result<Self, NotAFrame> {
+    pub(super) fn new(building: &AssembledBuilding) -> Result<Self, NotAFrame> {
         let skeleton = &building.idealisation.skeleton;
         if !building.equations.springs.is_empty() {
             return Err(NotAFrame::Yields);
@@ -154,7 +154,7 @@ impl Layout {
             }
             Link::Hinge(index) => {
                 let hinge = &self.skeleton.hinges[index];
-                let weight = matrix.weight(element::part_of(hinge.proportional_damping));
+                let weight = element::part_of(hinge.proportional_damping).weight(matrix);
                 let in_step = |stiffness: Option<f64>, component: usize| {
                     stiffness.map(|k| weight * k + matrix.dashpots * hinge.dashpots[component])
                 };
@@ -168,7 +168,7 @@ impl Layout {
             // Floors of a shear building neither rise nor turn: a hinge that gives way sideways only.
             Link::Spring(index) => {
                 let spring = &self.skeleton.springs[index];
-                let weight = matrix.weight(element::part_of(spring.proportional_damping));
+                let weight = element::part_of(spring.proportional_damping).weight(matrix);
                 PlanarHinge {
                     horizontal_stiffness: Some(
                         weight * spring.stiffness - spring.softening

@@ -35,7 +35,6 @@ mod product;
 mod state_vector;
 mod transfer_matrix;
 
-pub(crate) mod path;
 pub(crate) mod riccati;
 mod shelves;
 

@@ -14,9 +14,11 @@ use super::digits::{DIGITS_WANTED, digits_left};
 use super::layout::{Layout, NotAFrame};
 use super::riccati::RiccatiSweep;
 use super::{Heading, StateVector, Transfer, apart, one_in_two_out, two_in_one_out};
-use crate::full_matrix::{FullMatrix, PivotedLu};
-use crate::stepping::{Integrator, NotPositive, StepEquations, StepMatrix, solve_once};
-use crate::system::BuildingSystem;
+use crate::linear::full_matrix::{FullMatrix, PivotedLu};
+use crate::linear::{NotPositive, StepMatrix};
+use crate::model::Integrator;
+use crate::structure::AssembledBuilding;
+use crate::structure::{StepEquations, solve_once};
 
 /// The total transfer equation of one building, K̂ y = r with K̂ = κ K + g M solved by products of transfer
 /// matrices.
@@ -67,8 +69,8 @@ impl ProductEquations {
     ///
     /// # Errors
     /// The building is no frame, or too few digits would be left.
-    pub fn check(building: &BuildingSystem, matrix: &StepMatrix) -> Result<(), ProductRefusal> {
-        let layout = Layout::of(building)?;
+    pub fn check(building: &AssembledBuilding, matrix: &StepMatrix) -> Result<(), ProductRefusal> {
+        let layout = Layout::new(building)?;
         head_of_last_line(&layout)?;
         let digits_left = digits_left(building, matrix);
         if digits_left < DIGITS_WANTED {
@@ -86,7 +88,7 @@ impl ProductEquations {
     /// # Errors
     /// As [`ProductEquations::check`].
     pub fn check_step(
-        building: &BuildingSystem,
+        building: &AssembledBuilding,
         integrator: Integrator,
         step: f64,
     ) -> Result<(), ProductRefusal> {
@@ -109,7 +111,7 @@ impl ProductEquations {
 /// # Errors
 /// [`NotPositive`] when the building offers no resistance.
 pub fn measured_loss(
-    building: &BuildingSystem,
+    building: &AssembledBuilding,
     matrix: &StepMatrix,
     load: &[f64],
 ) -> Result<f64, NotPositive> {
@@ -133,8 +135,8 @@ pub fn measured_loss(
 impl StepEquations for ProductEquations {
     type Factor = ProductFactor;
 
-    fn of(building: &BuildingSystem) -> Self {
-        let layout = Layout::of(building).and_then(|layout| {
+    fn new(building: &AssembledBuilding) -> Self {
+        let layout = Layout::new(building).and_then(|layout| {
             head_of_last_line(&layout)?;
             Ok(layout)
         });

@@ -16,11 +16,13 @@ use super::abreast::{Abreast, Lanes};
 use super::band::Band;
 use super::shelves::Shelves;
 
-use crate::equations::{Equations, SparseSymmetric};
-use crate::lanes;
-use crate::small_keys::in_order;
-use crate::stepping::{NotPositive, StepEquations, StepMatrix};
-use crate::system::BuildingSystem;
+use crate::linear::SparseSymmetric;
+use crate::linear::counting_sort::in_order;
+use crate::linear::{NotPositive, StepMatrix};
+use crate::simd;
+use crate::structure::AssembledBuilding;
+use crate::structure::Equations;
+use crate::structure::StepEquations;
 
 /// The recursion through one building: the pattern of the couplings, found once.
 #[derive(Clone, Debug)]
@@ -400,7 +402,7 @@ fn sound(row: usize, own: f64, pivot: f64) -> Result<f64, NotPositive> {
 impl StepEquations for RiccatiSweep {
     type Factor = RiccatiFactor;
 
-    fn of(building: &BuildingSystem) -> Self {
+    fn new(building: &AssembledBuilding) -> Self {
         Self::through(&building.equations)
     }
 
@@ -446,7 +448,7 @@ impl StepEquations for RiccatiSweep {
                 factor,
                 load,
             };
-            lanes::in_wide_registers(order, passes);
+            simd::in_wide_registers(order, passes);
         };
         if order < self.abreast.least_length() {
             let mut roomier = factor.roomier.borrow_mut();
@@ -553,9 +555,9 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::gravity::tests::frame_with;
     use crate::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
     use crate::model::{Axial, FrameHinges, Hinges};
+    use crate::structure::testkit::frame_with;
 
     /// Chains in registers and joints in a band give what columns give one by one, for members of every kind, more and fewer
     /// of them than lanes, and buildings smaller than a register.
@@ -587,7 +589,7 @@ mod tests {
                     };
                     None
                 });
-                let sweep = RiccatiSweep::of(&building);
+                let sweep = RiccatiSweep::new(&building);
                 ways.extend(sweep.abreast.reaches());
                 bands += usize::from(sweep.band.is_some());
                 let order = building.equations.len();
@@ -644,7 +646,7 @@ mod tests {
                 beams: members(frame.spans.len()),
             }))
         });
-        let sweep = RiccatiSweep::of(&building);
+        let sweep = RiccatiSweep::new(&building);
         let matrix = StepMatrix::new(1.02, 4e6);
         let mut tangents = building.equations.initial_tangents();
         let initial = tangents.clone();

@@ -1,6 +1,6 @@
 //! The determinant of the total transfer equation changes sign at simple frequencies only.
 
-use jostle::modal::{Spectrum, log_determinant, modes};
+use jostle::eigen::{Spectrum, log_determinant, modes};
 
 use crate::support::{stacks, stored_frame, stored_frames};
 
@@ -31,7 +31,7 @@ fn sign_changes(spectrum: &mut Spectrum, low: f64, high: f64, samples: usize) ->
 fn simple_frequencies_change_its_sign() {
     let frames = stored_frames();
     let building = stored_frame(&frames["D_3bay10"], 1.0);
-    let mut spectrum = Spectrum::of(&building).expect("the frame stands");
+    let mut spectrum = Spectrum::new(&building).expect("the frame stands");
     let found = sign_changes(&mut spectrum, 1.0, 90.0, 400);
     let expected = modes(&building, 5).expect("the frame stands");
     assert_eq!(found.len(), 5, "{found:?}");
@@ -50,7 +50,7 @@ fn double_frequencies_do_not() {
     let (lone, twin) = ([(1e4, 2e6)], [(1e4, 5e6)]);
     let building = stacks(&[&lone, &twin, &twin]);
     let (single, double) = (f64::sqrt(200.0), f64::sqrt(500.0));
-    let mut spectrum = Spectrum::of(&building).expect("the stacks stand");
+    let mut spectrum = Spectrum::new(&building).expect("the stacks stand");
     let found = sign_changes(&mut spectrum, 1.0, 100.0, 1234);
     assert_eq!(
         found.len(),

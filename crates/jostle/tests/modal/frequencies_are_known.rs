@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use jostle::modal::{Mode, Spectrum, modes};
+use jostle::eigen::{Mode, Spectrum, modes};
 
 use crate::support::{deviation, library_modes, numbers, stored_frame, stored_frames, tower};
 
@@ -51,7 +51,7 @@ fn towers_of_equal_storeys_vibrate_in_sines() {
 fn count_steps_by_one_at_every_mode() {
     for storeys in [1, 4, 10, 40] {
         let building = tower(storeys, 2e5, 3e8);
-        let mut spectrum = Spectrum::of(&building).expect("the tower stands");
+        let mut spectrum = Spectrum::new(&building).expect("the tower stands");
         for j in 1..=storeys {
             let angle = (2 * j - 1) as f64 * PI / (4 * storeys + 2) as f64;
             let frequency = 2.0 * (3e8_f64 / 2e5).sqrt() * angle.sin();
@@ -138,7 +138,7 @@ fn a_few_modes_are_the_first_of_many() {
         modes.iter().map(|mode| mode.circular_frequency).collect()
     };
     let all = frequencies(modes(&building, usize::MAX).expect("the frame stands"));
-    assert_eq!(all.len(), jostle::modal::number_of_modes(&building));
+    assert_eq!(all.len(), jostle::eigen::number_of_modes(&building));
     assert!(all.is_sorted(), "longest period first");
     for count in [0, 1, 2, 7, 100, 179] {
         let few = modes(&building, count).expect("the frame stands");

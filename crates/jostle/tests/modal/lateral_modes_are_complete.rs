@@ -1,6 +1,6 @@
 //! What assembly keeps are all modes with at least 1 % of the mass, and no others.
 
-use jostle::modal::{Mode, modes};
+use jostle::eigen::{Mode, modes};
 use jostle::system::BuildingSystem;
 
 use crate::support::{frame, framed, stacks, stored_frame, stored_frames, tower};

@@ -1,7 +1,7 @@
 //! What moves without deforming has no modes, and says so.
 
-use jostle::modal::{Spectrum, lateral_modes, log_determinant, modes};
-use jostle::skeleton::Skeleton;
+use jostle::eigen::{Spectrum, lateral_modes, log_determinant, modes};
+use jostle::structure::Skeleton;
 use jostle::system::BuildingSystem;
 
 use crate::support::{assembled, library_modes, stacks, stored_frame, stored_frames};
@@ -10,7 +10,7 @@ fn assert_refused(building: &BuildingSystem, why: &str) {
     assert!(modes(building, 3).is_err(), "{why}: slicing");
     assert!(library_modes(building).is_err(), "{why}: library");
     assert!(lateral_modes(building).is_err(), "{why}: Lanczos");
-    assert!(Spectrum::of(building).is_err(), "{why}: count");
+    assert!(Spectrum::new(building).is_err(), "{why}: count");
     assert!(
         log_determinant(building, 1.0).is_err(),
         "{why}: determinant"

@@ -1,6 +1,6 @@
 //! Symmetric structures have frequencies that occur twice or more often.
 
-use jostle::modal::{Spectrum, modes};
+use jostle::eigen::{Spectrum, modes};
 use jostle::system::BuildingSystem;
 
 use crate::support::{deviation, disorder, frame, framed, joined, library_modes, stacks};
@@ -40,7 +40,7 @@ fn twins_vibrate_at_every_frequency_of_one_twice() {
                 );
             }
         }
-        let mut spectrum = Spectrum::of(&many).expect("the stacks stand");
+        let mut spectrum = Spectrum::new(&many).expect("the stacks stand");
         for (j, frequency) in one.iter().enumerate() {
             assert_eq!(spectrum.below(frequency * (1.0 - 1e-12)), copies * j);
             assert_eq!(spectrum.below(frequency * (1.0 + 1e-12)), copies * (j + 1));
@@ -98,18 +98,18 @@ fn frequencies_close_to_each_other_are_told_apart() {
 #[test]
 fn vanishing_pivots_do_not_spoil_the_count() {
     let two = stacks(&[&[(1.0, 1.0), (1.0, 1.0)]]);
-    let mut spectrum = Spectrum::of(&two).expect("the stack stands");
+    let mut spectrum = Spectrum::new(&two).expect("the stack stands");
     assert_eq!(spectrum.below(2_f64.sqrt()), 1, "first floor alone: ω² = 2");
     // Four storeys, where the part and the whole resonate at once: ω₂² = k/m.
     let four = stacks(&[&[(1.0, 1.0); 4]]);
-    let mut spectrum = Spectrum::of(&four).expect("the stack stands");
+    let mut spectrum = Spectrum::new(&four).expect("the stack stands");
     assert_eq!(spectrum.below(1.0 - 1e-9), 1);
     assert_eq!(spectrum.below(1.0 + 1e-9), 2);
     assert!((frequencies(&four)[1] - 1.0).abs() < 1e-15);
     // Every single mass resonates at ω² = k₀ + (n − 1)k = 4, below the multiple frequency.
     for n in [3, 5] {
         let building = joined(n, 1.0, 1.0, 3.0 / (n - 1) as f64);
-        let mut spectrum = Spectrum::of(&building).expect("the masses are held");
+        let mut spectrum = Spectrum::new(&building).expect("the masses are held");
         assert_eq!(spectrum.below(2.0), 1, "{n} masses");
     }
 }
@@ -144,17 +144,17 @@ fn vanishing_pivots_do_not_swamp_what_follows() {
     for first in 1..=4 {
         let mut building = joined(6, 1000.0, 7e5, 3e5);
         for dof in 0..6 {
-            building.equations.mass[dof] *= 1.0 + 0.37 * dof as f64;
-            building.equations.driven_mass[dof] = building.equations.mass[dof];
+            building.structure.equations.mass[dof] *= 1.0 + 0.37 * dof as f64;
+            building.structure.equations.driven_mass[dof] = building.equations.mass[dof];
         }
-        building.equations.mass[0] = 1000.0 * f64::from(first) / 3.0;
+        building.structure.equations.mass[0] = 1000.0 * f64::from(first) / 3.0;
         let held = f64::sqrt((7e5 + 5.0 * 3e5) / building.equations.mass[0]);
         let dense = library_modes(&building).expect("the masses are held");
         let expected = dense
             .iter()
             .filter(|mode| mode.circular_frequency < held)
             .count();
-        let mut spectrum = Spectrum::of(&building).expect("the masses are held");
+        let mut spectrum = Spectrum::new(&building).expect("the masses are held");
         assert_eq!(spectrum.below(held), expected, "first mass {first}/3");
     }
 }

@@ -1,6 +1,6 @@
 //! Frames of any size and stiffness.
 
-use jostle::modal::{Spectrum, modes};
+use jostle::eigen::{Spectrum, modes};
 use jostle::{Axial, Frame, Joint};
 use proptest::prelude::*;
 
@@ -62,7 +62,7 @@ proptest! {
             prop_assert!(error < tolerance, "ω = {expected}: off by {error:e}");
         }
         prop_assert!(disorder(&building, &found) < 1e-8, "{:e}", disorder(&building, &found));
-        let mut spectrum = Spectrum::of(&building).expect("the frame stands");
+        let mut spectrum = Spectrum::new(&building).expect("the frame stands");
         for (j, pair) in found.windows(2).enumerate() {
             let (a, b) = (pair[0].circular_frequency, pair[1].circular_frequency);
             if b > a * (1.0 + 1e-6) {
@@ -74,7 +74,7 @@ proptest! {
             .filter(|mode| mode.is_lateral())
             .map(|mode| mode.circular_frequency)
             .collect();
-        let sure = |share: f64| (share - jostle::modal::LATERAL_SHARE).abs() > 1e-9;
+        let sure = |share: f64| (share - jostle::eigen::LATERAL_SHARE).abs() > 1e-9;
         if dense.iter().all(|mode| sure(mode.effective_mass_ratio_x)) {
             prop_assert_eq!(building.modes.len(), lateral.len());
             prop_assert!(deviation(&building.modes, &lateral) < 1e-9);

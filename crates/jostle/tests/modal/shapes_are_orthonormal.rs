@@ -1,6 +1,6 @@
 //! φᵀMφ = 1, φᵀKφ = Λ, and the effective masses of all modes are the mass of the building.
 
-use jostle::modal::modes;
+use jostle::eigen::modes;
 
 use crate::support::{
     disorder, frame, framed, imbalance, library_modes, stored_frame, stored_frames, tower,

@@ -1,9 +1,9 @@
 //! Buildings whose modes are known or compared.
 
 use faer::{Mat, Side};
-use jostle::modal::{Mode, modes_dense};
-use jostle::skeleton::{Hinge, Idealisation, Member, Node, Skeleton, Spring, Support};
-use jostle::stepping::NotPositive;
+use jostle::eigen::{Mode, modes_dense};
+use jostle::linear::NotPositive;
+use jostle::structure::{Hinge, Idealisation, Member, Node, Skeleton, Spring, Support};
 use jostle::system::BuildingSystem;
 use jostle::{Axial, Building, Damping, Frame, Joint, Section, Structure};
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! The count does not tire with height.
 
-use jostle::modal::modes;
+use jostle::eigen::modes;
 
 use crate::support::{deviation, disorder, frame, framed, library_modes};
 

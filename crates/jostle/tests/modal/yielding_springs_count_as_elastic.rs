@@ -1,8 +1,8 @@
 //! Before they yield, hinges are elastic springs, and modes have to see them.
 
+use jostle::eigen::modes;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
-use jostle::modal::modes;
-use jostle::skeleton::Idealisation;
+use jostle::structure::Idealisation;
 use jostle::system::BuildingSystem;
 use jostle::{Base, Building, Damping, Frame, FrameHinges, Hinges, Joint, Structure};
 

@@ -1,11 +1,13 @@
 //! Plastic collapse loads, springs in series and P-Delta, as textbooks have them.
 
-use jostle::gravity::STANDARD_GRAVITY;
 use jostle::hysteresis::{HysteresisRule, Stage};
-use jostle::skeleton::{Hinge, Idealisation, Member, Node, Skeleton, Support};
-use jostle::statics::{LoadPattern, PushDirection, PushEnd, WalkError, settle};
-use jostle::stepping::{StepMatrix, solve_once};
+use jostle::linear::StepMatrix;
+use jostle::pushover::{LoadPattern, PushDirection, PushEnd};
+use jostle::statics::STANDARD_GRAVITY;
+use jostle::statics::{PathError, settle};
 use jostle::stiffness::DirectStiffness;
+use jostle::structure::solve_once;
+use jostle::structure::{Hinge, Idealisation, Member, Node, Skeleton, Support};
 use jostle::system::BuildingSystem;
 use jostle::{Base, Shear};
 
@@ -257,7 +259,7 @@ fn a_clamped_beam_carries_eight_plastic_moments_over_its_length() {
     let settled = settle(&beam, collapse * (1.0 - 1e-9)).expect("it carries");
     assert_eq!(settled.springs.len(), 3);
     let falls = settle(&beam, collapse * (1.0 + 1e-9)).expect_err("too much");
-    assert!(matches!(falls, WalkError::GivesWay(_)), "{falls}");
+    assert!(matches!(falls, PathError::GivesWay(_)), "{falls}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Weight that cracks hinges.
 
-use jostle::gravity::STANDARD_GRAVITY;
 use jostle::hysteresis::{HysteresisRule, Stage};
+use jostle::statics::STANDARD_GRAVITY;
 use jostle::stepping::ContactSteps;
 use jostle::system::System;
 use jostle::{GroundMotion, Plan, Settings, Solver, State, simulate};
@@ -25,7 +25,7 @@ fn cracked_hinges_balance_the_weight() {
     let building = &system.buildings[0];
     let springs = building.equations.springs.iter();
     let cracked = springs
-        .zip(&building.rest_springs)
+        .zip(&building.rest.springs)
         .filter(|(spring, memory)| spring.hysteresis.stage(memory) != Stage::Uncracked)
         .count();
     assert!(cracked >= 4, "{cracked} hinges are cracked");
@@ -33,17 +33,17 @@ fn cracked_hinges_balance_the_weight() {
     let mut missing = vec![0.0; equations.len()];
     equations
         .stiffness
-        .multiply_add(&building.rest, &mut missing);
+        .multiply_add(&building.rest.displacement, &mut missing);
     equations
         .undamped
-        .multiply_add(&building.rest, &mut missing);
-    for (spring, memory) in equations.springs.iter().zip(&building.rest_springs) {
+        .multiply_add(&building.rest.displacement, &mut missing);
+    for (spring, memory) in equations.springs.iter().zip(&building.rest.springs) {
         for (dof, sign) in spring.dofs.into_iter().zip([1.0, -1.0]) {
             if let Some(dof) = dof {
                 missing[dof] += sign * memory.force();
             }
         }
-        let gap = spring.deformation(&building.rest) - memory.deformation();
+        let gap = spring.deformation(&building.rest.displacement) - memory.deformation();
         assert!(gap.abs() < 1e-14, "{gap}");
     }
     for (dof, mass) in equations.vertical_mass.iter().enumerate() {

@@ -1,7 +1,8 @@
 //! What a path must not depend on.
 
 use jostle::hysteresis::HysteresisRule;
-use jostle::statics::{LoadPattern, PushDirection, Walk};
+use jostle::pushover::{LoadPattern, PushDirection};
+use jostle::statics::EquilibriumPath;
 use jostle::{Structure, model::Hinges};
 
 use crate::support::{assembled, close, frame, hinged, pushed, trilinear, under};
@@ -33,7 +34,7 @@ fn pieces_of_any_length_make_the_same_path() {
         let roof = building.floors[4].dof;
         let mut ends = Vec::new();
         for piece in [1.0_f64, 1e-3, 0.37e-3] {
-            let mut walk = Walk::driven(&building, forces.clone(), roof);
+            let mut walk = EquilibriumPath::driven(&building, &building.rest, forces.clone(), roof);
             let mut gone = 0.0;
             while 0.3 - gone > 1e-12 {
                 walk.find_rates().expect("it stands");
@@ -167,7 +168,7 @@ fn random_frames_are_pushed_to_the_end_in_equilibrium() {
         let building = under(framed, true, case % 7 != 0);
         let mut system = jostle::system::BuildingSystem::new(
             "random",
-            jostle::skeleton::Idealisation::of(&building),
+            jostle::structure::Idealisation::of(&building),
         );
         if system.put_under_gravity(building.gravity).is_err() {
             *ends
@@ -179,7 +180,7 @@ fn random_frames_are_pushed_to_the_end_in_equilibrium() {
             let curve = pushed(&system, pattern, PushDirection::Left, 0.04);
             *ends.entry(curve.end.to_string()).or_insert(0) += 1;
             assert!(
-                !matches!(curve.end, jostle::statics::PushEnd::Failed(_)),
+                !matches!(curve.end, jostle::pushover::PushEnd::Failed(_)),
                 "case {case}: {}",
                 curve.end
             );

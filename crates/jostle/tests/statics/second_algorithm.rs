@@ -1,10 +1,11 @@
 //! The same path by another way: small steps, Newton's method, a general sparse solver.
 
-use jostle::gravity::STANDARD_GRAVITY;
 use jostle::hysteresis::{HysteresisMemory, HysteresisRule};
-use jostle::statics::{LoadPattern, PushDirection};
-use jostle::stepping::{StepEquations, StepMatrix};
+use jostle::linear::StepMatrix;
+use jostle::pushover::{LoadPattern, PushDirection};
+use jostle::statics::STANDARD_GRAVITY;
 use jostle::stiffness::{DirectFactor, DirectStiffness};
+use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 
 use crate::support::{assembled, frame, hinged, pushed, shear_at, trilinear, under};
@@ -26,7 +27,7 @@ impl<'a> Newton<'a> {
         let equations = &building.equations;
         Self {
             building,
-            equations: DirectStiffness::of(building),
+            equations: DirectStiffness::new(building),
             factor: DirectFactor::default(),
             displacement: vec![0.0; equations.len()],
             memories: vec![HysteresisMemory::default(); equations.springs.len()],
@@ -127,7 +128,7 @@ fn newton_in_small_steps_meets_the_same_curve() {
             newton.weight = f64::from(step) / 200.0;
             newton.step(roof, None);
         }
-        for (u, rest) in newton.displacement.iter().zip(&building.rest) {
+        for (u, rest) in newton.displacement.iter().zip(&building.rest.displacement) {
             assert!((u - rest).abs() < 1e-9, "{u} and {rest} at rest");
         }
         let (end, steps) = (0.015 * curve.height, 800);

@@ -1,8 +1,8 @@
 //! Buildings with hinges.
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
-use jostle::skeleton::Idealisation;
-use jostle::statics::{LoadPattern, PushDirection, PushSettings, Pushover, pushover};
+use jostle::pushover::{LoadPattern, PushDirection, PushSettings, Pushover, pushover};
+use jostle::structure::Idealisation;
 use jostle::system::BuildingSystem;
 use jostle::{
     Axial, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section, Shear, Structure,

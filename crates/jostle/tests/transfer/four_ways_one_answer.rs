@@ -1,8 +1,9 @@
 //! Four eliminations that share nothing but the elements.
 
 use jostle::RiccatiSweep;
-use jostle::stepping::{StepEquations, StepMatrix};
+use jostle::linear::StepMatrix;
 use jostle::stiffness::DirectStiffness;
+use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::transfer::{ElementwiseRiccati, ProductEquations, digits_left};
 
@@ -49,7 +50,7 @@ fn four_solvers_agree_on_sixty_three_frames() {
 #[test]
 fn a_factor_serves_many_loads_and_steps() {
     let building = frame(Variant::FlexibleMembers, &[6.0, 3.0, 6.0], 4, COLUMN);
-    let solver = ProductEquations::of(&building);
+    let solver = ProductEquations::new(&building);
     assert_eq!(
         solver.unknowns(),
         3 * (6 * 4 + 3),
@@ -135,7 +136,7 @@ fn four_solvers_agree_on_shear_buildings() {
             assert!(apart <= tolerance, "{storeys} storeys: {apart:e}");
         }
         assert_eq!(
-            ProductEquations::of(&building).unknowns(),
+            ProductEquations::new(&building).unknowns(),
             3,
             "forces at the one base"
         );

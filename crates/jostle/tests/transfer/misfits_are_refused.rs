@@ -1,7 +1,7 @@
 //! What is no frame is called by its fault.
 
-use jostle::skeleton::{Idealisation, Member, Node, Skeleton, Spring, Support};
-use jostle::stepping::StepEquations;
+use jostle::structure::StepEquations;
+use jostle::structure::{Idealisation, Member, Node, Skeleton, Spring, Support};
 use jostle::system::BuildingSystem;
 use jostle::transfer::{ElementwiseRiccati, NotAFrame, ProductEquations, ProductRefusal};
 
@@ -20,13 +20,13 @@ fn refusal_of(building: &BuildingSystem, change: impl FnOnce(&mut Skeleton)) -> 
     change(&mut idealisation.skeleton);
     let building = BuildingSystem::new("misfit", idealisation);
     let mut factor = <ProductEquations as StepEquations>::Factor::default();
-    let stepped = ProductEquations::of(&building).factorize(
-        &jostle::stepping::StepMatrix::new(1.0, 1e4),
+    let stepped = ProductEquations::new(&building).factorize(
+        &jostle::linear::StepMatrix::new(1.0, 1e4),
         &[],
         &mut factor,
     );
     assert!(stepped.is_err(), "what the check refuses cannot be stepped");
-    match ProductEquations::check(&building, &jostle::stepping::StepMatrix::new(1.0, 1e4)) {
+    match ProductEquations::check(&building, &jostle::linear::StepMatrix::new(1.0, 1e4)) {
         Err(ProductRefusal::NotAFrame(reason)) => reason,
         other => panic!("{other:?} instead of a refusal"),
     }
@@ -106,12 +106,8 @@ fn a_head_that_no_beam_meets_is_refused() {
     let masted = BuildingSystem::new("masted", idealisation);
     let mut factor = <ElementwiseRiccati as StepEquations>::Factor::default();
     assert!(
-        ElementwiseRiccati::of(&masted)
-            .factorize(
-                &jostle::stepping::StepMatrix::new(1.0, 1e4),
-                &[],
-                &mut factor
-            )
+        ElementwiseRiccati::new(&masted)
+            .factorize(&jostle::linear::StepMatrix::new(1.0, 1e4), &[], &mut factor)
             .is_ok()
     );
 }

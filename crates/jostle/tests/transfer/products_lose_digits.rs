@@ -122,7 +122,7 @@ fn errors_grow_as_an_independent_program_found() {
         let building = frame(Variant::AxiallyRigid, &[4.0, 6.0], storeys, depth);
         for &(step, error) in errors {
             let (kappa, g) = step_factors([0.25, 0.5], step, damping);
-            let matrix = jostle::stepping::StepMatrix::new(kappa, g);
+            let matrix = jostle::linear::StepMatrix::new(kappa, g);
             // Rounding is chance: what is usual under many loads says more than one of them.
             let usual = (0..LOADS).map(|index| {
                 let load = scattered_load(&building, g, f64::from(index));
@@ -156,7 +156,7 @@ fn the_estimate_foretells_the_error() {
         let building = frame(Variant::AxiallyRigid, &[4.0, 6.0], storeys, depth);
         for &(step, error) in errors.iter().filter(|(_, error)| *error <= 1e2) {
             let (kappa, g) = step_factors([0.25, 0.5], step, damping);
-            let foretold = -digits_left(&building, &jostle::stepping::StepMatrix::new(kappa, g));
+            let foretold = -digits_left(&building, &jostle::linear::StepMatrix::new(kappa, g));
             assert!(
                 (foretold - error.log10()).abs() <= 1.5,
                 "{storeys} storeys of {depth} m columns, h = {step} s: 1e{foretold:.1}, not {error:e}"
@@ -174,14 +174,10 @@ fn the_estimate_holds_for_other_frames() {
             for step in [2e-2, 5e-3] {
                 let (kappa, g) = step_factors([0.25, 0.5], step, DAMPED);
                 let load = step_load(&building, g);
-                let loss = measured_loss(
-                    &building,
-                    &jostle::stepping::StepMatrix::new(kappa, g),
-                    &load,
-                )
-                .expect("the frame stands");
-                let foretold =
-                    -digits_left(&building, &jostle::stepping::StepMatrix::new(kappa, g));
+                let loss =
+                    measured_loss(&building, &jostle::linear::StepMatrix::new(kappa, g), &load)
+                        .expect("the frame stands");
+                let foretold = -digits_left(&building, &jostle::linear::StepMatrix::new(kappa, g));
                 // Too few digits foretold cost a refusal, too many a wrong answer.
                 let pessimism = foretold - loss.log10();
                 assert!(
@@ -200,12 +196,12 @@ fn the_estimate_holds_for_shear_buildings() {
         let (kappa, g) = step_factors([0.25, 0.5], 2e-2, DAMPED);
         let loss = measured_loss(
             &building,
-            &jostle::stepping::StepMatrix::new(kappa, g),
+            &jostle::linear::StepMatrix::new(kappa, g),
             &step_load(&building, g),
         )
         .expect("it stands");
         let pessimism =
-            -digits_left(&building, &jostle::stepping::StepMatrix::new(kappa, g)) - loss.log10();
+            -digits_left(&building, &jostle::linear::StepMatrix::new(kappa, g)) - loss.log10();
         assert!(
             (-1.5..=3.5).contains(&pessimism),
             "{storeys} storeys: {loss:e}, {pessimism:.1}"
@@ -223,7 +219,7 @@ fn eighty_storeys_at_ten_microseconds_are_for_riccati_alone() {
         &solution::<DirectStiffness>(&building, (kappa, g), &load),
     );
     assert!(apart <= 1e-8, "{apart:e}");
-    match ProductEquations::check(&building, &jostle::stepping::StepMatrix::new(kappa, g)) {
+    match ProductEquations::check(&building, &jostle::linear::StepMatrix::new(kappa, g)) {
         Err(ProductRefusal::DigitsLost {
             digits_left,
             wanted,
@@ -242,7 +238,7 @@ fn eighty_storeys_at_ten_microseconds_are_for_riccati_alone() {
 fn a_refusal_names_the_building_the_digits_and_the_way_out() {
     let building = frame(Variant::AxiallyRigid, &[4.0, 6.0], 10, COLUMN);
     let (kappa, g) = step_factors([0.25, 0.5], 1e-3, UNDAMPED);
-    let refusal = ProductEquations::check(&building, &jostle::stepping::StepMatrix::new(kappa, g))
+    let refusal = ProductEquations::check(&building, &jostle::linear::StepMatrix::new(kappa, g))
         .expect_err("too small a step");
     let text = refusal.to_string();
     for part in [
@@ -255,7 +251,7 @@ fn a_refusal_names_the_building_the_digits_and_the_way_out() {
     }
     let (kappa, g) = step_factors([0.25, 0.5], 2e-2, UNDAMPED);
     assert_eq!(
-        ProductEquations::check(&building, &jostle::stepping::StepMatrix::new(kappa, g)),
+        ProductEquations::check(&building, &jostle::linear::StepMatrix::new(kappa, g)),
         Ok(())
     );
 }

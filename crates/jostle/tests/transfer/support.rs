@@ -1,7 +1,7 @@
 //! Frames, loads and steps that the claims are tried on.
 
-use jostle::skeleton::Idealisation;
-use jostle::stepping::StepEquations;
+use jostle::structure::Idealisation;
+use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{Axial, Building, Damping, Frame, Joint, Section, Shear, Structure};
 
@@ -160,14 +160,10 @@ pub(crate) fn solution<E: StepEquations>(
     (kappa, g): (f64, f64),
     load: &[f64],
 ) -> Vec<f64> {
-    let solver = E::of(building);
+    let solver = E::new(building);
     let mut factor = E::Factor::default();
     solver
-        .factorize(
-            &jostle::stepping::StepMatrix::new(kappa, g),
-            &[],
-            &mut factor,
-        )
+        .factorize(&jostle::linear::StepMatrix::new(kappa, g), &[], &mut factor)
         .expect("the frame stands");
     let mut answer = load.to_vec();
     solver.solve(&factor, &mut answer);

@@ -1,7 +1,7 @@
 //! Coarse steps, cut-off and lasting contact, the momentum law against stiff ones, stepping against precise collisions.
 
 use jostle::contact::{FreeCollision, effective_mass};
-use jostle::counting::{counted, find_simultaneous};
+use jostle::results::{counted, find_simultaneous};
 use jostle::stepping::ContactSteps;
 use jostle::{
     Analysis, ContactLaw, Frame, GroundMotion, LawKind, Outcome, Plan, RestitutionIs, System,
@@ -207,8 +207,8 @@ fn lasting_contact_is_counted_once() {
     for kind in LAWS {
         let mut left = slider("left", 3e4, Some(1e6));
         let mut right = slider("right", 5e4, Some(2e7));
-        left.equations.alpha = 2.0;
-        right.equations.alpha = 4.0;
+        left.structure.equations.alpha = 2.0;
+        right.structure.equations.alpha = 4.0;
         let system = sliders(vec![left, right], 0.01, &law(kind, 0.5));
         let motion = GroundMotion::sampled("constant", 20.0, vec![-1.0; 2]);
         let plan = Plan::choose(&system, &motion, &Analysis::default()).expect("usable steps");
@@ -252,7 +252,7 @@ fn impacts_at_several_floors_are_seen_together() {
     let all: Vec<_> = contacts.iter().flatten().collect();
     for one in &all {
         let at_start = |t: f64| {
-            let during = |other: &&&jostle::counting::CountedImpact| {
+            let during = |other: &&&jostle::results::CountedImpact| {
                 other.impact.start <= t && t <= other.impact.end
             };
             all.iter().filter(during).count()

@@ -260,8 +260,8 @@ fn lasting_contact_settles_on_its_static_force() {
         let law = law(kind, 0.65);
         let mut left = slider("left", m1, Some(k1));
         let mut right = slider("right", m2, Some(k2));
-        left.equations.alpha = 2.0 * 0.2 * (k1 / m1).sqrt();
-        right.equations.alpha = 2.0 * 0.1 * (k2 / m2).sqrt();
+        left.structure.equations.alpha = 2.0 * 0.2 * (k1 / m1).sqrt();
+        right.structure.equations.alpha = 2.0 * 0.1 * (k2 / m2).sqrt();
         let system = sliders(vec![left, right], gap, &law);
         let duration = 20.0;
         let motion = GroundMotion::sampled("constant", duration, vec![acceleration; 2]);

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use jostle::contact::ForceLaw;
-use jostle::faces::Faces;
-use jostle::system::{Contact, LinkElement};
+use jostle::interface::Faces;
+use jostle::interface::{Contact, LinkElement};
 use jostle::{
     Column, ContactLaw, FloorPairs, Gap, LawKind, Link, Model, Outcome, Plan, RestitutionIs,
     Solver, State, Structure, System,

@@ -69,7 +69,7 @@ fn compare(model: &Model, duration: f64) {
     let gaps = model.gaps.len();
     let twin = |contact: usize| {
         let contact = &system.contacts[contact];
-        let same = |c: &jostle::system::Contact| {
+        let same = |c: &jostle::interface::Contact| {
             c.gap == gaps - 1 - contact.gap && (c.height - contact.height).abs() < 1e-9
         };
         mirror

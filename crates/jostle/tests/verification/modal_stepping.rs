@@ -38,7 +38,7 @@ fn a_ramp_is_answered_exactly() {
     for ratio in [0.0, 0.05, 0.6] {
         let mut building = slider("oscillator", mass, Some(stiffness));
         let omega = f64::sqrt(stiffness / mass);
-        building.equations.alpha = 2.0 * ratio * omega;
+        building.structure.equations.alpha = 2.0 * ratio * omega;
         let system = System::of_buildings(vec![building]);
         let motion = GroundMotion::sampled("ramp", 1.0, vec![0.0, rate, 2.0 * rate, 3.0 * rate]);
         for step in [1.0, 0.1, 0.013] {

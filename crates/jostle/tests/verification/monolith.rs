@@ -3,8 +3,8 @@
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
-use jostle::faces::Faces;
 use jostle::hysteresis::HysteresisMemory;
+use jostle::interface::Faces;
 use jostle::{GroundMotion, System};
 
 use crate::support::largest;

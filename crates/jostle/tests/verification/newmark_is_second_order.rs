@@ -39,8 +39,8 @@ fn newmark_is_second_order_on_a_damped_oscillator() {
     let (omega, ratio, mass) = (9.0, 0.07, 3e4);
     let mut oscillator = slider("oscillator", mass, Some(mass * omega * omega));
     // Damping split between mass and stiffness: both paths of the equations.
-    oscillator.equations.alpha = ratio * omega;
-    oscillator.equations.beta = ratio / omega;
+    oscillator.structure.equations.alpha = ratio * omega;
+    oscillator.structure.equations.beta = ratio / omega;
     let system = System::of_buildings(vec![oscillator]);
     let motion = shaking(2.0);
     let points: Vec<f64> = (0..=200)

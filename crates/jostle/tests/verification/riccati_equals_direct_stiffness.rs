@@ -1,6 +1,6 @@
-use jostle::skeleton::Idealisation;
-use jostle::stepping::StepEquations;
 use jostle::stiffness::DirectStiffness;
+use jostle::structure::Idealisation;
+use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{Frame, LawKind, Plan, RiccatiSweep, Solver};
 
@@ -14,11 +14,11 @@ fn solution<E: StepEquations>(building: &BuildingSystem, step: f64, load: &[f64]
     let (alpha, beta) = (building.equations.alpha, building.equations.beta);
     // Newmark (1/4, 1/2): velocity 2/h and acceleration 4/h² per displacement.
     let (a, c) = (4.0 / (step * step), 2.0 / step);
-    let solver = E::of(building);
+    let solver = E::new(building);
     let mut factor = E::Factor::default();
     solver
         .factorize(
-            &jostle::stepping::StepMatrix::new(1.0 + beta * c, a + alpha * c),
+            &jostle::linear::StepMatrix::new(1.0 + beta * c, a + alpha * c),
             &[],
             &mut factor,
         )

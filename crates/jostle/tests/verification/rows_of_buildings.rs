@@ -257,9 +257,9 @@ fn a_point_put_into_a_column_changes_neither_statics_nor_mass() {
         let building = &system.buildings[0];
         let mut unit = vec![0.0; building.equations.len()];
         unit[load] = 1.0;
-        let statics = jostle::stepping::StepMatrix::STATIC;
+        let statics = jostle::linear::StepMatrix::STATIC;
         let solved =
-            jostle::stepping::solve_once::<jostle::RiccatiSweep>(building, &statics, &unit);
+            jostle::structure::solve_once::<jostle::RiccatiSweep>(building, &statics, &unit);
         solved.expect("it stands")[dof]
     };
     let [point, floor] = [0, 1].map(|c| system.contacts[c].faces.0[0].expect("a building").dof);

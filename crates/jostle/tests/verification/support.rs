@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use jostle::skeleton::{Idealisation, Node, Skeleton, Spring, Support};
+use jostle::interface::Contact;
 use jostle::stepping::{ContactSteps, simulate_from};
-use jostle::system::{BuildingSystem, Contact};
+use jostle::structure::{Idealisation, Node, Skeleton, Spring, Support};
+use jostle::system::BuildingSystem;
 use jostle::{
     Analysis, Axial, Building, Column, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint,
     LawKind, Model, Outcome, Plan, Pounding, RestitutionIs, RunEnd, Section, Settings, Shear,

@@ -2,10 +2,10 @@
 
 use super::defects;
 use super::span::{RitzModes, Span};
-use crate::cholesky::Cholesky;
-use crate::equations::Equations;
-use crate::lanes;
-use crate::stepping::NotPositive;
+use crate::linear::NotPositive;
+use crate::linear::cholesky::Cholesky;
+use crate::simd;
+use crate::structure::Equations;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::rates::{PerRate, RATES, RateFactors};
 
@@ -116,7 +116,7 @@ impl Basis {
         let vectors = self.modes.vectors.iter();
         let of_vectors: Vec<f64> = vectors.map(|vector| form(vector)).collect();
         let shapes = self.modes.parts.iter();
-        shapes.map(|parts| lanes::dot(parts, &of_vectors)).collect()
+        shapes.map(|parts| simd::dot(parts, &of_vectors)).collect()
     }
 
     /// Adds Σ φ q to a displacement of all degrees of freedom.
@@ -124,10 +124,10 @@ impl Basis {
         let RitzModes { vectors, parts, .. } = &self.modes;
         let mut shares = vec![0.0; vectors.len()];
         for (parts, q) in parts.iter().zip(modal) {
-            lanes::add(&mut shares, *q, parts);
+            simd::add(&mut shares, *q, parts);
         }
         for (vector, share) in vectors.iter().zip(shares) {
-            lanes::add(full, share, vector);
+            simd::add(full, share, vector);
         }
     }
 }

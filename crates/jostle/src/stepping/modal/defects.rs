@@ -6,7 +6,7 @@
 
 use super::reduced::forces_of;
 use super::span::RitzModes;
-use crate::stepping::NotPositive;
+use crate::linear::NotPositive;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::rates::RATES;
 

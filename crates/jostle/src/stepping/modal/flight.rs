@@ -6,7 +6,7 @@ use super::kernels::{Ahead, LANES, Lanes, Show, Sums};
 use super::peaks::{Taken, Watched};
 use super::reduced::{Reduced, Table};
 use super::walk::Walk;
-use crate::lanes;
+use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::clock::Clock;
 use crate::stepping::events::Cubic;
@@ -293,7 +293,7 @@ impl Walk<'_> {
         let area =
             total(&sums.area) + (flight.area_by_ground[0] * g0 + flight.area_by_ground[1] * g1);
         let before = if index == 0 {
-            lanes::dot(&self.reduced.participation, &self.q[0])
+            simd::dot(&self.reduced.participation, &self.q[0])
         } else {
             total(&flight.sums[index - 1].moved)
         };

@@ -4,7 +4,7 @@
 use pulp::{NullaryFnOnce, Simd, WithSimd};
 
 use super::response::{INPUTS, PRODUCTS};
-use crate::lanes;
+use crate::simd;
 
 /// Watched displacements taken at once.
 pub(super) const ROWS: usize = 8;
@@ -107,7 +107,7 @@ impl<const N: usize> NullaryFnOnce for AddUp<'_, N> {
     #[inline(always)]
     fn call(self) {
         for (to, of) in self.to.into_iter().zip(self.of) {
-            lanes::add(to, self.factor, of);
+            simd::add(to, self.factor, of);
         }
     }
 }

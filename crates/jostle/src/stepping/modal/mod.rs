@@ -25,10 +25,10 @@ mod walk;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use super::integrator::Integrator;
 use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
 use super::plan::{Plan, USUAL_TOLERANCE};
 use crate::history::Work;
+use crate::model::Integrator;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::system::System;
@@ -52,7 +52,7 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
                 "\"{name}\" leans on P-Delta or stands on springs, which Rayleigh damping does not act on: its modes do not damp alone"
             ));
         }
-        if !building.rest.is_empty() {
+        if !building.rest.displacement.is_empty() {
             reasons.push(format!(
                 "\"{name}\" starts under its weight: leave out gravity"
             ));

@@ -13,8 +13,8 @@ use super::pushes::{Answer, Push};
 use super::response::{INPUTS, PRODUCTS, Responses};
 use crate::contact::ForceLaw;
 use crate::history::Work;
-use crate::lanes;
-use crate::stepping::NotPositive;
+use crate::linear::NotPositive;
+use crate::simd;
 use crate::system::{BuildingSystem, System};
 
 /// A row of buildings as oscillators, and how they show at floors and contacts.
@@ -365,7 +365,7 @@ impl Reduced {
     /// The same of modal values.
     pub(super) fn closing_of_modes(&self, contact: usize, modal: &[f64]) -> f64 {
         let push = &self.pushes[contact];
-        -lanes::dot(&push.loads, &modal[push.modes.clone()])
+        -simd::dot(&push.loads, &modal[push.modes.clone()])
     }
 
     /// Shape of one of its building's modes at a face \[kg^−½\].
@@ -437,7 +437,7 @@ fn storey_forms(building: &BuildingSystem, basis: &Basis) -> Vec<Vec<f64>> {
     for row in 0..2 * storeys {
         let own: Vec<f64> = of_vectors.iter().map(|forces| forces[row]).collect();
         let shapes = basis.modes.parts.iter();
-        rows.push(shapes.map(|parts| lanes::dot(parts, &own)).collect());
+        rows.push(shapes.map(|parts| simd::dot(parts, &own)).collect());
     }
     rows
 }

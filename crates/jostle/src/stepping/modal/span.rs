@@ -2,9 +2,9 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::lanes;
-use crate::modal::symmetric;
-use crate::stepping::NotPositive;
+use crate::eigen::symmetric;
+use crate::linear::NotPositive;
+use crate::simd;
 use crate::system::BuildingSystem;
 
 /// What remains of a vector beside the others when it brings nothing new; less would be rounding, in which massless degrees
@@ -38,7 +38,7 @@ impl RitzModes {
     pub(super) fn shape(&self, mode: usize) -> Vec<f64> {
         let mut shape = vec![0.0; self.vectors.first().map_or(0, Vec::len)];
         for (vector, part) in self.vectors.iter().zip(&self.parts[mode]) {
-            lanes::add(&mut shape, *part, vector);
+            simd::add(&mut shape, *part, vector);
         }
         shape
     }
@@ -61,7 +61,7 @@ impl<'a> Span<'a> {
         if self.vectors.len() == most {
             return;
         }
-        let length = |vector: &[f64]| lanes::wide_weighted_square(&equations.mass, vector).sqrt();
+        let length = |vector: &[f64]| simd::wide_weighted_square(&equations.mass, vector).sqrt();
         let before = length(&vector);
         let strip = Strip {
             vector: &mut vector,
@@ -76,8 +76,7 @@ impl<'a> Span<'a> {
         vector.iter_mut().for_each(|value| *value /= rest);
         let mut stiff = vec![0.0; vector.len()];
         equations.stiffness.multiply_add(&vector, &mut stiff);
-        self.driven
-            .push(lanes::dot(&equations.driven_mass, &vector));
+        self.driven.push(simd::dot(&equations.driven_mass, &vector));
         self.vectors.push(vector);
         let mut row = vec![0.0; self.vectors.len()];
         let products = Products {
@@ -107,7 +106,7 @@ impl<'a> Span<'a> {
         {
             return Err(NotPositive { dof: 0 });
         }
-        let participation = parts.iter().map(|parts| lanes::dot(&self.driven, parts));
+        let participation = parts.iter().map(|parts| simd::dot(&self.driven, parts));
         Ok(RitzModes {
             participation: participation.collect(),
             stiffness,
@@ -140,8 +139,8 @@ impl WithSimd for Strip<'_> {
             for ((heavy, value), mass) in heavy.iter_mut().zip(&*vector).zip(mass) {
                 *heavy = value * mass;
             }
-            lanes::dots(simd, known, &heavy, &mut parts);
-            lanes::subtract_all(known, &parts, vector);
+            simd::dots(simd, known, &heavy, &mut parts);
+            simd::subtract_all(known, &parts, vector);
         }
     }
 }
@@ -158,6 +157,6 @@ impl WithSimd for Products<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        lanes::dots(simd, self.vectors, self.with, self.row);
+        simd::dots(simd, self.vectors, self.with, self.row);
     }
 }

@@ -10,8 +10,8 @@ use super::meeting::Foreseen;
 use super::peaks::{Peaks, Taken, Watched};
 use super::reduced::{Reduced, StepEnergy, Table};
 use crate::history::{Energy, Impact, Work};
-use crate::lanes;
 use crate::motion::GroundMotion;
+use crate::simd;
 use crate::state::{ContactPhase, State};
 use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::clock::{Clock, Stride};
@@ -612,7 +612,7 @@ impl<'a> Walk<'a> {
         let step = table.step;
         let slope = (self.ground[1] - self.ground[0]) / step;
         // ∫ a_g q̇ dt by parts.
-        let driven = |list: &[f64]| lanes::dot(&self.reduced.participation, list);
+        let driven = |list: &[f64]| simd::dot(&self.reduced.participation, list);
         let [before, after] = [0, 1].map(|time| self.ground[time] * driven(&self.q[time]));
         let input = slope * driven(&self.scratch) - (after - before);
         if was_closed {
@@ -660,8 +660,8 @@ impl<'a> Walk<'a> {
 
     /// The balance now.
     pub(super) fn balance(&mut self) -> Energy {
-        let kinetic = 0.5 * lanes::dot(&self.v[0], &self.v[0]);
-        let strain = 0.5 * lanes::weighted_square(&self.reduced.stiffness, &self.q[0]);
+        let kinetic = 0.5 * simd::dot(&self.v[0], &self.v[0]);
+        let strain = 0.5 * simd::weighted_square(&self.reduced.stiffness, &self.q[0]);
         self.energy.balance(kinetic, strain)
     }
 

@@ -1,6 +1,6 @@
 //! A chain of columns: its couplings, and the rows beyond the chains that it meets.
 
-use crate::small_keys::in_order;
+use crate::linear::counting_sort::in_order;
 use crate::transfer::shelves::Place;
 
 /// How far links of a chain couple, and how many of its ends meet links from the beginning: loops are compiled for each of

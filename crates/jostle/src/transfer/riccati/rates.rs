@@ -3,8 +3,8 @@
 use pulp::NullaryFnOnce;
 
 use super::{RiccatiFactor, RiccatiSweep};
-use crate::lanes::in_wide_registers;
-use crate::stepping::{NotPositive, StepMatrix};
+use crate::linear::{NotPositive, StepMatrix};
+use crate::simd::in_wide_registers;
 
 /// Rates taken at once.
 pub(crate) const RATES: usize = 8;
@@ -179,14 +179,14 @@ fn subtract(from: &mut PerRate, a: &PerRate, b: &PerRate) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gravity::tests::frame;
-    use crate::stepping::StepEquations;
+    use crate::structure::StepEquations;
+    use crate::structure::testkit::frame;
 
     /// Every lane is the recursion of its own rate, also where a single rate is spread over all lanes.
     #[test]
     fn lanes_are_rates_of_their_own() {
         let building = frame(true);
-        let sweep = RiccatiSweep::of(&building);
+        let sweep = RiccatiSweep::new(&building);
         let rates = [0.0, 1.0, 7.0, 40.0, 90.0, 400.0, 3e3, 1e5];
         let factors = sweep.factorize_at(&rates).expect("a standing frame");
         let load = |lane: usize, dof: usize| (0.7 * dof as f64 + lane as f64).sin();

@@ -1,0 +1,403 @@
+//! Every fault of a model, in one go.
+
+mod neighbours;
+
+use neighbours::check_neighbours;
+
+use crate::model::{
+    Base, Building, Damping, Frame, Hinges, Model, ModelFault, Shear, Structure, WALL,
+};
+
+/// Collects faults under the path of the part being checked.
+pub(crate) struct Faults(Vec<ModelFault>);
+
+impl Faults {
+    pub(crate) fn add(&mut self, path: impl Into<String>, problem: impl Into<String>) {
+        self.0.push(ModelFault {
+            path: path.into(),
+            problem: problem.into(),
+        });
+    }
+
+    pub(crate) fn require(
+        &mut self,
+        good: bool,
+        path: impl Into<String>,
+        problem: impl FnOnce() -> String,
+    ) {
+        if !good {
+            self.add(path, problem());
+        }
+    }
+
+    pub(crate) fn positive(&mut self, value: f64, path: impl Into<String>, unit: &str) {
+        self.require(value.is_finite() && value > 0.0, path, || {
+            format!("must be greater than zero, found {value} {unit}")
+        });
+    }
+
+    pub(crate) fn not_negative(&mut self, value: f64, path: impl Into<String>, unit: &str) {
+        self.require(value.is_finite() && value >= 0.0, path, || {
+            format!("must not be negative, found {value} {unit}")
+        });
+    }
+}
+
+/// The entries of a list with their paths, `path[0]`, `path[1]`, ….
+pub(crate) fn each<'a, T>(
+    list: &'a [T],
+    path: &'a str,
+) -> impl Iterator<Item = (String, &'a T)> + 'a {
+    list.iter()
+        .enumerate()
+        .map(move |(i, value)| (format!("{path}[{i}]"), value))
+}
+
+impl Model {
+    /// Checks every value and the geometry; returns all faults.
+    ///
+    /// # Errors
+    /// The list of faults, in the order of the fields, never empty.
+    pub fn check(&self) -> Result<(), Vec<ModelFault>> {
+        check(self)
+    }
+}
+
+fn check(model: &Model) -> Result<(), Vec<ModelFault>> {
+    let mut faults = Faults(Vec::new());
+    faults.require(!model.buildings.is_empty(), "building", || {
+        "a model needs at least one building".into()
+    });
+    for (path, building) in each(&model.buildings, "building") {
+        check_building(&mut faults, &path, building);
+        let namesake = model
+            .buildings
+            .iter()
+            .filter(|other| other.name == building.name)
+            .count()
+            > 1;
+        faults.require(!namesake, format!("{path}.name"), || {
+            format!(
+                "another building is called \"{}\" too; give every building its own name",
+                building.name
+            )
+        });
+    }
+    check_neighbours(&mut faults, model);
+    check_analysis(&mut faults, model);
+    if faults.0.is_empty() {
+        Ok(())
+    } else {
+        Err(faults.0)
+    }
+}
+
+fn check_building(faults: &mut Faults, path: &str, building: &Building) {
+    faults.require(
+        !building.name.trim().is_empty(),
+        format!("{path}.name"),
+        || "must not be empty".into(),
+    );
+    faults.require(building.name != WALL, format!("{path}.name"), || {
+        format!(
+            "\"{WALL}\" stands for a rigid wall in gaps and links; give the building another name"
+        )
+    });
+    for (field, height) in each(building.storey_heights(), &format!("{path}.storey_height")) {
+        faults.positive(*height, field, "m");
+    }
+    match &building.structure {
+        Structure::Frame(frame) => check_frame(faults, path, frame),
+        Structure::Shear(shear) => check_shear(faults, path, shear),
+    }
+    check_base(
+        faults,
+        &format!("{path}.base"),
+        &building.base,
+        matches!(building.structure, Structure::Shear(_)),
+    );
+    if let Some(hinges) = &building.hinges {
+        check_hinges(
+            faults,
+            &format!("{path}.hinges"),
+            hinges,
+            &building.structure,
+        );
+    }
+    match &building.damping {
+        Damping::Ratio { ratio, modes } => {
+            let field = format!("{path}.damping");
+            faults.require((0.0..1.0).contains(ratio), format!("{field}.ratio"), || {
+                format!("must lie between 0 and 1 (0.05 is 5 % of critical), found {ratio}")
+            });
+            let usable = modes.is_empty()
+                || matches!(modes[..], [a] if a >= 1)
+                || matches!(modes[..], [a, b] if a >= 1 && b > a);
+            faults.require(usable, format!("{field}.modes"), || {
+                format!("takes one lateral mode, or two different ones in rising order, counted from 1; found {modes:?}")
+            });
+        }
+        Damping::AllModes { ratio } => {
+            faults.require(
+                (0.0..1.0).contains(ratio),
+                format!("{path}.damping.ratio"),
+                || format!("must lie between 0 and 1 (0.05 is 5 % of critical), found {ratio}"),
+            );
+        }
+        Damping::Rayleigh { alpha, beta } => {
+            faults.not_negative(*alpha, format!("{path}.damping.alpha"), "1/s");
+            faults.not_negative(*beta, format!("{path}.damping.beta"), "s");
+        }
+    }
+}
+
+fn check_base(faults: &mut Faults, path: &str, base: &Base, is_shear: bool) {
+    let directions = [
+        (
+            "horizontal",
+            base.horizontal_stiffness,
+            base.horizontal_damping,
+            base.horizontal_hinge,
+            ["N/m", "N.s/m"],
+        ),
+        (
+            "vertical",
+            base.vertical_stiffness,
+            base.vertical_damping,
+            None,
+            ["N/m", "N.s/m"],
+        ),
+        (
+            "rotational",
+            base.rotational_stiffness,
+            base.rotational_damping,
+            base.rotational_hinge,
+            ["N.m/rad", "N.m.s/rad"],
+        ),
+    ];
+    for (name, stiffness, damping, hinge, [stiffness_unit, damping_unit]) in directions {
+        if let Some(stiffness) = stiffness {
+            faults.positive(
+                stiffness,
+                format!("{path}.{name}_stiffness"),
+                stiffness_unit,
+            );
+        }
+        faults.not_negative(damping, format!("{path}.{name}_damping"), damping_unit);
+        faults.require(
+            stiffness.is_some() || damping == 0.0,
+            format!("{path}.{name}_damping"),
+            || format!("has nothing to do where the base is rigid; add {name}_stiffness"),
+        );
+        if let Some(hinge) = hinge {
+            let initial = hinge.backbone().initial();
+            faults.require(
+                stiffness == Some(initial),
+                format!("{path}.{name}_hinge"),
+                || {
+                    format!(
+                        "starts with {initial} {stiffness_unit}, which must be {name}_stiffness"
+                    )
+                },
+            );
+        }
+        faults.require(
+            !is_shear || name == "horizontal" || stiffness.is_none(),
+            format!("{path}.{name}_stiffness"),
+            || "is for frames only: the floors of a shear building neither rise nor turn".into(),
+        );
+    }
+    faults.not_negative(base.mass, format!("{path}.mass"), "kg");
+    faults.require(
+        base.mass == 0.0 || !base.is_fixed(),
+        format!("{path}.mass"),
+        || "does not move on a fixed base; add a stiffness, or leave it out".into(),
+    );
+}
+
+/// Hinges are sound by themselves; here they are held against the structure that they belong to.
+fn check_hinges(faults: &mut Faults, path: &str, hinges: &Hinges, structure: &Structure) {
+    match (hinges, structure) {
+        (Hinges::Frame(hinges), Structure::Frame(frame)) => {
+            let storeys = frame.storey_heights.len();
+            let members = [
+                ("column", &hinges.columns, frame.spans.len() + 1),
+                ("beam", &hinges.beams, frame.spans.len()),
+            ];
+            for (name, hinges, abreast) in members {
+                let fits = hinges.len() == storeys && hinges.iter().all(|row| row.len() == abreast);
+                faults.require(hinges.is_empty() || fits, format!("{path}.{name}"), || {
+                    format!("needs {abreast} hinges in each of {storeys} storeys, or none at all")
+                });
+            }
+        }
+        (Hinges::Storeys(springs), Structure::Shear(shear)) => {
+            let storeys = shear.stiffness.len();
+            faults.require(springs.len() == storeys, path, || {
+                format!("has {} springs for {storeys} storeys", springs.len())
+            });
+            for (spring, stiffness) in springs.iter().zip(&shear.stiffness) {
+                let initial = spring.backbone().initial();
+                let same = (initial - stiffness).abs() <= 1e-9 * stiffness;
+                faults.require(same, path, || {
+                    format!("starts with {initial} N/m in a storey of {stiffness} N/m; they must be equal")
+                });
+            }
+        }
+        _ => faults.add(path, "are those of another kind of building"),
+    }
+}
+
+fn check_frame(faults: &mut Faults, path: &str, frame: &Frame) {
+    let storeys = frame.storey_heights.len();
+    faults.require(storeys >= 1, format!("{path}.storeys"), || {
+        "a frame needs at least one storey".into()
+    });
+    faults.require(!frame.spans.is_empty(), format!("{path}.spans"), || {
+        "a frame needs at least one span".into()
+    });
+    for (field, span) in each(&frame.spans, &format!("{path}.spans")) {
+        faults.positive(*span, field, "m");
+    }
+    let per_storey = [
+        ("column", frame.columns.len()),
+        ("beam", frame.beams.len()),
+        ("beam_mass", frame.beam_mass.len()),
+        ("floor_mass", frame.floor_mass.len()),
+    ];
+    for (name, count) in per_storey {
+        faults.require(count == storeys, format!("{path}.{name}"), || {
+            format!("has {count} entries for {storeys} storeys; give one value, or one per storey from the ground up")
+        });
+    }
+    for (name, sections, flexible) in [
+        ("column", &frame.columns, frame.axial.columns_flexible),
+        ("beam", &frame.beams, frame.axial.beams_flexible),
+    ] {
+        for (field, section) in each(sections, &format!("{path}.{name}")) {
+            faults.positive(section.flexural_rigidity, format!("{field}.EI"), "N.m2");
+            faults.not_negative(section.line_mass, format!("{field}.mass"), "kg/m");
+            match section.axial_rigidity {
+                Some(rigidity) => faults.positive(rigidity, format!("{field}.EA"), "N"),
+                None if flexible => {
+                    faults.add(format!("{field}.EA"), "is needed because the member is axially flexible; add EA, or width and depth");
+                }
+                None => {}
+            }
+            if let Some(rigidity) = section.shear_rigidity {
+                faults.positive(rigidity, format!("{field}.GA"), "N");
+            }
+        }
+    }
+    for (field, mass) in each(&frame.beam_mass, &format!("{path}.beam_mass")) {
+        faults.not_negative(*mass, field, "kg/m");
+    }
+    for (field, mass) in each(&frame.floor_mass, &format!("{path}.floor_mass")) {
+        faults.not_negative(*mass, field, "kg");
+    }
+    let floors_have_mass = (0..storeys).all(|floor| {
+        let above = frame
+            .columns
+            .get(floor + 1)
+            .map_or(0.0, |section| section.line_mass);
+        let here = [frame.beam_mass.get(floor), frame.floor_mass.get(floor)];
+        let column = frame
+            .columns
+            .get(floor)
+            .map_or(0.0, |section| section.line_mass);
+        here.into_iter().flatten().sum::<f64>() + above + column > 0.0
+    });
+    faults.require(floors_have_mass, format!("{path}.floor_mass"), || {
+        "every floor needs some mass: set beam_mass, floor_mass or a column density".into()
+    });
+    faults.require(
+        (1..=64).contains(&frame.column_segments),
+        format!("{path}.column_segments"),
+        || format!("must lie between 1 and 64, found {}", frame.column_segments),
+    );
+    faults.require(
+        frame.beam_segments.len() == frame.spans.len(),
+        format!("{path}.beam_segments"),
+        || {
+            format!(
+                "has {} entries for {} spans; give one value, or one per span",
+                frame.beam_segments.len(),
+                frame.spans.len()
+            )
+        },
+    );
+    for (field, segments) in each(&frame.beam_segments, &format!("{path}.beam_segments")) {
+        faults.require((1..=64).contains(segments), field, || {
+            format!("must lie between 1 and 64, found {segments}")
+        });
+    }
+    for (name, stiffness, unit) in [
+        ("rotational", frame.joint.rotational_stiffness, "N.m/rad"),
+        ("horizontal", frame.joint.horizontal_stiffness, "N/m"),
+        ("vertical", frame.joint.vertical_stiffness, "N/m"),
+    ] {
+        if let Some(stiffness) = stiffness {
+            faults.positive(stiffness, format!("{path}.joint.{name}_stiffness"), unit);
+        }
+    }
+}
+
+fn check_shear(faults: &mut Faults, path: &str, shear: &Shear) {
+    let floors = shear.mass.len();
+    faults.require(floors >= 1, format!("{path}.mass"), || {
+        "a shear building needs at least one floor".into()
+    });
+    for (name, count) in [
+        ("stiffness", shear.stiffness.len()),
+        ("storey_height", shear.storey_heights.len()),
+    ] {
+        faults.require(count == floors, format!("{path}.{name}"), || {
+            format!("has {count} entries for {floors} floors; give one value, or one per storey from the ground up")
+        });
+    }
+    for (field, mass) in each(&shear.mass, &format!("{path}.mass")) {
+        faults.positive(*mass, field, "kg");
+    }
+    for (field, stiffness) in each(&shear.stiffness, &format!("{path}.stiffness")) {
+        faults.positive(*stiffness, field, "N/m");
+    }
+}
+
+fn check_analysis(faults: &mut Faults, model: &Model) {
+    let analysis = &model.analysis;
+    for (name, step) in [
+        ("step", analysis.step),
+        ("contact_step", analysis.contact_step),
+    ] {
+        if let Some(step) = step {
+            faults.require(step.is_finite() && (1e-7..=0.1).contains(&step), format!("analysis.{name}"), || {
+                format!("must lie between 1e-7 s and 0.1 s, found {step} s; \"auto\" chooses it from the tolerance")
+            });
+        }
+    }
+    if let (Some(step), Some(contact_step)) = (analysis.step, analysis.contact_step) {
+        faults.require(contact_step <= step, "analysis.contact_step", || {
+            format!("must not exceed step, found {contact_step} s for a step of {step} s")
+        });
+    }
+    let integrator = analysis.integrator;
+    let stable = integrator.gamma >= 0.5 && 2.0 * integrator.beta >= integrator.gamma - 1e-12;
+    faults.require(stable, "analysis.integrator", || {
+        format!(
+            "is unstable for stiff parts of the structure: gamma must be at least 0.5 and beta at least gamma/2, found gamma = {} and beta = {}",
+            integrator.gamma, integrator.beta
+        )
+    });
+    for (name, value, range) in [
+        ("tolerance", analysis.tolerance, 1e-6..=0.1),
+        ("energy_tolerance", analysis.energy_tolerance, 1e-15..=1.0),
+    ] {
+        faults.require(range.contains(&value), format!("analysis.{name}"), || {
+            format!(
+                "must lie between {:e} and {}, found {value:e}",
+                range.start(),
+                range.end()
+            )
+        });
+    }
+}

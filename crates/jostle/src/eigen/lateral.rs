@@ -1,0 +1,227 @@
+//! The modes that horizontal shaking excites, by Lanczos' method.
+
+use super::{LATERAL_SHARE, Mode, tridiagonal};
+use crate::linear::{NotPositive, StepMatrix};
+use crate::simd::{add, dot};
+use crate::structure::AssembledBuilding;
+use crate::structure::StepEquations;
+use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
+
+/// Residual, relative to the eigenvalue, below which a mode counts as found; its frequency is then exact to rounding.
+const CONVERGED: f64 = 1e-11;
+/// Vectors between one look at the eigenvalues and the next.
+const LOOK_EVERY: usize = 4;
+
+/// All lateral modes of a building, longest period first.
+///
+/// Lanczos' method on M^½ K⁻¹ M^½ from the start M^½ r sees only modes that take part in horizontal motion, the
+/// lower the sooner, and of a double frequency just the shape that carries all of the mass. Its eigenvalues come with
+/// weights, the effective masses once they have converged. Before that they are bounds: by the inequalities of
+/// Chebyshev, Markov and Stieltjes the modes between two neighbouring eigenvalues, these included, carry no more
+/// mass than the two weights together (theory, Eq. M4). The search ends when no gap is left that could hide 1 %.
+///
+/// # Errors
+/// [`NotPositive`] when the building can move without deforming.
+pub fn lateral_modes(building: &AssembledBuilding) -> Result<Vec<Mode>, NotPositive> {
+    lateral_modes_along(building, &RiccatiSweep::new(building))
+}
+
+/// The same by a recursion that is already known.
+pub(crate) fn lateral_modes_along(
+    building: &AssembledBuilding,
+    sweep: &RiccatiSweep,
+) -> Result<Vec<Mode>, NotPositive> {
+    let mut flexibility = Flexibility::along(building, sweep)?;
+    let equations = &building.equations;
+    let start: Vec<f64> = flexibility
+        .massive
+        .iter()
+        .zip(&flexibility.root)
+        .map(|(&dof, root)| equations.driven_mass[dof] / root)
+        .collect();
+    let mut krylov = Krylov::from(start);
+    let hidden = LATERAL_SHARE * equations.total_mass();
+    loop {
+        let exhausted = krylov.extend(&mut flexibility);
+        let due = krylov.diagonal.len().is_multiple_of(LOOK_EVERY);
+        if exhausted || (due && krylov.may_hide() < hidden) {
+            break;
+        }
+    }
+    let n = krylov.diagonal.len();
+    let mut vectors = vec![0.0; n * n];
+    for k in 0..n {
+        vectors[k * n + k] = 1.0;
+    }
+    let values = tridiagonal::eigen(&krylov.diagonal, &krylov.next, &mut vectors);
+    let mut found: Vec<usize> = (0..n)
+        .filter(|&k| krylov.mass * vectors[k * n].powi(2) >= 0.5 * hidden)
+        .collect();
+    found.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
+    let modes = found.into_iter().map(|k| {
+        let mut shape = vec![0.0; flexibility.len()];
+        let parts = &vectors[k * n..][..n];
+        for (vector, part) in krylov.basis.chunks_exact(flexibility.len()).zip(parts) {
+            add(&mut shape, *part, vector);
+        }
+        let shape = flexibility.with_massless(&shape, values[k]);
+        Mode::of(building, 1.0 / values[k], shape)
+    });
+    Ok(modes.filter(Mode::is_lateral).collect())
+}
+
+/// M^½ (K⁻¹)_mm M^½ of one building, m being the degrees of freedom with mass (theory, Eq. M1).
+pub(super) struct Flexibility<'a> {
+    sweep: &'a RiccatiSweep,
+    factor: RiccatiFactor,
+    massive: Vec<usize>,
+    root: Vec<f64>,
+    full: Vec<f64>,
+}
+
+impl<'a> Flexibility<'a> {
+    pub(super) fn along(
+        building: &AssembledBuilding,
+        sweep: &'a RiccatiSweep,
+    ) -> Result<Self, NotPositive> {
+        let mass = &building.equations.mass;
+        let mut factor = RiccatiFactor::default();
+        sweep.factorize(
+            &StepMatrix::STATIC,
+            &building.equations.initial_tangents(),
+            &mut factor,
+        )?;
+        let massive: Vec<usize> = (0..mass.len()).filter(|&dof| mass[dof] > 0.0).collect();
+        Ok(Self {
+            root: massive.iter().map(|&dof| mass[dof].sqrt()).collect(),
+            sweep,
+            factor,
+            massive,
+            full: vec![0.0; mass.len()],
+        })
+    }
+
+    /// Degrees of freedom with mass.
+    pub(super) fn len(&self) -> usize {
+        self.massive.len()
+    }
+
+    /// K⁻¹ M^½ x, over all degrees of freedom.
+    fn deflect(&mut self, x: &[f64]) -> &[f64] {
+        self.full.fill(0.0);
+        for ((&dof, root), value) in self.massive.iter().zip(&self.root).zip(x) {
+            self.full[dof] = root * value;
+        }
+        self.sweep.solve(&self.factor, &mut self.full);
+        &self.full
+    }
+
+    /// Appends M^½ K⁻¹ M^½ x for the last vector x of a list of vectors.
+    fn append_product(&mut self, vectors: &mut Vec<f64>) {
+        let last = vectors.len() - self.len();
+        self.deflect(&vectors[last..]);
+        let product = self.massive.iter().zip(&self.root);
+        vectors.extend(product.map(|(&dof, root)| root * self.full[dof]));
+    }
+
+    /// A column of the matrix.
+    pub(super) fn column(&mut self, index: usize) -> Vec<f64> {
+        let mut vectors = vec![0.0; self.len()];
+        vectors[index] = 1.0;
+        self.append_product(&mut vectors);
+        vectors.split_off(self.len())
+    }
+
+    /// The shape φ over all degrees of freedom that belongs to the eigenvector M^½ φ: K φ = ω² M φ holds for massless
+    /// ones as well.
+    pub(super) fn with_massless(&mut self, vector: &[f64], value: f64) -> Vec<f64> {
+        let mut shape: Vec<f64> = self.deflect(vector).iter().map(|u| u / value).collect();
+        for ((&dof, root), component) in self.massive.iter().zip(&self.root).zip(vector) {
+            shape[dof] = component / root;
+        }
+        shape
+    }
+}
+
+/// Orthonormal vectors in which the flexibility is tridiagonal.
+struct Krylov {
+    /// The vectors, one after the other; the last one is yet to be used.
+    basis: Vec<f64>,
+    diagonal: Vec<f64>,
+    next: Vec<f64>,
+    /// rᵀM r: the mass that the weights add up to \[kg\].
+    mass: f64,
+}
+
+impl Krylov {
+    fn from(mut start: Vec<f64>) -> Self {
+        let mass = dot(&start, &start);
+        scale(&mut start, 1.0 / mass.sqrt());
+        Self {
+            basis: start,
+            diagonal: Vec::new(),
+            next: Vec::new(),
+            mass,
+        }
+    }
+
+    /// Uses the last vector and finds the next one; true when there is none.
+    fn extend(&mut self, flexibility: &mut Flexibility<'_>) -> bool {
+        let n = flexibility.len();
+        let used = self.basis.len() / n.max(1);
+        if n == 0 || self.mass == 0.0 {
+            self.basis.clear();
+            return true;
+        }
+        flexibility.append_product(&mut self.basis);
+        let (basis, vector) = self.basis.split_at_mut(used * n);
+        let size = dot(vector, vector).sqrt();
+        let (before, last) = basis.split_at((used - 1) * n);
+        let along = dot(last, vector);
+        self.diagonal.push(along);
+        // In exact arithmetic these two would be all; rounding brings the others back.
+        add(vector, -along, last);
+        if let Some((previous, factor)) = before.rchunks_exact(n).next().zip(self.next.last()) {
+            add(vector, -factor, previous);
+        }
+        for earlier in basis.chunks_exact(n) {
+            let part = dot(earlier, vector);
+            add(vector, -part, earlier);
+        }
+        let norm = dot(vector, vector).sqrt();
+        if used == n || norm <= 1e-15 * size {
+            self.basis.truncate(used * n);
+            return true;
+        }
+        scale(vector, 1.0 / norm);
+        self.next.push(norm);
+        false
+    }
+
+    /// Greatest mass that a mode not yet found can carry \[kg\].
+    fn may_hide(&self) -> f64 {
+        let n = self.diagonal.len();
+        // First and last entry of each eigenvector.
+        let mut ends = vec![0.0; 2 * n];
+        (ends[0], ends[2 * n - 1]) = (1.0, 1.0);
+        let values = tridiagonal::eigen(&self.diagonal, &self.next, &mut ends);
+        let mut open: Vec<(f64, f64)> = (0..n)
+            .map(|k| {
+                let residual = self.next[n - 1] * ends[2 * k + 1].abs();
+                let found = residual <= CONVERGED * values[k];
+                let weight = if found { 0.0 } else { ends[2 * k].powi(2) };
+                (values[k], self.mass * weight)
+            })
+            .collect();
+        open.sort_by(|a, b| b.0.total_cmp(&a.0));
+        open.push((0.0, 0.0));
+        let gaps = open.windows(2).map(|pair| pair[0].1 + pair[1].1);
+        gaps.fold(0.0, f64::max)
+    }
+}
+
+fn scale(vector: &mut [f64], factor: f64) {
+    for value in vector {
+        *value *= factor;
+    }
+}

@@ -1,0 +1,86 @@
+//! Natural modes of a building.
+//!
+//! Three ways to the same numbers. [`modes`] slices the spectrum by counting negative pivots of the Riccati
+//! recursion and cannot miss a mode; [`lateral_modes`] goes straight for those that horizontal shaking excites,
+//! and is quick enough for every assembly; [`modes_dense`] hands all of them to an eigenvalue solver for full matrices, as a check.
+
+mod dense;
+mod lateral;
+mod slicing;
+mod spectrum;
+pub(crate) mod symmetric;
+mod tridiagonal;
+
+use std::f64::consts::PI;
+
+use crate::structure::AssembledBuilding;
+
+pub use dense::modes_dense;
+pub use lateral::lateral_modes;
+pub(crate) use lateral::lateral_modes_along;
+pub use slicing::modes;
+pub use spectrum::{LogDeterminant, Spectrum, log_determinant, number_of_modes};
+
+/// A mode counts as lateral from this share of the horizontal effective mass on \[–\].
+pub const LATERAL_SHARE: f64 = 0.01;
+
+/// One natural mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Circular frequency ω \[rad/s\].
+    pub circular_frequency: f64,
+    /// Share of the vibrating mass that the mode carries horizontally \[–\].
+    pub effective_mass_ratio_x: f64,
+    /// Share of the vibrating mass that the mode carries vertically \[–\].
+    pub effective_mass_ratio_y: f64,
+    /// Horizontal participation factor φᵀM r, for the mass-normalised shape \[kg^½\].
+    pub participation: f64,
+    /// Mass-normalised shape φ (φᵀMφ = 1) at the floors, from the ground up \[kg^−½\].
+    pub floors: Vec<f64>,
+    /// Mass-normalised shape at all degrees of freedom of the building, massless ones included \[kg^−½\].
+    pub shape: Vec<f64>,
+}
+
+impl Mode {
+    /// Period 2π/ω \[s\].
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        2.0 * PI / self.circular_frequency
+    }
+
+    /// Whether the mode is lateral: it carries at least 1 % of the mass horizontally.
+    #[must_use]
+    pub fn is_lateral(&self) -> bool {
+        self.effective_mass_ratio_x >= LATERAL_SHARE
+    }
+
+    /// A mode from ω² and a shape of any scale.
+    fn of(building: &AssembledBuilding, squared_frequency: f64, mut shape: Vec<f64>) -> Self {
+        let equations = &building.equations;
+        let along = |mass: &[f64]| mass.iter().zip(&shape).map(|(m, s)| m * s).sum::<f64>();
+        let (x, y) = (
+            along(&equations.driven_mass),
+            along(&equations.vertical_mass),
+        );
+        // In the sign in which it sways to the right with the ground.
+        let norm = inner(&equations.mass, &shape, &shape).sqrt();
+        let scale = if x < 0.0 { -1.0 / norm } else { 1.0 / norm };
+        for value in &mut shape {
+            *value *= scale;
+        }
+        let (x, y, total) = (x * scale, y * scale, equations.total_mass());
+        Self {
+            circular_frequency: squared_frequency.sqrt(),
+            effective_mass_ratio_x: x * x / total,
+            effective_mass_ratio_y: y * y / total,
+            participation: x,
+            floors: building.floor_dofs.iter().map(|&dof| shape[dof]).collect(),
+            shape,
+        }
+    }
+}
+
+/// aᵀ M b.
+fn inner(mass: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    mass.iter().zip(a).zip(b).map(|((m, a), b)| m * a * b).sum()
+}

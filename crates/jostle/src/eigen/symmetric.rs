@@ -1,0 +1,144 @@
+//! Eigenvectors of small symmetric matrices, the same to the bit on every processor.
+
+use pulp::NullaryFnOnce;
+
+use super::tridiagonal;
+use crate::simd::{dot, in_wide_registers};
+
+/// Eigenvalues, rising, and the eigenvector of length one of each, of a symmetric matrix given by its lower triangle row by
+/// row. Householder's reflections (A. S. Householder, 1958, J. ACM 5, 339–342) make it tridiagonal.
+///
+/// Libraries fuse and reorder as registers allow, and shapes found with them would differ between processors.
+pub(crate) fn eigen(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
+    in_wide_registers(lower.len(), Eigen(lower))
+}
+
+struct Eigen<'a>(&'a [Vec<f64>]);
+
+impl NullaryFnOnce for Eigen<'_> {
+    type Output = (Vec<f64>, Vec<Vec<f64>>);
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        found(self.0)
+    }
+}
+
+/// See [`eigen`]; compiled for the registers at hand.
+#[inline(always)]
+fn found(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let n = lower.len();
+    let mut matrix = vec![vec![0.0; n]; n];
+    for (i, row) in lower.iter().enumerate() {
+        for (j, value) in row.iter().enumerate() {
+            matrix[i][j] = *value;
+            matrix[j][i] = *value;
+        }
+    }
+    let mut next = Vec::with_capacity(n);
+    // Each mirror acts on what lies below its row.
+    let mut mirrors: Vec<Vec<f64>> = Vec::with_capacity(n);
+    let mut product = vec![0.0; n];
+    for k in 0..n.saturating_sub(1) {
+        let mut mirror = matrix[k][k + 1..].to_vec();
+        let left = -norm(&mirror).copysign(mirror[0]);
+        next.push(left);
+        mirror[0] -= left;
+        let own = norm(&mirror);
+        if own == 0.0 {
+            mirrors.push(Vec::new());
+            continue;
+        }
+        mirror.iter_mut().for_each(|v| *v /= own);
+        let rows = &mut matrix[k + 1..];
+        for (product, row) in product.iter_mut().zip(&*rows) {
+            *product = dot(&row[k + 1..], &mirror);
+        }
+        let product = &mut product[..mirror.len()];
+        let twice = dot(product, &mirror);
+        for (product, v) in product.iter_mut().zip(&mirror) {
+            *product = 2.0 * (*product - twice * v);
+        }
+        for ((row, v), p) in rows.iter_mut().zip(&mirror).zip(&*product) {
+            for ((value, q), w) in row[k + 1..].iter_mut().zip(&*product).zip(&mirror) {
+                *value -= v * q + p * w;
+            }
+        }
+        mirrors.push(mirror);
+    }
+    let mut turn = vec![0.0; n * n];
+    for k in 0..n {
+        turn[k * n + k] = 1.0;
+    }
+    for (k, mirror) in mirrors.iter().enumerate().rev() {
+        for column in turn.chunks_exact_mut(n).skip(k + 1) {
+            let part = 2.0 * dot(&column[n - mirror.len()..], mirror);
+            let below = column[n - mirror.len()..].iter_mut();
+            below.zip(mirror).for_each(|(value, v)| *value -= part * v);
+        }
+    }
+    let diagonal: Vec<f64> = (0..n).map(|i| matrix[i][i]).collect();
+    let values = tridiagonal::eigen(&diagonal, &next, &mut turn);
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let vector = |k: &usize| turn[k * n..][..n].to_vec();
+    (
+        order.iter().map(|k| values[*k]).collect(),
+        order.iter().map(vector).collect(),
+    )
+}
+
+#[inline(always)]
+fn norm(vector: &[f64]) -> f64 {
+    dot(vector, vector).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::{Mat, Side};
+
+    use super::*;
+
+    /// Values against a library, vectors against their definition; blocks that do not couple and equal values among them.
+    #[test]
+    fn as_a_library_finds_them() {
+        let full = |i: usize, j: usize| (1.3 * (i + 1) as f64 * (j + 2) as f64).sin();
+        let graded = |i: usize, j: usize| full(i, j) * 10_f64.powf(0.2 * (i + j) as f64);
+        let blocks = |i: usize, j: usize| {
+            if i == j {
+                2.0
+            } else {
+                f64::from(u8::from(i == j + 3))
+            }
+        };
+        assert_eq!(eigen(&[]), (Vec::new(), Vec::new()));
+        for n in [1, 2, 3, 10, 35] {
+            for entry in [&full as &dyn Fn(usize, usize) -> f64, &graded, &blocks] {
+                let lower: Vec<Vec<f64>> = (0..n)
+                    .map(|i| (0..=i).map(|j| entry(i, j)).collect())
+                    .collect();
+                let at = |i: usize, j: usize| lower[i.max(j)][i.min(j)];
+                let (values, vectors) = eigen(&lower);
+                let library = Mat::from_fn(n, n, at)
+                    .self_adjoint_eigen(Side::Lower)
+                    .expect("a finite matrix");
+                let size = values.iter().fold(0.0, |size: f64, v| size.max(v.abs()));
+                for k in 0..n {
+                    assert!(
+                        (values[k] - library.S()[k]).abs() <= 1e-13 * size,
+                        "{n}, {k}"
+                    );
+                    for i in 0..n {
+                        let image: f64 = (0..n).map(|j| at(i, j) * vectors[k][j]).sum();
+                        let error = (image - values[k] * vectors[k][i]).abs();
+                        assert!(error <= 1e-13 * size, "{n}, {k}, {i}: {error}");
+                        let product: f64 =
+                            vectors[k].iter().zip(&vectors[i]).map(|(a, b)| a * b).sum();
+                        let expected = f64::from(u8::from(i == k));
+                        assert!((product - expected).abs() <= 1e-13, "{n}: {k}, {i}");
+                    }
+                }
+            }
+        }
+    }
+}

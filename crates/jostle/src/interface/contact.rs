@@ -1,0 +1,42 @@
+//! A place where two buildings, or a building and a wall, can touch.
+
+use super::Faces;
+use crate::contact::ForceLaw;
+
+/// A place where two neighbouring buildings, or a building and a wall, can touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Index of the gap in the model.
+    pub gap: usize,
+    /// The two faces.
+    pub faces: Faces,
+    /// Height above the base \[m\].
+    pub height: f64,
+    /// Gap at rest \[m\].
+    pub width: f64,
+    /// Force law.
+    pub law: ForceLaw,
+}
+
+impl Contact {
+    /// m₁m₂/(m₁ + m₂) of the two faces \[kg\].
+    #[must_use]
+    pub fn effective_mass(&self) -> f64 {
+        self.faces.effective_mass()
+    }
+
+    /// A contact without width whose law is still to be given.
+    #[must_use]
+    pub fn without_law(faces: Faces) -> Self {
+        Self {
+            gap: 0,
+            faces,
+            height: faces.height(),
+            width: 0.0,
+            law: ForceLaw::Hertz {
+                stiffness: 0.0,
+                damping: 0.0,
+            },
+        }
+    }
+}

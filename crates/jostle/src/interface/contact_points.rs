@@ -1,0 +1,506 @@
+//! Which points of two neighbours face each other: floors, and columns between floors.
+
+use crate::model::{Building, FloorPairs, LEVEL_TOLERANCE, Level, Model, Structure};
+
+/// Heights of the left and of the right point above the base; `None` on a wall \[m\].
+pub(crate) type PointPair = [Option<f64>; 2];
+
+/// A point of a column nearer than this to a floor, or to another point, has no room of its own \[m\].
+const NEAREST: f64 = 0.02;
+
+/// What is wrong with a list of points: the entry, and the problem.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Misfit {
+    pub(crate) entry: Option<usize>,
+    pub(crate) problem: String,
+}
+
+impl Misfit {
+    fn all(problem: impl Into<String>) -> Self {
+        Self {
+            entry: None,
+            problem: problem.into(),
+        }
+    }
+
+    fn at(entry: usize, problem: impl Into<String>) -> Self {
+        Self {
+            entry: Some(entry),
+            problem: problem.into(),
+        }
+    }
+}
+
+/// One side of a gap or a link.
+struct Side<'a> {
+    building: &'a Building,
+    floors: Vec<f64>,
+}
+
+impl Side<'_> {
+    fn of(building: &Building) -> Side<'_> {
+        Side {
+            floors: building.floor_heights(),
+            building,
+        }
+    }
+
+    fn roof(&self) -> f64 {
+        self.floors.last().copied().unwrap_or(0.0)
+    }
+
+    /// The floor nearest to a height, if it is within reach.
+    fn floor_near(&self, height: f64, tolerance: f64) -> Option<f64> {
+        let away = |floor: &f64| (floor - height).abs();
+        let nearest = self.floors.iter().copied();
+        nearest
+            .min_by(|a, b| away(a).total_cmp(&away(b)))
+            .filter(|floor| level(*floor, height, tolerance))
+    }
+
+    fn has_columns(&self) -> bool {
+        matches!(self.building.structure, Structure::Frame(_))
+    }
+
+    /// The point that can be hit at a height: a floor within the tolerance, or the column.
+    fn point(&self, height: f64, tolerance: f64) -> Result<f64, String> {
+        if let Some(floor) = self.floor_near(height, tolerance) {
+            return Ok(floor);
+        }
+        let name = &self.building.name;
+        let at = format!("\"{name}\" has no floor at {height:.3} m");
+        let nearest = self.floor_near(height, f64::INFINITY).unwrap_or(0.0);
+        let hint = format!("(nearest: {nearest:.3} m)");
+        if !self.has_columns() {
+            return Err(format!(
+                "{at} {hint}, and a shear building cannot be hit between floors; move the point to a floor, raise level_tolerance, or describe \"{name}\" as a frame"
+            ));
+        }
+        if height > self.roof() {
+            return Err(format!("{at} {hint}: that is above its roof"));
+        }
+        let from_ends = (height - nearest).abs().min(height);
+        if !from_ends.is_finite() || from_ends < NEAREST {
+            return Err(format!(
+                "{at} {hint}, and a column cannot be hit nearer than {:.0} mm to its ends; raise level_tolerance so that the floor is hit, or move the point",
+                NEAREST * 1e3
+            ));
+        }
+        Ok(height)
+    }
+
+    fn level(&self, level: Level) -> Result<f64, String> {
+        match level {
+            Level::Floor(floor) => {
+                let found = floor
+                    .checked_sub(1)
+                    .and_then(|index| self.floors.get(index));
+                found.copied().ok_or_else(|| {
+                    format!(
+                        "floor {floor} does not exist: \"{}\" has floors 1 to {}",
+                        self.building.name,
+                        self.floors.len()
+                    )
+                })
+            }
+            Level::Height(height) => self.point(height, LEVEL_TOLERANCE),
+            Level::Wall => Err(format!(
+                "names the wall where \"{}\" stands",
+                self.building.name
+            )),
+        }
+    }
+
+    fn describe(&self, level: Level, height: f64) -> String {
+        let name = &self.building.name;
+        match level {
+            Level::Floor(floor) => format!("floor {floor} of \"{name}\" is at {height:.3} m"),
+            _ => format!("the point of \"{name}\" is at {height:.3} m"),
+        }
+    }
+}
+
+/// The pairs of points that `floors` stands for: listed ones in their order, others from the lowest up.
+///
+/// # Errors
+/// Everything that does not fit the buildings; `None` is a wall.
+pub(crate) fn point_pairs(
+    floors: &FloorPairs,
+    between: [Option<&Building>; 2],
+    tolerance: f64,
+) -> Result<Vec<PointPair>, Vec<Misfit>> {
+    let sides = between.map(|building| building.map(Side::of));
+    let [left, right] = [&sides[0], &sides[1]];
+    let pairs = match floors {
+        FloorPairs::Common => common(left, right, tolerance).map_err(|misfit| vec![misfit])?,
+        FloorPairs::All => all(left, right, tolerance).map_err(|misfit| vec![misfit])?,
+        FloorPairs::Listed(pairs) => listed(pairs, left, right, tolerance)?,
+        FloorPairs::Heights(heights) => at_heights(heights, left, right, tolerance)?,
+    };
+    check_room(&pairs)?;
+    Ok(pairs)
+}
+
+fn common(
+    left: &Option<Side<'_>>,
+    right: &Option<Side<'_>>,
+    tolerance: f64,
+) -> Result<Vec<PointPair>, Misfit> {
+    let (left, right) = match (left, right) {
+        (Some(left), Some(right)) => (left, right),
+        (Some(side), None) => return Ok(side.floors.iter().map(|h| [Some(*h), None]).collect()),
+        (None, Some(side)) => return Ok(side.floors.iter().map(|h| [None, Some(*h)]).collect()),
+        (None, None) => return Err(Misfit::all("needs a building on at least one side")),
+    };
+    let pairs: Vec<PointPair> = left
+        .floors
+        .iter()
+        .filter_map(|&height| {
+            let other = right.floor_near(height, tolerance)?;
+            // Each is the nearest of the other, so that no floor meets two.
+            (left.floor_near(other, tolerance) == Some(height))
+                .then_some([Some(height), Some(other)])
+        })
+        .collect();
+    if pairs.is_empty() {
+        return Err(Misfit::all(format!(
+            "no floors of \"{}\" and \"{}\" lie at equal height; {}",
+            left.building.name,
+            right.building.name,
+            remedy(left, right)
+        )));
+    }
+    Ok(pairs)
+}
+
+/// How to bring neighbours without equal floors into contact.
+fn remedy(left: &Side<'_>, right: &Side<'_>) -> String {
+    let slabs = "raise level_tolerance if slabs overlap";
+    let name = |side: &Side<'_>| format!("\"{}\"", side.building.name);
+    match [left, right].map(Side::has_columns) {
+        [true, true] => {
+            let listed = example([left, right], 0).or_else(|| example([left, right], 1));
+            format!(
+                "write floors = \"all\" for floors against columns, list the pairs that can touch{}, or {slabs}",
+                listed.unwrap_or_default()
+            )
+        }
+        [false, false] => format!(
+            "shear buildings have no columns to hit: {slabs}, or describe {} and {} as frames",
+            name(left),
+            name(right)
+        ),
+        [left_has, _] => {
+            let (shear, frame) = if left_has {
+                (right, left)
+            } else {
+                (left, right)
+            };
+            format!(
+                "floors of {} can hit columns of {}: list the pairs{}; or describe {} as a frame, or {slabs}",
+                name(shear),
+                name(frame),
+                example([left, right], usize::from(left_has)).unwrap_or_default(),
+                name(shear)
+            )
+        }
+    }
+}
+
+/// The lowest floor of one side that can hit a column of the other, as it is listed.
+fn example(sides: [&Side<'_>; 2], side: usize) -> Option<String> {
+    let other = sides[1 - side];
+    let can_hit = |height: f64| {
+        let floor = other.floor_near(height, LEVEL_TOLERANCE);
+        floor.is_none() && other.point(height, LEVEL_TOLERANCE).is_ok()
+    };
+    let mut floors = sides[side].floors.iter().copied().enumerate();
+    let (floor, height) = floors.find(|(_, height)| can_hit(*height))?;
+    Some(format!(
+        ", as floors = {}",
+        floor_and_height(side, floor + 1, height)
+    ))
+}
+
+/// How a model file lists a floor of the left (0) or right (1) building that hits a column of the other.
+///
+/// ```
+/// assert_eq!(jostle::floor_and_height(0, 1, 3.3), r#"[[1, "3.300 m"], …]"#);
+/// assert_eq!(jostle::floor_and_height(1, 2, 6.8), r#"[["6.800 m", 2], …]"#);
+/// ```
+#[must_use]
+pub fn floor_and_height(side: usize, floor: usize, height: f64) -> String {
+    if side == 0 {
+        format!("[[{floor}, \"{height:.3} m\"], …]")
+    } else {
+        format!("[[\"{height:.3} m\", {floor}], …]")
+    }
+}
+
+fn all(
+    left: &Option<Side<'_>>,
+    right: &Option<Side<'_>>,
+    tolerance: f64,
+) -> Result<Vec<PointPair>, Misfit> {
+    let (Some(a), Some(b)) = (left, right) else {
+        return common(left, right, tolerance);
+    };
+    let mut pairs = common(left, right, tolerance).unwrap_or_default();
+    for (side, own, other) in [(0, a, b), (1, b, a)] {
+        let met: Vec<f64> = pairs.iter().filter_map(|pair| pair[side]).collect();
+        let alone = own.floors.iter().filter(|height| !met.contains(height));
+        for &height in alone.filter(|height| **height <= other.roof()) {
+            let column = other.point(height, LEVEL_TOLERANCE).map_err(|problem| {
+                if other.has_columns() {
+                    return Misfit::all(problem);
+                }
+                Misfit::all(format!(
+                    "\"all\" needs columns, and shear building \"{}\" has none at {height:.3} m, where \"{}\" has a floor; {}",
+                    other.building.name,
+                    own.building.name,
+                    remedy(a, b)
+                ))
+            })?;
+            let mut pair = [Some(height), Some(column)];
+            if side == 1 {
+                pair.reverse();
+            }
+            pairs.push(pair);
+        }
+    }
+    if pairs.is_empty() {
+        return Err(Misfit::all(format!(
+            "no floor of \"{}\" or \"{}\" has the other beside it",
+            a.building.name, b.building.name
+        )));
+    }
+    pairs.sort_by(|p, q| mean(p).total_cmp(&mean(q)));
+    Ok(pairs)
+}
+
+fn listed(
+    pairs: &[[Level; 2]],
+    left: &Option<Side<'_>>,
+    right: &Option<Side<'_>>,
+    tolerance: f64,
+) -> Result<Vec<PointPair>, Vec<Misfit>> {
+    if pairs.is_empty() {
+        return Err(vec![Misfit::all(
+            "is empty; list the pairs that can touch, as [[5, 5], [4, 4]]",
+        )]);
+    }
+    let (mut found, mut misfits) = (Vec::new(), Vec::new());
+    for (entry, levels) in pairs.iter().enumerate() {
+        let before = misfits.len();
+        let mut pair: PointPair = [None; 2];
+        for (side, which) in [left, right].into_iter().enumerate() {
+            match (which, levels[side]) {
+                (Some(which), level) => match which.level(level) {
+                    Ok(height) => pair[side] = Some(height),
+                    Err(problem) => misfits.push(Misfit::at(entry, problem)),
+                },
+                (None, Level::Wall) => {}
+                (None, _) => misfits.push(Misfit::at(
+                    entry,
+                    "there is a wall on this side; write \"wall\" in its place",
+                )),
+            }
+        }
+        if let ([Some(a), Some(b)], [Some(left), Some(right)]) = (pair, [left, right])
+            && !level(a, b, tolerance)
+        {
+            let [one, other] = [left.describe(levels[0], a), right.describe(levels[1], b)];
+            let both_floors = levels.iter().all(|level| matches!(level, Level::Floor(_)));
+            let remedy = if both_floors {
+                ", or give the height at which the column is hit"
+            } else {
+                ""
+            };
+            misfits.push(Misfit::at(
+                entry,
+                format!(
+                    "{one} and {other}; only floors at equal height can touch; raise level_tolerance{remedy}"
+                ),
+            ));
+        }
+        if pairs[..entry].contains(levels) {
+            let name = |level: Level| match level {
+                Level::Floor(floor) => floor.to_string(),
+                Level::Height(height) => format!("{height} m"),
+                Level::Wall => "wall".to_owned(),
+            };
+            let [a, b] = levels.map(name);
+            misfits.push(Misfit::at(
+                entry,
+                format!("the pair [{a}, {b}] is listed twice"),
+            ));
+        }
+        if misfits.len() == before {
+            found.push(pair);
+        }
+    }
+    if misfits.is_empty() {
+        Ok(found)
+    } else {
+        Err(misfits)
+    }
+}
+
+fn at_heights(
+    heights: &[f64],
+    left: &Option<Side<'_>>,
+    right: &Option<Side<'_>>,
+    tolerance: f64,
+) -> Result<Vec<PointPair>, Vec<Misfit>> {
+    if heights.is_empty() {
+        return Err(vec![Misfit::all(
+            "is empty; list the heights where the buildings can touch",
+        )]);
+    }
+    let (mut found, mut misfits) = (Vec::new(), Vec::new());
+    for (entry, height) in heights.iter().enumerate() {
+        let mut pair: PointPair = [None; 2];
+        let before = misfits.len();
+        for (side, which) in [left, right].into_iter().enumerate() {
+            match which.as_ref().map(|side| side.point(*height, tolerance)) {
+                Some(Ok(point)) => pair[side] = Some(point),
+                Some(Err(problem)) => misfits.push(Misfit::at(entry, problem)),
+                None => {}
+            }
+        }
+        if heights[..entry].contains(height) {
+            misfits.push(Misfit::at(entry, format!("{height} m is listed twice")));
+        }
+        if misfits.len() == before {
+            found.push(pair);
+        }
+    }
+    if misfits.is_empty() {
+        Ok(found)
+    } else {
+        Err(misfits)
+    }
+}
+
+/// Floors of two neighbours that stand within the height of the other and meet nothing, because `floors = "common"`
+/// pairs floors at equal height only.
+///
+/// ```
+/// use jostle::Structure;
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # use towers::pair;
+///
+/// let mut model = pair(0.02);
+/// assert!(model.unmatched_floors().is_empty());
+/// if let Structure::Shear(tower) = &mut model.buildings[1].structure {
+///     tower.storey_heights = vec![3.2, 2.8, 3.2];
+/// }
+/// let unmatched = model.unmatched_floors();
+/// assert_eq!(unmatched[0].between, [0, 1]);
+/// assert!(!unmatched[0].floors[1].is_empty());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnmatchedFloors {
+    /// The first gap of these neighbours with common floors, by its place in [`Model::gaps`].
+    pub gap: usize,
+    /// Left and right building, by their places in [`Model::buildings`].
+    pub between: [usize; 2],
+    /// Floors of the left and of the right building without contact, counted from 1.
+    pub floors: [Vec<usize>; 2],
+    /// Number of contacts of the two, in all their gaps.
+    pub contacts: usize,
+}
+
+impl Model {
+    /// Floors that could hit the neighbour and are left out by `floors = "common"`, pair by pair; a floor that any
+    /// gap of the pair brings into contact is not among them. Of a model that passes [`Model::check`].
+    #[must_use]
+    pub fn unmatched_floors(&self) -> Vec<UnmatchedFloors> {
+        let mut found: Vec<UnmatchedFloors> = Vec::new();
+        for (index, gap) in self.gaps.iter().enumerate() {
+            let ([Some(left), Some(right)], FloorPairs::Common) = (gap.between, &gap.floors) else {
+                continue;
+            };
+            if found.iter().any(|known| known.between == [left, right]) {
+                continue;
+            }
+            let own = self
+                .gaps
+                .iter()
+                .filter(|other| other.between == gap.between);
+            let pairs: Vec<PointPair> = own
+                .filter_map(|gap| {
+                    let sides = self.neighbours(gap.between);
+                    point_pairs(&gap.floors, sides, gap.level_tolerance).ok()
+                })
+                .flatten()
+                .collect();
+            let (Some(a), Some(b)) = (self.buildings.get(left), self.buildings.get(right)) else {
+                continue;
+            };
+            let heights = [a.floor_heights(), b.floor_heights()];
+            let floors = [0, 1].map(|side| {
+                let roof = heights[1 - side].last().copied().unwrap_or(0.0);
+                let within =
+                    |height: f64| height <= roof || level(height, roof, gap.level_tolerance);
+                let met = |height: f64| {
+                    let mut points = pairs.iter().filter_map(|pair| pair[side]);
+                    points.any(|point| (point - height).abs() <= SAME)
+                };
+                let alone = heights[side].iter().enumerate();
+                alone
+                    .filter(|(_, height)| within(**height) && !met(**height))
+                    .map(|(floor, _)| floor + 1)
+                    .collect::<Vec<_>>()
+            });
+            if floors.iter().any(|side| !side.is_empty()) {
+                found.push(UnmatchedFloors {
+                    gap: index,
+                    between: [left, right],
+                    floors,
+                    contacts: pairs.len(),
+                });
+            }
+        }
+        found
+    }
+}
+
+/// Points of one face must coincide or leave room for a piece of column between them.
+fn check_room(pairs: &[PointPair]) -> Result<(), Vec<Misfit>> {
+    for side in 0..2 {
+        for (entry, pair) in pairs.iter().enumerate() {
+            let others = pairs[..entry].iter().filter_map(|other| other[side]);
+            if let Some(problem) = pair[side].and_then(|own| crowded(own, others)) {
+                return Err(vec![Misfit::at(entry, problem)]);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is wrong with a point that is too near to others of its face, which it does not coincide with.
+pub(crate) fn crowded(height: f64, others: impl Iterator<Item = f64>) -> Option<String> {
+    let apart = others.map(|other| (other - height).abs());
+    let apart = apart.filter(|apart| *apart > SAME && *apart < NEAREST);
+    Some(format!(
+        "is only {:.1} mm from another point of the same face, at {height:.3} m; leave {:.0} mm, or give both the same height",
+        apart.min_by(f64::total_cmp)? * 1e3,
+        NEAREST * 1e3
+    ))
+}
+
+/// Points closer than this are one \[m\].
+pub(crate) const SAME: f64 = 1e-6;
+
+/// Whether two heights differ by no more than a tolerance, up to the rounding of sums of storey heights \[m\].
+fn level(a: f64, b: f64, tolerance: f64) -> bool {
+    (a - b).abs() <= tolerance + 1e-9 * a.abs().max(b.abs())
+}
+
+pub(crate) fn mean(pair: &PointPair) -> f64 {
+    match *pair {
+        [Some(a), Some(b)] => 0.5 * (a + b),
+        [a, b] => a.or(b).unwrap_or(0.0),
+    }
+}

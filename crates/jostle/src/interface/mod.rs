@@ -1,0 +1,13 @@
+//! What stands between buildings: contacts and links, and the points they act on.
+
+mod contact;
+pub(crate) mod contact_points;
+mod link;
+mod port;
+mod row;
+
+pub use contact::Contact;
+pub use contact_points::{UnmatchedFloors, floor_and_height};
+pub use link::LinkElement;
+pub use port::{Face, Faces};
+pub(crate) use row::Row;

@@ -1,0 +1,55 @@
+//! What stands between the buildings of a model: from gaps and links to contacts and elements between points.
+
+use super::contact_points::{PointPair, SAME, point_pairs};
+use crate::model::{FloorPairs, Model};
+
+/// Points of all gaps and links of a checked model.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    pub(crate) gaps: Vec<Joined>,
+    pub(crate) links: Vec<Joined>,
+}
+
+/// The pairs of points of one gap or link.
+#[derive(Clone, Debug)]
+pub(crate) struct Joined {
+    pub(crate) between: [Option<usize>; 2],
+    pub(crate) pairs: Vec<PointPair>,
+}
+
+impl Row {
+    pub(crate) fn of(model: &Model) -> Self {
+        let joined = |between: [Option<usize>; 2], floors: &FloorPairs, tolerance: f64| Joined {
+            between,
+            pairs: point_pairs(floors, model.neighbours(between), tolerance).unwrap_or_default(),
+        };
+        let (gaps, links) = (model.gaps.iter(), model.links.iter());
+        Self {
+            gaps: gaps
+                .map(|gap| joined(gap.between, &gap.floors, gap.level_tolerance))
+                .collect(),
+            links: links
+                .map(|link| joined(link.between, &link.floors, link.level_tolerance))
+                .collect(),
+        }
+    }
+
+    /// Heights of the points on the left and on the right face of a building that are not floors \[m\].
+    pub(crate) fn points_between_floors(&self, building: usize) -> [Vec<f64>; 2] {
+        let mut points = [Vec::new(), Vec::new()];
+        for joined in self.gaps.iter().chain(&self.links) {
+            for side in 0..2 {
+                if joined.between[side] == Some(building) {
+                    // The right one of two neighbours is hit on its left face.
+                    let face: &mut Vec<f64> = &mut points[1 - side];
+                    face.extend(joined.pairs.iter().filter_map(|pair| pair[side]));
+                }
+            }
+        }
+        for face in &mut points {
+            face.sort_by(f64::total_cmp);
+            face.dedup_by(|a, b| (*a - *b).abs() <= SAME);
+        }
+        points
+    }
+}

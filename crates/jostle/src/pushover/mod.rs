@@ -1,0 +1,466 @@
+//! Pushing a building sideways until it has gone far enough or can no more.
+
+mod bilinear;
+mod pattern;
+
+pub use bilinear::Bilinear;
+pub use pattern::LoadPattern;
+
+use crate::hysteresis::{HysteresisMemory, Side, Stage};
+use crate::statics::{EquilibriumPath, PathError, STANDARD_GRAVITY};
+use crate::system::BuildingSystem;
+
+/// Which way to push.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum PushDirection {
+    /// In positive direction.
+    #[default]
+    Right,
+    /// In negative direction.
+    Left,
+}
+
+impl PushDirection {
+    /// Name on the command line and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Left => "left",
+        }
+    }
+
+    /// +1 or −1 \[–\].
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Right => 1.0,
+            Self::Left => -1.0,
+        }
+    }
+}
+
+/// How to push.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PushSettings {
+    /// Shape of the load.
+    pub pattern: LoadPattern,
+    /// Which way.
+    pub direction: PushDirection,
+    /// Roof displacement over the height of the roof at which to stop, > 0 \[–\].
+    pub drift: f64,
+}
+
+impl Default for PushSettings {
+    fn default() -> Self {
+        Self {
+            pattern: LoadPattern::default(),
+            direction: PushDirection::default(),
+            drift: 0.02,
+        }
+    }
+}
+
+/// What happened to a spring at a point of the curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PushEvent {
+    /// Index in [`crate::structure::Equations::springs`].
+    pub spring: usize,
+    /// What.
+    pub kind: PushEventKind,
+}
+
+/// A corner of a spring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PushEventKind {
+    /// It cracks for the first time.
+    Cracks,
+    /// It yields for the first time.
+    Yields,
+    /// Another corner, met while loading again.
+    Turns,
+}
+
+impl PushEventKind {
+    /// Name in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cracks => "cracks",
+            Self::Yields => "yields",
+            Self::Turns => "corner",
+        }
+    }
+}
+
+/// A corner of the capacity curve; between corners it is straight.
+///
+/// Displacements count from rest under gravity. They and the base shear are positive in the direction of the push.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PushPoint {
+    /// Roof displacement \[m\].
+    pub roof: f64,
+    /// Base shear: the sum of the load \[N\].
+    pub base_shear: f64,
+    /// Displacement of every floor from the ground up \[m\].
+    pub floors: Vec<f64>,
+    /// Drift of every storey from the ground up \[–\].
+    pub storey_drifts: Vec<f64>,
+    /// What happened here; at the first point, what gravity had already done.
+    pub events: Vec<PushEvent>,
+    /// Displacement of every degree of freedom, gravity included, positive to the right and upwards \[m, rad\].
+    pub displacement: Vec<f64>,
+}
+
+/// Why a pushover ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PushEnd {
+    /// The wanted drift was reached.
+    Target,
+    /// P-Delta has used up all resistance: the building stands no further without a push.
+    NoResistance,
+    /// The stiffness ahead is not positive even with the roof held: a mechanism that the roof does not control. The
+    /// storey drifts most.
+    Mechanism {
+        /// Storey from 1.
+        storey: usize,
+    },
+    /// Another reason.
+    Failed(PathError),
+}
+
+impl std::fmt::Display for PushEnd {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Target => formatter.write_str("the wanted drift was reached"),
+            Self::NoResistance => formatter.write_str(
+                "P-Delta has used up the resistance: from here on the building falls by its own weight",
+            ),
+            Self::Mechanism { storey } => write!(
+                formatter,
+                "a mechanism formed that gives way even with the roof held; storey {storey} drifts most"
+            ),
+            Self::Failed(problem) => write!(formatter, "{problem}"),
+        }
+    }
+}
+
+/// Capacity curve of one building.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pushover {
+    /// How it was pushed.
+    pub settings: PushSettings,
+    /// Height of the roof above the base \[m\].
+    pub height: f64,
+    /// Weight above the base \[N\].
+    pub weight: f64,
+    /// Horizontal forces of sum one at the floors, from the ground up \[–\].
+    pub floor_loads: Vec<f64>,
+    /// Corners of the curve, from rest on.
+    pub points: Vec<PushPoint>,
+    /// Why it ended.
+    pub end: PushEnd,
+}
+
+impl Pushover {
+    /// First point at which a spring cracks or yields; a spring without cracking point cracks when it yields. The
+    /// point of rest when gravity alone does it.
+    #[must_use]
+    pub fn first(&self, stage: Stage) -> Option<&PushPoint> {
+        self.points.iter().find(|point| {
+            point.events.iter().any(|event| match stage {
+                Stage::Uncracked => false,
+                Stage::Cracked => event.kind != PushEventKind::Turns,
+                Stage::Yielded => event.kind == PushEventKind::Yields,
+            })
+        })
+    }
+
+    /// Base shear over weight \[–\].
+    #[must_use]
+    pub fn coefficient(&self, point: &PushPoint) -> f64 {
+        point.base_shear / self.weight
+    }
+
+    /// Roof displacement over height \[–\].
+    #[must_use]
+    pub fn drift(&self, point: &PushPoint) -> f64 {
+        point.roof / self.height
+    }
+
+    /// Number of springs that have cracked, yielded ones included, and of those that have yielded, at the end.
+    #[must_use]
+    pub fn counts(&self, springs: usize) -> [usize; 2] {
+        let stages = self.stages(springs, self.points.len());
+        [Stage::Cracked, Stage::Yielded]
+            .map(|least| stages.iter().filter(|stage| **stage >= least).count())
+    }
+
+    /// Point of the greatest base shear.
+    #[must_use]
+    pub fn peak(&self) -> &PushPoint {
+        let mut peak = &self.points[0];
+        for point in &self.points {
+            if point.base_shear > peak.base_shear * (1.0 + 1e-12) {
+                peak = point;
+            }
+        }
+        peak
+    }
+
+    /// Stage of every spring at a point.
+    #[must_use]
+    pub fn stages(&self, springs: usize, point: usize) -> Vec<Stage> {
+        let mut stages = vec![Stage::Uncracked; springs];
+        for event in self
+            .points
+            .iter()
+            .take(point + 1)
+            .flat_map(|point| &point.events)
+        {
+            let stage = match event.kind {
+                PushEventKind::Cracks => Stage::Cracked,
+                PushEventKind::Yields => Stage::Yielded,
+                PushEventKind::Turns => continue,
+            };
+            stages[event.spring] = stages[event.spring].max(stage);
+        }
+        stages
+    }
+}
+
+/// A building with its capacity curves, as results and reports need them.
+#[derive(Clone, Debug)]
+pub struct PushedBuilding<'a> {
+    /// The building.
+    pub building: &'a BuildingSystem,
+    /// One curve per direction.
+    pub curves: Vec<Pushover>,
+}
+
+impl PushedBuilding<'_> {
+    /// Where a spring sits, in words.
+    #[must_use]
+    pub fn place(&self, spring: usize) -> String {
+        let places = &self.building.idealisation.spring_places;
+        let named = places.get(spring).map(ToString::to_string);
+        named.unwrap_or_else(|| format!("spring {}", spring + 1))
+    }
+}
+
+/// Why a building cannot be pushed at all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the building has no floor with mass to push, or moves without resistance")]
+pub struct NothingToPush;
+
+/// Pushes a building from rest, under its weight where it carries it, by its roof (theory, Eqs. X1 to X4).
+///
+/// # Errors
+/// [`NothingToPush`].
+pub fn pushover(
+    building: &BuildingSystem,
+    settings: PushSettings,
+) -> Result<Pushover, NothingToPush> {
+    let forces = settings.pattern.forces(building).ok_or(NothingToPush)?;
+    let sign = settings.direction.sign();
+    let roof = building.floors.last().ok_or(NothingToPush)?;
+    let driven = roof.dof - building.offset;
+    let pattern: Vec<f64> = forces.iter().map(|force| sign * force).collect();
+    let mut push = Push {
+        building,
+        sign,
+        walk: EquilibriumPath::driven(building, &building.rest, pattern, driven),
+        stages: Vec::new(),
+        points: Vec::new(),
+    };
+    let target = settings.drift * roof.height;
+    push.start();
+    let end = push.go(target);
+    Ok(Pushover {
+        settings,
+        height: roof.height,
+        weight: STANDARD_GRAVITY * mass_above_base(building),
+        floor_loads: floor_loads(building, &forces),
+        points: push.points,
+        end,
+    })
+}
+
+/// A push under way.
+struct Push<'a> {
+    building: &'a BuildingSystem,
+    sign: f64,
+    walk: EquilibriumPath,
+    stages: Vec<Stage>,
+    points: Vec<PushPoint>,
+}
+
+impl Push<'_> {
+    fn start(&mut self) {
+        let springs = self.building.equations.springs.len();
+        self.stages = vec![Stage::Uncracked; springs];
+        let all: Vec<usize> = (0..springs).collect();
+        let events = self.events_of(&all, false);
+        self.note(0.0, events);
+    }
+
+    fn go(&mut self, target: f64) -> PushEnd {
+        let mut roof = 0.0;
+        loop {
+            match self.walk.find_rates() {
+                Ok(()) => {}
+                Err(PathError::GivesWay(_)) => {
+                    return PushEnd::Mechanism {
+                        storey: self.softest_storey(),
+                    };
+                }
+                Err(problem) => return PushEnd::Failed(problem),
+            }
+            let left = target - roof;
+            let falling = self.walk.load_rate() < 0.0;
+            let to_zero = if falling && self.walk.load() > 0.0 {
+                -self.walk.load() / self.walk.load_rate()
+            } else {
+                f64::INFINITY
+            };
+            let most = left.min(to_zero);
+            let reached = match self.walk.advance(most) {
+                Ok(reached) => reached,
+                Err(problem) => return PushEnd::Failed(problem),
+            };
+            roof += reached.length;
+            let ends = reached.length >= most;
+            if ends && most == left {
+                roof = target;
+            }
+            let events = self.events_of(&reached.corners, true);
+            // What happens within rounding happens together.
+            match self.points.last_mut() {
+                Some(last) if !ends && reached.length <= 1e-12 * target => {
+                    last.events.extend(events);
+                }
+                _ => self.note(roof, events),
+            }
+            if ends {
+                return if most == left {
+                    PushEnd::Target
+                } else {
+                    PushEnd::NoResistance
+                };
+            }
+        }
+    }
+
+    /// What the corners of springs mean.
+    fn events_of(&mut self, corners: &[usize], turns: bool) -> Vec<PushEvent> {
+        let mut events = Vec::new();
+        for &spring in corners {
+            let stage = self.stage_reached(spring, &self.walk.memories()[spring]);
+            let kind = match stage {
+                Stage::Yielded if self.stages[spring] < stage => PushEventKind::Yields,
+                Stage::Cracked if self.stages[spring] < stage => PushEventKind::Cracks,
+                _ if turns => PushEventKind::Turns,
+                _ => continue,
+            };
+            self.stages[spring] = self.stages[spring].max(stage);
+            events.push(PushEvent { spring, kind });
+        }
+        events
+    }
+
+    /// A spring on its corner counts as beyond it.
+    fn stage_reached(&self, spring: usize, memory: &HysteresisMemory) -> Stage {
+        let hysteresis = &self.building.equations.springs[spring].hysteresis;
+        let stages = Side::BOTH.map(|side| {
+            let (curve, greatest) = (hysteresis.backbone().side(side), memory.greatest(side));
+            if greatest >= curve.yielding.deformation {
+                Stage::Yielded
+            } else if greatest >= curve.cracking.deformation {
+                Stage::Cracked
+            } else {
+                Stage::Uncracked
+            }
+        });
+        if hysteresis
+            .next_corner(&HysteresisMemory::default(), Side::Positive)
+            .is_infinite()
+        {
+            return Stage::Uncracked;
+        }
+        stages[0].max(stages[1])
+    }
+
+    fn note(&mut self, roof: f64, events: Vec<PushEvent>) {
+        let building = self.building;
+        let displacement = self.walk.displacement().to_vec();
+        let from_rest = |dof: usize| {
+            let rest = building.rest.displacement.get(dof).copied().unwrap_or(0.0);
+            self.sign * (displacement[dof] - rest)
+        };
+        let floors: Vec<f64> = building
+            .floors
+            .iter()
+            .map(|floor| from_rest(floor.dof - building.offset))
+            .collect();
+        let mut below = building
+            .foot
+            .map_or(0.0, |foot| from_rest(foot - building.offset));
+        let storeys = building.floors.iter().zip(&floors);
+        let storey_drifts = storeys
+            .map(|(floor, value)| {
+                let drift = (value - below) / floor.storey_height;
+                below = *value;
+                drift
+            })
+            .collect();
+        self.points.push(PushPoint {
+            roof,
+            base_shear: self.walk.load(),
+            floors,
+            storey_drifts,
+            events,
+            displacement,
+        });
+    }
+
+    fn softest_storey(&self) -> usize {
+        let drifts = self
+            .points
+            .last()
+            .map_or(&[][..], |point| &point.storey_drifts);
+        let worst = drifts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+        worst.map_or(1, |(storey, _)| storey + 1)
+    }
+}
+
+/// Mass of the nodes above the base \[kg\].
+fn mass_above_base(building: &BuildingSystem) -> f64 {
+    let nodes = building.idealisation.skeleton.nodes.iter();
+    nodes
+        .filter(|node| node.y > 0.0)
+        .map(|node| node.mass)
+        .sum()
+}
+
+/// Shares of the floors, from the ground up.
+fn floor_loads(building: &BuildingSystem, forces: &[f64]) -> Vec<f64> {
+    let nodes = &building.idealisation.skeleton.nodes;
+    let mut loads = vec![0.0; building.floors.len()];
+    let mut counted = vec![false; forces.len()];
+    for (index, node) in nodes.iter().enumerate() {
+        let Some(dof) = building.equations.horizontal(index) else {
+            continue;
+        };
+        if std::mem::replace(&mut counted[dof], true) {
+            continue;
+        }
+        let nearest = building.floors.iter().enumerate().min_by(|a, b| {
+            let away = |floor: &crate::system::Floor| (floor.height - node.y).abs();
+            away(a.1).total_cmp(&away(b.1))
+        });
+        if let Some((floor, _)) = nearest {
+            loads[floor] += forces[dof];
+        }
+    }
+    loads
+}

@@ -1,0 +1,101 @@
+//! How a horizontal load is spread over the height.
+
+use crate::model::LEVEL_TOLERANCE;
+use crate::structure::element::X;
+use crate::system::BuildingSystem;
+
+/// Shape of the horizontal load of a pushover.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum LoadPattern {
+    /// Mass times the shape of the first lateral mode, uncracked.
+    #[default]
+    FirstMode,
+    /// Mass.
+    Uniform,
+    /// Mass times height above the base.
+    Triangular,
+}
+
+impl LoadPattern {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::FirstMode, Self::Uniform, Self::Triangular];
+
+    /// Name on the command line and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FirstMode => "first-mode",
+            Self::Uniform => "uniform",
+            Self::Triangular => "triangular",
+        }
+    }
+
+    /// Horizontal force at every degree of freedom of a building, of sum one \[–\]. It acts at the floors; masses of
+    /// columns between floors count with the floors above and below, the nearer the more.
+    ///
+    /// `None` when there is no first mode or no mass.
+    #[must_use]
+    pub fn forces(self, building: &BuildingSystem) -> Option<Vec<f64>> {
+        let equations = &building.equations;
+        let mode = building.lateral_modes().next();
+        let shape = match self {
+            Self::FirstMode => Some(mode?),
+            _ => None,
+        };
+        let mut forces = vec![0.0; equations.len()];
+        for (node, mass) in floor_masses(building).into_iter().enumerate() {
+            let height = building.idealisation.skeleton.nodes[node].y;
+            let loaded = mass > 0.0 && height > LEVEL_TOLERANCE;
+            let Some(dof) = equations.dof((node, X)).filter(|_| loaded) else {
+                continue;
+            };
+            forces[dof] += mass
+                * match (self, shape) {
+                    (Self::FirstMode, Some(mode)) => mode.shape[dof],
+                    (Self::Triangular, _) => height,
+                    _ => 1.0,
+                };
+        }
+        let sum: f64 = forces.iter().sum();
+        if !(sum.is_finite() && sum != 0.0) {
+            return None;
+        }
+        for force in &mut forces {
+            *force /= sum;
+        }
+        Some(forces)
+    }
+}
+
+/// Mass of every node, that of nodes between floors moved to the nodes above and below on the same line \[kg\].
+fn floor_masses(building: &BuildingSystem) -> Vec<f64> {
+    let nodes = &building.idealisation.skeleton.nodes;
+    let levels: Vec<f64> = std::iter::once(0.0)
+        .chain(building.floors.iter().map(|floor| floor.height))
+        .collect();
+    let close = |a: f64, b: f64| (a - b).abs() <= LEVEL_TOLERANCE;
+    let mut masses: Vec<f64> = nodes.iter().map(|node| node.mass).collect();
+    for (index, node) in nodes.iter().enumerate() {
+        if levels.iter().any(|level| close(*level, node.y)) {
+            continue;
+        }
+        let above = levels.iter().position(|level| *level > node.y);
+        let Some(above) = above.filter(|above| *above > 0) else {
+            continue;
+        };
+        let (low, high) = (levels[above - 1], levels[above]);
+        let at = |height: f64| {
+            nodes
+                .iter()
+                .position(|other| close(other.y, height) && close(other.x, node.x))
+        };
+        let mass = std::mem::take(&mut masses[index]);
+        let share = (node.y - low) / (high - low);
+        for (height, part) in [(low, 1.0 - share), (high, share)] {
+            if let Some(place) = at(height) {
+                masses[place] += part * mass;
+            }
+        }
+    }
+    masses
+}

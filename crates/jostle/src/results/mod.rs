@@ -1,0 +1,8 @@
+//! Results of a run as numbers to report.
+
+mod counted_impact;
+mod summarise;
+pub mod summary;
+
+pub use counted_impact::{CountedImpact, counted, find_simultaneous};
+pub use summarise::{Run, springs_of};

@@ -1,0 +1,547 @@
+//! From the outcome of a run to the numbers of `summary.json`.
+
+use crate::contact::{LawKind, RestitutionIs};
+use crate::history::{FloorPeaks, Impact};
+use crate::hysteresis::{Side, Stage};
+use crate::model::WALL;
+use crate::model::{Gap, Model};
+use crate::motion::GroundMotion;
+use crate::results::summary::{
+    BuildingSummary, BuildingWithoutContact, ContactSummary, EnergySummary, FloorSummary,
+    FloorWithoutContact, GapSummary, HingeSummary, ImpactSummary, LinkFloorSummary, LinkSummary,
+    MotionSummary, PromiseSummary, SpringSummary, Summary, WorkSummary,
+};
+use crate::results::{CountedImpact, counted, find_simultaneous};
+use crate::stepping::{Accuracy, Outcome, Plan, RunEnd};
+use crate::structure::SpringPlace;
+use crate::structure::{ductility, end_stiffnesses};
+use crate::system::{BuildingSystem, System};
+
+/// What a summary is made of.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{GroundMotion, Outcome, Plan, Pounding, Run, RunEnd, Settings, StepError, Summary, System, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # use towers::pair;
+///
+/// let model = pair(0.02);
+/// let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// let motion = GroundMotion::sampled("sine", 0.01, wave);
+/// let system = System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// let plan = Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+/// let run = |pounding| -> Outcome {
+///     let settings = Settings { pounding, ..Settings::default() };
+///     simulate(&system, &motion, &plan, settings, |_| ControlFlow::Continue(()))
+/// };
+/// let (with, without) = (run(Pounding::Included), run(Pounding::Excluded));
+/// if let RunEnd::Failed(StepError::Unsuited { reason }) = &with.end {
+///     panic!("{reason}");
+/// }
+/// let summary = Summary::of(&Run {
+///     model: &model,
+///     system: &system,
+///     motion: &motion,
+///     plan: &plan,
+///     outcome: &with,
+///     without_contact: Some(&without),
+///     wall: 0.0,
+/// });
+/// assert!(summary.gaps[0].impact_count > 0);
+/// assert!(summary.gaps[0].closing_without_contact_m > Some(0.02)); // the gap needed
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Run<'a> {
+    /// What was asked for.
+    pub model: &'a Model,
+    /// Assembled.
+    pub system: &'a System,
+    /// Ground motion.
+    pub motion: &'a GroundMotion,
+    /// Steps.
+    pub plan: &'a Plan,
+    /// What came out.
+    pub outcome: &'a Outcome,
+    /// The same buildings passing through each other, if that run was made.
+    pub without_contact: Option<&'a Outcome>,
+    /// Wall time of the stepping \[s\].
+    pub wall: f64,
+}
+
+impl Summary {
+    /// Sums up a run.
+    #[must_use]
+    pub fn of(run: &Run) -> Self {
+        let Run {
+            model,
+            system,
+            motion,
+            outcome,
+            ..
+        } = *run;
+        let buildings = (0..system.buildings.len())
+            .map(|index| building_summary(index, run))
+            .collect();
+        let gaps = model
+            .gaps
+            .iter()
+            .enumerate()
+            .map(|(index, gap)| gap_summary(index, gap, run))
+            .collect();
+        Self {
+            title: model.title.clone(),
+            jostle: env!("CARGO_PKG_VERSION").to_owned(),
+            motion: MotionSummary {
+                name: motion.name.clone(),
+                points: motion.points(),
+                step_s: motion.step().unwrap_or(0.0),
+                pga_m_s2: motion.peak(),
+                scale: motion.scale,
+                duration_s: motion.duration,
+            },
+            buildings,
+            gaps,
+            links: (0..model.links.len())
+                .map(|index| link_summary(index, run))
+                .collect(),
+            energy: energy_summary(outcome),
+            promise: promise_summary(run),
+            work: work_summary(run),
+            ended_early: match &outcome.end {
+                RunEnd::Completed => None,
+                RunEnd::Stopped => Some(format!(
+                    "stopped at t = {:.3} s of {:.3} s",
+                    outcome.state.time, motion.duration
+                )),
+                RunEnd::Failed(error) => Some(error.to_string()),
+            },
+            warnings: warnings(run),
+            notes: notes(run),
+        }
+    }
+}
+
+fn building_summary(index: usize, run: &Run) -> BuildingSummary {
+    let outcome = run.outcome;
+    let building = &run.system.buildings[index];
+    let floors = building
+        .floors
+        .iter()
+        .zip(&outcome.floors[index])
+        .zip(residual_drifts(building, outcome))
+        .enumerate()
+        .map(|(k, ((floor, peaks), residual_drift))| FloorSummary {
+            floor: k + 1,
+            height_m: floor.height,
+            displacement_max_m: peaks.displacement_max.value,
+            displacement_max_at_s: peaks.displacement_max.at,
+            displacement_min_m: peaks.displacement_min.value,
+            displacement_min_at_s: peaks.displacement_min.at,
+            total_acceleration_peak_m_s2: peaks.total_acceleration,
+            storey_drift_peak: peaks.storey_drift,
+            storey_shear_peak_n: peaks.storey_shear,
+            overturning_moment_peak_n_m: peaks.overturning_moment,
+            residual_drift,
+            without_contact: run
+                .without_contact
+                .map(|without| floor_without_contact(&without.floors[index][k])),
+        });
+    BuildingSummary {
+        name: building.name.clone(),
+        mass_kg: building.equations.total_mass(),
+        periods_s: building
+            .lateral_modes()
+            .map(crate::eigen::Mode::period)
+            .collect(),
+        rayleigh_alpha_per_s: building.equations.alpha,
+        rayleigh_beta_s: building.equations.beta,
+        floors: floors.collect(),
+        base_shear_peak_n: outcome.base_shear[index],
+        without_contact: run.without_contact.map(|without| BuildingWithoutContact {
+            base_shear_peak_n: without.base_shear[index],
+        }),
+        residual_roof_displacement_m: roof_displacement(building, outcome),
+        hinges: hinge_summary(building, outcome),
+    }
+}
+
+fn floor_without_contact(peaks: &FloorPeaks) -> FloorWithoutContact {
+    FloorWithoutContact {
+        displacement_max_m: peaks.displacement_max.value,
+        displacement_max_at_s: peaks.displacement_max.at,
+        displacement_min_m: peaks.displacement_min.value,
+        displacement_min_at_s: peaks.displacement_min.at,
+        total_acceleration_peak_m_s2: peaks.total_acceleration,
+        storey_drift_peak: peaks.storey_drift,
+        storey_shear_peak_n: peaks.storey_shear,
+        overturning_moment_peak_n_m: peaks.overturning_moment,
+    }
+}
+
+fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
+    let all = springs_of(building, outcome);
+    let mut summary = HingeSummary {
+        total: all.len(),
+        cracked: all.iter().filter(|s| s.cracked_s.is_some()).count(),
+        yielded: all.iter().filter(|s| s.yielded_s.is_some()).count(),
+        first_yield_s: None,
+        ductility: all.iter().map(|s| s.ductility).fold(0.0, f64::max),
+        dissipated_j: all.iter().map(|s| s.dissipated_j).sum(),
+        list: all.into_iter().filter(|s| s.cracked_s.is_some()).collect(),
+    };
+    let never = f64::INFINITY;
+    summary.list.sort_by(|a, b| {
+        let key = |s: &SpringSummary| [s.yielded_s.unwrap_or(never), s.cracked_s.unwrap_or(never)];
+        let (a, b) = (key(a), key(b));
+        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+    });
+    summary.first_yield_s = summary.list.first().and_then(|first| first.yielded_s);
+    summary
+}
+
+/// What every spring of a building that can yield has borne, in the order of
+/// [`Idealisation::spring_places`](crate::structure::Idealisation::spring_places).
+#[must_use]
+pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSummary> {
+    let springs = building.equations.springs.iter().enumerate();
+    let behind = end_stiffnesses(&building.idealisation.skeleton);
+    let when = |spring: usize, reached: Stage, stage: Stage| {
+        let mut events = outcome.spring_events.iter();
+        // A spring may yield in the step in which it cracks, and crack under weight alone.
+        let event = events.find(|event| event.spring == spring && event.stage >= stage);
+        (reached >= stage).then(|| event.map_or(0.0, |event| event.time))
+    };
+    let summary = |(index, spring): (usize, &crate::structure::YieldingSpring)| {
+        let global = building.spring_offset + index;
+        let (memory, rule) = (&outcome.state.springs[global], &spring.hysteresis);
+        let totals = &outcome.springs[global];
+        let place = building.idealisation.spring_places.get(index);
+        SpringSummary {
+            place: place.map_or_else(|| format!("spring {index}"), ToString::to_string),
+            index,
+            cracked_s: when(global, rule.stage(memory), Stage::Cracked),
+            yielded_s: when(global, rule.stage(memory), Stage::Yielded),
+            deformation_max: memory.greatest(Side::Positive),
+            deformation_min: memory.greatest(Side::Negative),
+            ductility: Side::BOTH
+                .map(|side| {
+                    // A base has only itself, whatever member stands on it.
+                    let member = behind.get(index).copied().flatten();
+                    let member =
+                        member.filter(|_| !matches!(place, Some(SpringPlace::Base { .. })));
+                    ductility(rule, memory.greatest(side), side, member)
+                })
+                .into_iter()
+                .fold(0.0, f64::max),
+            peak_force: totals.peak_force,
+            dissipated_j: totals.work - rule.recoverable_energy(memory),
+        }
+    };
+    springs.map(summary).collect()
+}
+
+/// Drift ratios of the storeys at the end \[–\].
+fn residual_drifts(building: &BuildingSystem, outcome: &Outcome) -> Vec<f64> {
+    let u = &outcome.state.displacement;
+    let mut below = building.foot.map_or(0.0, |dof| u[dof]);
+    let mut drift = |floor: &crate::system::Floor| {
+        let rise = u[floor.dof] - below;
+        below = u[floor.dof];
+        rise / floor.storey_height
+    };
+    building.floors.iter().map(&mut drift).collect()
+}
+
+fn roof_displacement(building: &BuildingSystem, outcome: &Outcome) -> f64 {
+    building
+        .floors
+        .last()
+        .map_or(0.0, |roof| outcome.state.displacement[roof.dof])
+}
+
+fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
+    let Run {
+        system, outcome, ..
+    } = *run;
+    let own: Vec<usize> = (0..system.contacts.len())
+        .filter(|&contact| system.contacts[contact].gap == index)
+        .collect();
+    let mut counted: Vec<Vec<CountedImpact>> = own
+        .iter()
+        .map(|&contact| counted_impacts(contact, gap, outcome))
+        .collect();
+    let poundings = find_simultaneous(&mut counted);
+    let contacts: Vec<ContactSummary> = own
+        .iter()
+        .zip(&counted)
+        .map(|(&contact, impacts)| contact_summary(contact, impacts, system, outcome))
+        .collect();
+    let impacts = contacts.iter().flat_map(|contact| &contact.impacts);
+    GapSummary {
+        between: names(gap.between, system),
+        width_m: gap.width(),
+        clearance_m: contacts
+            .iter()
+            .map(|contact| contact.width_m - contact.closing_peak_m)
+            .fold(f64::INFINITY, f64::min),
+        law: gap.law.kind.full_name(),
+        free_restitution: gap.law.free_restitution(),
+        impact_count: contacts.iter().map(|contact| contact.impact_count).sum(),
+        minimum_separation_s: gap.minimum_separation,
+        pounding_count: poundings.count,
+        multiple_pounding_count: poundings.multiple,
+        most_at_once: poundings.most_at_once,
+        peak_force_n: contacts
+            .iter()
+            .map(|contact| contact.peak_force_n)
+            .fold(0.0, f64::max),
+        first_impact_s: impacts.map(|impact| impact.start_s).min_by(f64::total_cmp),
+        closing_without_contact_m: run.without_contact.map(|outcome| {
+            let needed = |&contact: &usize| {
+                let wider = system.contacts[contact].width - gap.width();
+                outcome.closing[contact].value - wider
+            };
+            own.iter().map(needed).fold(0.0, f64::max)
+        }),
+        contacts,
+    }
+}
+
+/// Names of both sides.
+fn names(between: [Option<usize>; 2], system: &System) -> [String; 2] {
+    between.map(|side| match side {
+        Some(building) => system.buildings[building].name.clone(),
+        None => WALL.to_owned(),
+    })
+}
+
+fn link_summary(index: usize, run: &Run) -> LinkSummary {
+    let (system, outcome, link) = (run.system, run.outcome, &run.model.links[index]);
+    let own = system.links.iter().zip(&outcome.links);
+    let floors: Vec<LinkFloorSummary> = own
+        .filter(|(element, _)| element.link == index)
+        .map(|(element, totals)| {
+            let shortening = element.shortening(&outcome.state.displacement);
+            LinkFloorSummary {
+                floors: element.faces.floors(),
+                height_m: element.height,
+                peak_force_n: totals.peak_force.value,
+                peak_force_at_s: totals.peak_force.at,
+                peak_stroke_m: totals.peak_shortening,
+                dissipated_j: totals.work - element.strain(shortening),
+            }
+        })
+        .collect();
+    LinkSummary {
+        between: names(link.between, system),
+        stiffness_n_m: link.stiffness,
+        damping_n_s_m: link.damping,
+        peak_force_n: floors
+            .iter()
+            .map(|floor| floor.peak_force_n.abs())
+            .fold(0.0, f64::max),
+        dissipated_j: floors
+            .iter()
+            .fold(0.0, |sum, floor| sum + floor.dissipated_j),
+        floors,
+    }
+}
+
+fn counted_impacts(index: usize, gap: &Gap, outcome: &Outcome) -> Vec<CountedImpact> {
+    let mut impacts: Vec<&Impact> = outcome
+        .impacts
+        .iter()
+        .filter(|impact| impact.contact == index)
+        .collect();
+    impacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+    counted(impacts, gap.minimum_separation)
+}
+
+fn contact_summary(
+    index: usize,
+    impacts: &[CountedImpact],
+    system: &System,
+    outcome: &Outcome,
+) -> ContactSummary {
+    let all = || impacts.iter().map(|counted| &counted.impact);
+    let strongest = all()
+        .filter(|impact| impact.peak_force > 0.0)
+        .max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
+    let contact = &system.contacts[index];
+    ContactSummary {
+        floors: contact.faces.floors(),
+        height_m: contact.height,
+        width_m: contact.width,
+        closing_peak_m: outcome.closing[index].value,
+        closing_peak_at_s: outcome.closing[index].at,
+        impact_count: impacts.len(),
+        peak_force_n: strongest.map_or(0.0, |impact| impact.peak_force),
+        peak_force_at_s: strongest.map(|impact| impact.peak_force_at),
+        // An empty sum would be −0.
+        impulse_n_s: all().fold(0.0, |sum, impact| sum + impact.impulse),
+        impacts: impacts.iter().map(ImpactSummary::from).collect(),
+    }
+}
+
+impl From<&CountedImpact> for ImpactSummary {
+    fn from(counted: &CountedImpact) -> Self {
+        let impact = &counted.impact;
+        Self {
+            start_s: impact.start,
+            end_s: impact.end,
+            peak_force_n: impact.peak_force,
+            peak_force_at_s: impact.peak_force_at,
+            peak_indentation_m: impact.peak_indentation,
+            impact_speed_m_s: impact.impact_speed,
+            separation_speed_m_s: impact.separation_speed,
+            realised_restitution: impact.realised_restitution(),
+            impulse_n_s: impact.impulse,
+            dissipated_j: impact.dissipated,
+            finished: impact.finished,
+            touches: counted.touches,
+            simultaneous: counted.simultaneous,
+        }
+    }
+}
+
+fn energy_summary(outcome: &Outcome) -> EnergySummary {
+    let energy = &outcome.energy;
+    EnergySummary {
+        input_j: energy.input,
+        kinetic_j: energy.kinetic,
+        strain_j: energy.strain,
+        damped_j: energy.damped,
+        links_j: energy.links,
+        hysteretic_j: energy.hysteretic,
+        contact_j: energy.contact,
+        imbalance: energy.imbalance(),
+        worst_imbalance: energy.worst_imbalance,
+    }
+}
+
+fn promise_summary(run: &Run) -> PromiseSummary {
+    let accuracy = run.outcome.accuracy;
+    PromiseSummary {
+        tolerance: run.plan.tolerance(),
+        met: accuracy.map(|accuracy| accuracy.residual <= accuracy.tolerance),
+        residual: accuracy.map(|accuracy| accuracy.residual),
+        sensitive_from_s: accuracy.and_then(|accuracy| accuracy.sensitive_from),
+    }
+}
+
+fn work_summary(run: &Run) -> WorkSummary {
+    let work = &run.outcome.work;
+    WorkSummary {
+        solver: run.plan.solver.name(),
+        steps: work.steps,
+        contact_steps: work.contact_steps,
+        repeated_steps: work.repeated_steps,
+        factorizations: work.factorizations,
+        solves: work.solves,
+        iterations: work.iterations,
+        outer_iterations: work.outer_iterations,
+        halved_steps: work.halved_steps,
+        coupling_operations: work.coupling_operations,
+        shapes: work.shapes,
+        repeated_runs: work.repeated_runs,
+        step_s: run.outcome.free_step.unwrap_or(run.plan.step),
+        contact_step_s: run.outcome.contact_step,
+        wall_s: run.wall,
+    }
+}
+
+/// Reasons not to trust the numbers.
+fn warnings(run: &Run) -> Vec<String> {
+    let tolerance = run.model.analysis.energy_tolerance;
+    let energy = &run.outcome.energy;
+    let worst = energy.worst_imbalance;
+    let mut warnings = Vec::new();
+    // An integrator that dissipates takes energy on its own account: see the notes.
+    if worst > tolerance && !run.plan.integrator.dissipates() {
+        warnings.push(format!(
+            "the energies do not balance: {worst:.1e} of the energy is unaccounted for (tolerance {tolerance:.1e}); do not trust this run"
+        ));
+    }
+    // The trapezoidal rule may gain energy in impacts of few steps; the balance cannot see it.
+    let given = -energy.contact / energy.input.abs().max(f64::MIN_POSITIVE);
+    if given > MOST_GIVEN {
+        warnings.push(format!(
+            "contacts gave {:.1} % of the energy put in, where they should only take some: the contact step is too coarse; use contact_step = \"auto\", or a smaller tolerance if it is auto already",
+            given * 100.0
+        ));
+    }
+    let remedy = if run.model.analysis.step.is_some() {
+        "use step = \"auto\", or a shorter step"
+    } else {
+        "compare with a run at another tolerance"
+    };
+    let accuracy = run.outcome.accuracy.iter();
+    warnings.extend(accuracy.flat_map(|accuracy| accuracy_warnings(accuracy, remedy)));
+    warnings
+}
+
+/// What a run says of its own accuracy.
+fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = String> + use<> {
+    let Accuracy {
+        tolerance,
+        residual,
+        sensitive_from,
+        ..
+    } = *accuracy;
+    let missed = (residual > tolerance).then(|| {
+        format!(
+            "the tolerance of {tolerance:e} is not met: the estimated error of the peaks is {residual:.1e}, and they are sensitive to the time step; {remedy}"
+        )
+    });
+    let sensitive = sensitive_from.map(|from| {
+        format!(
+            "sensitive from t = {from:.3} s: contacts are made or missed there within the tolerance of {tolerance:e}, and later impacts and peaks depend on them; what comes before holds"
+        )
+    });
+    missed.into_iter().chain(sensitive)
+}
+
+/// Energy that contacts may give, relative to the input, by the error of the steps.
+const MOST_GIVEN: f64 = 0.01;
+
+/// Things worth knowing about the numbers.
+fn notes(run: &Run) -> Vec<String> {
+    let mut notes = Vec::new();
+    for law in run.model.gaps.iter().map(|gap| &gap.law) {
+        let (asked, free) = (law.restitution, law.free_restitution());
+        let published =
+            law.restitution_is == RestitutionIs::Input && law.kind.has_published_damping();
+        if published && (free - asked).abs() > 0.005 {
+            notes.push(format!(
+                "{} with restitution {asked} lets free masses rebound with {free:.3}; restitution_is = \"realised\" makes it {asked}",
+                law.kind.name()
+            ));
+        }
+    }
+    if run.plan.integrator.dissipates() {
+        let taken = run.outcome.energy.imbalance();
+        notes.push(format!(
+            "the integrator damps the motion by itself: {:.2} % of the input energy is its share",
+            100.0 * taken
+        ));
+        if !run.system.contacts.is_empty() {
+            notes.push(
+                "an integrator that damps the motion takes from the rebound of every impact: restitution and impact counts come out too small; use average acceleration to judge pounding".to_owned(),
+            );
+        }
+    }
+    if run
+        .model
+        .gaps
+        .iter()
+        .any(|gap| gap.law.kind == LawKind::Restitution)
+    {
+        notes.push(
+            "the restitution law changes velocities at once: its impacts have an impulse, but neither force nor duration; forces are those of lasting contact".to_owned(),
+        );
+    }
+    notes.dedup();
+    notes
+}

@@ -1,0 +1,344 @@
+//! From corner to corner: how a building gives way as one load grows or one displacement is driven.
+
+use super::Settled;
+use crate::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Side};
+use crate::linear::{NotPositive, StepMatrix};
+use crate::structure::{AssembledBuilding, Equations, StepEquations, YieldingSpring};
+use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
+
+/// Why a walk cannot go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PathError {
+    /// The stiffness ahead is not positive: the building moves on without more load, or falls.
+    #[error("the building gives way: {0}")]
+    GivesWay(#[from] NotPositive),
+    /// No consistent choice of loading and unloading springs was found.
+    #[error("which hinges load and which unload could not be decided")]
+    Undecided,
+    /// There are more corners than a sound model has.
+    #[error("the path has more than {0} corners")]
+    TooManyCorners(usize),
+}
+
+/// What ended a straight piece of the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reached {
+    /// Length of the piece, in units of what drives the walk.
+    pub length: f64,
+    /// Springs that came to a corner, in rising order; empty where the piece was long enough.
+    pub corners: Vec<usize>,
+}
+
+/// Equilibrium path of one building under p = p₀ + λ p₁ (theory, Eq. X1).
+///
+/// λ grows at rate one, or the displacement of one degree of freedom does, whatever λ does then: so a path is followed
+/// over its peak and down, as long as the building stands while that one displacement is held.
+#[derive(Clone, Debug)]
+pub struct EquilibriumPath {
+    equations: Equations,
+    sweep: RiccatiSweep,
+    factor: RiccatiFactor,
+    /// Slopes in `factor`; empty before the first factorisation.
+    tangents: Vec<f64>,
+    /// Displacement that is driven, with the spring that holds it while the equations are solved.
+    driven: Option<(usize, f64)>,
+    pattern: Vec<f64>,
+    displacement: Vec<f64>,
+    memories: Vec<HysteresisMemory>,
+    load: f64,
+    /// Slope of every spring on its way to either side.
+    ahead: Vec<[f64; 2]>,
+    sides: Vec<Side>,
+    rates: Vec<f64>,
+    load_rate: f64,
+    spring_rates: Vec<f64>,
+    corners: usize,
+}
+
+/// Rates below this share of the greatest one have no direction.
+const STILL: f64 = 1e-11;
+/// Corners this close to each other, as a share of the deformation at yield, are reached together.
+const TOGETHER: f64 = 1e-12;
+/// Choices of sides in which all wrong ones are turned at once.
+const QUICK_CHOICES: usize = 12;
+
+impl EquilibriumPath {
+    /// From rest, λ growing from zero; `pattern` is p₁ \[N, N·m\].
+    #[must_use]
+    pub fn loaded(building: &AssembledBuilding, pattern: Vec<f64>) -> Self {
+        let n = building.equations.len();
+        let memories = vec![HysteresisMemory::default(); building.equations.springs.len()];
+        Self::new(building, pattern, vec![0.0; n], memories, None)
+    }
+
+    /// From the building at rest, one displacement driven; `pattern` is p₁ \[N, N·m\]. The driven displacement grows
+    /// at rate one, or falls at rate one, as p₁ pushes it.
+    #[must_use]
+    pub fn driven(
+        building: &AssembledBuilding,
+        rest: &Settled,
+        pattern: Vec<f64>,
+        dof: usize,
+    ) -> Self {
+        let equations = &building.equations;
+        let mut displacement = rest.displacement.clone();
+        displacement.resize(equations.len(), 0.0);
+        let mut memories = rest.springs.clone();
+        memories.resize(equations.springs.len(), HysteresisMemory::default());
+        let hold = equations.stiffness.diagonal[dof] + equations.undamped.diagonal[dof].abs();
+        let springs = equations.springs.iter();
+        let yielding: f64 = springs
+            .filter(|spring| spring.dofs.contains(&Some(dof)))
+            .map(|spring| spring.hysteresis.backbone().initial())
+            .sum();
+        Self::new(
+            building,
+            pattern,
+            displacement,
+            memories,
+            Some((dof, hold + yielding)),
+        )
+    }
+
+    fn new(
+        building: &AssembledBuilding,
+        pattern: Vec<f64>,
+        displacement: Vec<f64>,
+        memories: Vec<HysteresisMemory>,
+        driven: Option<(usize, f64)>,
+    ) -> Self {
+        let count = memories.len();
+        let sweep = match driven.and_then(|(dof, hold)| holding_spring(dof, hold)) {
+            Some(spring) => {
+                // The spring that holds is the last of the list.
+                let mut held = building.clone();
+                held.equations.springs.push(spring);
+                RiccatiSweep::new(&held)
+            }
+            None => RiccatiSweep::new(building),
+        };
+        Self {
+            equations: building.equations.clone(),
+            sweep,
+            factor: RiccatiFactor::default(),
+            tangents: Vec::new(),
+            driven,
+            rates: vec![0.0; displacement.len()],
+            pattern,
+            displacement,
+            memories,
+            load: 0.0,
+            ahead: vec![[0.0; 2]; count],
+            sides: vec![Side::Positive; count],
+            load_rate: 0.0,
+            spring_rates: vec![0.0; count],
+            corners: 0,
+        }
+    }
+
+    /// λ now.
+    #[must_use]
+    pub fn load(&self) -> f64 {
+        self.load
+    }
+
+    /// dλ along the piece ahead.
+    #[must_use]
+    pub fn load_rate(&self) -> f64 {
+        self.load_rate
+    }
+
+    /// Displacement of every degree of freedom \[m, rad\].
+    #[must_use]
+    pub fn displacement(&self) -> &[f64] {
+        &self.displacement
+    }
+
+    /// What every spring remembers.
+    #[must_use]
+    pub fn memories(&self) -> &[HysteresisMemory] {
+        &self.memories
+    }
+
+    /// Finds how everything moves on from here (theory, Eqs. X2 and X3): every spring on the line of the side it
+    /// moves to.
+    ///
+    /// # Errors
+    /// [`PathError::GivesWay`] or [`PathError::Undecided`].
+    pub fn find_rates(&mut self) -> Result<(), PathError> {
+        let springs = self.equations.springs.iter().zip(&self.memories);
+        for ((spring, memory), ahead) in springs.zip(&mut self.ahead) {
+            *ahead = Side::BOTH.map(|side| slope_ahead(&spring.hysteresis, memory, side));
+        }
+        let most = QUICK_CHOICES + 4 * self.sides.len() + 16;
+        let mut stiffened = false;
+        for choice in 0..most {
+            if let Err(problem) = self.factorize() {
+                if stiffened {
+                    return Err(problem.into());
+                }
+                // Perhaps only this choice is soft: begin again with the stiffest.
+                stiffened = true;
+                for (side, ahead) in self.sides.iter_mut().zip(&self.ahead) {
+                    *side = if ahead[0] >= ahead[1] {
+                        Side::Positive
+                    } else {
+                        Side::Negative
+                    };
+                }
+                self.factorize()?;
+            }
+            self.solve();
+            let fastest = self
+                .spring_rates
+                .iter()
+                .fold(0.0_f64, |most, rate| most.max(rate.abs()));
+            let mut settled = true;
+            for ((side, ahead), rate) in self
+                .sides
+                .iter_mut()
+                .zip(&self.ahead)
+                .zip(&self.spring_rates)
+            {
+                let moves = rate.abs() > STILL * fastest;
+                if moves && Side::of(*rate) != *side {
+                    *side = side.opposite();
+                    if ahead[0] != ahead[1] {
+                        settled = false;
+                        // One at a time, the first one first, cannot go round in circles (Murty, 1974).
+                        if stiffened || choice > QUICK_CHOICES {
+                            break;
+                        }
+                    }
+                }
+            }
+            if settled {
+                return Ok(());
+            }
+        }
+        Err(PathError::Undecided)
+    }
+
+    /// Goes on to the next corner, at most by `most` in units of what drives the walk. [`EquilibriumPath::find_rates`] comes
+    /// first.
+    ///
+    /// # Errors
+    /// [`PathError::TooManyCorners`].
+    pub fn advance(&mut self, most: f64) -> Result<Reached, PathError> {
+        let mut length = most;
+        for ((spring, memory), rate) in self
+            .equations
+            .springs
+            .iter()
+            .zip(&self.memories)
+            .zip(&self.spring_rates)
+        {
+            if *rate != 0.0 {
+                let corner = spring.hysteresis.next_corner(memory, Side::of(*rate));
+                length = length.min(((corner - memory.deformation()) / rate).max(0.0));
+            }
+        }
+        let mut corners = Vec::new();
+        let springs = self.equations.springs.iter().zip(&mut self.memories);
+        for (index, ((spring, memory), rate)) in springs.zip(&self.spring_rates).enumerate() {
+            if *rate == 0.0 {
+                continue;
+            }
+            let side = Side::of(*rate);
+            let corner = spring.hysteresis.next_corner(memory, side);
+            let mut reached = memory.deformation() + length * rate;
+            let window = TOGETHER * spring.hysteresis.backbone().side(side).yielding.deformation;
+            if side.sign() * (reached - corner) >= -window {
+                reached = corner;
+                corners.push(index);
+            }
+            *memory = spring.hysteresis.respond(memory, reached).memory;
+        }
+        for (value, rate) in self.displacement.iter_mut().zip(&self.rates) {
+            *value += length * rate;
+        }
+        self.load += length * self.load_rate;
+        self.corners += corners.len();
+        let bound = 1000 + 100 * self.memories.len();
+        if self.corners > bound {
+            return Err(PathError::TooManyCorners(bound));
+        }
+        Ok(Reached { length, corners })
+    }
+
+    /// Factorises for the slopes of the present sides, anew only what has changed.
+    fn factorize(&mut self) -> Result<(), NotPositive> {
+        let slopes = self.ahead.iter().zip(&self.sides);
+        let hold = self.driven.map(|(_, hold)| hold);
+        let wanted: Vec<f64> = slopes
+            .map(|(ahead, side)| ahead[side.index()])
+            .chain(hold)
+            .collect();
+        let changed: Vec<usize> = (0..wanted.len())
+            .filter(|&spring| self.tangents.get(spring) != Some(&wanted[spring]))
+            .collect();
+        let done = if self.tangents.is_empty() {
+            self.sweep
+                .factorize(&StepMatrix::STATIC, &wanted, &mut self.factor)
+        } else if changed.is_empty() {
+            Ok(())
+        } else {
+            self.sweep
+                .update(&StepMatrix::STATIC, &wanted, &changed, &mut self.factor)
+        };
+        self.tangents = if done.is_ok() { wanted } else { Vec::new() };
+        done
+    }
+
+    /// Rates for the factorised slopes.
+    fn solve(&mut self) {
+        self.rates.copy_from_slice(&self.pattern);
+        self.sweep.solve(&self.factor, &mut self.rates);
+        self.load_rate = 1.0;
+        if let Some((dof, hold)) = self.driven {
+            // K + k e eᵀ is regular where K is not; k e is the load of the spring whose far end is driven.
+            let sign = self.pattern_sign();
+            let mut held = vec![0.0; self.rates.len()];
+            held[dof] = sign * hold;
+            self.sweep.solve(&self.factor, &mut held);
+            self.load_rate = (sign - held[dof]) / self.rates[dof];
+            for (rate, held) in self.rates.iter_mut().zip(&held) {
+                *rate = self.load_rate * *rate + held;
+            }
+        }
+        let springs = self.equations.springs.iter();
+        for (rate, spring) in self.spring_rates.iter_mut().zip(springs) {
+            *rate = spring.deformation(&self.rates);
+        }
+    }
+
+    /// Direction in which the driven displacement goes.
+    fn pattern_sign(&self) -> f64 {
+        let sum: f64 = self.pattern.iter().sum();
+        if sum < 0.0 { -1.0 } else { 1.0 }
+    }
+}
+
+/// An elastic spring to the ground.
+fn holding_spring(dof: usize, stiffness: f64) -> Option<YieldingSpring> {
+    let corners = Corners::bilinear(1.0, 1.0);
+    let backbone = Backbone::from_deformations(stiffness, corners, corners).ok()?;
+    Some(YieldingSpring {
+        dofs: [Some(dof), None],
+        hysteresis: Hysteresis::new(HysteresisRule::Elastic, backbone).ok()?,
+        carries_base_shear: false,
+    })
+}
+
+/// Slope of the line on which a spring moves to a side.
+fn slope_ahead(hysteresis: &Hysteresis, memory: &HysteresisMemory, side: Side) -> f64 {
+    let here = memory.deformation();
+    let corner = hysteresis.next_corner(memory, side);
+    let on_line = if corner.is_finite() {
+        0.5 * (here + corner)
+    } else {
+        here + side.sign() * hysteresis.backbone().side(side).yielding.deformation
+    };
+    let on_line = if on_line == here { corner } else { on_line };
+    hysteresis.respond(memory, on_line).tangent
+}

@@ -1,0 +1,251 @@
+//! Gravity: static displacements under self weight, and the axial compression it leaves in columns.
+
+use super::{PathError, Settled, settle};
+use crate::linear::{NotPositive, StepMatrix};
+use crate::model::Gravity;
+use crate::structure::element::{self, Y};
+use crate::structure::{AssembledBuilding, Skeleton, StepEquations};
+use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
+
+/// Standard gravity \[m/s²\].
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// Static displacement of every degree of freedom of a building under its own weight \[m, rad\], as long as nothing
+/// cracks; [`settle`] goes further.
+///
+/// `gravity` ≥ 0 \[m/s²\]. Where members keep their length, what rests on them does not sink.
+///
+/// # Errors
+/// [`NotPositive`] when the building can move without deforming.
+pub fn static_displacement(
+    building: &AssembledBuilding,
+    gravity: f64,
+) -> Result<Vec<f64>, NotPositive> {
+    let sweep = RiccatiSweep::new(building);
+    let mut factor = RiccatiFactor::default();
+    sweep.factorize(
+        &StepMatrix::STATIC,
+        &building.equations.initial_tangents(),
+        &mut factor,
+    )?;
+    let mut displacement: Vec<f64> = building
+        .equations
+        .vertical_mass
+        .iter()
+        .map(|mass| -mass * gravity)
+        .collect();
+    sweep.solve(&factor, &mut displacement);
+    Ok(displacement)
+}
+
+/// Axial compression of every member under gravity, zero in horizontal ones \[N\].
+///
+/// By equilibrium of the column lines: a column carries the masses above on its line, and what the beams that
+/// end there hang on it, hinges cracked as the weight leaves them. So it is the same whether columns keep their length
+/// or not.
+///
+/// # Errors
+/// [`PathError`] when the building cannot carry its weight.
+pub fn compressions(building: &AssembledBuilding, gravity: f64) -> Result<Vec<f64>, PathError> {
+    let displacement = settle(building, gravity)?.displacement;
+    let skeleton = &building.idealisation.skeleton;
+    let hung = hung_on_nodes(skeleton, building, &displacement, gravity);
+    Ok(skeleton
+        .members
+        .iter()
+        .map(|member| {
+            let nodes = &skeleton.nodes;
+            if !member.is_vertical(nodes) {
+                return 0.0;
+            }
+            let [a, b] = member.ends.map(|end| nodes[end]);
+            let top = a.y.max(b.y);
+            let on_line = nodes
+                .iter()
+                .zip(&hung)
+                .filter(|(node, _)| (node.x - a.x).abs() < SAME_LINE);
+            on_line
+                .filter(|(node, _)| node.y > top - SAME_LINE)
+                .map(|(_, weight)| weight)
+                .sum()
+        })
+        .collect())
+}
+
+/// A building that cannot stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Collapse {
+    /// It can move without deforming.
+    #[error("the building can move without resistance")]
+    Movable,
+    /// Its hinges cannot carry its weight.
+    #[error(
+        "the hinges cannot carry the weight of the building: a mechanism forms before all of it is on; are yield moments and masses right?"
+    )]
+    Overloaded,
+    /// P-Delta has used up its stiffness.
+    #[error(
+        "the building buckles under its own weight: P-Delta exceeds its lateral stiffness; are its masses and sections right?"
+    )]
+    Buckles,
+}
+
+impl Collapse {
+    /// The field of a building that brought it about.
+    #[must_use]
+    pub fn field(&self) -> &'static str {
+        match self {
+            Self::Movable | Self::Overloaded => "gravity",
+            Self::Buckles => "p_delta",
+        }
+    }
+}
+
+/// Lets the weight lean on the columns and finds the displacements at rest, as far as each is asked for: the building
+/// with P-Delta in its equations, where it is, and what it is at rest, empty where weight is left out.
+///
+/// The compression of every member is that of the building standing straight (theory, Eq. K1): axial forces
+/// that shaking adds are not followed.
+///
+/// # Errors
+/// [`Collapse`].
+pub fn under_gravity(
+    building: &AssembledBuilding,
+    gravity: Gravity,
+) -> Result<(Option<AssembledBuilding>, Settled), Collapse> {
+    static_displacement(building, STANDARD_GRAVITY).map_err(|_| Collapse::Movable)?;
+    let leaning = if gravity.p_delta {
+        Some(with_p_delta(building)?)
+    } else {
+        None
+    };
+    let rest = if gravity.preload {
+        let standing = leaning.as_ref().unwrap_or(building);
+        settle(standing, STANDARD_GRAVITY).map_err(|_| Collapse::Overloaded)?
+    } else {
+        Settled::default()
+    };
+    Ok((leaning, rest))
+}
+
+/// The building with its weight leaning on the columns.
+fn with_p_delta(building: &AssembledBuilding) -> Result<AssembledBuilding, Collapse> {
+    let carried = compressions(building, STANDARD_GRAVITY).map_err(|_| Collapse::Overloaded)?;
+    let mut idealisation = building.idealisation.clone();
+    let skeleton = &mut idealisation.skeleton;
+    for (member, compression) in skeleton.members.iter_mut().zip(carried) {
+        member.compression = compression;
+    }
+    let nodes = &skeleton.nodes;
+    for spring in &mut skeleton.springs {
+        let [a, b] = spring.ends.map(|end| nodes[end].y);
+        // The spring of a base has no height to lean on.
+        if (a - b).abs() > SAME_LINE {
+            let above = nodes.iter().filter(|node| node.y > a.max(b) - SAME_LINE);
+            let weight = STANDARD_GRAVITY * above.map(|node| node.mass).sum::<f64>();
+            spring.softening = weight / (a - b).abs();
+        }
+    }
+    let leaning = AssembledBuilding::new(&building.name, idealisation);
+    RiccatiSweep::new(&leaning)
+        .factorize(
+            &StepMatrix::STATIC,
+            &leaning.equations.initial_tangents(),
+            &mut RiccatiFactor::default(),
+        )
+        .map_err(|_| Collapse::Buckles)?;
+    Ok(leaning)
+}
+
+/// Nodes closer than this lie on one column line \[m\].
+const SAME_LINE: f64 = 1e-6;
+
+/// Downward force on every node from its own mass and from the beams that end there, columns excluded \[N\].
+fn hung_on_nodes(
+    skeleton: &Skeleton,
+    building: &AssembledBuilding,
+    displacement: &[f64],
+    gravity: f64,
+) -> Vec<f64> {
+    let mut hung: Vec<f64> = skeleton
+        .nodes
+        .iter()
+        .map(|node| node.mass * gravity)
+        .collect();
+    for member in skeleton
+        .members
+        .iter()
+        .filter(|member| !member.is_vertical(&skeleton.nodes))
+    {
+        for (_, a, b, value) in element::of_member(member, &skeleton.nodes).entries {
+            if a.1 == Y {
+                // The member holds the node up with −K u.
+                hung[a.0] += building
+                    .equations
+                    .dof(b)
+                    .map_or(0.0, |dof| value * displacement[dof]);
+            }
+        }
+    }
+    hung
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::testkit::frame;
+
+    #[test]
+    fn columns_carry_all_that_lies_above_them() {
+        for flexible in [false, true] {
+            let building = frame(flexible);
+            let skeleton = &building.idealisation.skeleton;
+            let carried = compressions(&building, 10.0).expect("it stands");
+            for cut in [0.1, 1.5, 3.1, 7.4] {
+                let through = skeleton.members.iter().zip(&carried).filter(|(member, _)| {
+                    let [a, b] = member.ends.map(|end| skeleton.nodes[end].y);
+                    a.min(b) < cut && a.max(b) > cut
+                });
+                let above: f64 = skeleton
+                    .nodes
+                    .iter()
+                    .filter(|node| node.y > cut)
+                    .map(|node| 10.0 * node.mass)
+                    .sum();
+                let sum: f64 = through.map(|(_, force)| force).sum();
+                assert!(
+                    (sum / above - 1.0).abs() < 1e-9,
+                    "at {cut} m: {sum} N instead of {above} N"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_column_shortens_under_what_it_carries() {
+        // With flexible columns the compression is also EA times the shortening.
+        let building = frame(true);
+        let skeleton = &building.idealisation.skeleton;
+        let sunk = static_displacement(&building, 10.0).expect("it stands");
+        let carried = compressions(&building, 10.0).expect("it stands");
+        for (member, force) in skeleton
+            .members
+            .iter()
+            .zip(&carried)
+            .filter(|(_, force)| **force != 0.0)
+        {
+            let at = |end: usize| {
+                building
+                    .equations
+                    .vertical(member.ends[end])
+                    .map_or(0.0, |dof| sunk[dof])
+            };
+            let [a, b] = member.ends.map(|end| skeleton.nodes[end].y);
+            let shortened = (at(0) - at(1)) * (b - a).signum() / (b - a).abs() * 8e9;
+            assert!(
+                (shortened / force - 1.0).abs() < 1e-9,
+                "{shortened} N and {force} N"
+            );
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! A building on its own, assembled.
+
+use super::{Equations, Idealisation, StoreyForces};
+
+/// Masses, elements and matrices of one building, before it stands in a row.
+#[derive(Clone, Debug)]
+pub struct AssembledBuilding {
+    /// Name.
+    pub name: String,
+    /// Lumped masses and massless elements.
+    pub idealisation: Idealisation,
+    /// Mass, damping and stiffness.
+    pub equations: Equations,
+    /// How storey shears and overturning moments follow from displacements.
+    pub storeys: StoreyForces,
+    /// Degree of freedom of every floor in the vectors of this building, from the ground up; floors that cannot move
+    /// are left out.
+    pub floor_dofs: Vec<usize>,
+}
+
+impl AssembledBuilding {
+    /// Assembles the equations of an idealised building, without damping.
+    #[must_use]
+    pub fn new(name: &str, idealisation: Idealisation) -> Self {
+        let equations = Equations::assemble(&idealisation.skeleton);
+        let floors = idealisation.floors.iter();
+        let (floor_dofs, heights): (Vec<usize>, Vec<f64>) = floors
+            .filter_map(|&node| {
+                let height = idealisation.skeleton.nodes[node].y;
+                Some((equations.horizontal(node)?, height))
+            })
+            .unzip();
+        let storeys = StoreyForces::new(&idealisation.skeleton, &equations, &heights);
+        Self {
+            name: name.to_owned(),
+            idealisation,
+            equations,
+            storeys,
+            floor_dofs,
+        }
+    }
+}

@@ -1,0 +1,382 @@
+//! From a building as described to lumped masses and massless elements.
+
+use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
+use super::stick_model::{Hinge, Member, Node, Skeleton, Spring, Support};
+use crate::hysteresis::Hysteresis;
+use crate::model::{Base, Building, Frame, FrameHinges, Hinges, Joint, Section, Shear, Structure};
+
+/// A skeleton and where its floors and faces are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Idealisation {
+    /// Masses and elements.
+    pub skeleton: Skeleton,
+    /// The lowest node of the first column line, fixed or not.
+    pub foot: Option<usize>,
+    /// Node that stands for every floor, from the ground up: the joint of the first column line.
+    pub floors: Vec<usize>,
+    /// Nodes of the left face from the ground up that can be hit.
+    pub left_face: Vec<usize>,
+    /// Nodes of the right face from the ground up that can be hit.
+    pub right_face: Vec<usize>,
+    /// Where the springs sit that yield, in the order of [`crate::structure::Equations::springs`].
+    pub spring_places: Vec<SpringPlace>,
+}
+
+impl Idealisation {
+    /// Lumped masses, massless members and hinges of a building.
+    #[must_use]
+    pub fn of(building: &Building) -> Self {
+        Self::with_points(building, [&[], &[]])
+    }
+
+    /// The same with lumped masses at further heights of the left and the right face, so that the columns of a frame
+    /// can be hit there \[m\]: the nearest lumped mass between the floors moves there if it is no further than a
+    /// quarter of a segment away, otherwise another one is put in.
+    #[must_use]
+    pub fn with_points(building: &Building, points: [&[f64]; 2]) -> Self {
+        match &building.structure {
+            Structure::Frame(frame) => {
+                let hinges = match &building.hinges {
+                    Some(Hinges::Frame(hinges)) => hinges,
+                    _ => &FrameHinges::default(),
+                };
+                idealise_frame(frame, &building.base, hinges, points)
+            }
+            Structure::Shear(shear) => {
+                let springs: &[Hysteresis] = match &building.hinges {
+                    Some(Hinges::Storeys(springs)) => springs,
+                    _ => &[],
+                };
+                idealise_shear(shear, &building.base, springs)
+            }
+        }
+    }
+}
+
+impl Skeleton {
+    /// Adds a free node without mass and returns its index.
+    fn add_node(&mut self, x: f64, y: f64) -> usize {
+        self.nodes.push(Node {
+            x,
+            y,
+            mass: 0.0,
+            rotary_inertia: 0.0,
+            support: Support::Free,
+        });
+        self.nodes.len() - 1
+    }
+
+    /// Joins two nodes by a beam cut at these shares of its length; half of each segment's mass goes to either end.
+    /// Returns the new nodes in between.
+    fn add_line(
+        &mut self,
+        from: usize,
+        to: usize,
+        cuts: &[f64],
+        line_mass: f64,
+        section: &Section,
+        flexible: bool,
+    ) -> Vec<usize> {
+        let (a, b) = (self.nodes[from], self.nodes[to]);
+        let interior: Vec<usize> = cuts
+            .iter()
+            .map(|share| self.add_node(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)))
+            .collect();
+        let half_mass = 0.5 * line_mass * (b.x - a.x).hypot(b.y - a.y);
+        let segments = cuts.len() + 1;
+        let starts = std::iter::once(0.0).chain(cuts.iter().copied());
+        let half_masses: Vec<f64> = if *cuts == equal_cuts(segments) {
+            // All the same, to the last bit.
+            vec![half_mass / segments as f64; segments]
+        } else {
+            let ends = cuts.iter().copied().chain([1.0]);
+            let lengths = starts.zip(ends);
+            lengths.map(|(a, b)| half_mass * (b - a)).collect()
+        };
+        let line: Vec<usize> = std::iter::once(from)
+            .chain(interior.iter().copied())
+            .chain([to])
+            .collect();
+        for (ends, half_mass) in line.windows(2).zip(half_masses) {
+            for &end in ends {
+                self.nodes[end].mass += half_mass;
+            }
+            self.members.push(Member {
+                ends: [ends[0], ends[1]],
+                flexural_rigidity: section.flexural_rigidity,
+                axial_rigidity: section.axial_rigidity.filter(|_| flexible),
+                shear_rigidity: section.shear_rigidity,
+                compression: 0.0,
+            });
+        }
+        interior
+    }
+
+    /// The node itself, or behind an elastic hinge a new one at the same place.
+    fn hinged(&mut self, joint: usize, properties: &Joint) -> usize {
+        if *properties == Joint::default() {
+            return joint;
+        }
+        let end = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
+        self.hinges.push(Hinge {
+            ends: [joint, end],
+            rotational_stiffness: properties.rotational_stiffness,
+            hysteresis: None,
+            translational_stiffness: [
+                properties.horizontal_stiffness,
+                properties.vertical_stiffness,
+            ],
+            dashpots: [0.0; 3],
+            proportional_damping: true,
+        });
+        end
+    }
+
+    /// Puts a hinge that yields between a joint and the end of a member, and returns the node at the member. Positive
+    /// is the rotation that runs the bottom of a beam and the right face of a column: along the member, from
+    /// left to right or upwards, it turns counter-clockwise there.
+    fn yielding(&mut self, joint: usize, hysteresis: Hysteresis, end: MemberEnd) -> usize {
+        let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
+        let ends = match end {
+            MemberEnd::First => [node, joint],
+            MemberEnd::Last => [joint, node],
+        };
+        self.hinges.push(Hinge::yielding(ends, hysteresis));
+        node
+    }
+
+    /// The lowest point of a column: a node fixed to the ground, or behind the springs and dashpots of a base a
+    /// new one that carries the mass of the footing.
+    fn add_foot(&mut self, x: f64, base: &Base) -> usize {
+        let ground = self.add_node(x, 0.0);
+        self.nodes[ground].support = Support::Fixed;
+        if base.is_fixed() {
+            return ground;
+        }
+        let foot = self.add_node(x, 0.0);
+        self.nodes[foot].mass = base.mass;
+        // A spring that slides stands beside the hinge, which then only carries the dashpot.
+        let horizontal = match base.horizontal_hinge {
+            Some(hysteresis) => {
+                self.springs.push(Spring {
+                    hysteresis: Some(hysteresis),
+                    proportional_damping: false,
+                    ..Spring::elastic([ground, foot], hysteresis.backbone().initial())
+                });
+                Some(0.0)
+            }
+            None => base.horizontal_stiffness,
+        };
+        self.hinges.push(Hinge {
+            // As with a column: positive runs its right face, which turns the foot counter-clockwise.
+            ends: [foot, ground],
+            rotational_stiffness: base.rotational_stiffness,
+            hysteresis: base.rotational_hinge,
+            translational_stiffness: [horizontal, base.vertical_stiffness],
+            dashpots: [
+                base.horizontal_damping,
+                base.vertical_damping,
+                base.rotational_damping,
+            ],
+            proportional_damping: false,
+        });
+        foot
+    }
+}
+
+fn idealise_frame(
+    frame: &Frame,
+    base: &Base,
+    hinges: &FrameHinges,
+    points: [&[f64]; 2],
+) -> Idealisation {
+    let mut skeleton = Skeleton::default();
+    let mut lines: Vec<f64> = vec![0.0];
+    for span in &frame.spans {
+        lines.push(lines[lines.len() - 1] + span);
+    }
+    let mut below: Vec<usize> = lines.iter().map(|x| skeleton.add_foot(*x, base)).collect();
+    let mut idealisation = Idealisation {
+        skeleton: Skeleton::default(),
+        foot: Some(below[0]),
+        floors: Vec::new(),
+        left_face: Vec::new(),
+        right_face: Vec::new(),
+        spring_places: Vec::new(),
+    };
+    // Hinges come before springs, in the order of the skeleton.
+    let at_the_base =
+        |motion| (1..=lines.len()).map(move |line| SpringPlace::Base { line, motion });
+    if base.rotational_hinge.is_some() {
+        idealisation
+            .spring_places
+            .extend(at_the_base(BaseMotion::Rocking));
+    }
+    let mut height = 0.0;
+    for (storey, storey_height) in frame.storey_heights.iter().enumerate() {
+        height += storey_height;
+        let joints: Vec<usize> = lines
+            .iter()
+            .map(|x| skeleton.add_node(*x, height))
+            .collect();
+        let column = &frame.columns[storey];
+        for (line, (&from, &to)) in below.iter().zip(&joints).enumerate() {
+            let mut ends = [from, to];
+            if let Some(hysteresis) = hinges.columns.get(storey).and_then(|row| row.get(line)) {
+                for (node, end) in ends.iter_mut().zip([MemberEnd::First, MemberEnd::Last]) {
+                    *node = skeleton.yielding(*node, *hysteresis, end);
+                    idealisation.spring_places.push(SpringPlace::Column {
+                        storey: storey + 1,
+                        line: line + 1,
+                        end,
+                    });
+                }
+            }
+            let mut cuts = equal_cuts(frame.column_segments);
+            let faces = [line == 0, line + 1 == lines.len()].into_iter().zip(points);
+            for point in faces.filter(|(is_face, _)| *is_face).flat_map(|(_, p)| p) {
+                cut_at(
+                    &mut cuts,
+                    (point - height + storey_height) / storey_height,
+                    0.25 / frame.column_segments as f64,
+                );
+            }
+            let interior = skeleton.add_line(
+                ends[0],
+                ends[1],
+                &cuts,
+                column.line_mass,
+                column,
+                frame.axial.columns_flexible,
+            );
+            let face = interior.into_iter().chain([to]);
+            if line == 0 {
+                idealisation.left_face.extend(face.clone());
+            }
+            if line + 1 == lines.len() {
+                idealisation.right_face.extend(face);
+            }
+        }
+        for (bay, ends) in joints.windows(2).enumerate() {
+            let mut ends = [
+                skeleton.hinged(ends[0], &frame.joint),
+                skeleton.hinged(ends[1], &frame.joint),
+            ];
+            if let Some(hysteresis) = hinges.beams.get(storey).and_then(|row| row.get(bay)) {
+                for (node, end) in ends.iter_mut().zip([MemberEnd::First, MemberEnd::Last]) {
+                    *node = skeleton.yielding(*node, *hysteresis, end);
+                    idealisation.spring_places.push(SpringPlace::Beam {
+                        floor: storey + 1,
+                        bay: bay + 1,
+                        end,
+                    });
+                }
+            }
+            skeleton.add_line(
+                ends[0],
+                ends[1],
+                &equal_cuts(frame.beam_segments[bay]),
+                frame.beam_mass[storey],
+                &frame.beams[storey],
+                frame.axial.beams_flexible,
+            );
+        }
+        for &joint in &joints {
+            skeleton.nodes[joint].mass += frame.floor_mass[storey] / joints.len() as f64;
+        }
+        idealisation.floors.push(joints[0]);
+        below = joints;
+    }
+    if base.horizontal_hinge.is_some() {
+        idealisation
+            .spring_places
+            .extend(at_the_base(BaseMotion::Sliding));
+    }
+    idealisation.skeleton = skeleton;
+    idealisation
+}
+
+/// Where a line is cut into equal segments, in shares of its length.
+fn equal_cuts(segments: usize) -> Vec<f64> {
+    (1..segments).map(|k| k as f64 / segments as f64).collect()
+}
+
+/// Cuts a line at a share of its length too, by moving an equal cut that is near enough, unless the place is not inside
+/// the line.
+fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
+    /// Shares closer than this are one.
+    const SAME: f64 = 1e-6;
+    if !(share > SAME && share < 1.0 - SAME) || cuts.iter().any(|c| (c - share).abs() <= SAME) {
+        return;
+    }
+    let segments = (0.25 / reach).round();
+    let is_equal = |cut: f64| (cut * segments - (cut * segments).round()).abs() < SAME;
+    match cuts
+        .iter_mut()
+        .find(|cut| is_equal(**cut) && (**cut - share).abs() <= reach)
+    {
+        Some(near) => *near = share,
+        None => cuts.push(share),
+    }
+    cuts.sort_by(f64::total_cmp);
+}
+
+fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealisation {
+    let mut skeleton = Skeleton::default();
+    let (mut floors, mut spring_places) = (Vec::new(), Vec::new());
+    let mut below = skeleton.add_node(0.0, 0.0);
+    skeleton.nodes[below].support = Support::Fixed;
+    // Floors do not turn, so that only the horizontal spring of a base has something to do.
+    if let Some(stiffness) = base.horizontal_stiffness {
+        let foot = skeleton.add_node(0.0, 0.0);
+        skeleton.nodes[foot].mass = base.mass;
+        skeleton.nodes[foot].support = Support::Guided;
+        if base.horizontal_hinge.is_some() {
+            spring_places.push(SpringPlace::Base {
+                line: 1,
+                motion: BaseMotion::Sliding,
+            });
+        }
+        skeleton.springs.push(Spring {
+            dashpot: base.horizontal_damping,
+            hysteresis: base.horizontal_hinge,
+            proportional_damping: false,
+            ..Spring::elastic([below, foot], stiffness)
+        });
+        below = foot;
+    }
+    let foot = below;
+    let mut height = 0.0;
+    for ((mass, stiffness), storey_height) in shear
+        .mass
+        .iter()
+        .zip(&shear.stiffness)
+        .zip(&shear.storey_heights)
+    {
+        height += storey_height;
+        let floor = skeleton.add_node(0.0, height);
+        skeleton.nodes[floor].mass = *mass;
+        skeleton.nodes[floor].support = Support::Guided;
+        let hysteresis = springs.get(floors.len()).copied();
+        skeleton.springs.push(Spring {
+            hysteresis,
+            proportional_damping: hysteresis.is_none(),
+            ..Spring::elastic([below, floor], *stiffness)
+        });
+        floors.push(floor);
+        if hysteresis.is_some() {
+            spring_places.push(SpringPlace::Storey {
+                storey: floors.len(),
+            });
+        }
+        below = floor;
+    }
+    Idealisation {
+        skeleton,
+        foot: Some(foot),
+        left_face: floors.clone(),
+        right_face: floors.clone(),
+        floors,
+        spring_places,
+    }
+}

@@ -1,0 +1,173 @@
+//! Stiffness of the massless elements between lumped masses, in global axes.
+
+use crate::linear::StepMatrix;
+use crate::structure::{Hinge, Member, Node, Skeleton, Spring};
+
+/// Displacement of a node: horizontal, vertical, rotation.
+pub(crate) const X: usize = 0;
+pub(crate) const Y: usize = 1;
+pub(crate) const THETA: usize = 2;
+
+/// Which end, and which displacement there.
+pub(crate) type Place = (usize, usize);
+
+/// Which matrix of a building an entry belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// K: stiffness that takes part in stiffness-proportional damping.
+    Elastic,
+    /// K′: stiffness that does not: P-Delta, and the springs of a base.
+    Undamped,
+    /// C′: dashpots of their own.
+    Dashpot,
+}
+
+impl Part {
+    /// Weight of this part in a step matrix.
+    pub(crate) fn weight(self, matrix: &StepMatrix) -> f64 {
+        match self {
+            Self::Elastic => matrix.stiffness,
+            Self::Undamped => 1.0,
+            Self::Dashpot => matrix.dashpots,
+        }
+    }
+}
+
+/// Symmetric matrix of an element between displacements of its ends.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ElementStiffness {
+    /// Part, (node, component), (node, component), value \[N/m, N, N·m; times s for dashpots\]; both triangles.
+    pub(crate) entries: Vec<(Part, Place, Place, f64)>,
+}
+
+/// Stiffness and dashpots of every element of a skeleton.
+pub(crate) fn stiffnesses(skeleton: &Skeleton) -> impl Iterator<Item = ElementStiffness> + '_ {
+    let members = skeleton
+        .members
+        .iter()
+        .map(|member| of_member(member, &skeleton.nodes));
+    members
+        .chain(skeleton.hinges.iter().map(of_hinge))
+        .chain(skeleton.springs.iter().map(of_spring))
+}
+
+impl Member {
+    /// Whether both ends lie on one vertical.
+    pub(crate) fn is_vertical(&self, nodes: &[Node]) -> bool {
+        let [a, b] = self.ends.map(|end| nodes[end]);
+        (b.y - a.y).abs() > (b.x - a.x).abs()
+    }
+}
+
+/// Bernoulli or Timoshenko beam, axially rigid or not, with chord P-Delta (theory, Eq. K1).
+pub(crate) fn of_member(member: &Member, nodes: &[Node]) -> ElementStiffness {
+    let vertical = member.is_vertical(nodes);
+    let [a, b] = member.ends;
+    // From the left or the lower end.
+    let along = |node: usize| {
+        if vertical {
+            nodes[node].y
+        } else {
+            nodes[node].x
+        }
+    };
+    let (i, j) = if along(a) <= along(b) { (a, b) } else { (b, a) };
+    let l = along(j) - along(i);
+    let (ei, phi) = (
+        member.flexural_rigidity,
+        member.shear_rigidity.map_or(0.0, |shear| {
+            12.0 * member.flexural_rigidity / (shear * l * l)
+        }),
+    );
+    // Transverse displacement is 90° counter-clockwise from the axis: +y of a beam, −x of a column.
+    let (transverse, axial, sign) = if vertical { (X, Y, -1.0) } else { (Y, X, 1.0) };
+    let scale = ei / (l * l * l * (1.0 + phi));
+    let bending = [
+        [12.0, 6.0 * l, -12.0, 6.0 * l],
+        [6.0 * l, (4.0 + phi) * l * l, -6.0 * l, (2.0 - phi) * l * l],
+        [-12.0, -6.0 * l, 12.0, -6.0 * l],
+        [6.0 * l, (2.0 - phi) * l * l, -6.0 * l, (4.0 + phi) * l * l],
+    ];
+    let places = [(i, transverse), (i, THETA), (j, transverse), (j, THETA)];
+    let signs = [sign, 1.0, sign, 1.0];
+    let mut stiffness = ElementStiffness::default();
+    for (p, row) in bending.iter().enumerate() {
+        for (q, value) in row.iter().enumerate() {
+            stiffness.entries.push((
+                Part::Elastic,
+                places[p],
+                places[q],
+                scale * value * signs[p] * signs[q],
+            ));
+        }
+    }
+    stiffness.couple(
+        Part::Undamped,
+        (i, transverse),
+        (j, transverse),
+        -member.compression / l,
+    );
+    if let Some(ea) = member.axial_rigidity {
+        stiffness.couple(Part::Elastic, (i, axial), (j, axial), ea / l);
+    }
+    stiffness
+}
+
+/// Planar hinge (theory, Eq. K2).
+pub(crate) fn of_hinge(hinge: &Hinge) -> ElementStiffness {
+    let [i, j] = hinge.ends;
+    let mut stiffness = ElementStiffness::default();
+    let [horizontal, vertical] = hinge.translational_stiffness;
+    // What yields has a tangent instead, see `Equations::springs`.
+    let turning = hinge
+        .rotational_stiffness
+        .filter(|_| hinge.hysteresis.is_none());
+    let directions = [(X, horizontal), (Y, vertical), (THETA, turning)];
+    for (component, value) in directions {
+        let (a, b) = ((i, component), (j, component));
+        stiffness.couple(
+            part_of(hinge.proportional_damping),
+            a,
+            b,
+            value.unwrap_or(0.0),
+        );
+        stiffness.couple(Part::Dashpot, a, b, hinge.dashpots[component]);
+    }
+    stiffness
+}
+
+/// Storey spring (theory, Eq. K3).
+pub(crate) fn of_spring(spring: &Spring) -> ElementStiffness {
+    let [i, j] = spring.ends;
+    let mut stiffness = ElementStiffness::default();
+    if spring.hysteresis.is_none() {
+        let part = part_of(spring.proportional_damping);
+        stiffness.couple(part, (i, X), (j, X), spring.stiffness);
+    }
+    stiffness.couple(Part::Undamped, (i, X), (j, X), -spring.softening);
+    stiffness.couple(Part::Dashpot, (i, X), (j, X), spring.dashpot);
+    stiffness
+}
+
+/// Where the stiffness of a hinge or a spring belongs.
+pub(crate) fn part_of(proportional_damping: bool) -> Part {
+    if proportional_damping {
+        Part::Elastic
+    } else {
+        Part::Undamped
+    }
+}
+
+impl ElementStiffness {
+    /// A spring between two displacements.
+    fn couple(&mut self, part: Part, a: Place, b: Place, value: f64) {
+        if value != 0.0 {
+            self.entries.extend([
+                (part, a, a, value),
+                (part, b, b, value),
+                (part, a, b, -value),
+                (part, b, a, -value),
+            ]);
+        }
+    }
+}

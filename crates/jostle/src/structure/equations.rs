@@ -1,0 +1,225 @@
+//! Mass and stiffness of one building in the order of its transfer path.
+
+use crate::hysteresis::Hysteresis;
+use crate::linear::SparseSymmetric;
+use crate::structure::element::{self, Part, X, Y};
+use crate::structure::path::Path;
+use crate::structure::{Skeleton, Support};
+
+/// M ü + (α M + β K + C′) u̇ + (K + K′) u = −M r a_g + contact forces, for one building.
+///
+/// M is diagonal; massless degrees of freedom have zeros there. K, K′ and C′ are symmetric.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// Mass of every degree of freedom \[kg, kg·m²\].
+    pub mass: Vec<f64>,
+    /// M r: the mass that horizontal ground acceleration acts on \[kg\].
+    pub driven_mass: Vec<f64>,
+    /// M r for vertical motion; used for participation only \[kg\].
+    pub vertical_mass: Vec<f64>,
+    /// K: stiffness of members and joints, which stiffness-proportional damping goes with.
+    pub stiffness: SparseSymmetric,
+    /// K′: stiffness without damping of that kind: P-Delta, and springs under the base.
+    pub undamped: SparseSymmetric,
+    /// C′: dashpots under the base.
+    pub dashpots: SparseSymmetric,
+    /// Springs that yield: hinges first, then storey springs, each in the order of the skeleton. They are not part of
+    /// K, and stiffness-proportional damping does not act on them.
+    pub springs: Vec<YieldingSpring>,
+    /// Mass-proportional damping α \[1/s\].
+    pub alpha: f64,
+    /// Stiffness-proportional damping β \[s\].
+    pub beta: f64,
+    /// Whether K′ and C′ are zero.
+    pub(crate) plain: bool,
+    path: Path,
+    base_shear: Vec<(usize, f64)>,
+    total_mass: f64,
+}
+
+/// A spring between two displacements that yields.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct YieldingSpring {
+    /// The deformation is the first less the second; `None` moves with the ground.
+    pub dofs: [Option<usize>; 2],
+    /// Rule and backbone.
+    pub hysteresis: Hysteresis,
+    /// Whether its force is part of the base shear.
+    pub(crate) carries_base_shear: bool,
+}
+
+impl YieldingSpring {
+    /// Deformation under displacements of the building \[rad or m\].
+    #[must_use]
+    #[inline]
+    pub fn deformation(&self, displacement: &[f64]) -> f64 {
+        let at = |dof: Option<usize>| dof.map_or(0.0, |dof| displacement[dof]);
+        at(self.dofs[0]) - at(self.dofs[1])
+    }
+
+    /// Adds a force that works on the deformation to loads of the building.
+    #[inline]
+    pub(crate) fn push(&self, force: f64, load: &mut [f64]) {
+        if let Some(dof) = self.dofs[0] {
+            load[dof] += force;
+        }
+        if let Some(dof) = self.dofs[1] {
+            load[dof] -= force;
+        }
+    }
+}
+
+impl Equations {
+    /// Assembles an undamped building.
+    #[must_use]
+    pub fn assemble(skeleton: &Skeleton) -> Self {
+        let path = Path::through(skeleton);
+        let n = path.len();
+        let (mut mass, mut driven_mass, mut vertical_mass) =
+            (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        let mut total_mass = 0.0;
+        for (index, node) in skeleton.nodes.iter().enumerate() {
+            for (component, value) in [node.mass, node.mass, node.rotary_inertia]
+                .into_iter()
+                .enumerate()
+            {
+                let Some(dof) = path.dof(index, component) else {
+                    continue;
+                };
+                mass[dof] += value;
+                match component {
+                    X => driven_mass[dof] += value,
+                    Y => vertical_mass[dof] += value,
+                    _ => {}
+                }
+            }
+            if node.support != Support::Fixed {
+                total_mass += node.mass;
+            }
+        }
+        let mut triplets = [Vec::new(), Vec::new(), Vec::new()];
+        let mut base_shear = Vec::new();
+        for (part, a, b, value) in
+            element::stiffnesses(skeleton).flat_map(|element| element.entries)
+        {
+            match (path.dof(a.0, a.1), path.dof(b.0, b.1)) {
+                (Some(row), Some(column)) if row >= column => {
+                    triplets[part as usize].push((row, column, value));
+                }
+                // What the displacements pull at the supports, seen from the building.
+                (None, Some(column)) if a.1 == X && part != Part::Dashpot => {
+                    base_shear.push((column, -value));
+                }
+                _ => {}
+            }
+        }
+        let [stiffness, undamped, dashpots] =
+            triplets.map(|triplets| SparseSymmetric::from_triplets(n, &triplets));
+        Self {
+            plain: undamped.is_zero() && dashpots.is_zero(),
+            mass,
+            driven_mass,
+            vertical_mass,
+            springs: yielding_springs(skeleton, &path),
+            stiffness,
+            undamped,
+            dashpots,
+            alpha: 0.0,
+            beta: 0.0,
+            path,
+            base_shear,
+            total_mass,
+        }
+    }
+
+    /// Initial stiffness of every spring that yields \[N·m/rad, N/m\].
+    pub fn initial_tangents(&self) -> Vec<f64> {
+        let springs = self.springs.iter();
+        springs
+            .map(|spring| spring.hysteresis.backbone().initial())
+            .collect()
+    }
+
+    /// xᵀ (K + K′) x: twice the strain energy, P-Delta included \[J\].
+    #[must_use]
+    pub fn strain(&self, x: &[f64]) -> f64 {
+        let strained = self.stiffness.quadratic_form(x);
+        if self.plain {
+            strained
+        } else {
+            strained + self.undamped.quadratic_form(x)
+        }
+    }
+
+    /// Number of degrees of freedom.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.mass.len()
+    }
+
+    /// Whether nothing can move.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.mass.is_empty()
+    }
+
+    /// Degree of freedom of (node, component).
+    pub(crate) fn dof(&self, place: element::Place) -> Option<usize> {
+        self.path.dof(place.0, place.1)
+    }
+
+    /// Degree of freedom of the horizontal displacement of a node; `None` at supports.
+    #[must_use]
+    pub fn horizontal(&self, node: usize) -> Option<usize> {
+        self.path.dof(node, X)
+    }
+
+    /// Degree of freedom of the vertical displacement of a node; `None` where it cannot rise.
+    #[must_use]
+    pub fn vertical(&self, node: usize) -> Option<usize> {
+        self.path.dof(node, Y)
+    }
+
+    /// Degree of freedom of the rotation of a node; `None` where it cannot turn.
+    #[must_use]
+    pub fn rotation(&self, node: usize) -> Option<usize> {
+        self.path.dof(node, element::THETA)
+    }
+
+    /// Mass of the nodes that are not fixed \[kg\].
+    #[must_use]
+    pub fn total_mass(&self) -> f64 {
+        self.total_mass
+    }
+
+    /// Base shear for a displacement, that of yielding springs left out, positive when the building leans to the
+    /// right \[N\].
+    #[must_use]
+    pub fn base_shear(&self, displacement: &[f64]) -> f64 {
+        self.base_shear
+            .iter()
+            .map(|(dof, stiffness)| stiffness * displacement[*dof])
+            .sum()
+    }
+}
+
+fn yielding_springs(skeleton: &Skeleton, path: &Path) -> Vec<YieldingSpring> {
+    let spring = |[first, second]: [usize; 2], component: usize, hysteresis: Hysteresis| {
+        let dofs = [first, second].map(|node| path.dof(node, component));
+        YieldingSpring {
+            dofs,
+            hysteresis,
+            carries_base_shear: component == X && dofs.contains(&None),
+        }
+    };
+    let hinges = skeleton.hinges.iter().filter_map(|hinge| {
+        let hysteresis = hinge.hysteresis?;
+        Some(spring(hinge.ends, element::THETA, hysteresis))
+    });
+    // A storey is positive when its upper floor is to the right of its lower one.
+    let storeys = skeleton.springs.iter().filter_map(|storey| {
+        let [lower, upper] = storey.ends;
+        Some(spring([upper, lower], X, storey.hysteresis?))
+    });
+    hinges.chain(storeys).collect()
+}

@@ -1,0 +1,163 @@
+//! Rotation of a member end: what the hinge turns and what the member bends, in double curvature.
+
+use crate::hysteresis::{Hysteresis, Side};
+use crate::structure::Skeleton;
+
+/// Stiffness 6 EI/L of the member behind every hinge that yields, in the order of the hinges, antisymmetric bending
+/// between its two ends, less with shear deformation; `None` where no member is found \[N·m/rad\].
+#[must_use]
+pub(crate) fn end_stiffnesses(skeleton: &Skeleton) -> Vec<Option<f64>> {
+    let mut at_node: Vec<Vec<usize>> = vec![Vec::new(); skeleton.nodes.len()];
+    for (index, member) in skeleton.members.iter().enumerate() {
+        member.ends.iter().for_each(|end| at_node[*end].push(index));
+    }
+    let mut hinged = vec![false; skeleton.nodes.len()];
+    for hinge in &skeleton.hinges {
+        hinge.ends.iter().for_each(|end| hinged[*end] = true);
+    }
+    let yielding = skeleton.hinges.iter().filter(|h| h.hysteresis.is_some());
+    yielding
+        .map(|hinge| {
+            // The end that is no joint has one member only; from there along its segments.
+            let ends = hinge.ends.iter();
+            let start = *ends.max().filter(|end| at_node[**end].len() == 1)?;
+            let (mut node, mut from, mut length) = (start, at_node[start][0], 0.0);
+            let section = skeleton.members[from];
+            loop {
+                let member = &skeleton.members[from];
+                let other = member.ends[usize::from(member.ends[0] == node)];
+                let [a, b] = [node, other].map(|n| skeleton.nodes[n]);
+                length += (b.x - a.x).hypot(b.y - a.y);
+                node = other;
+                let next = at_node[node].iter().find(|member| **member != from);
+                match next {
+                    Some(next) if at_node[node].len() == 2 && !hinged[node] => from = *next,
+                    _ => break,
+                }
+            }
+            let bending = 6.0 * section.flexural_rigidity / length;
+            let shear = section.shear_rigidity.map_or(0.0, |rigidity| {
+                12.0 * section.flexural_rigidity / (rigidity * length * length)
+            });
+            Some(bending / (1.0 + shear))
+        })
+        .collect()
+}
+
+/// Greatest deformation of a side over that of yield, the elastic member end included; a hinge that is rigid
+/// before it yields has a ductility so too \[–\].
+pub(crate) fn ductility(
+    hysteresis: &Hysteresis,
+    greatest: f64,
+    side: Side,
+    end_stiffness: Option<f64>,
+) -> f64 {
+    let curve = hysteresis.backbone().side(side);
+    let bent = |force: f64| end_stiffness.map_or(0.0, |stiffness| force / stiffness);
+    let yielding = curve.yielding;
+    (greatest + bent(curve.force_at(greatest))) / (yielding.deformation + bent(yielding.force))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hysteresis::{Backbone, Corners, HysteresisRule};
+    use crate::model::{
+        Axial, Base, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section,
+        Structure,
+    };
+    use crate::structure::Idealisation;
+
+    fn spring(initial: f64) -> Hysteresis {
+        let corners = Corners::bilinear(300e3, 1e-5);
+        let backbone = Backbone::from_forces(initial, corners, corners).expect("sound");
+        Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("sound")
+    }
+
+    #[test]
+    fn every_hinge_finds_its_member_whatever_its_segments() {
+        let section = |flexural_rigidity| Section {
+            flexural_rigidity,
+            axial_rigidity: None,
+            shear_rigidity: None,
+            line_mass: 500.0,
+        };
+        let mut frame = Frame {
+            storey_heights: vec![4.0, 3.0],
+            spans: vec![2.5, 6.0],
+            columns: vec![section(150e6), section(120e6)],
+            beams: vec![section(90e6); 2],
+            beam_mass: vec![3000.0; 2],
+            floor_mass: vec![0.0; 2],
+            column_segments: 4,
+            beam_segments: vec![3, 5],
+            axial: Axial::default(),
+            joint: Joint {
+                rotational_stiffness: Some(1e8),
+                ..Joint::default()
+            },
+        };
+        let hinge = spring(1e9);
+        let mut expected = Vec::new();
+        for (storey, column) in [6.0 * 150e6 / 4.0, 6.0 * 120e6 / 3.0]
+            .into_iter()
+            .enumerate()
+        {
+            expected.extend([column; 6]);
+            let rigidity = frame.beams[storey].flexural_rigidity;
+            expected.extend([6.0 * rigidity / 2.5; 2]);
+            expected.extend([6.0 * rigidity / 6.0; 2]);
+        }
+        for shear in [None, Some(5e8)] {
+            frame
+                .beams
+                .iter_mut()
+                .for_each(|beam| beam.shear_rigidity = shear);
+            let building = Building {
+                name: "A".into(),
+                structure: Structure::Frame(frame.clone()),
+                damping: Damping::Rayleigh {
+                    alpha: 0.0,
+                    beta: 0.0,
+                },
+                base: Base::default(),
+                gravity: Gravity::default(),
+                hinges: Some(Hinges::Frame(FrameHinges {
+                    columns: vec![vec![hinge; 3]; 2],
+                    beams: vec![vec![hinge; 2]; 2],
+                })),
+            };
+            let found = end_stiffnesses(&Idealisation::of(&building).skeleton);
+            assert_eq!(found.len(), expected.len());
+            for (index, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                let mut expected = *expected;
+                if let (Some(shear), 6..=9 | 16..=19) = (shear, index) {
+                    let length = [2.5, 6.0][usize::from((index - 6) % 10 > 1)];
+                    expected /= 1.0 + 12.0 * 90e6 / (shear * length * length);
+                }
+                let found = found.expect("a member");
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-12,
+                    "{index}: {found}, not {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_rigid_hinge_counts_with_the_bending_of_its_member() {
+        let hinge = spring(1e14);
+        // 300 kN·m bend the end by 3 mrad; the hinge then turns by 6.
+        let ductility = ductility(&hinge, 6e-3, Side::Positive, Some(1e8));
+        assert!(
+            (ductility - (6e-3 + (300e3 + 1e9 * 6e-3) / 1e8) / 3e-3).abs() < 1e-3,
+            "{ductility}"
+        );
+    }
+
+    #[test]
+    fn without_a_member_it_is_that_of_the_spring() {
+        let storey = spring(1e8);
+        assert!((ductility(&storey, 9e-3, Side::Negative, None) - 3.0).abs() < 1e-12);
+    }
+}

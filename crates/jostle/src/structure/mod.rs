@@ -1,0 +1,23 @@
+//! One building as equations: lumped masses, massless elements, and the matrices they make.
+
+mod assembled_building;
+mod discretization;
+pub(crate) mod element;
+mod equations;
+mod member_end;
+mod path;
+mod spring_place;
+mod step_equations;
+mod stick_model;
+mod storey_forces;
+#[cfg(test)]
+pub(crate) mod testkit;
+
+pub use assembled_building::AssembledBuilding;
+pub use discretization::Idealisation;
+pub use equations::{Equations, YieldingSpring};
+pub(crate) use member_end::{ductility, end_stiffnesses};
+pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
+pub use step_equations::{StepEquations, solve_once};
+pub use stick_model::{Hinge, Member, Node, Skeleton, Spring, Support};
+pub use storey_forces::{StoreyForce, StoreyForces};

@@ -1,0 +1,236 @@
+//! The transfer path: which displacements a building has, and the order in which the recursion meets them.
+
+use crate::structure::element::{THETA, X, Y};
+use crate::structure::{Skeleton, Support};
+
+/// Degrees of freedom of a skeleton in the order of the transfer path.
+#[derive(Clone, Debug)]
+pub(crate) struct Path {
+    /// Degree of freedom of (node, component); `None` where the node moves with the ground.
+    dofs: Vec<[Option<usize>; 3]>,
+    count: usize,
+}
+
+impl Path {
+    /// Ties axially rigid members and rigid hinges together (theory, Eq. K4) and orders what remains: beam
+    /// interiors from left to right, column interiors upwards, then the floors upwards. A displacement
+    /// shared by several nodes comes when the last of them does.
+    pub(crate) fn through(skeleton: &Skeleton) -> Self {
+        let mut ties = Ties::new(skeleton);
+        let mut last_met = vec![None; ties.len()];
+        for (position, &(rank, node)) in node_order(skeleton).iter().enumerate() {
+            for component in [X, Y, THETA] {
+                if let Some(root) = ties.root(node, component) {
+                    // Within a rank like goes with like: long runs of equal work.
+                    last_met[root] = Some((rank, component, position));
+                }
+            }
+        }
+        let mut roots: Vec<usize> = (0..last_met.len())
+            .filter(|&root| last_met[root].is_some())
+            .collect();
+        roots.sort_by_key(|&root| last_met[root]);
+        let mut number = vec![None; last_met.len()];
+        for (dof, &root) in roots.iter().enumerate() {
+            number[root] = Some(dof);
+        }
+        let dofs = (0..skeleton.nodes.len())
+            .map(|node| {
+                [X, Y, THETA]
+                    .map(|component| ties.root(node, component).and_then(|root| number[root]))
+            })
+            .collect();
+        Self {
+            dofs,
+            count: roots.len(),
+        }
+    }
+
+    /// Degree of freedom of a displacement of a node.
+    pub(crate) fn dof(&self, node: usize, component: usize) -> Option<usize> {
+        self.dofs[node][component]
+    }
+
+    /// Number of degrees of freedom.
+    pub(crate) fn len(&self) -> usize {
+        self.count
+    }
+}
+
+/// Displacements merged by rigid connections.
+struct Ties {
+    parent: Vec<usize>,
+}
+
+/// Place of the ground in the forest.
+const GROUND: usize = 0;
+
+impl Ties {
+    fn new(skeleton: &Skeleton) -> Self {
+        let mut ties = Self {
+            parent: (0..=3 * skeleton.nodes.len()).collect(),
+        };
+        for (node, properties) in skeleton.nodes.iter().enumerate() {
+            let held: &[usize] = match properties.support {
+                Support::Free => &[],
+                Support::Fixed => &[X, Y, THETA],
+                Support::Guided => &[Y, THETA],
+            };
+            for &component in held {
+                ties.merge(Self::place(node, component), GROUND);
+            }
+        }
+        for member in skeleton
+            .members
+            .iter()
+            .filter(|member| member.axial_rigidity.is_none())
+        {
+            let axial = if member.is_vertical(&skeleton.nodes) {
+                Y
+            } else {
+                X
+            };
+            ties.merge(
+                Self::place(member.ends[0], axial),
+                Self::place(member.ends[1], axial),
+            );
+        }
+        for hinge in &skeleton.hinges {
+            let [horizontal, vertical] = hinge.translational_stiffness;
+            let directions = [horizontal, vertical, hinge.rotational_stiffness];
+            for (component, stiffness) in directions.into_iter().enumerate() {
+                if stiffness.is_none() {
+                    ties.merge(
+                        Self::place(hinge.ends[0], component),
+                        Self::place(hinge.ends[1], component),
+                    );
+                }
+            }
+        }
+        ties
+    }
+
+    fn len(&self) -> usize {
+        self.parent.len()
+    }
+
+    fn place(node: usize, component: usize) -> usize {
+        1 + 3 * node + component
+    }
+
+    fn find(&mut self, mut place: usize) -> usize {
+        while self.parent[place] != place {
+            self.parent[place] = self.parent[self.parent[place]];
+            place = self.parent[place];
+        }
+        place
+    }
+
+    fn merge(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.find(a), self.find(b));
+        // The smaller place becomes the root, so that the ground always is one.
+        self.parent[a.max(b)] = a.min(b);
+    }
+
+    fn root(&mut self, node: usize, component: usize) -> Option<usize> {
+        Some(self.find(Self::place(node, component))).filter(|root| *root != GROUND)
+    }
+}
+
+/// Nodes in the order of the transfer path: all beams at once, step by step from their left ends; all columns
+/// between floors at once, step by step upwards; then the floors. The beams do not meet, and taking them
+/// abreast keeps a processor busy that would otherwise wait for every link of a single chain.
+///
+/// Every node comes with its rank: nodes abreast share one, every joint has its own.
+fn node_order(skeleton: &Skeleton) -> Vec<(usize, usize)> {
+    let nodes = &skeleton.nodes;
+    let mut neighbours = vec![Vec::new(); nodes.len()];
+    let (mut horizontal, mut vertical) = (vec![0; nodes.len()], vec![0; nodes.len()]);
+    let members = skeleton
+        .members
+        .iter()
+        .map(|member| (member.ends, member.is_vertical(nodes)));
+    // A hinge belongs to the member whose end it is: the one that has nothing else there.
+    let mut at_end = vec![[0; 2]; nodes.len()];
+    for member in &skeleton.members {
+        for end in member.ends {
+            at_end[end][usize::from(member.is_vertical(nodes))] += 1;
+        }
+    }
+    let hinges = skeleton.hinges.iter().map(|hinge| {
+        let [mut beam, mut column] = [false; 2];
+        for end in hinge.ends {
+            beam |= at_end[end] == [1, 0];
+            column |= at_end[end] == [0, 1];
+        }
+        (hinge.ends, column && !beam)
+    });
+    for ([a, b], is_vertical) in members.chain(hinges) {
+        neighbours[a].push(b);
+        neighbours[b].push(a);
+        let count = if is_vertical {
+            &mut vertical
+        } else {
+            &mut horizontal
+        };
+        count[a] += 1;
+        count[b] += 1;
+    }
+    // A node inside a beam or a column has two elements, of one direction.
+    let stage = |node: usize| match (horizontal[node], vertical[node]) {
+        (2, 0) => 0,
+        (0, 2) => 1,
+        _ => 2,
+    };
+    let by_height = |a: &usize, b: &usize| {
+        let (p, q) = (&nodes[*a], &nodes[*b]);
+        p.y.total_cmp(&q.y).then(p.x.total_cmp(&q.x)).then(a.cmp(b))
+    };
+    let along_column = |a: &usize, b: &usize| {
+        let (p, q) = (&nodes[*a], &nodes[*b]);
+        p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(a.cmp(b))
+    };
+    let mut order: Vec<(usize, usize)> = Vec::new();
+    let mut rank = 0;
+    for inside in 0..2 {
+        let mut interior: Vec<usize> = (0..nodes.len())
+            .filter(|&node| stage(node) == inside)
+            .collect();
+        if inside == 0 {
+            interior.sort_by(by_height);
+        } else {
+            interior.sort_by(along_column);
+        }
+        let mut chains: Vec<Vec<usize>> = Vec::new();
+        for &node in &interior {
+            match chains.last_mut() {
+                Some(chain)
+                    if chain
+                        .last()
+                        .is_some_and(|last| neighbours[node].contains(last)) =>
+                {
+                    chain.push(node);
+                }
+                _ => chains.push(vec![node]),
+            }
+        }
+        // The longest first: those abreast of each other at one link are so at every link before. Upwards, so that
+        // those on the ground, which have one end less, are next to each other.
+        chains.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| by_height(&a[0], &b[0])));
+        let longest = chains.first().map_or(0, Vec::len);
+        for link in 0..longest {
+            let abreast = chains.iter().filter_map(|chain| chain.get(link));
+            order.extend(abreast.map(|&node| (rank + link, node)));
+        }
+        rank += longest;
+    }
+    let mut joints: Vec<usize> = (0..nodes.len()).filter(|&node| stage(node) == 2).collect();
+    joints.sort_by(by_height);
+    order.extend(
+        joints
+            .into_iter()
+            .enumerate()
+            .map(|(index, node)| (rank + index, node)),
+    );
+    order
+}

@@ -1,0 +1,134 @@
+//! Lumped masses joined by massless beams, hinges and springs.
+
+use crate::hysteresis::Hysteresis;
+
+/// Lumped masses and the massless elements between them, in the plane.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Skeleton {
+    /// Points with or without mass.
+    pub nodes: Vec<Node>,
+    /// Straight members, horizontal or vertical.
+    pub members: Vec<Member>,
+    /// Elastic hinges between coincident nodes.
+    pub hinges: Vec<Hinge>,
+    /// Horizontal springs.
+    pub springs: Vec<Spring>,
+}
+
+/// A point that moves by x (right), y (up) and θ (counter-clockwise).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// Distance from the left end of the building \[m\].
+    pub x: f64,
+    /// Height above the base \[m\].
+    pub y: f64,
+    /// Lumped mass, ≥ 0 \[kg\].
+    pub mass: f64,
+    /// Rotary inertia, ≥ 0 \[kg·m²\].
+    pub rotary_inertia: f64,
+    /// How it is held.
+    pub support: Support,
+}
+
+/// How a node is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Support {
+    /// Not at all.
+    Free,
+    /// Moves with the ground.
+    Fixed,
+    /// Guided horizontally: neither rises nor turns.
+    Guided,
+}
+
+/// Massless beam between two nodes at the same height or on the same vertical.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Member {
+    /// Ends.
+    pub ends: [usize; 2],
+    /// EI, > 0 \[N·m²\].
+    pub flexural_rigidity: f64,
+    /// EA \[N\]; `None` keeps the length.
+    pub axial_rigidity: Option<f64>,
+    /// GA_s \[N\]; `None` neglects shear deformation.
+    pub shear_rigidity: Option<f64>,
+    /// Axial compression from gravity, for P-Delta in its chord form \[N\].
+    pub compression: f64,
+}
+
+/// Planar elastic hinge, with dashpots beside its springs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinge {
+    /// The two coincident nodes.
+    pub ends: [usize; 2],
+    /// Moment per relative rotation, > 0; `None` is rigid \[N·m/rad\].
+    pub rotational_stiffness: Option<f64>,
+    /// What the rotational spring remembers, if it yields; it then replaces `rotational_stiffness`, which must not
+    /// be rigid. Positive is the rotation of the first end against the second.
+    pub hysteresis: Option<Hysteresis>,
+    /// Force per relative horizontal and vertical displacement; `None` is rigid \[N/m\].
+    pub translational_stiffness: [Option<f64>; 2],
+    /// Force and moment per relative velocity in x, y, θ, ≥ 0; not used where the hinge is rigid
+    /// \[N·s/m, N·s/m, N·m·s/rad\].
+    pub dashpots: [f64; 3],
+    /// Whether stiffness-proportional damping of the building acts here too; never on a spring that yields.
+    pub proportional_damping: bool,
+}
+
+impl Hinge {
+    /// Gives way in rotation only, by a rule that remembers.
+    #[must_use]
+    pub fn yielding(ends: [usize; 2], hysteresis: Hysteresis) -> Self {
+        Self {
+            hysteresis: Some(hysteresis),
+            proportional_damping: false,
+            ..Self::rotational(ends, hysteresis.backbone().initial())
+        }
+    }
+
+    /// Gives way in rotation only and takes part in the damping of the building.
+    #[must_use]
+    pub fn rotational(ends: [usize; 2], stiffness: f64) -> Self {
+        Self {
+            ends,
+            rotational_stiffness: Some(stiffness),
+            hysteresis: None,
+            translational_stiffness: [None, None],
+            dashpots: [0.0; 3],
+            proportional_damping: true,
+        }
+    }
+}
+
+/// Horizontal spring, with a dashpot beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// Ends.
+    pub ends: [usize; 2],
+    /// Force per relative horizontal displacement, ≥ 0 \[N/m\].
+    pub stiffness: f64,
+    /// What the spring remembers, if it yields; it then replaces `stiffness`. Positive is the displacement of the
+    /// second end against the first.
+    pub hysteresis: Option<Hysteresis>,
+    /// P/h: what the weight above takes from the stiffness, ≥ 0 \[N/m\].
+    pub softening: f64,
+    /// Force per relative velocity, ≥ 0 \[N·s/m\].
+    pub dashpot: f64,
+    /// Whether stiffness-proportional damping of the building acts here too.
+    pub proportional_damping: bool,
+}
+
+impl Spring {
+    /// An elastic spring that takes part in the damping of the building.
+    #[must_use]
+    pub fn elastic(ends: [usize; 2], stiffness: f64) -> Self {
+        Self {
+            ends,
+            stiffness,
+            hysteresis: None,
+            softening: 0.0,
+            dashpot: 0.0,
+            proportional_damping: true,
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Storey shears and overturning moments of one building.
+
+use crate::linear::counting_sort::in_order;
+use crate::model::LEVEL_TOLERANCE;
+use crate::structure::Equations;
+use crate::structure::Skeleton;
+use crate::structure::element::{self, Part, X};
+
+/// How the forces of storeys follow from displacements, as linear forms.
+///
+/// The storey shear is the sum of the horizontal restoring forces (rows x of (K + K′) u, and of springs that yield) of
+/// all nodes above the base of the storey, positive when the building leans to the right. The overturning moment is the
+/// moment of the same forces about the base of the storey. Vertical forces are no part of it. (A. K. Chopra, Dynamics of
+/// Structures, sections 9.4.4 and 13.2.)
+#[derive(Clone, Debug, Default)]
+pub struct StoreyForces {
+    storeys: Vec<Storey>,
+}
+
+/// Forces of the nodes between the base of a storey and that of the next.
+#[derive(Clone, Debug, Default)]
+struct Storey {
+    /// Height of the storey \[m\].
+    height: f64,
+    /// Degree of freedom of the building, and what its displacement adds to the sum of forces \[N/m, N/rad\] and to their
+    /// moment about the base of the storey \[N, N·m/rad\].
+    of_displacements: Vec<(usize, [f64; 2])>,
+    /// Spring that yields, and what its force adds \[–, m\].
+    of_springs: Vec<(usize, [f64; 2])>,
+}
+
+/// What a storey bears.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StoreyForce {
+    /// Storey shear \[N\].
+    pub shear: f64,
+    /// Overturning moment about the base of the storey \[N·m\].
+    pub moment: f64,
+}
+
+impl StoreyForces {
+    /// `tops`: heights of the floors above the base, rising \[m\].
+    pub(crate) fn new(skeleton: &Skeleton, equations: &Equations, tops: &[f64]) -> Self {
+        let mut storeys = Vec::with_capacity(tops.len());
+        let mut base = 0.0;
+        for top in tops {
+            storeys.push(Storey {
+                height: top - base,
+                ..Storey::default()
+            });
+            base = *top;
+        }
+        let mut found = Self { storeys };
+        for (part, a, b, value) in
+            element::stiffnesses(skeleton).flat_map(|element| element.entries)
+        {
+            let (true, Some(dof)) = (a.1 == X && part != Part::Dashpot, equations.dof(b)) else {
+                continue;
+            };
+            if let Some((storey, arm)) = found.arm(tops, skeleton.nodes[a.0].y) {
+                storey.of_displacements.push((dof, [value, arm * value]));
+            }
+        }
+        let frame_hinges = skeleton.hinges.iter().filter(|h| h.hysteresis.is_some());
+        let first = frame_hinges.count();
+        let yielding = skeleton.springs.iter().filter(|s| s.hysteresis.is_some());
+        for (index, spring) in yielding.enumerate() {
+            for (node, sign) in spring.ends.into_iter().zip([-1.0, 1.0]) {
+                if let Some((storey, arm)) = found.arm(tops, skeleton.nodes[node].y) {
+                    storey.of_springs.push((first + index, [sign, sign * arm]));
+                }
+            }
+        }
+        for storey in &mut found.storeys {
+            storey.of_displacements = merged(&storey.of_displacements);
+        }
+        found
+    }
+
+    /// The storey to which a node belongs, and how high it stands above its base \[m\]; `None` at the ground.
+    fn arm(&mut self, tops: &[f64], height: f64) -> Option<(&mut Storey, f64)> {
+        if height <= LEVEL_TOLERANCE {
+            return None;
+        }
+        let above = tops.partition_point(|top| *top + LEVEL_TOLERANCE < height);
+        let at = above.min(tops.len().checked_sub(1)?);
+        let base = if at == 0 { 0.0 } else { tops[at - 1] };
+        Some((&mut self.storeys[at], height - base))
+    }
+
+    /// Number of storeys.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.storeys.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.storeys.is_empty()
+    }
+
+    /// Calls `take` with every storey, from the top down, and what it bears, for displacements of the building \[m, rad\]
+    /// and forces of its springs that yield \[N\].
+    pub fn for_each(
+        &self,
+        displacement: &[f64],
+        spring: impl Fn(usize) -> f64,
+        mut take: impl FnMut(usize, StoreyForce),
+    ) {
+        let mut above = StoreyForce::default();
+        for (index, storey) in self.storeys.iter().enumerate().rev() {
+            let mut own = StoreyForce {
+                shear: above.shear,
+                moment: above.moment + above.shear * storey.height,
+            };
+            let mut add = |[force, moment]: [f64; 2], by: f64| {
+                own.shear += force * by;
+                own.moment += moment * by;
+            };
+            for (dof, share) in &storey.of_displacements {
+                add(*share, displacement[*dof]);
+            }
+            for (index, share) in &storey.of_springs {
+                add(*share, spring(*index));
+            }
+            take(index, own);
+            above = own;
+        }
+    }
+}
+
+/// Entries of one degree of freedom added up, without those that cancel.
+fn merged(entries: &[(usize, [f64; 2])]) -> Vec<(usize, [f64; 2])> {
+    let keys = entries.iter().map(|(dof, _)| dof + 1).max().unwrap_or(0);
+    let mut list: Vec<(usize, [f64; 2])> = Vec::new();
+    let greatest = entries
+        .iter()
+        .fold(0.0_f64, |most, (_, [force, _])| most.max(force.abs()));
+    for (dof, share) in in_order(entries, keys, |(dof, _)| *dof) {
+        match list.last_mut() {
+            Some((last, sum)) if *last == dof => {
+                sum[0] += share[0];
+                sum[1] += share[1];
+            }
+            _ => list.push((dof, share)),
+        }
+    }
+    list.retain(|(_, [force, moment])| force.abs().max(moment.abs()) > ROUNDING * greatest);
+    list
+}
+
+/// What is left of stiffnesses that cancel.
+const ROUNDING: f64 = 1e-13;

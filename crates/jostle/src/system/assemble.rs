@@ -1,0 +1,166 @@
+//! From a model to a system.
+
+use super::{BuildingSystem, System, finite};
+use crate::interface::contact_points::{PointPair, SAME, mean};
+use crate::interface::{Contact, Face, Faces, LinkElement, Row};
+use crate::model::{Model, ModelFault};
+use crate::structure::Idealisation;
+
+impl System {
+    /// Assembles a model.
+    ///
+    /// # Errors
+    /// All faults of the model, as [`Model::check`] finds them, or what only assembly shows: damping at modes
+    /// that do not exist, contacts at points without mass, periods and durations that are not finite.
+    pub fn assemble(model: &Model) -> Result<Self, Vec<ModelFault>> {
+        model.check()?;
+        let row = Row::of(model);
+        let mut buildings = Vec::new();
+        let mut faults = Vec::new();
+        for (index, building) in model.buildings.iter().enumerate() {
+            let points = row.points_between_floors(index);
+            let idealisation =
+                Idealisation::with_points(building, points.each_ref().map(|points| &points[..]));
+            let mut assembled = BuildingSystem::new(&building.name, idealisation);
+            if let Err(problem) = assembled.put_under_gravity(building.gravity) {
+                faults.push(ModelFault {
+                    path: format!("building[{index}].{}", problem.field()),
+                    problem: problem.to_string(),
+                });
+                continue;
+            }
+            if let Some(fault) = finite::of_building(index, building, &assembled) {
+                faults.push(fault);
+                continue;
+            }
+            if let Err(problem) = assembled.damp(&building.damping) {
+                faults.push(ModelFault {
+                    path: format!("building[{index}].damping.modes"),
+                    problem,
+                });
+            }
+            buildings.push(assembled);
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let mut system = Self::of_buildings(buildings);
+        system.join(&row, model)?;
+        let faults = finite::of_contacts(&system);
+        if faults.is_empty() {
+            Ok(system)
+        } else {
+            Err(faults)
+        }
+    }
+
+    /// The same buildings with the gaps of another model, which may differ from that of this system in the widths of
+    /// its gaps only: nothing is assembled anew.
+    ///
+    /// # Errors
+    /// As [`System::assemble`].
+    pub fn with_widths_of(&self, model: &Model) -> Result<Self, Vec<ModelFault>> {
+        model.check()?;
+        let mut system = Self {
+            buildings: self.buildings.clone(),
+            contacts: Vec::new(),
+            links: Vec::new(),
+        };
+        system.join(&Row::of(model), model)?;
+        Ok(system)
+    }
+
+    /// Adds the contacts and links of the model.
+    ///
+    /// # Errors
+    /// Points that cannot be pushed.
+    fn join(&mut self, row: &Row, model: &Model) -> Result<(), Vec<ModelFault>> {
+        let mut faults = Vec::new();
+        for (index, (gap, joined)) in model.gaps.iter().zip(&row.gaps).enumerate() {
+            let mut contacts = Vec::new();
+            for (entry, pair) in joined.pairs.iter().enumerate() {
+                match faces(self, joined.between, pair) {
+                    Ok(faces) => {
+                        let [left, right] = faces.masses();
+                        contacts.push(Contact {
+                            gap: index,
+                            width: gap.width_of(entry),
+                            law: gap.law.between(left, right),
+                            ..Contact::without_law(faces)
+                        });
+                    }
+                    Err(problem) => faults.push(ModelFault {
+                        path: format!("gap[{index}].floors"),
+                        problem,
+                    }),
+                }
+            }
+            contacts.sort_by(|a, b| a.height.total_cmp(&b.height));
+            self.contacts.extend(contacts);
+        }
+        for (index, (link, joined)) in model.links.iter().zip(&row.links).enumerate() {
+            let mut pairs = joined.pairs.clone();
+            pairs.sort_by(|a, b| mean(a).total_cmp(&mean(b)));
+            for pair in &pairs {
+                match faces(self, joined.between, pair) {
+                    Ok(faces) => {
+                        let element = LinkElement {
+                            link: index,
+                            faces,
+                            height: faces.height(),
+                            stiffness: link.stiffness,
+                            damping: link.damping,
+                            closing_at_rest: closing_at_rest(self, &faces),
+                        };
+                        self.links.push(element);
+                    }
+                    Err(problem) => faults.push(ModelFault {
+                        path: format!("link[{index}].floors"),
+                        problem,
+                    }),
+                }
+            }
+        }
+        if faults.is_empty() {
+            Ok(())
+        } else {
+            Err(faults)
+        }
+    }
+}
+
+fn faces(system: &System, between: [Option<usize>; 2], pair: &PointPair) -> Result<Faces, String> {
+    let mut faces: [Option<Face>; 2] = [None; 2];
+    for side in 0..2 {
+        let (Some(building), Some(height)) = (between[side], pair[side]) else {
+            continue;
+        };
+        let idealisation = &system.buildings[building].idealisation;
+        let face = if side == 0 {
+            &idealisation.right_face
+        } else {
+            &idealisation.left_face
+        };
+        let nodes = &idealisation.skeleton.nodes;
+        let node = face
+            .iter()
+            .copied()
+            .find(|&node| (nodes[node].y - height).abs() <= 2.0 * SAME)
+            .ok_or_else(|| format!("no point to hit at {height:.3} m"))?;
+        faces[side] = Some(system.face(building, node)?);
+    }
+    Ok(Faces(faces))
+}
+
+/// What gravity alone closes \[m\].
+fn closing_at_rest(system: &System, faces: &Faces) -> f64 {
+    let displacement = |face: Face| {
+        let building = &system.buildings[face.building];
+        let own = building.rest.displacement.get(face.dof - building.offset);
+        own.copied().unwrap_or(0.0)
+    };
+    faces
+        .sides()
+        .map(|(face, sign)| -sign * displacement(face))
+        .sum()
+}

@@ -1,0 +1,117 @@
+//! Results of assembly that are no usable numbers, with their cause.
+
+use crate::model::{Building, ModelFault, Structure};
+use crate::system::{BuildingSystem, System};
+
+/// Impact speed at which the duration of an impact is judged \[m/s\].
+const IMPACT_SPEED: f64 = 0.5;
+
+/// The fault of a building whose mass or periods are not finite; usually values of very different
+/// magnitude, which double precision cannot hold beside each other.
+pub(crate) fn of_building(
+    index: usize,
+    building: &Building,
+    assembled: &BuildingSystem,
+) -> Option<ModelFault> {
+    let wrong = |what: String| {
+        Some(ModelFault {
+            path: format!("building[{index}]"),
+            problem: format!("{what}; {}", cause(building)),
+        })
+    };
+    let mass = assembled.equations.total_mass();
+    if !mass.is_finite() {
+        return wrong(format!("its mass is {mass} kg"));
+    }
+    let periods = assembled.modes.iter().map(crate::eigen::Mode::period);
+    let mut numbered = periods.enumerate();
+    let usable = |period: f64| period.is_finite() && period > 0.0;
+    if let Some((mode, _)) = numbered.find(|(_, period)| !usable(*period)) {
+        return wrong(format!(
+            "the period of lateral mode {} cannot be computed",
+            mode + 1
+        ));
+    }
+    None
+}
+
+/// The faults of contacts whose impacts last neither a finite nor a positive time.
+pub(crate) fn of_contacts(system: &System) -> Vec<ModelFault> {
+    let mut faults: Vec<ModelFault> = Vec::new();
+    for contact in &system.contacts {
+        let mass = contact.effective_mass();
+        let duration = contact.law.elastic_duration(mass, IMPACT_SPEED);
+        let path = format!("gap[{}].stiffness", contact.gap);
+        let known = faults.last().is_some_and(|fault| fault.path == path);
+        let usable = duration.is_finite() && duration > 0.0;
+        if !usable && !known {
+            faults.push(ModelFault {
+                path,
+                problem: format!(
+                    "the duration of an impact cannot be computed, with a colliding mass of {mass:.2e} kg; check the units of stiffness and mass"
+                ),
+            });
+        }
+    }
+    faults
+}
+
+/// The stiffest and the most flexible part of a building, and the least and the greatest mass, in words.
+fn cause(building: &Building) -> String {
+    let (stiffnesses, masses) = match &building.structure {
+        Structure::Shear(shear) => {
+            let storeys = shear.stiffness.iter().enumerate();
+            let floors = shear.mass.iter().enumerate();
+            (
+                storeys
+                    .map(|(i, k)| (format!("storey {}", i + 1), *k))
+                    .collect::<Vec<_>>(),
+                floors
+                    .map(|(i, m)| (format!("floor {}", i + 1), *m))
+                    .collect::<Vec<_>>(),
+            )
+        }
+        Structure::Frame(frame) => {
+            let lateral = |rigidity: f64, length: f64| 12.0 * rigidity / length.powi(3);
+            let columns = frame.columns.iter().zip(&frame.storey_heights).enumerate();
+            let columns = columns.map(|(i, (section, height))| {
+                let name = format!("columns of storey {}", i + 1);
+                (name, lateral(section.flexural_rigidity, *height))
+            });
+            let beams = frame.beams.iter().enumerate().flat_map(|(i, section)| {
+                frame.spans.iter().enumerate().map(move |(bay, span)| {
+                    let name = format!("beam of floor {}, span {}", i + 1, bay + 1);
+                    (name, lateral(section.flexural_rigidity, *span))
+                })
+            });
+            let width: f64 = frame.spans.iter().sum();
+            let floors = frame.beam_mass.iter().zip(&frame.floor_mass).enumerate();
+            (
+                columns.chain(beams).collect(),
+                floors
+                    .map(|(i, (line, mass))| (format!("floor {}", i + 1), line * width + mass))
+                    .collect(),
+            )
+        }
+    };
+    let range = |values: &[(String, f64)], unit: &str| {
+        let least = values.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+        let greatest = values.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        match (least, greatest) {
+            (Some((low, least)), Some((high, greatest))) if low != high && greatest > least => {
+                format!("from {least:.2e} {unit} ({low}) to {greatest:.2e} {unit} ({high})")
+            }
+            (Some((_, least)), _) => format!("of {least:.2e} {unit}"),
+            _ => "unknown".to_owned(),
+        }
+    };
+    let quantity = match &building.structure {
+        Structure::Shear(_) => "stiffnesses k",
+        Structure::Frame(_) => "stiffnesses 12 EI/L^3",
+    };
+    format!(
+        "{quantity} {}, masses {}; check their units and lengths",
+        range(&stiffnesses, "N/m"),
+        range(&masses, "kg")
+    )
+}

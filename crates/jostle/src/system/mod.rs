@@ -1,0 +1,119 @@
+//! The assembled buildings, contacts and links: immutable, shared by every run of the same model.
+
+mod assemble;
+mod building;
+mod finite;
+
+use crate::interface::{Contact, Face, Faces, LinkElement};
+use crate::model::LEVEL_TOLERANCE;
+
+pub use building::{BuildingSystem, Floor};
+
+/// Buildings in a row and what stands between them, ready to be stepped.
+///
+/// ```
+/// use jostle::{State, System};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # use towers::pair;
+///
+/// let model = pair(0.02); // two towers of three storeys, 20 mm apart
+/// let system = System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// assert_eq!(system.contacts.len(), 3); // floors at equal height
+/// let state = State::at_rest(&system, 0.0);
+/// assert!(state.displacement.iter().all(|&u| u == 0.0));
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct System {
+    /// Buildings from left to right.
+    pub buildings: Vec<BuildingSystem>,
+    /// Contacts, gap by gap, from the lowest up.
+    pub contacts: Vec<Contact>,
+    /// Springs and dashpots between buildings, link by link, from the lowest up.
+    pub links: Vec<LinkElement>,
+}
+
+impl System {
+    /// A row of assembled buildings that do not touch; contacts may be added to the list.
+    #[must_use]
+    pub fn of_buildings(mut buildings: Vec<BuildingSystem>) -> Self {
+        let (mut offset, mut spring_offset) = (0, 0);
+        for building in &mut buildings {
+            building.spring_offset = spring_offset;
+            spring_offset += building.equations.springs.len();
+            for floor in &mut building.floors {
+                floor.dof = floor.dof - building.offset + offset;
+            }
+            building.foot = building.foot.map(|dof| dof - building.offset + offset);
+            building.offset = offset;
+            offset += building.equations.len();
+        }
+        Self {
+            buildings,
+            contacts: Vec::new(),
+            links: Vec::new(),
+        }
+    }
+
+    /// Number of degrees of freedom of all buildings.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.buildings
+            .last()
+            .map_or(0, |building| building.offset + building.equations.len())
+    }
+
+    /// Whether there is nothing to move.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A contact without width between nodes of two buildings, `left` and `right` being (building, node). Its law is
+    /// to be given.
+    ///
+    /// # Errors
+    /// A message when a node cannot be pushed or carries no mass.
+    pub fn contact_between(
+        &self,
+        left: (usize, usize),
+        right: (usize, usize),
+    ) -> Result<Contact, String> {
+        let faces = Faces([
+            Some(self.face(left.0, left.1)?),
+            Some(self.face(right.0, right.1)?),
+        ]);
+        Ok(Contact::without_law(faces))
+    }
+
+    /// The point of a building at a node.
+    ///
+    /// # Errors
+    /// A message when the node cannot be pushed or carries no mass.
+    pub fn face(&self, building: usize, node: usize) -> Result<Face, String> {
+        let own = &self.buildings[building];
+        let dof = own
+            .equations
+            .horizontal(node)
+            .ok_or_else(|| "a contact cannot push the ground".to_owned())?;
+        let mass = own.equations.mass[dof];
+        if mass <= 0.0 {
+            return Err(format!(
+                "\"{}\" has no mass where it would be hit",
+                own.name
+            ));
+        }
+        let height = own.idealisation.skeleton.nodes[node].y;
+        let floor = own
+            .floors
+            .iter()
+            .position(|floor| (floor.height - height).abs() <= LEVEL_TOLERANCE);
+        Ok(Face {
+            building,
+            dof: own.offset + dof,
+            mass,
+            floor: floor.map(|index| index + 1),
+            height,
+        })
+    }
+}
