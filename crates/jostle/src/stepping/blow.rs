@@ -1,8 +1,8 @@
 //! Sudden changes of velocity: what the momentum law does to two buildings (docs/contact.md, N1 and N2).
 
-use super::simulation::Simulation;
+use super::direct::Direct;
+use super::runner::{Jump, RunState};
 use crate::contact::momentum;
-use crate::history::Impact;
 use crate::interface::Face;
 use crate::linear::StepMatrix;
 use crate::structure::StepEquations;
@@ -89,43 +89,40 @@ impl BlowScratch {
     }
 }
 
-impl<E: StepEquations> Simulation<'_, E> {
+impl<E: StepEquations> Direct<E> {
     /// A contact closing at `rate` opens at once with `restitution` times that.
-    pub(super) fn blow(&mut self, index: usize, restitution: f64, rate: f64) {
-        let contact = &self.system.contacts[index];
+    pub(super) fn strike(
+        &mut self,
+        run: &mut RunState<'_>,
+        index: usize,
+        restitution: f64,
+        rate: f64,
+    ) -> Jump {
+        let contact = &run.system.contacts[index];
         let mass = contact.effective_mass();
         let impulse = momentum::impulse(restitution, mass, rate);
         for (face, sign) in contact.faces.sides() {
-            self.push_at_once(face, sign * impulse / face.mass);
+            self.push_at_once(run, face, sign * impulse / face.mass);
         }
         let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);
         self.audit.contact += dissipated;
-        let time = self.state.time;
-        self.impacts.push(Impact {
-            contact: index,
-            start: time,
-            end: time,
-            peak_force: 0.0,
-            peak_force_at: time,
-            peak_indentation: 0.0,
-            impact_speed: rate,
-            separation_speed: restitution * rate,
-            finished: true,
+        Jump {
             impulse,
             dissipated,
-        });
+            separation_speed: restitution * rate,
+        }
     }
 
     /// Changes the velocity of one degree of freedom, of the massless ones that hang on it, and the accelerations by
     /// what the dampers then say: M Δa = −(α M + β K + C′) Δv.
-    fn push_at_once(&mut self, face: Face, change: f64) {
+    fn push_at_once(&mut self, run: &mut RunState<'_>, face: Face, change: f64) {
         let building = face.building;
-        let system = &self.system.buildings[building];
+        let system = &run.system.buildings[building];
         let (range, own) = (system.range(), &system.equations);
         let massless = own.mass.contains(&0.0);
         if massless && self.blows[building].is_none() {
             self.blows[building] = BlowFactor::of(system, &self.equations[building]);
-            self.work.factorizations += 1;
+            run.work.factorizations += 1;
         }
         self.blow.clear(own.len());
         let BlowScratch {
@@ -153,7 +150,7 @@ impl<E: StepEquations> Simulation<'_, E> {
             };
         }
         follow(acceleration);
-        self.work.solves += if massless { 2 } else { 0 };
+        run.work.solves += if massless { 2 } else { 0 };
         let velocities = self.state.velocity[range.clone()].iter_mut();
         velocities
             .zip(&*velocity)
@@ -162,6 +159,6 @@ impl<E: StepEquations> Simulation<'_, E> {
         accelerations
             .zip(&*acceleration)
             .for_each(|(a, change)| *a += change);
-        self.jerk_links(face.dof, change);
+        self.jerk_links(run.system, face.dof, change);
     }
 }

@@ -4,71 +4,12 @@ use std::f64::consts::PI;
 
 use super::clock::Clock;
 use super::plan::{ContactSteps, Plan};
-use super::simulation::Simulation;
 use crate::interface::Contact;
-use crate::state::Episode;
-use crate::structure::StepEquations;
 
 /// Steps of a half cycle at the present stiffness, relative to those planned, beyond which finer ones gain nothing.
 const MOST_FINER: f64 = 4.0;
 /// How far an estimate must lie below the target before steps are doubled, beyond what doubling multiplies it by.
 const SLACK: f64 = 1.5;
-
-impl<E: StepEquations> Simulation<'_, E> {
-    /// Rate of change of the closing rate of a contact \[m/s²\].
-    pub(super) fn relative_acceleration(&self, index: usize) -> f64 {
-        let faces = &self.system.contacts[index].faces;
-        faces.closing(&self.state.acceleration)
-    }
-
-    /// At a touch: the division that the impact expected of this closing rate needs, in view of the strongest impact of
-    /// the gap so far.
-    pub(super) fn choose_division(&mut self, index: usize, rate: f64) {
-        let contact = &self.system.contacts[index];
-        let expected = contact.law.elastic_force(contact.effective_mass(), rate);
-        let strongest = &mut self.strongest[contact.gap];
-        *strongest = strongest.max(expected);
-        let share = if *strongest > 0.0 {
-            expected / *strongest
-        } else {
-            0.0
-        };
-        self.contact_division[index] = self.plan.first_division(contact, rate, share);
-        self.finest_in_contact = self.finest_in_contact.max(self.contact_division[index]);
-    }
-
-    /// After a step of a closed contact: finer steps where its error endangers the tolerance, coarser ones where the
-    /// grid allows and the error is far below.
-    ///
-    /// The trapezoidal rule misses h² Δa/12 of a displacement in a step. Over the π/(ωh) steps of half a cycle at the
-    /// present contact stiffness, ω² = F′/m, that is an error of the force of F′ h² |Δa|/12 · π/(ωh), relative to the
-    /// greatest force of the gap.
-    pub(super) fn control_division(&mut self, closed: usize, step: f64, episode: &Episode) {
-        let closed = &self.coupling.closed[closed];
-        let index = closed.contact;
-        let contact = &self.system.contacts[index];
-        let strongest = &mut self.strongest[contact.gap];
-        *strongest = strongest.max(episode.peak_force);
-        let strongest = *strongest;
-        let trial = self.trials[index];
-        let response = contact
-            .law
-            .follow(trial.indentation, trial.rate, &episode.memory);
-        let stiffness = response.by_indentation;
-        let half_cycle = half_cycle(contact, stiffness);
-        let change = self.relative_acceleration(index) - closed.start_acceleration;
-        let observed = Observed {
-            step,
-            stiffness,
-            damping: 0.0,
-            error: stiffness * step * change.abs() / 12.0 * half_cycle / strongest,
-            order: 2,
-        };
-        let division = &mut self.contact_division[index];
-        *division = next_division(self.plan, contact, &observed, *division, &self.clock);
-        self.finest_in_contact = self.finest_in_contact.max(*division);
-    }
-}
 
 /// What a step of a closed contact has shown.
 pub(super) struct Observed {
@@ -85,7 +26,7 @@ pub(super) struct Observed {
 }
 
 /// Half a cycle of a contact of stiffness F′ \[s\].
-fn half_cycle(contact: &Contact, stiffness: f64) -> f64 {
+pub(super) fn half_cycle(contact: &Contact, stiffness: f64) -> f64 {
     PI * (contact.effective_mass() / stiffness).sqrt()
 }
 

@@ -1,8 +1,7 @@
 //! What a closed contact goes through in one step, however the buildings are stepped.
 
 use super::events::{Cubic, bisect};
-use super::impacts::TOGETHER;
-use super::trial::ContactTrial;
+use super::runner::{ContactTrial, TOGETHER};
 use crate::contact::ForceLaw;
 use crate::history::Extreme;
 use crate::state::Episode;

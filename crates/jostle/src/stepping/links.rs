@@ -2,7 +2,8 @@
 
 use super::band::Band;
 use super::coupling::{Closed, scaled_band};
-use super::simulation::Simulation;
+use super::direct::Direct;
+use super::runner::RunState;
 use crate::contact::ForceLaw;
 use crate::history::{Extreme, LinkTotals};
 use crate::interface::LinkElement;
@@ -74,18 +75,18 @@ pub(super) fn law_of(link: &LinkElement) -> ForceLaw {
     }
 }
 
-impl<E: StepEquations> Simulation<'_, E> {
+impl<E: StepEquations> Direct<E> {
     /// Adds the forces of the links at the start of the step to its loads, as those of closed contacts.
-    pub(super) fn add_link_loads(&mut self) {
-        for (link, force) in self.system.links.iter().zip(&self.links.forces) {
+    pub(super) fn add_link_loads(&mut self, run: &RunState<'_>) {
+        for (link, force) in run.system.links.iter().zip(&self.links.forces) {
             link.faces.push_apart(-force, &mut self.rise);
         }
     }
 
     /// A link at the end of the tried step, as if nothing pushed.
-    pub(super) fn link_in_step(&self, index: usize, rate_gain: f64) -> Closed {
-        let link = &self.system.links[index - self.joints.contacts];
-        let trial = &self.trials[index];
+    pub(super) fn link_in_step(&self, run: &RunState<'_>, index: usize, rate_gain: f64) -> Closed {
+        let link = &run.system.links[index - self.joints.contacts];
+        let trial = &run.trials[index];
         let law = law_of(link);
         Closed {
             contact: index,
@@ -104,9 +105,9 @@ impl<E: StepEquations> Simulation<'_, E> {
 
     /// Forces of the links where no contact is closed: one linear system, factorised once per step size
     /// (theory, Eq. L2).
-    pub(super) fn find_link_forces(&mut self, slot: usize) {
+    pub(super) fn find_link_forces(&mut self, run: &mut RunState<'_>, slot: usize) {
         let factors = &mut self.factors[slot];
-        let closed = &mut self.coupling.closed;
+        let closed = &mut run.coupling.closed;
         let slope = |closed: &Closed| {
             let response = closed.law.follow(0.0, 0.0, &closed.memory);
             response.by_indentation + closed.rate_gain * response.by_rate
@@ -117,8 +118,8 @@ impl<E: StepEquations> Simulation<'_, E> {
             links
                 .roots
                 .extend(closed.iter().map(|link| slope(link).sqrt()));
-            scaled_band(&self.coupling.compliance, &links.roots, &mut links.scaled);
-            self.coupling.operations += links.scaled.factorize();
+            scaled_band(&run.coupling.compliance, &links.roots, &mut links.scaled);
+            run.coupling.operations += links.scaled.factorize();
             links.known = true;
         }
         let links = &factors.links;
@@ -129,17 +130,17 @@ impl<E: StepEquations> Simulation<'_, E> {
             unknowns.push(free.force / root);
         }
         links.scaled.solve(unknowns);
-        self.coupling.operations += (2 * unknowns.len() * (links.scaled.reach() + 1)) as u64;
+        run.coupling.operations += (2 * unknowns.len() * (links.scaled.reach() + 1)) as u64;
         for ((link, root), unknown) in closed.iter_mut().zip(&links.roots).zip(unknowns) {
             link.force = root * *unknown;
         }
     }
 
     /// Before the state moves on: work of the links over the step.
-    pub(super) fn gather_links(&mut self, step: f64) {
-        for index in 0..self.system.links.len() {
-            let link = &self.system.links[index];
-            let trial = self.trials[self.joints.contacts + index];
+    pub(super) fn gather_links(&mut self, run: &RunState<'_>, step: f64) {
+        for index in 0..run.system.links.len() {
+            let link = &run.system.links[index];
+            let trial = run.trials[self.joints.contacts + index];
             let start = link.shortening(&self.state.displacement);
             let before = self.links.forces[index];
             let work = 0.5 * (before + trial.force) * (trial.indentation - start);
@@ -150,7 +151,7 @@ impl<E: StepEquations> Simulation<'_, E> {
             if trial.force.abs() > totals.peak_force.value.abs() {
                 totals.peak_force = Extreme {
                     value: trial.force,
-                    at: self.state.time + step,
+                    at: run.time + step,
                 };
             }
             self.links.forces[index] = trial.force;
@@ -159,8 +160,8 @@ impl<E: StepEquations> Simulation<'_, E> {
 
     /// A sudden change of velocity of one degree of freedom changes the forces of the dashpots there, and these the
     /// accelerations of both ends.
-    pub(super) fn jerk_links(&mut self, dof: usize, change: f64) {
-        for (link, force) in self.system.links.iter().zip(&mut self.links.forces) {
+    pub(super) fn jerk_links(&mut self, system: &System, dof: usize, change: f64) {
+        for (link, force) in system.links.iter().zip(&mut self.links.forces) {
             for (face, sign) in link.faces.sides() {
                 if face.dof == dof {
                     let jump = -sign * link.damping * change;

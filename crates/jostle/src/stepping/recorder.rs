@@ -4,7 +4,7 @@ use super::acceleration_parts::AccelerationParts;
 use super::energy::EnergyAudit;
 use super::events::Cubic;
 use crate::history::{Column, Energy, EnergyTerm, Extreme, FloorPeaks, History, SpringHistory};
-use crate::state::State;
+use crate::state::{ContactPhase, State};
 use crate::system::System;
 
 /// Takes histories and peaks.
@@ -171,6 +171,7 @@ impl Recorder {
         &mut self,
         system: &System,
         state: &State,
+        contacts: &[ContactPhase],
         links: &[f64],
         ground: f64,
         wanted: bool,
@@ -204,7 +205,7 @@ impl Recorder {
             put(state.velocity[floor.dof]);
             put(state.acceleration[floor.dof] + ground);
         }
-        state.contacts.iter().for_each(|phase| put(phase.force()));
+        contacts.iter().for_each(|phase| put(phase.force()));
         links.iter().for_each(|force| put(*force));
         let Energy {
             input,

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use super::outcome::{Outcome, Progress, RunEnd, Settings};
 use super::peak_change::{change_of_peaks, impacts};
 use super::plan::Plan;
-use super::simulation::simulate_once;
+use super::simulate::simulate_once;
 use crate::interface::Contact;
 use crate::motion::GroundMotion;
 use crate::system::{BuildingSystem, System};

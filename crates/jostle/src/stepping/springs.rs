@@ -5,8 +5,9 @@
 //! with. Forces rise with deformation, so that the step has one solution; lines are finite in number, so that it is
 //! reached exactly.
 
+use super::direct::Direct;
 use super::outcome::StepError;
-use super::simulation::Simulation;
+use super::runner::RunState;
 use crate::history::{SpringEvent, SpringTotals};
 use crate::hysteresis::{HysteresisMemory, Stage};
 use crate::state::State;
@@ -109,23 +110,27 @@ const MOST_ITERATIONS: usize = 30;
 /// Bisections of the way.
 const HALVINGS: usize = 12;
 
-impl<E: StepEquations> Simulation<'_, E> {
+impl<E: StepEquations> Direct<E> {
     /// Solves the step whose loads stand in `rise`, springs and contacts together.
-    pub(super) fn find_spring_forces(&mut self, slot: usize) -> Result<(), StepError> {
+    pub(super) fn find_spring_forces(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+    ) -> Result<(), StepError> {
         self.yielding.loads.copy_from_slice(&self.rise);
-        self.lay_first_lines(slot);
+        self.lay_first_lines(run, slot);
         for iteration in 1..=MOST_ITERATIONS {
-            self.retune(slot)?;
+            self.retune(run, slot)?;
             self.rise.copy_from_slice(&self.yielding.loads);
-            self.add_spring_loads();
-            self.factors[slot].solve(self.system, &self.equations, &mut self.rise, &mut self.work);
-            self.solve_contacts(slot)?;
-            self.work.outer_iterations += 1;
-            if self.follow_springs() {
+            self.add_spring_loads(run);
+            self.factors[slot].solve(run.system, &self.equations, &mut self.rise, &mut run.work);
+            self.solve_contacts(run, slot)?;
+            run.work.outer_iterations += 1;
+            if self.follow_springs(run) {
                 return Ok(());
             }
             if iteration > PLAIN_ITERATIONS {
-                self.search_on_the_way();
+                self.search_on_the_way(run);
             }
             for trial in &mut self.yielding.trials {
                 trial.deformation = trial.reached;
@@ -135,20 +140,20 @@ impl<E: StepEquations> Simulation<'_, E> {
             }
         }
         Err(StepError::SpringsDiverged {
-            building: self.worst_building(),
-            time: self.state.time,
+            building: self.worst_building(run),
+            time: run.time,
         })
     }
 
     /// Lines through the committed points, with the tangents of the last step: most springs go on as they were.
-    fn lay_first_lines(&mut self, slot: usize) {
+    fn lay_first_lines(&mut self, run: &RunState<'_>, slot: usize) {
         for (trial, memory) in self.yielding.trials.iter_mut().zip(&self.state.springs) {
             trial.deformation = memory.deformation();
             trial.force = memory.force();
         }
         let factors = &self.factors[slot];
         let k = factors.coefficients;
-        for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
+        for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
             let range = building.range();
             let (v, a) = (
                 &self.state.velocity[range.clone()],
@@ -166,29 +171,29 @@ impl<E: StepEquations> Simulation<'_, E> {
     }
 
     /// Brings the factors of a slot up to the tangents of the present lines.
-    fn retune(&mut self, slot: usize) -> Result<(), StepError> {
+    fn retune(&mut self, run: &mut RunState<'_>, slot: usize) -> Result<(), StepError> {
         let tangents = self.yielding.trials.iter().map(|trial| trial.tangent);
         for (place, tangent) in self.yielding.wanted.iter_mut().zip(tangents) {
             *place = tangent;
         }
         self.factors[slot]
             .retune(
-                self.system,
+                run.system,
                 &self.joints,
                 &self.equations,
                 &self.yielding.wanted,
-                &mut self.work,
+                &mut run.work,
             )
             .map_err(|(building, source)| StepError::NotPositive {
-                building: self.system.buildings[building].name.clone(),
-                time: self.state.time,
+                building: run.system.buildings[building].name.clone(),
+                time: run.time,
                 source,
             })
     }
 
     /// −(m_r − m) + k_t (δ_r − δ) + s k_t gᵀ D′ of every spring (theory, Eq. Y2).
-    fn add_spring_loads(&mut self) {
-        for building in &self.system.buildings {
+    fn add_spring_loads(&mut self, run: &RunState<'_>) {
+        for building in &run.system.buildings {
             let (range, springs) = (building.range(), building.spring_range());
             let load = &mut self.rise[range];
             let now = self.state.springs[springs.clone()]
@@ -206,9 +211,9 @@ impl<E: StepEquations> Simulation<'_, E> {
     }
 
     /// Deformations at the end of the tried step and what the rules answer; whether all springs are on their lines.
-    fn follow_springs(&mut self) -> bool {
+    fn follow_springs(&mut self, run: &RunState<'_>) -> bool {
         let mut all_fit = true;
-        for building in &self.system.buildings {
+        for building in &run.system.buildings {
             let (range, springs) = (building.range(), building.spring_range());
             let rise = &self.rise[range];
             let memories = &self.state.springs[springs.clone()];
@@ -232,18 +237,14 @@ impl<E: StepEquations> Simulation<'_, E> {
 
     /// Goes back from the deformations reached to where the potential of the step is least on the way to them: its
     /// slope there is Σ Δδ (m(δ) − m̃), m̃ being the forces that balance the rest of the step (theory, Eq. Y3).
-    fn search_on_the_way(&mut self) {
-        let slope = |share: f64, simulation: &Self| -> f64 {
-            let springs = simulation
+    fn search_on_the_way(&mut self, run: &RunState<'_>) {
+        let slope = |share: f64, direct: &Self| -> f64 {
+            let springs = run
                 .system
                 .buildings
                 .iter()
                 .flat_map(|building| &building.equations.springs);
-            let known = simulation
-                .yielding
-                .trials
-                .iter()
-                .zip(&simulation.state.springs);
+            let known = direct.yielding.trials.iter().zip(&direct.state.springs);
             springs
                 .zip(known)
                 .map(|(spring, (trial, memory))| {
@@ -255,7 +256,7 @@ impl<E: StepEquations> Simulation<'_, E> {
                 .sum()
         };
         // Contact forces do not lie on one line over the way: then simply half of it, and back from there.
-        let contacts = self.in_contact();
+        let contacts = run.in_contact();
         if !contacts && slope(1.0, self) <= 0.0 {
             return;
         }
@@ -268,7 +269,7 @@ impl<E: StepEquations> Simulation<'_, E> {
                 low = middle;
             }
         }
-        let springs = self
+        let springs = run
             .system
             .buildings
             .iter()
@@ -282,13 +283,13 @@ impl<E: StepEquations> Simulation<'_, E> {
     }
 
     /// Takes over what the springs did in the accepted step.
-    pub(super) fn commit_springs(&mut self) {
-        let springs = self
+    pub(super) fn commit_springs(&mut self, run: &RunState<'_>) {
+        let springs = run
             .system
             .buildings
             .iter()
             .flat_map(|building| &building.equations.springs);
-        let time = self.state.time;
+        let time = run.time;
         for (index, (spring, trial)) in springs.zip(&self.yielding.trials).enumerate() {
             let memory = &mut self.state.springs[index];
             let change = trial.reached - memory.deformation();
@@ -316,8 +317,8 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    fn worst_building(&self) -> String {
-        let worst = self.system.buildings.iter().max_by(|a, b| {
+    fn worst_building(&self, run: &RunState<'_>) -> String {
+        let worst = run.system.buildings.iter().max_by(|a, b| {
             let misfit = |building: &BuildingSystem| {
                 let springs = building.equations.springs.iter();
                 springs

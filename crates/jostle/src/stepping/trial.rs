@@ -2,65 +2,58 @@
 
 use super::clock::Clock;
 use super::coupling::Closed;
-use super::events::Cubic;
+use super::direct::Direct;
 use super::kernels::Loads;
 use super::outcome::StepError;
-use super::simulation::Simulation;
+use super::runner::RunState;
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::structure::StepEquations;
 
-/// What a tried step would do at a contact.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ContactTrial {
-    pub(super) indentation: f64,
-    pub(super) rate: f64,
-    pub(super) force: f64,
-}
-
-impl<E: StepEquations> Simulation<'_, E> {
+impl<E: StepEquations> Direct<E> {
     /// Solves the step to `end` without accepting it: fills `rise` and `trials`.
-    pub(super) fn try_step(&mut self, slot: usize, end: Clock) -> Result<(), StepError> {
-        self.ground[1] = self.motion.acceleration(end.time());
-        self.fill_loads(slot);
+    pub(super) fn solve_step(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+        end: Clock,
+    ) -> Result<(), StepError> {
+        run.ground[1] = run.motion.acceleration(end.time());
+        self.fill_loads(run, slot);
         if self.yielding.is_empty() {
-            self.factors[slot].solve(self.system, &self.equations, &mut self.rise, &mut self.work);
-            self.solve_contacts(slot)
+            self.factors[slot].solve(run.system, &self.equations, &mut self.rise, &mut run.work);
+            self.solve_contacts(run, slot)
         } else {
-            self.find_spring_forces(slot)
+            self.find_spring_forces(run, slot)
         }
     }
 
     /// Lets the closed contacts and the links push on the solution without them that stands in `rise`.
-    pub(super) fn solve_contacts(&mut self, slot: usize) -> Result<(), StepError> {
-        self.follow_joints(slot);
-        if self
+    pub(super) fn solve_contacts(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+    ) -> Result<(), StepError> {
+        self.follow_joints(run, slot);
+        if run
             .trials
             .iter()
             .any(|trial| !trial.indentation.is_finite())
         {
-            return Err(StepError::NotFinite {
-                time: self.state.time,
-            });
+            return Err(StepError::NotFinite { time: run.time });
         }
-        self.list_closed(slot);
-        if self.coupling.closed.is_empty() {
+        self.list_closed(run, slot);
+        if run.coupling.closed.is_empty() {
             Ok(())
         } else {
-            self.find_forces(slot)
+            self.find_forces(run, slot)
         }
-    }
-
-    /// Whether the tried step has a closed contact.
-    pub(super) fn in_contact(&self) -> bool {
-        let mut closed = self.coupling.closed.iter();
-        closed.any(|closed| !self.joints.is_link(closed.contact))
     }
 
     /// Loads of the incremental step, contacts of its end not yet pushing (theory, Eq. N3).
-    fn fill_loads(&mut self, slot: usize) {
-        let change = self.ground[1] - self.ground[0];
-        for (building, own) in self
+    fn fill_loads(&mut self, run: &RunState<'_>, slot: usize) {
+        let change = run.ground[1] - run.ground[0];
+        for (building, own) in run
             .system
             .buildings
             .iter()
@@ -77,25 +70,25 @@ impl<E: StepEquations> Simulation<'_, E> {
             };
             simd::in_wide_registers(range.len(), loads);
         }
-        self.add_undamped_loads(slot);
+        self.add_undamped_loads(run, slot);
         let weight = self.factors[slot].coefficients.unbalanced;
         for (load, missing) in self.rise.iter_mut().zip(&self.unbalanced) {
             *load += weight * missing;
         }
-        for (contact, phase) in self.system.contacts.iter().zip(&self.state.contacts) {
+        for (contact, phase) in run.system.contacts.iter().zip(&run.phases) {
             let force = phase.force();
             if force != 0.0 {
                 contact.faces.push_apart(-force, &mut self.rise);
             }
         }
-        self.add_link_loads();
+        self.add_link_loads(run);
     }
 
     /// s K′ D′ − (1 − s c) C′ D′ of the buildings that have such parts (theory, Eq. N3).
-    fn add_undamped_loads(&mut self, slot: usize) {
+    fn add_undamped_loads(&mut self, run: &RunState<'_>, slot: usize) {
         let factors = &self.factors[slot];
         let k = factors.coefficients;
-        for (building, own) in self.system.buildings.iter().zip(&factors.buildings) {
+        for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
             let (range, equations) = (building.range(), &building.equations);
             if equations.plain {
                 continue;
@@ -119,7 +112,7 @@ impl<E: StepEquations> Simulation<'_, E> {
     }
 
     /// Indentations and rates of contacts and links at the end of the tried step.
-    fn follow_joints(&mut self, slot: usize) {
+    fn follow_joints(&mut self, run: &mut RunState<'_>, slot: usize) {
         let factors = &self.factors[slot];
         let k = &factors.coefficients;
         let (u, v, a) = (
@@ -127,11 +120,11 @@ impl<E: StepEquations> Simulation<'_, E> {
             &self.state.velocity,
             &self.state.acceleration,
         );
-        let contacts = self.system.contacts.iter();
+        let contacts = run.system.contacts.iter();
         let contacts = contacts.map(|contact| (&contact.faces, contact.width));
-        let links = self.system.links.iter();
+        let links = run.system.links.iter();
         let links = links.map(|link| (&link.faces, link.closing_at_rest));
-        for ((faces, at_rest), trial) in contacts.chain(links).zip(&mut self.trials) {
+        for ((faces, at_rest), trial) in contacts.chain(links).zip(&mut run.trials) {
             let mut closed_by = 0.0;
             for (face, sign) in faces.sides() {
                 let dof = face.dof;
@@ -148,17 +141,17 @@ impl<E: StepEquations> Simulation<'_, E> {
 
     /// Lists the closed contacts and the links from left to right, with the indentations they would have if none
     /// pushed.
-    fn list_closed(&mut self, slot: usize) {
-        self.coupling.clear();
+    fn list_closed(&mut self, run: &mut RunState<'_>, slot: usize) {
+        run.coupling.clear();
         let rate_gain = self.factors[slot].coefficients.c;
         for (place, &index) in self.joints.order.iter().enumerate() {
             let closed = if self.joints.is_link(index) {
-                self.link_in_step(index, rate_gain)
-            } else if let ContactPhase::Closed(episode) = &self.state.contacts[index] {
-                let trial = &self.trials[index];
+                self.link_in_step(run, index, rate_gain)
+            } else if let ContactPhase::Closed(episode) = &run.phases[index] {
+                let trial = &run.trials[index];
                 Closed {
                     contact: index,
-                    law: self.system.contacts[index].law,
+                    law: run.system.contacts[index].law,
                     memory: episode.memory,
                     free: trial.indentation,
                     free_rate: trial.rate,
@@ -172,55 +165,55 @@ impl<E: StepEquations> Simulation<'_, E> {
             } else {
                 continue;
             };
-            self.coupling.closed.push(closed);
-            self.coupling.places.push(place);
+            run.coupling.closed.push(closed);
+            run.coupling.places.push(place);
         }
     }
 
     /// Solves for the forces of closed contacts and links and lets them push (theory, Eqs. P1–P5, L2).
-    fn find_forces(&mut self, slot: usize) -> Result<(), StepError> {
-        if self.in_contact() {
-            self.fill_compliance(slot);
-            let time = self.state.time;
-            let closed = self.coupling.closed.len();
-            self.work.iterations += self
+    fn find_forces(&mut self, run: &mut RunState<'_>, slot: usize) -> Result<(), StepError> {
+        if run.in_contact() {
+            self.fill_compliance(run, slot);
+            let time = run.time;
+            let closed = run.coupling.closed.len();
+            run.work.iterations += run
                 .coupling
                 .solve()
                 .ok_or(StepError::ContactDiverged { time, closed })?;
         } else {
             if !self.factors[slot].links.is_known() {
-                self.fill_compliance(slot);
+                self.fill_compliance(run, slot);
             }
-            self.find_link_forces(slot);
+            self.find_link_forces(run, slot);
         }
-        for closed in &self.coupling.closed {
+        for closed in &run.coupling.closed {
             if closed.force != 0.0 {
                 self.factors[slot].push_apart(
                     closed.contact,
                     closed.force,
-                    self.system,
+                    run.system,
                     &self.joints,
                     &mut self.rise,
                 );
             }
         }
-        self.follow_joints(slot);
-        for closed in &self.coupling.closed {
-            self.trials[closed.contact].force = closed.force;
+        self.follow_joints(run, slot);
+        for closed in &run.coupling.closed {
+            run.trials[closed.contact].force = closed.force;
         }
         Ok(())
     }
 
     /// W of the closed contacts and the links (theory, Eq. P1).
-    fn fill_compliance(&mut self, slot: usize) {
-        let (factors, coupling) = (&mut self.factors[slot], &mut self.coupling);
+    fn fill_compliance(&mut self, run: &mut RunState<'_>, slot: usize) {
+        let (factors, coupling) = (&mut self.factors[slot], &mut run.coupling);
         for closed in &coupling.closed {
             factors.prepare(
                 closed.contact,
-                self.system,
+                run.system,
                 &self.joints,
                 &self.equations,
-                &mut self.work,
+                &mut run.work,
             );
         }
         let reach = self.joints.reach(&coupling.places);
@@ -228,22 +221,9 @@ impl<E: StepEquations> Simulation<'_, E> {
         for row in 0..coupling.closed.len() {
             for column in coupling.compliance.columns(row) {
                 let [own, other] = [row, column].map(|i| coupling.closed[i].contact);
-                let value = factors.compliance(own, other, self.system, &self.joints);
+                let value = factors.compliance(own, other, run.system, &self.joints);
                 coupling.compliance.set(row, column, value);
             }
         }
-    }
-
-    /// Motion of contact `index` over the tried step.
-    pub(super) fn indentation_curve(&self, index: usize, step: f64) -> Cubic {
-        let contact = &self.system.contacts[index];
-        let trial = &self.trials[index];
-        Cubic::new(
-            contact.faces.closing(&self.state.displacement) - contact.width,
-            contact.faces.closing(&self.state.velocity),
-            trial.indentation,
-            trial.rate,
-            step,
-        )
     }
 }

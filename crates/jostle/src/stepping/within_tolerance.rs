@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use super::direct::run_directly;
 use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings};
 use super::peak_change::change_of_peaks;
 use super::plan::Plan;
-use super::simulation::Simulation;
 use crate::motion::GroundMotion;
 use crate::state::State;
 use crate::structure::StepEquations;
@@ -46,7 +46,7 @@ pub(super) fn within_tolerance<E: StepEquations>(
     mut observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
     let mut run = |plan: &Plan| {
-        Simulation::<E>::new(system, motion, plan, settings, state.clone()).run(&mut observer)
+        run_directly::<E>(system, motion, plan, settings, state.clone(), &mut observer)
     };
     if !plan.is_automatic(system, motion) || plan.frequency_error(system, motion).is_none() {
         return run(plan);

@@ -1,9 +1,10 @@
 //! Forces of closed contacts at the end of a step: by Newton's method on the forces themselves, and what they then do.
 
 use super::kernels::AddUp;
-use super::walk::Walk;
+use super::stepper::ModalStepper;
 use crate::stepping::coupling::Closed;
 use crate::stepping::outcome::StepError;
+use crate::stepping::runner::RunState;
 
 /// Rounds of Newton's method before it gives way to slower and safer ones.
 const QUICK_ROUNDS: u64 = 12;
@@ -14,28 +15,32 @@ const SETTLED: f64 = 1e-13;
 /// Change that may be nothing but rounding where it no longer shrinks.
 const ROUNDING: f64 = 1e-11;
 
-impl Walk<'_> {
+impl ModalStepper<'_> {
     /// Solves for the forces of the closed contacts at the end of the tried step and lets them push.
-    pub(super) fn find_contact_forces(&mut self, slot: usize) -> Result<(), StepError> {
-        if self.coupling.closed.is_empty() {
+    pub(super) fn find_contact_forces(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+    ) -> Result<(), StepError> {
+        if run.coupling.closed.is_empty() {
             return Ok(());
         }
-        for closed in &mut self.coupling.closed {
-            let trial = &self.trials[closed.contact];
+        for closed in &mut run.coupling.closed {
+            let trial = &run.trials[closed.contact];
             (closed.free, closed.free_rate) = (trial.indentation, trial.rate);
             closed.indentation = trial.indentation;
         }
-        self.couple(slot);
-        self.settle()?;
-        self.press(slot);
+        self.couple(run, slot);
+        self.settle(run)?;
+        self.press(run, slot);
         Ok(())
     }
 
     /// How far and how fast end forces open the closed contacts.
-    fn couple(&mut self, slot: usize) {
+    fn couple(&mut self, run: &RunState<'_>, slot: usize) {
         self.equations.openings.clear();
         let reduced = self.reduced;
-        let closed = &self.coupling.closed;
+        let closed = &run.coupling.closed;
         for column in closed {
             self.tables[slot].find_answer(column.contact, reduced);
         }
@@ -49,61 +54,61 @@ impl Walk<'_> {
     }
 
     /// Forces with which indentations and rates agree, from those foreseen.
-    fn settle(&mut self) -> Result<(), StepError> {
-        self.begin_with_foreseen();
-        if let Some(rounds) = self.equations.solve(&mut self.coupling.closed) {
-            self.work.iterations += rounds;
+    fn settle(&mut self, run: &mut RunState<'_>) -> Result<(), StepError> {
+        self.begin_with_foreseen(run);
+        if let Some(rounds) = self.equations.solve(&mut run.coupling.closed) {
+            run.work.iterations += rounds;
             return Ok(());
         }
-        self.begin_with_foreseen();
-        self.settle_in_rounds()
+        self.begin_with_foreseen(run);
+        self.settle_in_rounds(run)
     }
 
-    fn begin_with_foreseen(&mut self) {
+    fn begin_with_foreseen(&mut self, run: &RunState<'_>) {
         let foreseen = |closed: &Closed| self.foreseen[closed.contact].end;
         self.equations.forces.clear();
         self.equations
             .forces
-            .extend(self.coupling.closed.iter().map(foreseen));
+            .extend(run.coupling.closed.iter().map(foreseen));
     }
 
     /// The same where Newton's method on the forces does not settle. Every round takes a rate that goes with the
     /// indentation of its own contact, so that what is solved rises steadily; what the others add beyond that is put in from
     /// the round before, and is small where steps are short.
-    fn settle_in_rounds(&mut self) -> Result<(), StepError> {
-        let n = self.coupling.closed.len();
+    fn settle_in_rounds(&mut self, run: &mut RunState<'_>) -> Result<(), StepError> {
+        let n = run.coupling.closed.len();
         let diverged = StepError::ContactDiverged {
-            time: self.time,
+            time: run.time,
             closed: n,
         };
         let ForceEquations {
             openings, forces, ..
         } = &mut self.equations;
-        self.coupling.compliance.reset(n, n - 1);
+        run.coupling.compliance.reset(n, n - 1);
         for row in 0..n {
             for column in 0..n {
                 let [opening, _] = openings[row * n + column];
-                self.coupling.compliance.set(row, column, opening);
+                run.coupling.compliance.set(row, column, opening);
             }
             let [own, own_rate] = openings[row * n + row];
-            self.coupling.closed[row].rate_gain = own_rate / own;
+            run.coupling.closed[row].rate_gain = own_rate / own;
         }
-        self.coupling.press(|at| forces[at]);
+        run.coupling.press(|at| forces[at]);
         let mut last = f64::INFINITY;
         for _ in 0..ROUNDS {
             for row in 0..n {
-                let closed = &mut self.coupling.closed[row];
+                let closed = &mut run.coupling.closed[row];
                 let gain = closed.rate_gain;
                 let others = openings[row * n..].iter().zip(&*forces);
                 let beyond: f64 = others
                     .map(|([opening, rate], force)| (gain * opening - rate) * force)
                     .sum();
-                closed.free_rate = self.trials[closed.contact].rate + beyond;
+                closed.free_rate = run.trials[closed.contact].rate + beyond;
             }
-            let iterations = self.coupling.solve_from_here();
-            self.work.iterations += iterations.ok_or_else(|| diverged.clone())?;
+            let iterations = run.coupling.solve_from_here();
+            run.work.iterations += iterations.ok_or_else(|| diverged.clone())?;
             let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
-            for (force, closed) in forces.iter_mut().zip(&self.coupling.closed) {
+            for (force, closed) in forces.iter_mut().zip(&run.coupling.closed) {
                 change = change.max((closed.force - *force).abs());
                 greatest = greatest.max(closed.force.abs());
                 *force = closed.force;
@@ -119,9 +124,9 @@ impl Walk<'_> {
     }
 
     /// Lets the forces push: what each does over the step is known.
-    fn press(&mut self, slot: usize) {
+    fn press(&mut self, run: &mut RunState<'_>, slot: usize) {
         let reduced = self.reduced;
-        for closed in &self.coupling.closed {
+        for closed in &run.coupling.closed {
             let push = &reduced.pushes[closed.contact];
             let answer = self.tables[slot].answer(closed.contact);
             let [modes, watched] = [&push.modes, &push.watched];
@@ -146,9 +151,9 @@ impl Walk<'_> {
                 ],
             });
         }
-        self.read_trials(1);
-        for closed in &self.coupling.closed {
-            self.trials[closed.contact].force = closed.force;
+        self.read_trials(run);
+        for closed in &run.coupling.closed {
+            run.trials[closed.contact].force = closed.force;
         }
     }
 }

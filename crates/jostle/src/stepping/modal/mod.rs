@@ -6,21 +6,20 @@
 //! parabolas. What it cannot do is refused by [`refusals`].
 
 mod basis;
-mod corners;
 mod damped;
 mod defects;
 mod estimate;
-mod flight;
 mod forces;
+mod free_steps;
 mod kernels;
-mod meeting;
 mod peaks;
+mod predicted_force;
 mod pushes;
 mod reduced;
 mod response;
 mod series;
 mod span;
-mod walk;
+mod stepper;
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -33,7 +32,7 @@ use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::system::System;
 use reduced::{Rates, Reduced};
-use walk::{Refinement, Walk};
+use stepper::{Refinement, finish, runner};
 
 /// Why buildings cannot be stepped by their modes; empty when they can.
 #[must_use]
@@ -115,7 +114,6 @@ pub fn simulate(
 ) -> Outcome {
     let tolerance = plan.tolerance();
     let mut refinement = Refinement {
-        tolerance,
         division: 1,
         work: reduction.work,
     };
@@ -123,8 +121,8 @@ pub fn simulate(
     let mut left = MOST_REPEATS;
     loop {
         let reduced = enriched.as_ref().unwrap_or(&reduction.reduced);
-        let run = Walk::new(system, motion, plan, settings, reduced, refinement);
-        let (mut outcome, verdict) = run.run(&mut observer);
+        let run = runner(system, motion, plan, settings, reduced, refinement);
+        let (mut outcome, verdict) = finish(run, &mut observer);
         let between = verdict.estimate.between;
         let residual = verdict.estimate.both();
         outcome.work.shapes = reduced.modes() as u64;

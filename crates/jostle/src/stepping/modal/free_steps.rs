@@ -5,11 +5,12 @@ use pulp::{Arch, Simd, WithSimd};
 use super::kernels::{Ahead, LANES, Lanes, Show, Sums};
 use super::peaks::{Taken, Watched};
 use super::reduced::{Reduced, Table};
-use super::walk::Walk;
+use super::stepper::ModalStepper;
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::clock::Clock;
 use crate::stepping::events::Cubic;
+use crate::stepping::runner::RunState;
 
 /// Most steps taken at once, and fewest.
 const MOST: usize = 16;
@@ -160,20 +161,20 @@ impl WithSimd for Fly<'_> {
     }
 }
 
-impl Walk<'_> {
+impl ModalStepper<'_> {
     /// Takes several regular steps at once in which nothing touches; false when there is none, and a step
     /// is to be taken by itself.
-    pub(super) fn fly(&mut self) -> bool {
+    pub(super) fn fly(&mut self, run: &mut RunState<'_>) -> bool {
         let quiet = |phase: &ContactPhase| *phase == ContactPhase::Open;
-        if !self.phases.iter().all(quiet) || self.contact_division.iter().any(|d| *d > 1) {
+        if !run.phases.iter().all(quiet) || run.contact_division.iter().any(|d| *d > 1) {
             return false;
         }
-        let planned = self.plan_ahead();
+        let planned = self.plan_ahead(run);
         if planned == 0 {
             return false;
         }
         self.go_ahead();
-        let free = self.free_steps();
+        let free = self.free_steps(run);
         self.flight.ahead = if free < planned {
             FEWEST
         } else {
@@ -183,33 +184,33 @@ impl Walk<'_> {
             return false;
         }
         for step in 0..free {
-            self.take(step, free);
+            self.take(run, step, free);
         }
-        self.land(free);
+        self.land(run, free);
         true
     }
 
     /// Where the next steps end, and how the ground moves there; returns their number.
-    fn plan_ahead(&mut self) -> usize {
+    fn plan_ahead(&mut self, run: &mut RunState<'_>) -> usize {
         let flight = &mut self.flight;
         flight.ends.clear();
         flight.ground.clear();
-        flight.ground.push(self.ground[0]);
-        let (mut clock, mut slot) = (self.clock, None);
+        flight.ground.push(run.ground[0]);
+        let (mut clock, mut slot) = (run.clock, None);
         while flight.ends.len() < flight.ahead {
             let stride = clock.stride(self.least_division);
-            let left = self.motion.duration - clock.time();
+            let left = run.motion.duration - clock.time();
             if !stride.regular || stride.length > left * (1.0 + 1e-9) {
                 break;
             }
             slot = slot.or(Some(stride));
             clock = stride.end;
             flight.ends.push(clock);
-            flight.ground.push(self.motion.acceleration(clock.time()));
+            flight.ground.push(run.motion.acceleration(clock.time()));
         }
         let planned = flight.ends.len();
         if let Some(stride) = slot {
-            let slot = self.table_for(&stride);
+            let slot = self.table_for(run, &stride);
             if self.flight.step != stride.length {
                 self.flight.set(self.reduced, &self.tables[slot]);
             }
@@ -250,7 +251,7 @@ impl Walk<'_> {
     }
 
     /// How many of the planned steps end before anything can touch, or is no number any more.
-    fn free_steps(&self) -> usize {
+    fn free_steps(&self, run: &RunState<'_>) -> usize {
         let flight = &self.flight;
         let places = self.reduced.watched();
         let is_free = |step: usize| {
@@ -260,11 +261,11 @@ impl Walk<'_> {
                 return false;
             }
             let [then, now] = [step, step + 1].map(|at| flight.watched(places, at));
-            !self.pounding
-                || (0..self.phases.len()).all(|index| {
+            !run.pounding
+                || (0..run.phases.len()).all(|index| {
                     let closing = |list: &[f64]| self.reduced.closing(index, list);
                     // Near misses are for single steps, which look at them.
-                    let width = self.system.contacts[index].width - self.doubt(index);
+                    let width = run.system.contacts[index].width - self.doubt(run, index);
                     Cubic::new(
                         closing(then.u) - width,
                         closing(then.rate),
@@ -282,7 +283,7 @@ impl Walk<'_> {
     }
 
     /// Books a step of a flight of so many: energies, peaks, and a row where one is due.
-    fn take(&mut self, index: usize, free: usize) {
+    fn take(&mut self, run: &mut RunState<'_>, index: usize, free: usize) {
         let (flight, places) = (&self.flight, self.reduced.watched());
         let step = flight.step;
         let [g0, g1] = [flight.ground[index], flight.ground[index + 1]];
@@ -302,8 +303,8 @@ impl Walk<'_> {
         let energy = self
             .energy
             .balance(0.5 * total(&sums.kinetic), 0.5 * total(&sums.strain));
-        let start = self.time;
-        self.time = flight.ends[index].time();
+        let start = run.time;
+        run.time = flight.ends[index].time();
         let now = flight.watched(places, index + 1);
         let taken = Taken {
             then: flight.watched(places, index),
@@ -313,31 +314,25 @@ impl Walk<'_> {
             step,
             struck: false,
         };
-        self.peaks.after_step(self.system, self.reduced, &taken);
+        self.peaks.after_step(run.system, self.reduced, &taken);
         if (index + 1).is_multiple_of(self.rows_per_step) || index + 1 == free {
             let modes = self.reduced.modes();
             let [q, v] = flight.state(modes, index + 1);
             let a = &flight.modal[2][index * flight.start[0].len()..][..modes];
             self.peaks
-                .follow_forces(self.system, self.reduced, [q, v, a], self.time);
+                .follow_forces(run.system, self.reduced, [q, v, a], run.time);
         }
-        if self.peaks.is_due(self.time, false) {
-            let instant = (self.time, g1);
-            self.peaks.record(
-                self.system,
-                self.reduced,
-                instant,
-                now,
-                &self.phases,
-                &energy,
-            );
+        if self.peaks.is_due(run.time, false) {
+            let instant = (run.time, g1);
+            self.peaks
+                .record(run.system, self.reduced, instant, now, &run.phases, &energy);
         }
-        self.work.steps += 1;
-        self.work.solves += 1;
+        run.work.steps += 1;
+        run.work.solves += 1;
     }
 
     /// Stands at the end of so many steps of the flight.
-    fn land(&mut self, steps: usize) {
+    fn land(&mut self, run: &mut RunState<'_>, steps: usize) {
         let (flight, places) = (&self.flight, self.reduced.watched());
         let modes = self.reduced.modes();
         let stride = flight.start[0].len();
@@ -345,7 +340,7 @@ impl Walk<'_> {
             let accelerations = &flight.modal[2][step * stride..][..modes];
             if self.reached.widen(accelerations, Some(flight.step)) {
                 let (watched, ground) = (flight.watched(places, step + 1), flight.ground[step + 1]);
-                let (system, reduced) = (self.system, self.reduced);
+                let (system, reduced) = (run.system, self.reduced);
                 reduced.show_forces(flight.state(modes, step + 1)[0], &mut self.looked_at);
                 let forces = &self.looked_at;
                 self.reached
@@ -360,9 +355,9 @@ impl Walk<'_> {
         self.rate[0].copy_from_slice(now.rate);
         self.acceleration[0].copy_from_slice(now.acceleration);
         self.loose[0].copy_from_slice(now.loose);
-        self.clock = flight.ends[steps - 1];
+        run.clock = flight.ends[steps - 1];
         let ground = flight.ground[steps];
-        self.ground = [ground; 2];
+        run.ground = [ground; 2];
         for (load, participation) in self.p[0].iter_mut().zip(&self.reduced.participation) {
             *load = -participation * ground;
         }
@@ -375,7 +370,8 @@ mod tests {
 
     use super::*;
     use crate::history::Work;
-    use crate::stepping::modal::walk::Refinement;
+    use crate::stepping::modal::Refinement;
+    use crate::stepping::modal::stepper::{finish, runner};
     use crate::stepping::modal::{Rates, rates};
     use crate::{
         Analysis, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome, Plan,
@@ -436,14 +432,10 @@ mod tests {
             record_interval,
             ..Settings::default()
         };
-        let refinement = Refinement {
-            tolerance: plan.tolerance(),
-            division: 1,
-            work,
-        };
-        let mut walk = Walk::new(&system, &motion, &plan, settings, &reduced, refinement);
-        walk.flight.ahead = most;
-        walk.run(&mut |_| ControlFlow::Continue(())).0
+        let refinement = Refinement { division: 1, work };
+        let mut runner = runner(&system, &motion, &plan, settings, &reduced, refinement);
+        runner.stepper.flight.ahead = most;
+        finish(runner, |_| ControlFlow::Continue(())).0
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! Corners of contact forces over time: where the slope of a force jumps, so does that of accelerations, which are often
 //! greatest there. Steps end at corners.
 
-use super::walk::Walk;
+use super::contact_events::{AT_ONCE, Landing};
+use super::{Runner, Stepper};
 use crate::state::ContactPhase;
 use crate::stepping::clock::Stride;
 use crate::stepping::events::{Cubic, bisect};
-use crate::stepping::impacts::AT_ONCE;
 use crate::stepping::outcome::StepError;
 
 /// Share of a step to which a corner is found, in tolerances, and the greatest \[–\].
@@ -35,11 +35,11 @@ enum Kind {
     Kink { sign: f64, indentation: f64 },
 }
 
-impl Walk<'_> {
+impl<S: Stepper> Runner<'_, S> {
     /// The first corner within the tried step and before a share of it.
     pub(super) fn first_corner(&self, step: f64, before: f64) -> Option<Corner> {
         let mut first: Option<Corner> = None;
-        for closed in &self.coupling.closed {
+        for closed in &self.run.coupling.closed {
             let index = closed.contact;
             for kind in self.kinds(index).into_iter().flatten() {
                 let reached = first.map_or(before, |first| first.at);
@@ -58,11 +58,11 @@ impl Walk<'_> {
 
     /// Corners that the force of a closed contact may reach next.
     fn kinds(&self, index: usize) -> [Option<Kind>; 3] {
-        let ContactPhase::Closed(episode) = self.phases[index] else {
+        let ContactPhase::Closed(episode) = self.run.phases[index] else {
             return [None; 3];
         };
-        let law = &self.system.contacts[index].law;
-        let rate = self.reduced.closing(index, &self.rate[0]);
+        let law = &self.run.system.contacts[index].law;
+        let rate = self.stepper.closing_rate(&self.run, index);
         let sign = rate.signum();
         let release = episode.force > 0.0 && law.has_corner_at_release();
         let indentation = law.kink(rate > 0.0, &episode.memory);
@@ -77,10 +77,10 @@ impl Walk<'_> {
 
     /// At which share of the tried step a corner is reached, if it is before `most`.
     fn corner_at(&self, index: usize, kind: Kind, step: f64, most: f64) -> Option<f64> {
-        let ContactPhase::Closed(episode) = self.phases[index] else {
+        let ContactPhase::Closed(episode) = self.run.phases[index] else {
             return None;
         };
-        let law = &self.system.contacts[index].law;
+        let law = &self.run.system.contacts[index].law;
         let curve = self.indentation_curve(index, step);
         let ends = |curve: &Cubic, at: f64| {
             let rate = curve.rise(at) / step;
@@ -95,19 +95,17 @@ impl Walk<'_> {
         Some(bisect(0.0, end, past))
     }
 
-    /// Repeats the step so that it ends at a corner, or on an event met before it; false when that one happened at the
-    /// start, and time stands still.
+    /// Repeats the step so that it ends at a corner, or on an event met before it.
     pub(super) fn step_to_corner(
         &mut self,
         corner: Corner,
         stride: &Stride,
-    ) -> Result<bool, StepError> {
+    ) -> Result<Landing, StepError> {
         let Corner { contact, kind, at } = corner;
-        let close = (CLOSENESS * self.tolerance).min(WIDEST);
+        let close = (CLOSENESS * self.run.plan.tolerance()).min(WIDEST);
         let mut length = at * stride.length;
         for _ in 0..MOST_TRIES {
-            self.set_odd(length);
-            self.try_step(0, self.clock.after(length))?;
+            self.try_length(length)?;
             if let Some(event) = self.first_event(length) {
                 let shorter = Stride { length, ..*stride };
                 return self.step_to(event, &shorter);
@@ -120,13 +118,14 @@ impl Walk<'_> {
                 break;
             }
             length = corrected;
-            self.work.repeated_steps += 1;
+            self.run.work.repeated_steps += 1;
         }
-        let tried = self.tables[0].step;
-        self.at_corner = true;
-        self.accept(0, self.clock.after(tried));
-        self.at_corner = false;
-        self.start_anew();
-        Ok(true)
+        let tried = self.stepper.length(0);
+        self.run.at_corner = true;
+        let accepted = self.accept(0, self.run.clock.after(tried));
+        self.run.at_corner = false;
+        accepted?;
+        self.stepper.restart(&self.run, false);
+        Ok(Landing::Later)
     }
 }

@@ -1,0 +1,525 @@
+//! Stepping of all degrees of freedom, building by building (theory, Eqs. N2 to N4).
+
+use std::ops::ControlFlow;
+
+use super::blow::{BlowFactor, BlowScratch};
+use super::clock::{Clock, Stride};
+use super::control::{Observed, half_cycle, next_division};
+use super::energy::EnergyAudit;
+use super::events::Cubic;
+use super::factors::StepFactors;
+use super::joints::Joints;
+use super::kernels::Advance;
+use super::links::Links;
+use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
+use super::plan::Plan;
+use super::recorder::Recorder;
+use super::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
+use super::springs::YieldingSprings;
+use crate::model::Integrator;
+use crate::motion::GroundMotion;
+use crate::simd;
+use crate::state::{ContactPhase, Episode, State};
+use crate::statics::STANDARD_GRAVITY;
+use crate::structure::StepEquations;
+use crate::system::System;
+
+/// Runs a system with the steps of the plan, whatever their error.
+pub(super) fn run_directly<E: StepEquations>(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    state: State,
+    observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Outcome {
+    let mut run = RunState::new(system, motion, plan, settings);
+    (run.time, run.phases) = (state.time, state.contacts.clone());
+    let stepper = Direct::<E>::new(&run, settings, state);
+    let mut runner = Runner { run, stepper };
+    let end = runner.run_to_end(observer);
+    runner.report_unfinished_impacts();
+    let Runner { run, stepper } = runner;
+    stepper.into_outcome(run, end)
+}
+
+/// All degrees of freedom of all buildings, and how their steps are solved.
+pub(super) struct Direct<E: StepEquations> {
+    pub(super) equations: Vec<E>,
+    /// The first serves steps off the grid, the others one division of the free-vibration step each.
+    pub(super) factors: Vec<StepFactors<E>>,
+    divisions: Vec<u32>,
+    /// Displacements, velocities, accelerations and springs; time and contacts are those of the run.
+    pub(super) state: State,
+    /// Load that the initial state leaves unbalanced; empty once it has been applied.
+    pub(super) unbalanced: Vec<f64>,
+    /// The tried step: first the load, then y, then the displacement over the step.
+    pub(super) rise: Vec<f64>,
+    /// D′ of one building, for what K′ and C′ make of it.
+    pub(super) drift: Vec<f64>,
+    pub(super) yielding: YieldingSprings,
+    pub(super) joints: Joints,
+    pub(super) links: Links,
+    /// For sudden changes of velocity, factorised when first needed.
+    pub(super) blows: Vec<Option<BlowFactor<E>>>,
+    pub(super) blow: BlowScratch,
+    pub(super) audit: EnergyAudit,
+    recorder: Recorder,
+}
+
+/// Storey drift from which a building that yields or leans has collapsed \[–\].
+const COLLAPSE_DRIFT: f64 = 0.25;
+
+impl<E: StepEquations> Direct<E> {
+    fn new(run: &RunState<'_>, settings: Settings, state: State) -> Self {
+        let (system, motion, plan) = (run.system, run.motion, run.plan);
+        let joints = Joints::of(system);
+        let links = Links::starting_from(system, &state);
+        let steps = motion.duration / plan.step;
+        let mut recorder = Recorder::new(system, motion.duration, settings.record_interval);
+        let rows = settings
+            .record_interval
+            .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
+        recorder.reserve((1.2 * rows.min(steps) + 100.0).min(1e6) as usize);
+        let buildings = system.buildings.iter();
+        Self {
+            equations: buildings.map(|building| E::new(building)).collect(),
+            factors: vec![StepFactors::blank(system, &joints)],
+            divisions: vec![0],
+            unbalanced: unbalanced_load(system, &state, &links, run.ground[0], plan.integrator),
+            rise: vec![0.0; system.len()],
+            drift: vec![0.0; system.len()],
+            joints,
+            links,
+            blows: system.buildings.iter().map(|_| None).collect(),
+            blow: BlowScratch::for_buildings(system),
+            audit: EnergyAudit::starting_from(system, &state),
+            yielding: YieldingSprings::starting_from(system, &state),
+            recorder,
+            state,
+        }
+    }
+
+    fn into_outcome(mut self, mut run: RunState<'_>, end: RunEnd) -> Outcome {
+        let energy = self.audit.balance(run.system, &self.state);
+        let contact_step = Some(run.finest_in_contact)
+            .filter(|d| *d > 0)
+            .map(|d| run.plan.step / f64::from(d));
+        let residual = run.plan.frequency_error(run.system, run.motion);
+        let accuracy = residual.map(|residual| Accuracy {
+            tolerance: run.plan.tolerance(),
+            residual,
+            doubtful_from: None,
+            sensitive_from: None,
+        });
+        (self.state.time, self.state.contacts) = (run.time, run.phases);
+        run.work.coupling_operations = run.coupling.operations;
+        Outcome {
+            impacts: run.impacts,
+            floors: std::mem::take(&mut self.recorder.floors),
+            closing: std::mem::take(&mut self.recorder.closing),
+            base_shear: std::mem::take(&mut self.recorder.base_shear),
+            acceleration_parts: std::mem::take(&mut self.recorder.parts),
+            spring_history: self.recorder.springs.take(),
+            history: self.recorder.into_history(),
+            spring_events: self.yielding.events,
+            springs: self.yielding.totals,
+            links: self.links.totals,
+            energy,
+            work: run.work,
+            free_step: Some(run.plan.step),
+            contact_step,
+            state: self.state,
+            accuracy,
+            end,
+        }
+    }
+
+    /// A row of the history, where one is due.
+    fn record(&mut self, run: &RunState<'_>, wanted: bool) {
+        self.recorder.record(
+            run.system,
+            &self.state,
+            &run.phases,
+            &self.links.forces,
+            run.ground[0],
+            wanted,
+            &mut self.audit,
+        );
+    }
+
+    fn factorize(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+        step: f64,
+    ) -> Result<(), StepError> {
+        let tangents = &self.yielding.tangents;
+        self.factors[slot]
+            .set_step(
+                run.plan.integrator,
+                step,
+                run.system,
+                &self.equations,
+                tangents,
+                &mut run.work,
+            )
+            .map_err(|(building, source)| StepError::NotPositive {
+                building: run.system.buildings[building].name.clone(),
+                time: run.time,
+                source,
+            })
+    }
+
+    /// Rate of change of the closing rate of a contact \[m/s²\].
+    fn relative_acceleration(&self, run: &RunState<'_>, contact: usize) -> f64 {
+        let faces = &run.system.contacts[contact].faces;
+        faces.closing(&self.state.acceleration)
+    }
+
+    /// dF/dt of a contact with the present accelerations \[N/s\].
+    fn force_slope(
+        &self,
+        run: &RunState<'_>,
+        contact: usize,
+        indentation: f64,
+        rate: f64,
+        episode: &Episode,
+    ) -> f64 {
+        let acceleration = self.relative_acceleration(run, contact);
+        let law = &run.system.contacts[contact].law;
+        let response = law.follow(indentation, rate, &episode.memory);
+        response.by_indentation * rate + response.by_rate * acceleration
+    }
+
+    /// Elastic buildings may lean as far as they like: their numbers are those of their model.
+    fn check_collapse(&self, run: &RunState<'_>) -> Result<(), StepError> {
+        for (building, floors) in run.system.buildings.iter().zip(&self.recorder.floors) {
+            if building.equations.springs.is_empty() {
+                continue;
+            }
+            let worst = floors
+                .iter()
+                .enumerate()
+                .max_by(|a, b| a.1.storey_drift.total_cmp(&b.1.storey_drift));
+            if let Some((storey, peaks)) = worst.filter(|(_, p)| p.storey_drift > COLLAPSE_DRIFT) {
+                return Err(StepError::Collapse {
+                    building: building.name.clone(),
+                    storey: storey + 1,
+                    drift: peaks.storey_drift,
+                    time: run.time,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// What will be out of balance at the end of the step (theory, Eq. N4): nothing, unless equilibrium is shifted.
+    fn carry_unbalanced(&mut self, run: &RunState<'_>, slot: usize) {
+        if run.plan.integrator.balances_at_ends() {
+            self.unbalanced.clear();
+            return;
+        }
+        let factors = &self.factors[slot];
+        let k = factors.coefficients;
+        for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
+            for (dof, mass) in building.range().zip(&building.equations.mass) {
+                let (v, a) = (self.state.velocity[dof], self.state.acceleration[dof]);
+                let change = self.rise[dof] - own.shift * (k.d_v * v + k.d_a * a);
+                let gained = k.a * change + k.b_v * v + k.b_a * a;
+                self.unbalanced[dof] = k.carried * self.unbalanced[dof] + k.left * mass * gained;
+            }
+        }
+    }
+
+    /// Displacements, velocities and accelerations at the end of the step, and the work done over it.
+    fn move_to_end(&mut self, run: &RunState<'_>, slot: usize) -> Result<(), StepError> {
+        let factors = &self.factors[slot];
+        let k = factors.coefficients;
+        for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
+            let (range, equations) = (building.range(), &building.equations);
+            let rises = &mut self.rise[range.clone()];
+            let advance = Advance {
+                equations,
+                k: &k,
+                shift: own.shift,
+                rise: rises,
+                displacement: &mut self.state.displacement[range.clone()],
+                velocity: &mut self.state.velocity[range.clone()],
+                acceleration: &mut self.state.acceleration[range.clone()],
+            };
+            let [driven_rise, moved] = simd::in_wide_registers(range.len(), advance);
+            if !driven_rise.is_finite() {
+                return Err(StepError::NotFinite { time: run.time });
+            }
+            self.audit.input -= 0.5 * (run.ground[0] + run.ground[1]) * driven_rise;
+            let strained = if equations.beta > 0.0 {
+                equations.stiffness.quadratic_form(rises)
+            } else {
+                0.0
+            };
+            self.audit.damped += (equations.alpha * moved + equations.beta * strained) / k.step;
+            if !equations.plain {
+                self.audit.damped += equations.dashpots.quadratic_form(rises) / k.step;
+            }
+            if !building.rest.displacement.is_empty() {
+                let sunk = simd::dot(&equations.vertical_mass, rises);
+                self.audit.input -= STANDARD_GRAVITY * sunk;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<E: StepEquations> Stepper for Direct<E> {
+    const ENDS_STEPS_AT_CORNERS: bool = false;
+
+    fn record_start(&mut self, run: &mut RunState<'_>) {
+        self.record(run, true);
+    }
+
+    fn closing(&self, run: &RunState<'_>, contact: usize) -> f64 {
+        let faces = &run.system.contacts[contact].faces;
+        faces.closing(&self.state.displacement)
+    }
+
+    fn closing_rate(&self, run: &RunState<'_>, contact: usize) -> f64 {
+        let faces = &run.system.contacts[contact].faces;
+        faces.closing(&self.state.velocity)
+    }
+
+    fn division(&self, run: &RunState<'_>) -> u32 {
+        let closed = run.phases.iter().zip(&run.contact_division);
+        closed
+            .filter(|(phase, _)| matches!(phase, ContactPhase::Closed(_)))
+            .map(|(_, d)| *d)
+            .max()
+            .unwrap_or(1)
+    }
+
+    fn prepare(&mut self, run: &mut RunState<'_>, stride: &Stride) -> Result<usize, StepError> {
+        if !stride.regular {
+            return self.factorize(run, 0, stride.length).map(|()| 0);
+        }
+        let division = self.division(run);
+        if let Some(slot) = self.divisions.iter().position(|d| *d == division) {
+            return Ok(slot);
+        }
+        self.factors
+            .push(StepFactors::blank(run.system, &self.joints));
+        self.divisions.push(division);
+        let slot = self.factors.len() - 1;
+        let factorized = self.factorize(run, slot, stride.length);
+        if factorized.is_err() {
+            self.factors.pop();
+            self.divisions.pop();
+        }
+        factorized.map(|()| slot)
+    }
+
+    fn prepare_length(&mut self, run: &mut RunState<'_>, length: f64) -> Result<(), StepError> {
+        self.factorize(run, 0, length)
+    }
+
+    fn length(&self, slot: usize) -> f64 {
+        self.factors[slot].coefficients.step
+    }
+
+    fn try_step(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+        end: Clock,
+    ) -> Result<(), StepError> {
+        self.solve_step(run, slot, end)
+    }
+
+    fn before_step(&mut self, run: &mut RunState<'_>, _: f64) {
+        self.recorder.before_step(run.system, &self.state);
+    }
+
+    fn gather(
+        &mut self,
+        run: &mut RunState<'_>,
+        closed: usize,
+        episode: &mut Episode,
+        curve: &Cubic,
+        step: f64,
+    ) {
+        let index = run.coupling.closed[closed].contact;
+        let mean = 0.5 * (episode.force + run.trials[index].force);
+        episode.impulse += step * mean;
+        let work = mean * (curve.end - curve.start);
+        episode.work += work;
+        self.audit.contact += work;
+        let acceleration = self.relative_acceleration(run, index);
+        let slope = self.force_slope(run, index, curve.start, curve.start_rise / step, episode);
+        let closed = &mut run.coupling.closed[closed];
+        (closed.start_acceleration, closed.start_slope) = (acceleration, slope);
+    }
+
+    fn advance(&mut self, run: &mut RunState<'_>, slot: usize) -> Result<(), StepError> {
+        self.gather_links(run, self.length(slot));
+        self.carry_unbalanced(run, slot);
+        self.move_to_end(run, slot)
+    }
+
+    fn arrive(&mut self, run: &mut RunState<'_>, _: usize) {
+        self.state.time = run.time;
+        self.commit_springs(run);
+    }
+
+    fn end_slope(
+        &mut self,
+        run: &RunState<'_>,
+        contact: usize,
+        trial: &ContactTrial,
+        episode: &Episode,
+        _: f64,
+    ) -> f64 {
+        self.force_slope(run, contact, trial.indentation, trial.rate, episode)
+    }
+
+    /// Finer steps where the error of this one endangers the tolerance, coarser ones where the grid allows and the error is
+    /// far below.
+    ///
+    /// The trapezoidal rule misses h² Δa/12 of a displacement in a step. Over the π/(ωh) steps of half a cycle at the
+    /// present contact stiffness, ω² = F′/m, that is an error of the force of F′ h² |Δa|/12 · π/(ωh), relative to the
+    /// greatest force of the gap.
+    fn next_division(
+        &self,
+        run: &RunState<'_>,
+        closed: usize,
+        episode: &Episode,
+        _: f64,
+        step: f64,
+    ) -> u32 {
+        let closed = &run.coupling.closed[closed];
+        let index = closed.contact;
+        let contact = &run.system.contacts[index];
+        let strongest = run.strongest[contact.gap];
+        let trial = run.trials[index];
+        let law = &contact.law;
+        let response = law.follow(trial.indentation, trial.rate, &episode.memory);
+        let stiffness = response.by_indentation;
+        let half_cycle = half_cycle(contact, stiffness);
+        let change = self.relative_acceleration(run, index) - closed.start_acceleration;
+        let observed = Observed {
+            step,
+            stiffness,
+            damping: 0.0,
+            error: stiffness * step * change.abs() / 12.0 * half_cycle / strongest,
+            order: 2,
+        };
+        let division = run.contact_division[index];
+        next_division(run.plan, contact, &observed, division, &run.clock)
+    }
+
+    fn after_step(
+        &mut self,
+        run: &mut RunState<'_>,
+        _: f64,
+        step: f64,
+        _: [f64; 2],
+        was_closed: bool,
+    ) -> Result<(), StepError> {
+        let ground = run.ground[0];
+        self.recorder
+            .after_step(run.system, &self.state, step, ground);
+        self.record(run, was_closed);
+        self.check_collapse(run)
+    }
+
+    /// Changes the accelerations of the two faces (theory, Eq. H2).
+    fn change_force(&mut self, run: &RunState<'_>, contact: usize, change: f64) {
+        for (face, sign) in run.system.contacts[contact].faces.sides() {
+            self.state.acceleration[face.dof] += sign * change / face.mass;
+        }
+    }
+
+    fn jump_velocities(
+        &mut self,
+        run: &mut RunState<'_>,
+        contact: usize,
+        restitution: f64,
+        rate: f64,
+    ) -> Jump {
+        self.strike(run, contact, restitution, rate)
+    }
+
+    fn after_event(&mut self, run: &RunState<'_>) {
+        let ground = run.ground[0];
+        self.recorder.after_jump(run.system, &self.state, ground);
+    }
+}
+
+/// p − M a − C v − K u less the forces of links; empty when the state is in equilibrium to rounding and will stay so at the ends of steps.
+fn unbalanced_load(
+    system: &System,
+    state: &State,
+    links: &Links,
+    ground: f64,
+    integrator: Integrator,
+) -> Vec<f64> {
+    let mut load = vec![0.0; system.len()];
+    let mut largest = 0.0_f64;
+    for building in &system.buildings {
+        let (range, equations) = (building.range(), &building.equations);
+        let (u, v) = (
+            &state.displacement[range.clone()],
+            &state.velocity[range.clone()],
+        );
+        let elastic: Vec<f64> = u
+            .iter()
+            .zip(v)
+            .map(|(u, v)| u + equations.beta * v)
+            .collect();
+        let mut resisted = vec![0.0; elastic.len()];
+        equations.stiffness.multiply_add(&elastic, &mut resisted);
+        equations.undamped.multiply_add(u, &mut resisted);
+        equations.dashpots.multiply_add(v, &mut resisted);
+        let springs = equations.springs.iter();
+        for (spring, memory) in springs.zip(&state.springs[building.spring_range()]) {
+            spring.push(memory.force(), &mut resisted);
+        }
+        for (k, dof) in range.enumerate() {
+            let inertia = equations.mass[k] * (state.acceleration[dof] + equations.alpha * v[k]);
+            let weight = if building.rest.displacement.is_empty() {
+                0.0
+            } else {
+                STANDARD_GRAVITY * equations.vertical_mass[k]
+            };
+            let driven = equations.driven_mass[k] * ground + weight;
+            load[dof] = -driven - inertia - resisted[k];
+            largest = largest
+                .max(driven.abs())
+                .max(inertia.abs())
+                .max(resisted[k].abs());
+        }
+    }
+    for (link, force) in system.links.iter().zip(&links.forces) {
+        link.faces.push_apart(*force, &mut load);
+        largest = largest.max(force.abs());
+    }
+    // Statics leave rounding behind.
+    let rounding = if system
+        .buildings
+        .iter()
+        .any(|building| !building.rest.displacement.is_empty())
+    {
+        1e-9
+    } else {
+        1e-15
+    };
+    if load
+        .iter()
+        .all(|missing| missing.abs() <= rounding * largest)
+    {
+        if integrator.balances_at_ends() {
+            load.clear();
+        } else {
+            load.fill(0.0);
+        }
+    }
+    load
+}

@@ -1,0 +1,249 @@
+//! Contacts that close, push and open, in modal coordinates.
+
+use super::stepper::ModalStepper;
+use crate::contact::{ForceLaw, momentum};
+use crate::state::{ContactPhase, Episode};
+use crate::stepping::coupling::Closed;
+use crate::stepping::runner::{Jump, RunState};
+
+/// Fewest and most parts of a free step after velocities have jumped: dashpots and high modes answer at once, and soon no
+/// more.
+const AFTER_JUMP: [u32; 2] = [16, 1024];
+/// Steps then in which accelerations are taken at their ends only.
+pub(super) const STRUCK_STEPS: u32 = 2;
+/// Steps per radian of the quickest mode after a blow.
+const STEPS_PER_RADIAN: f64 = 2.0;
+/// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
+pub(super) const AHEAD: f64 = 1e-3;
+/// Parts of a step in which a force sets in or ends.
+const CORNER_PARTS: u32 = 16;
+
+/// A contact force as it can be foreseen at the start of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Foreseen {
+    /// At the end of the step \[N\].
+    pub(super) end: f64,
+    /// Its slope at the start \[N/s\].
+    slope: f64,
+    /// What the parabola of the same mean and end would rise over the step if it went on as it starts \[N\].
+    rise: f64,
+}
+
+impl Foreseen {
+    /// b in F₀ + (F₁ − F₀)τ + b(τ² − τ), a parabola that starts as foreseen \[N\].
+    pub(super) fn bend(&self, start: f64, end: f64) -> f64 {
+        end - start - self.rise
+    }
+}
+
+impl ModalStepper<'_> {
+    /// A closed contact that would open and close again within the tried step.
+    pub(super) fn opens_unseen(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
+        let closed = run.coupling.closed.iter();
+        let mut unseen = closed.filter(|closed| {
+            let trial = &run.trials[closed.contact];
+            let parting = self.reduced.closing(closed.contact, &self.rate[0]) < 0.0;
+            if !parting || trial.rate <= 0.0 || closed.law.jumps_at_release() {
+                return false;
+            }
+            let curve = run.indentation_curve(self, closed.contact, step);
+            curve.turning_points().any(|at| curve.value(at) < 0.0)
+        });
+        unseen.next().map(|closed| closed.contact)
+    }
+
+    /// A closed contact whose force is off from what was foreseen by more than the greatest force so far: the mean that can be
+    /// foreseen then has nothing to do with it.
+    pub(super) fn misses_prediction(&self, run: &RunState<'_>) -> Option<usize> {
+        if !run.plan.chooses_contact_steps() {
+            return None;
+        }
+        let mut closed = run.coupling.closed.iter().map(|closed| closed.contact);
+        closed.find(|&index| {
+            let known = match run.phases[index] {
+                ContactPhase::Closed(episode) => episode.force.abs(),
+                ContactPhase::Open => 0.0,
+            };
+            let strongest = run.strongest[run.system.contacts[index].gap];
+            let missed = (run.trials[index].force - self.foreseen[index].end).abs();
+            missed > known.max(strongest)
+        })
+    }
+
+    /// A contact closing at `rate` opens at once with `restitution` times that.
+    pub(super) fn strike(
+        &mut self,
+        run: &mut RunState<'_>,
+        index: usize,
+        restitution: f64,
+        rate: f64,
+    ) -> Jump {
+        let contact = &run.system.contacts[index];
+        let impulse = momentum::impulse(restitution, contact.effective_mass(), rate);
+        let before: f64 = self.v[0].iter().map(|v| 0.5 * v * v).sum();
+        self.reduced.push_apart(index, impulse, &mut self.v[0]);
+        let division = self.division_after_jump(run, index);
+        run.contact_division[index] = run.contact_division[index].max(division);
+        self.open_steps[index] = 0;
+        let dissipated = before - self.v[0].iter().map(|v| 0.5 * v * v).sum::<f64>();
+        self.energy.contact += dissipated;
+        let watched = [&mut self.u[0][..], &mut self.rate[0][..]];
+        self.reduced.show([&self.q[0], &self.v[0]], watched);
+        Jump {
+            impulse,
+            dissipated,
+            separation_speed: -self.reduced.closing(index, &self.rate[0]),
+        }
+    }
+
+    /// Division of free steps with which the quickest modes of buildings that have struck each other are seen.
+    fn division_after_jump(&self, run: &RunState<'_>, index: usize) -> u32 {
+        let struck = run.system.contacts[index].faces.buildings();
+        let modes = struck.into_iter().flatten().flat_map(|building| {
+            let modes = self.reduced.buildings[building].modes.clone();
+            &self.reduced.stiffness[modes]
+        });
+        let quickest = modes.fold(0.0_f64, |most, k| most.max(*k)).sqrt();
+        let wanted = (STEPS_PER_RADIAN * quickest * run.plan.step).ceil() as u32;
+        let [fewest, most] = AFTER_JUMP;
+        wanted.next_power_of_two().clamp(fewest, most)
+    }
+
+    /// Loads of the tried step while nothing is known of the forces at its end: every contact force sets out as foreseen,
+    /// and bends so that it ends at nothing. Then a force at the end sets in as the square of time.
+    pub(super) fn predict_forces(&mut self, run: &mut RunState<'_>, step: f64) {
+        self.bend.fill(0.0);
+        run.coupling.clear();
+        for index in 0..run.phases.len() {
+            let ContactPhase::Closed(episode) = &run.phases[index] else {
+                continue;
+            };
+            let foreseen = self.predict(run, index, episode, step);
+            let closed = Closed {
+                contact: index,
+                law: run.system.contacts[index].law,
+                memory: episode.memory,
+                free: 0.0,
+                free_rate: 0.0,
+                rate_gain: 0.0,
+                indentation: 0.0,
+                force: 0.0,
+                start_slope: foreseen.slope,
+                turn: None,
+                start_acceleration: 0.0,
+            };
+            let bend = foreseen.bend(episode.force, 0.0);
+            self.reduced.push_apart(index, bend, &mut self.bend);
+            run.coupling.closed.push(closed);
+            self.foreseen[index] = foreseen;
+        }
+    }
+
+    /// A contact force over a step if the faces go on as they accelerate now.
+    fn predict(&self, run: &RunState<'_>, index: usize, episode: &Episode, step: f64) -> Foreseen {
+        let contact = &run.system.contacts[index];
+        let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
+        let start = closing(&self.u) - run.system.contacts[index].width;
+        let (rate, acceleration) = (closing(&self.rate), closing(&self.acceleration));
+        let driven = self.reduced.closing(index, self.peaks.driven());
+        let jerk = closing(&self.loose) - driven * (run.ground[1] - run.ground[0]) / step;
+        let respond =
+            |indentation: f64, rate: f64| contact.law.follow(indentation, rate, &episode.memory);
+        let force = |share: f64| {
+            let t = share * step;
+            let indentation = start + t * (rate + t / 2.0 * (acceleration + t / 3.0 * jerk));
+            let rate = rate + t * (acceleration + t / 2.0 * jerk);
+            respond(indentation, rate).force
+        };
+        let (before, half, end) = (episode.force, force(0.5), force(1.0));
+        let smooth = before != 0.0 && end != 0.0;
+        let mean = if smooth {
+            (before + 4.0 * half + end) / 6.0
+        } else {
+            // Forces set in with all kinds of powers of time, and end within a step.
+            let parts = f64::from(CORNER_PARTS);
+            let at = |part: u32| force(f64::from(part) / parts);
+            let inside = |first: u32| (first..CORNER_PARTS).step_by(2).map(at).sum::<f64>();
+            (before + 4.0 * inside(1) + 2.0 * inside(2) + end) / (3.0 * parts)
+        };
+        let rise = 6.0 * mean - 4.0 * before - 2.0 * end;
+        let slope = if episode.since == run.time {
+            // Laws do not know it yet.
+            rise / step
+        } else {
+            let response = respond(start, rate);
+            response.by_indentation * rate + response.by_rate * acceleration
+        };
+        Foreseen { end, slope, rise }
+    }
+
+    /// Rate of a contact force just after the present; modal accelerations stand in `scratch` \[N/s\].
+    pub(super) fn slope_from_here(&self, run: &RunState<'_>, index: usize) -> f64 {
+        let ContactPhase::Closed(episode) = run.phases[index] else {
+            return 0.0;
+        };
+        let law = &run.system.contacts[index].law;
+        if law.starts_steeply() && episode.since == run.time {
+            // No cubic follows a root of the time.
+            return 0.0;
+        }
+        let ahead = AHEAD * run.plan.step / f64::from(run.contact_division[index]);
+        let acceleration = self.relative_acceleration(index);
+        let width = run.system.contacts[index].width;
+        let rate = self.reduced.closing(index, &self.rate[0]) + acceleration * ahead;
+        let indentation = self.reduced.closing(index, &self.u[0]) - width + rate * ahead;
+        let response = law.follow(indentation, rate, &episode.memory);
+        response.by_indentation * rate + response.by_rate * acceleration
+    }
+
+    /// Relative acceleration of the faces of a contact; modal ones stand in `scratch` \[m/s²\].
+    pub(super) fn relative_acceleration(&self, index: usize) -> f64 {
+        self.reduced.closing_of_modes(index, &self.scratch)
+    }
+
+    /// How far from touching an event of a contact may be made or missed within the tolerance \[m\].
+    pub(super) fn doubt(&self, run: &RunState<'_>, index: usize) -> f64 {
+        run.plan.tolerance()
+            * run.system.contacts[index]
+                .width
+                .max(self.peaks.closing[index].value)
+    }
+
+    /// Notes a touch that is hardly one: faces that turn back before they are far in, that were hardly apart before, or
+    /// that stay together because they are too slow to bounce.
+    pub(super) fn doubt_touch(&mut self, run: &RunState<'_>, index: usize, rate: f64) {
+        let doubt = self.doubt(run, index);
+        let acceleration = self.reduced.closing(index, &self.acceleration[0]);
+        let turns = acceleration < 0.0 && rate * rate < -2.0 * acceleration * doubt;
+        let law = &run.system.contacts[index].law;
+        let rests = matches!(law, ForceLaw::Restitution { .. });
+        if turns || rests || self.clearance[index] < doubt {
+            self.doubtful_from.get_or_insert(run.time);
+        }
+    }
+
+    /// Notes faces that nearly touched, or nearly parted, in the tried step.
+    pub(super) fn doubt_turns(&mut self, run: &RunState<'_>, step: f64) {
+        for index in 0..run.phases.len() {
+            let (then, now) = (
+                self.reduced.closing(index, &self.rate[0]),
+                run.trials[index].rate,
+            );
+            if run.is_open(index) {
+                let clear = -run.trials[index].indentation;
+                self.clearance[index] = self.clearance[index].max(clear);
+            }
+            if then * now >= 0.0 {
+                continue;
+            }
+            let curve = run.indentation_curve(self, index, step);
+            let nearest = curve
+                .turning_points()
+                .map(|at| curve.value(at).abs())
+                .fold(f64::INFINITY, f64::min);
+            if nearest < self.doubt(run, index) {
+                self.doubtful_from.get_or_insert(run.time);
+            }
+        }
+    }
+}

@@ -1,0 +1,752 @@
+//! Stepping in modal coordinates.
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use super::damped::Rules;
+use super::estimate::{Estimate, Reached};
+use super::forces::ForceEquations;
+use super::free_steps::Flight;
+use super::peaks::{Peaks, Taken, Watched};
+use super::predicted_force::{AHEAD, Foreseen, STRUCK_STEPS};
+use super::reduced::{Reduced, StepEnergy, Table};
+use crate::history::{Energy, Work};
+use crate::motion::GroundMotion;
+use crate::simd;
+use crate::state::{ContactPhase, Episode, State};
+use crate::stepping::acceleration_parts::AccelerationParts;
+use crate::stepping::clock::{Clock, Stride};
+use crate::stepping::control::{Observed, next_division};
+use crate::stepping::energy::Imbalance;
+use crate::stepping::events::Cubic;
+use crate::stepping::outcome::{Outcome, Progress, RunEnd, Settings, StepError};
+use crate::stepping::plan::Plan;
+use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
+use crate::system::System;
+
+/// Most rows of a history in a step of free flight.
+const MOST_ROWS: f64 = 64.0;
+/// Modal coordinates of all buildings, and how their steps are taken.
+pub(super) struct ModalStepper<'a> {
+    pub(super) reduced: &'a Reduced,
+    /// The first serves steps off the grid, the others one division of the free-flight step each.
+    pub(super) tables: Vec<Table>,
+    divisions: Vec<u32>,
+    /// Division of free flight, so that histories have their rows.
+    pub(super) least_division: u32,
+    /// How many times as many steps that are as the tolerance asks for.
+    pub(super) rows_per_step: usize,
+    pub(super) flight: Flight,
+    rules: Rules,
+    /// Modal displacement, velocity and load now, and at the end of the tried step.
+    pub(super) q: [Vec<f64>; 2],
+    pub(super) v: [Vec<f64>; 2],
+    pub(super) p: [Vec<f64>; 2],
+    /// Bend of the modal load over the tried step: contact forces are parabolas.
+    pub(super) bend: Vec<f64>,
+    /// ∫q of the accepted step, then whatever else needs a list of modes.
+    pub(super) scratch: Vec<f64>,
+    /// ∫τq of the accepted step, where a contact is closed.
+    moment: Vec<f64>,
+    /// What is watched now, and at the end of the tried step; its accelerations and what their rates are but for the
+    /// loads', now and a step ago.
+    pub(super) u: [Vec<f64>; 2],
+    pub(super) rate: [Vec<f64>; 2],
+    pub(super) acceleration: [Vec<f64>; 2],
+    pub(super) loose: [Vec<f64>; 2],
+    pub(super) jerk: Vec<f64>,
+    /// Steps that a contact has been open, while its division still counts.
+    pub(super) open_steps: Vec<u32>,
+    pub(super) equations: ForceEquations,
+    /// Forces of closed contacts over the tried step as they could be foreseen.
+    pub(super) foreseen: Vec<Foreseen>,
+    pub(super) energy: Audit,
+    pub(super) peaks: Peaks,
+    pub(super) reached: Reached,
+    /// Whether errors are looked at after this step.
+    wants_look: bool,
+    /// Forces of storeys where errors are looked at \[N, N·m\].
+    pub(super) looked_at: Vec<f64>,
+    /// Steps left in which accelerations may still follow a jump of velocities, unlike a cubic.
+    pub(super) struck: u32,
+    /// How far every open contact has opened since it was closed; infinite before it ever was \[m\].
+    pub(super) clearance: Vec<f64>,
+    /// First instant at which a contact was made or missed by less than the tolerance \[s\].
+    pub(super) doubtful_from: Option<f64>,
+}
+
+/// Share of the tolerance below which shapes are not what is to be mended.
+const LEAST_SHARE: f64 = 0.3;
+
+/// How much finer a run is than planned, and the work done before it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Refinement {
+    /// Division of free steps.
+    pub(super) division: u32,
+    pub(super) work: Work,
+}
+
+/// What a run says of its own accuracy.
+pub(super) struct Verdict {
+    pub(super) estimate: Estimate,
+    /// Modes of every building that miss too much.
+    pub(super) lacking: Vec<Vec<usize>>,
+    /// First instant at which a contact was made or missed by less than the tolerance \[s\].
+    pub(super) doubtful_from: Option<f64>,
+}
+
+/// Into how many parts free steps are divided for rows of a history.
+fn rows_per_step(plan: &Plan, settings: Settings) -> u32 {
+    settings.record_interval.map_or(1, |interval| {
+        if interval == 0.0 {
+            return 1;
+        }
+        let rows = (plan.step / interval * (1.0 - 1e-9)).clamp(1.0, MOST_ROWS);
+        (rows.ceil() as u32).next_power_of_two()
+    })
+}
+
+/// Sums that must balance; every one is exact for loads that are parabolas over a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Audit {
+    pub(super) input: f64,
+    pub(super) damped: f64,
+    pub(super) contact: f64,
+    imbalance: Imbalance,
+}
+
+impl Audit {
+    /// The balance with these energies of the buildings.
+    pub(super) fn balance(&mut self, kinetic: f64, strain: f64) -> Energy {
+        self.imbalance.watch(Energy {
+            input: self.input,
+            kinetic,
+            strain,
+            damped: self.damped,
+            links: 0.0,
+            hysteretic: 0.0,
+            contact: self.contact,
+            worst_imbalance: 0.0,
+        })
+    }
+}
+
+/// A run in modal coordinates, about to begin.
+pub(super) fn runner<'a>(
+    system: &'a System,
+    motion: &'a GroundMotion,
+    plan: &'a Plan,
+    settings: Settings,
+    reduced: &'a Reduced,
+    refinement: Refinement,
+) -> Runner<'a, ModalStepper<'a>> {
+    let mut run = RunState::new(system, motion, plan, settings);
+    run.work = refinement.work;
+    let stepper = ModalStepper::new(&run, settings, reduced, refinement.division);
+    Runner { run, stepper }
+}
+
+/// Runs to the end of the motion; with how far peaks may be off.
+pub(super) fn finish(
+    mut runner: Runner<'_, ModalStepper<'_>>,
+    observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> (Outcome, Verdict) {
+    let end = runner.run_to_end(observer);
+    let verdict = runner.stepper.verdict(&runner.run);
+    runner.report_unfinished_impacts();
+    let Runner { run, stepper } = runner;
+    (stepper.into_outcome(run, end), verdict)
+}
+
+impl<'a> ModalStepper<'a> {
+    fn new(run: &RunState<'a>, settings: Settings, reduced: &'a Reduced, division: u32) -> Self {
+        let (system, motion, plan) = (run.system, run.motion, run.plan);
+        let ground = run.ground[0];
+        let (modes, watched) = (reduced.modes(), reduced.watched());
+        let pair = |n: usize| [vec![0.0; n], vec![0.0; n]];
+        let mut p = pair(modes);
+        for (load, participation) in p[0].iter_mut().zip(&reduced.participation) {
+            *load = -participation * ground;
+        }
+        let contacts = system.contacts.len();
+        let rows = settings
+            .record_interval
+            .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
+        let mut peaks = Peaks::new(system, reduced, settings.record_interval);
+        peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
+        let mut acceleration = pair(watched);
+        // At rest on moving ground buildings stay behind.
+        for (acceleration, share) in acceleration[0].iter_mut().zip(peaks.driven()) {
+            *acceleration = -share * ground;
+        }
+        Self {
+            flight: Flight::new(reduced),
+            tables: vec![Table::default()],
+            divisions: vec![0],
+            least_division: division.max(rows_per_step(plan, settings)),
+            rows_per_step: (rows_per_step(plan, settings) / division).max(1) as usize,
+            rules: Rules::new(),
+            q: pair(modes),
+            v: pair(modes),
+            p,
+            bend: vec![0.0; modes],
+            scratch: vec![0.0; modes],
+            moment: vec![0.0; modes],
+            u: pair(watched),
+            rate: pair(watched),
+            acceleration,
+            loose: pair(watched),
+            jerk: vec![0.0; modes],
+            open_steps: vec![0; contacts],
+            equations: ForceEquations::default(),
+            foreseen: vec![Foreseen::default(); contacts],
+            energy: Audit::default(),
+            peaks,
+            reached: Reached::new(reduced),
+            wants_look: false,
+            looked_at: vec![0.0; reduced.forces()],
+            clearance: vec![f64::INFINITY; contacts],
+            doubtful_from: None,
+            struck: 0,
+            reduced,
+        }
+    }
+
+    fn verdict(&self, run: &RunState<'_>) -> Verdict {
+        let tolerance = run.plan.tolerance();
+        let struck = !run.impacts.is_empty();
+        let (reduced, system) = (self.reduced, run.system);
+        let estimate = Estimate::of(reduced, system, &self.reached, &self.peaks, struck);
+        let lacking = if estimate.both() > tolerance && estimate.shapes > LEAST_SHARE * tolerance {
+            self.reached
+                .lacking(reduced, system, &self.peaks, tolerance)
+        } else {
+            Vec::new()
+        };
+        Verdict {
+            estimate,
+            lacking,
+            doubtful_from: self.doubtful_from,
+        }
+    }
+
+    fn into_outcome(mut self, mut run: RunState<'_>, end: RunEnd) -> Outcome {
+        run.work.coupling_operations = run.coupling.operations + self.equations.operations;
+        let energy = self.balance();
+        let step_of = |division: u32| run.plan.step / f64::from(division);
+        let contact_step = Some(run.finest_in_contact)
+            .filter(|d| *d > 0)
+            .map(|d| step_of(d.max(self.least_division)));
+        let state = self.full_state(&run);
+        Outcome {
+            impacts: run.impacts,
+            acceleration_parts: AccelerationParts::default(),
+            floors: std::mem::take(&mut self.peaks.floors),
+            closing: std::mem::take(&mut self.peaks.closing),
+            base_shear: std::mem::take(&mut self.peaks.base_shear),
+            spring_history: None,
+            history: self.peaks.into_history(),
+            spring_events: Vec::new(),
+            springs: Vec::new(),
+            links: Vec::new(),
+            energy,
+            work: run.work,
+            free_step: Some(step_of(self.least_division)),
+            contact_step,
+            state,
+            accuracy: None,
+            end,
+        }
+    }
+
+    /// Displacements, velocities and accelerations of everything.
+    fn full_state(&mut self, run: &RunState<'_>) -> State {
+        let mut state = State::at_rest(run.system, 0.0);
+        state.time = run.time;
+        self.reduced.expand(&self.q[0], &mut state.displacement);
+        self.reduced.expand(&self.v[0], &mut state.velocity);
+        self.accelerations();
+        self.reduced.expand(&self.scratch, &mut state.acceleration);
+        state.contacts.clone_from(&run.phases);
+        state
+    }
+
+    /// Modal accelerations now, in `scratch`.
+    pub(super) fn accelerations(&mut self) {
+        let loads = self.p[0].iter().zip(&self.q[0]).zip(&self.v[0]);
+        let factors = self.reduced.damping.iter().zip(&self.reduced.stiffness);
+        for ((a, ((p, q), v)), (d, k)) in self.scratch.iter_mut().zip(loads).zip(factors) {
+            *a = p - d * v - k * q;
+        }
+    }
+
+    pub(super) fn table_for(&mut self, run: &mut RunState<'_>, stride: &Stride) -> usize {
+        if !stride.regular {
+            self.set_odd(run, stride.length);
+            return 0;
+        }
+        let division = self.division(run);
+        if let Some(slot) = self.divisions.iter().position(|d| *d == division) {
+            return slot;
+        }
+        let mut table = Table::default();
+        table.set(self.reduced, stride.length, Some(&self.rules));
+        run.work.factorizations += 1;
+        self.tables.push(table);
+        self.divisions.push(division);
+        self.tables.len() - 1
+    }
+
+    /// Sets the odd table to a length.
+    fn set_odd(&mut self, run: &mut RunState<'_>, length: f64) {
+        // Seldom enough that what damping takes may come from the balance of every mode.
+        self.tables[0].set(self.reduced, length, None);
+        run.work.factorizations += 1;
+    }
+
+    /// q₁ and q̇₁ under the loads that stand in `p` and `bend`.
+    pub(super) fn advance_modes(&mut self, slot: usize) {
+        let ([q0, q1], [v0, v1]) = (&mut self.q, &mut self.v);
+        let [p0, p1] = &self.p;
+        let of = [&q0[..], v0, p0, p1, &self.bend];
+        self.tables[slot].advance(self.reduced.arch(), of, [q1, v1]);
+    }
+
+    /// Watched displacements, indentations and rates at the end of the tried step.
+    fn follow(&mut self, run: &mut RunState<'_>) {
+        let watched = [&mut self.u[1][..], &mut self.rate[1][..]];
+        self.reduced.show([&self.q[1], &self.v[1]], watched);
+        self.read_trials(run);
+    }
+
+    /// Sets the trials to the end of the tried step.
+    pub(super) fn read_trials(&self, run: &mut RunState<'_>) {
+        for (index, trial) in run.trials.iter_mut().enumerate() {
+            let width = run.system.contacts[index].width;
+            trial.indentation = self.reduced.closing(index, &self.u[1]) - width;
+            trial.rate = self.reduced.closing(index, &self.rate[1]);
+            trial.force = 0.0;
+        }
+    }
+
+    /// Rates of modal accelerations now, but for those of the loads, in `jerk`; the accelerations stand in `scratch`.
+    fn jerks(&mut self) {
+        let modes = self.scratch.iter().zip(&self.v[0]);
+        let factors = self.reduced.damping.iter().zip(&self.reduced.stiffness);
+        for (jerk, ((a, v), (d, k))) in self.jerk.iter_mut().zip(modes.zip(factors)) {
+            *jerk = -d * a - k * v;
+        }
+    }
+
+    /// Takes in the peaks of a step that was taken, whose modal accelerations at the end stand in `scratch` and whose
+    /// jerks, but for the ground's, in `jerk`.
+    fn look(&mut self, run: &RunState<'_>, ground: [f64; 2], start: f64, step: f64) {
+        let reduced = self.reduced;
+        self.acceleration.swap(0, 1);
+        self.loose.swap(0, 1);
+        self.show_accelerations();
+        let at = |time: usize| Watched {
+            u: &self.u[time],
+            rate: &self.rate[time],
+            acceleration: &self.acceleration[time],
+            loose: &self.loose[time],
+        };
+        let taken = Taken {
+            then: at(1),
+            now: at(0),
+            ground,
+            start,
+            step,
+            struck: self.struck > 0,
+        };
+        self.peaks.after_step(run.system, reduced, &taken);
+        self.struck = self.struck.saturating_sub(1);
+        let modal = [&self.q[0][..], &self.v[0], &self.scratch];
+        self.peaks
+            .follow_forces(run.system, reduced, modal, run.time);
+    }
+
+    fn show_accelerations(&mut self) {
+        self.reduced.show(
+            [&self.scratch, &self.jerk],
+            [&mut self.acceleration[0], &mut self.loose[0]],
+        );
+    }
+
+    /// Accelerations and their rates after a sudden change of loads or of their rates.
+    fn start_anew(&mut self, run: &RunState<'_>) {
+        self.accelerations();
+        self.jerks();
+        for index in 0..run.phases.len() {
+            let slope = self.slope_from_here(run, index);
+            if slope != 0.0 {
+                self.reduced.push_apart(index, slope, &mut self.jerk);
+            }
+        }
+        self.show_accelerations();
+    }
+
+    /// What the ground put in and damping took; with closed contacts their work as well.
+    fn step_energy(&mut self, run: &mut RunState<'_>, slot: usize, was_closed: bool) -> StepEnergy {
+        let table = &self.tables[slot];
+        let [p0, p1] = &self.p;
+        let of = [&self.q[0][..], &self.v[0], p0, p1, &self.bend];
+        let arch = self.reduced.arch();
+        table.area(arch, of, &mut self.scratch);
+        if was_closed {
+            table.moment(arch, of, &mut self.moment);
+        }
+        let end = [&self.q[1][..], &self.v[1]];
+        let damped = table.damped(self.reduced, of, end, [&self.scratch, &self.moment]);
+        let step = table.step;
+        let slope = (run.ground[1] - run.ground[0]) / step;
+        // ∫ a_g q̇ dt by parts.
+        let driven = |list: &[f64]| simd::dot(&self.reduced.participation, list);
+        let [before, after] = [0, 1].map(|time| run.ground[time] * driven(&self.q[time]));
+        let input = slope * driven(&self.scratch) - (after - before);
+        if was_closed {
+            self.contact_work(run, step);
+        }
+        StepEnergy { damped, input }
+    }
+
+    /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch` and ∫τq in `moment`.
+    fn contact_work(&mut self, run: &mut RunState<'_>, step: f64) {
+        for closed in &run.coupling.closed {
+            let index = closed.contact;
+            let ContactPhase::Closed(episode) = &mut run.phases[index] else {
+                continue;
+            };
+            let width = run.system.contacts[index].width;
+            let closing = self.reduced.closing_of_modes(index, &self.scratch);
+            let leaning = 2.0 * self.reduced.closing_of_modes(index, &self.moment) - closing;
+            let before = self.reduced.closing(index, &self.u[0]) - width;
+            let (first, last) = (episode.force, run.trials[index].force);
+            let bent = self.foreseen[index].bend(first, last);
+            let work = last * run.trials[index].indentation
+                - first * before
+                - (last - first) * (closing / step - width)
+                - bent * leaning / step;
+            episode.work += work;
+            self.energy.contact += work;
+        }
+    }
+
+    /// The balance now.
+    pub(super) fn balance(&mut self) -> Energy {
+        let kinetic = 0.5 * simd::dot(&self.v[0], &self.v[0]);
+        let strain = 0.5 * simd::weighted_square(&self.reduced.stiffness, &self.q[0]);
+        self.energy.balance(kinetic, strain)
+    }
+
+    /// Adds a row to the history where one is due.
+    fn take_row(&mut self, run: &RunState<'_>, wanted: bool, energy: &Energy) {
+        if self.peaks.is_due(run.time, wanted) {
+            let watched = Watched {
+                u: &self.u[0],
+                rate: &self.rate[0],
+                acceleration: &self.acceleration[0],
+                loose: &self.loose[0],
+            };
+            let instant = (run.time, run.ground[0]);
+            self.peaks.record(
+                run.system,
+                self.reduced,
+                instant,
+                watched,
+                &run.phases,
+                energy,
+            );
+        }
+    }
+}
+
+/// Steps of a size after an impact.
+const STEPS_AFTERWARDS: u32 = 4;
+
+impl Stepper for ModalStepper<'_> {
+    const ENDS_STEPS_AT_CORNERS: bool = true;
+
+    fn record_start(&mut self, run: &mut RunState<'_>) {
+        let energy = self.balance();
+        self.take_row(run, true, &energy);
+    }
+
+    fn take_free_steps(&mut self, run: &mut RunState<'_>) -> bool {
+        self.fly(run)
+    }
+
+    fn closing(&self, _: &RunState<'_>, contact: usize) -> f64 {
+        self.reduced.closing(contact, &self.u[0])
+    }
+
+    fn closing_rate(&self, _: &RunState<'_>, contact: usize) -> f64 {
+        self.reduced.closing(contact, &self.rate[0])
+    }
+
+    fn division(&self, run: &RunState<'_>) -> u32 {
+        let divisions = run.contact_division.iter().copied();
+        divisions.fold(self.least_division, u32::max)
+    }
+
+    fn prepare(&mut self, run: &mut RunState<'_>, stride: &Stride) -> Result<usize, StepError> {
+        Ok(self.table_for(run, stride))
+    }
+
+    fn prepare_length(&mut self, run: &mut RunState<'_>, length: f64) -> Result<(), StepError> {
+        self.set_odd(run, length);
+        Ok(())
+    }
+
+    fn length(&self, slot: usize) -> f64 {
+        self.tables[slot].step
+    }
+
+    fn try_step(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+        end: Clock,
+    ) -> Result<(), StepError> {
+        run.ground[1] = run.motion.acceleration(end.time());
+        let ground = run.ground[1];
+        for (load, participation) in self.p[1].iter_mut().zip(&self.reduced.participation) {
+            *load = -participation * ground;
+        }
+        self.predict_forces(run, self.tables[slot].step);
+        self.advance_modes(slot);
+        run.work.solves += 1;
+        self.follow(run);
+        if run
+            .trials
+            .iter()
+            .any(|trial| !trial.indentation.is_finite())
+            || self.u[1].iter().any(|u| !u.is_finite())
+        {
+            return Err(StepError::NotFinite { time: run.time });
+        }
+        self.find_contact_forces(run, slot)
+    }
+
+    fn unresolved_contact(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
+        let unseen = self.opens_unseen(run, step);
+        unseen.or_else(|| self.misses_prediction(run))
+    }
+
+    fn contact_that_opens_unseen(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
+        self.opens_unseen(run, step)
+    }
+
+    fn before_step(&mut self, run: &mut RunState<'_>, step: f64) {
+        self.doubt_turns(run, step);
+    }
+
+    fn gather(
+        &mut self,
+        run: &mut RunState<'_>,
+        closed: usize,
+        episode: &mut Episode,
+        _: &Cubic,
+        step: f64,
+    ) {
+        let index = run.coupling.closed[closed].contact;
+        let force = [episode.force, run.trials[index].force];
+        let bend = self.foreseen[index].bend(force[0], force[1]);
+        episode.impulse += step * (0.5 * (force[0] + force[1]) - bend / 6.0);
+    }
+
+    fn advance(&mut self, run: &mut RunState<'_>, slot: usize) -> Result<(), StepError> {
+        let energy = self.step_energy(run, slot, run.in_contact());
+        self.energy.input += energy.input;
+        self.energy.damped += energy.damped;
+        for pair in [
+            &mut self.q,
+            &mut self.v,
+            &mut self.p,
+            &mut self.u,
+            &mut self.rate,
+        ] {
+            let [now, end] = pair;
+            std::mem::swap(now, end);
+        }
+        Ok(())
+    }
+
+    fn arrive(&mut self, run: &mut RunState<'_>, slot: usize) {
+        self.accelerations();
+        let free = (slot != 0 && !run.in_contact()).then_some(self.tables[slot].step);
+        self.wants_look = self.reached.widen(&self.scratch, free);
+        self.jerks();
+    }
+
+    fn end_slope(
+        &mut self,
+        run: &RunState<'_>,
+        contact: usize,
+        trial: &ContactTrial,
+        episode: &Episode,
+        step: f64,
+    ) -> f64 {
+        let law = &run.system.contacts[contact].law;
+        let acceleration = self.relative_acceleration(contact);
+        let slope_at = |indentation: f64, rate: f64| {
+            let response = law.follow(indentation, rate, &episode.memory);
+            response.by_indentation * rate + response.by_rate * acceleration
+        };
+        let slope = if run.at_corner {
+            // Before the corner at which the step ends, on its own side.
+            let back = -AHEAD * step;
+            slope_at(
+                trial.indentation + trial.rate * back,
+                trial.rate + acceleration * back,
+            )
+        } else {
+            slope_at(trial.indentation, trial.rate)
+        };
+        // Still the slope at the end when the contact opens there.
+        self.reduced.push_apart(contact, slope, &mut self.jerk);
+        slope
+    }
+
+    /// Finer steps where the error of this one endangers the tolerance, coarser ones where the grid allows and the error is
+    /// far below (theory, Eq. Q6).
+    ///
+    /// Predicted motion leaves out what is of fourth order in h, and so its force at the end, by e; then the step misses
+    /// h e/24 of the impulse. Over the π/(ωh) steps of half a cycle at the present contact stiffness, that is an error of
+    /// the force of π e/24; four times as much is allowed for, since forces that set in as t^1.5 are off by more.
+    fn next_division(
+        &self,
+        run: &RunState<'_>,
+        closed: usize,
+        episode: &Episode,
+        start: f64,
+        step: f64,
+    ) -> u32 {
+        let index = run.coupling.closed[closed].contact;
+        let division = run.contact_division[index];
+        if episode.since >= start {
+            return division;
+        }
+        let (contact, trial) = (&run.system.contacts[index], &run.trials[index]);
+        let law = &contact.law;
+        let response = law.follow(trial.indentation, trial.rate, &episode.memory);
+        let missed = (trial.force - self.foreseen[index].end).abs();
+        let observed = Observed {
+            step,
+            stiffness: response.by_indentation,
+            damping: response.by_rate,
+            error: PI / 6.0 * missed / run.strongest[contact.gap],
+            order: 4,
+        };
+        if run
+            .plan
+            .is_too_coarse(division, contact, observed.stiffness)
+        {
+            run.plan.finer(division)
+        } else {
+            next_division(run.plan, contact, &observed, division, &run.clock)
+        }
+    }
+
+    /// After an impact steps grow back to those of free vibration, doubled every few.
+    fn relax_divisions(&mut self, run: &mut RunState<'_>) {
+        for index in 0..run.phases.len() {
+            let division = run.contact_division[index];
+            if division == 1 || !run.is_open(index) {
+                continue;
+            }
+            self.open_steps[index] += 1;
+            if self.open_steps[index] >= STEPS_AFTERWARDS && run.clock.is_on_grid(division / 2) {
+                self.open_steps[index] = 0;
+                run.contact_division[index] /= 2;
+            }
+        }
+    }
+
+    fn after_step(
+        &mut self,
+        run: &mut RunState<'_>,
+        start: f64,
+        step: f64,
+        ground: [f64; 2],
+        was_closed: bool,
+    ) -> Result<(), StepError> {
+        self.look(run, ground, start, step);
+        if self.wants_look {
+            let watched = Watched {
+                u: &self.u[0],
+                rate: &self.rate[0],
+                acceleration: &self.acceleration[0],
+                loose: &self.loose[0],
+            };
+            self.reached.look(
+                run.system,
+                self.reduced,
+                &self.scratch,
+                watched,
+                run.ground[0],
+                self.peaks.forces(),
+            );
+        }
+        let energy = self.balance();
+        self.take_row(run, was_closed, &energy);
+        Ok(())
+    }
+
+    fn before_touch(&mut self, run: &RunState<'_>, contact: usize, rate: f64) {
+        self.doubt_touch(run, contact, rate);
+    }
+
+    fn division_at_touch(
+        &self,
+        run: &RunState<'_>,
+        contact: usize,
+        rate: f64,
+        episode: &Episode,
+        planned: u32,
+    ) -> u32 {
+        // A slow touch may be followed by a strong push.
+        let acceleration = self.reduced.closing(contact, &self.acceleration[0]);
+        let contact = &run.system.contacts[contact];
+        let mut division = planned;
+        loop {
+            let step = run.plan.step / f64::from(division);
+            let end = rate + acceleration * step;
+            let reached = 0.5 * step * (rate + end);
+            let response = contact.law.follow(reached, end, &episode.memory);
+            if !run
+                .plan
+                .is_too_coarse(division, contact, response.by_indentation)
+            {
+                return division;
+            }
+            division = run.plan.finer(division);
+        }
+    }
+
+    fn after_release(&mut self, contact: usize) {
+        self.clearance[contact] = 0.0;
+        self.open_steps[contact] = 0;
+    }
+
+    fn change_force(&mut self, _: &RunState<'_>, contact: usize, change: f64) {
+        self.reduced.push_apart(contact, change, &mut self.p[0]);
+    }
+
+    fn jump_velocities(
+        &mut self,
+        run: &mut RunState<'_>,
+        contact: usize,
+        restitution: f64,
+        rate: f64,
+    ) -> Jump {
+        self.strike(run, contact, restitution, rate)
+    }
+
+    fn restart(&mut self, run: &RunState<'_>, velocities: bool) {
+        if velocities {
+            self.struck = STRUCK_STEPS;
+        }
+        self.start_anew(run);
+    }
+}

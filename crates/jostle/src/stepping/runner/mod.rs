@@ -1,0 +1,175 @@
+//! A run: from one accepted step to the next, however the buildings are stepped.
+
+mod contact_events;
+mod corners;
+mod episodes;
+mod run_state;
+mod stepper;
+
+use std::ops::ControlFlow;
+
+use contact_events::Landing;
+pub(super) use contact_events::{ContactTrial, TOGETHER};
+pub(super) use run_state::RunState;
+pub(super) use stepper::{Jump, Stepper};
+
+use super::clock::{Clock, Stride};
+use super::outcome::{Progress, RunEnd, StepError};
+use crate::state::ContactPhase;
+
+/// Steps between calls of the observer.
+const OBSERVED_EVERY: u64 = 256;
+/// How much of a step is tried before it is given up.
+const SHORTEST_TRIED: f64 = 1e-6;
+/// Events without progress before a run gives up.
+const MOST_EVENTS_AT_ONCE: usize = 1000;
+/// How often a step is made finer because it does not resolve what a closed contact does.
+const MOST_REFINEMENTS: usize = 12;
+
+/// A run under way.
+pub(super) struct Runner<'a, S> {
+    pub(super) run: RunState<'a>,
+    pub(super) stepper: S,
+}
+
+impl<S: Stepper> Runner<'_, S> {
+    /// To the end of the motion.
+    pub(super) fn run_to_end(
+        &mut self,
+        mut observer: impl FnMut(Progress) -> ControlFlow<()>,
+    ) -> RunEnd {
+        let duration = self.run.motion.duration;
+        self.stepper.record_start(&mut self.run);
+        let mut next_call = 0;
+        while duration - self.run.time > 1e-9 * self.run.plan.step {
+            if self.run.work.steps >= next_call {
+                next_call = self.run.work.steps + OBSERVED_EVERY;
+                let time = self.run.time;
+                if observer(Progress { time, duration }).is_break() {
+                    return RunEnd::Stopped;
+                }
+            }
+            if self.stepper.take_free_steps(&mut self.run) {
+                continue;
+            }
+            if let Err(error) = self.step() {
+                return RunEnd::Failed(error);
+            }
+        }
+        RunEnd::Completed
+    }
+
+    /// Lists the impacts that the end of the run cuts off.
+    pub(super) fn report_unfinished_impacts(&mut self) {
+        for index in 0..self.run.phases.len() {
+            if let ContactPhase::Closed(episode) = self.run.phases[index] {
+                self.run.report_impact(index, &episode, false);
+            }
+        }
+    }
+
+    /// One accepted step, ending on the grid or on the first event in between.
+    fn step(&mut self) -> Result<(), StepError> {
+        let mut refinements = 0;
+        for _ in 0..MOST_EVENTS_AT_ONCE {
+            let (slot, stride) = self.try_next_stride()?;
+            let event = self.first_event(stride.length);
+            if S::ENDS_STEPS_AT_CORNERS {
+                let before = event.map_or(1.0, |event| event.at);
+                if let Some(corner) = self.first_corner(stride.length, before) {
+                    self.run.work.repeated_steps += 1;
+                    match self.step_to_corner(corner, &stride)? {
+                        Landing::Later => return Ok(()),
+                        Landing::AtStart => continue,
+                    }
+                }
+            }
+            let Some(event) = event else {
+                let coarse = self.stepper.unresolved_contact(&self.run, stride.length);
+                if let Some(contact) = coarse.filter(|_| refinements < MOST_REFINEMENTS) {
+                    refinements += 1;
+                    let division = self.stepper.division(&self.run);
+                    self.run.contact_division[contact] = self.run.plan.finer(division);
+                    self.run.work.repeated_steps += 1;
+                    continue;
+                }
+                return self.accept(slot, stride.end);
+            };
+            self.run.work.repeated_steps += 1;
+            if event.at * stride.length > self.shortest_step(&event) {
+                match self.step_to(event, &stride)? {
+                    Landing::Later => return Ok(()),
+                    Landing::AtStart => continue,
+                }
+            }
+            self.read_contacts();
+            self.apply_event(event);
+        }
+        Err(StepError::Chattering {
+            time: self.run.time,
+        })
+    }
+
+    /// Tries the next step; where contact forces or springs that yield do not converge, half of it, and so on.
+    fn try_next_stride(&mut self) -> Result<(usize, Stride), StepError> {
+        let mut stride = self.next_stride();
+        let shortest = stride.length * SHORTEST_TRIED;
+        loop {
+            let (run, stepper) = (&mut self.run, &mut self.stepper);
+            let tried = stepper
+                .prepare(run, &stride)
+                .and_then(|slot| stepper.try_step(run, slot, stride.end).map(|()| slot));
+            match tried {
+                Err(
+                    StepError::ContactDiverged { .. }
+                    | StepError::SpringsDiverged { .. }
+                    | StepError::NotPositive { .. },
+                ) if stride.length > shortest => {
+                    self.run.work.halved_steps += 1;
+                    let length = 0.5 * stride.length;
+                    stride = Stride {
+                        length,
+                        regular: false,
+                        end: self.run.clock.after(length),
+                    };
+                }
+                tried => return tried.map(|slot| (slot, stride)),
+            }
+        }
+    }
+
+    /// The regular step from here, cut at the end of the motion.
+    fn next_stride(&self) -> Stride {
+        let stride = self.run.clock.stride(self.stepper.division(&self.run));
+        let left = self.run.motion.duration - self.run.time;
+        if stride.length > left * (1.0 + 1e-9) {
+            return Stride {
+                length: left,
+                regular: false,
+                end: self.run.clock.after(left),
+            };
+        }
+        stride
+    }
+
+    /// Moves on to the end of the tried step.
+    fn accept(&mut self, slot: usize, end: Clock) -> Result<(), StepError> {
+        let step = self.stepper.length(slot);
+        let was_closed = self.run.in_contact();
+        let start = self.run.time;
+        self.stepper.before_step(&mut self.run, step);
+        self.gather_episodes(step);
+        self.stepper.advance(&mut self.run, slot)?;
+        self.run.clock = end;
+        self.run.time = end.time();
+        let ground = self.run.ground;
+        self.run.ground[0] = ground[1];
+        self.stepper.arrive(&mut self.run, slot);
+        self.finish_episodes(step, start);
+        self.stepper.relax_divisions(&mut self.run);
+        self.run.work.steps += 1;
+        self.run.work.contact_steps += u64::from(was_closed);
+        self.stepper
+            .after_step(&mut self.run, start, step, ground, was_closed)
+    }
+}

@@ -1,0 +1,89 @@
+//! What a run knows that does not depend on how the buildings are stepped.
+
+use super::contact_events::{ContactTrial, impact_of};
+use crate::history::{Impact, Work};
+use crate::motion::GroundMotion;
+use crate::state::{ContactPhase, Episode};
+use crate::stepping::clock::Clock;
+use crate::stepping::coupling::ContactEquations;
+use crate::stepping::outcome::{Pounding, Settings};
+use crate::stepping::plan::Plan;
+use crate::system::System;
+
+/// Clock, contacts and results of a run.
+pub(in crate::stepping) struct RunState<'a> {
+    pub(in crate::stepping) system: &'a System,
+    pub(in crate::stepping) motion: &'a GroundMotion,
+    pub(in crate::stepping) plan: &'a Plan,
+    pub(in crate::stepping) pounding: bool,
+    pub(in crate::stepping) clock: Clock,
+    /// Time now \[s\].
+    pub(in crate::stepping) time: f64,
+    /// Ground acceleration now and at the end of the tried step \[m/s²\].
+    pub(in crate::stepping) ground: [f64; 2],
+    pub(in crate::stepping) phases: Vec<ContactPhase>,
+    /// Of contacts, then of links.
+    pub(in crate::stepping) trials: Vec<ContactTrial>,
+    /// Into how many parts every contact divides the free-vibration step.
+    pub(in crate::stepping) contact_division: Vec<u32>,
+    pub(in crate::stepping) finest_in_contact: u32,
+    /// Greatest force of every gap so far, measured or expected of an impact under way \[N\].
+    pub(in crate::stepping) strongest: Vec<f64>,
+    pub(in crate::stepping) coupling: ContactEquations,
+    /// Whether this step ends at a corner of a contact force.
+    pub(in crate::stepping) at_corner: bool,
+    pub(in crate::stepping) impacts: Vec<Impact>,
+    pub(in crate::stepping) work: Work,
+}
+
+impl<'a> RunState<'a> {
+    pub(in crate::stepping) fn new(
+        system: &'a System,
+        motion: &'a GroundMotion,
+        plan: &'a Plan,
+        settings: Settings,
+    ) -> Self {
+        let ground = motion.acceleration(0.0);
+        let contacts = system.contacts.len();
+        let gaps = system.contacts.iter().map(|contact| contact.gap + 1);
+        Self {
+            system,
+            motion,
+            plan,
+            pounding: settings.pounding == Pounding::Included,
+            clock: Clock::new(plan.step),
+            time: 0.0,
+            ground: [ground, ground],
+            phases: vec![ContactPhase::Open; contacts],
+            trials: vec![ContactTrial::default(); contacts + system.links.len()],
+            contact_division: vec![1; contacts],
+            finest_in_contact: 0,
+            strongest: vec![0.0; gaps.max().unwrap_or(0)],
+            coupling: ContactEquations::default(),
+            at_corner: false,
+            impacts: Vec::new(),
+            work: Work::default(),
+        }
+    }
+
+    /// Whether the tried step has a closed contact.
+    pub(in crate::stepping) fn in_contact(&self) -> bool {
+        let mut closed = self.coupling.closed.iter();
+        closed.any(|closed| closed.contact < self.phases.len())
+    }
+
+    /// Whether a contact is open.
+    pub(in crate::stepping) fn is_open(&self, index: usize) -> bool {
+        self.phases[index] == ContactPhase::Open
+    }
+
+    /// Lists an episode as an impact, if it was one.
+    pub(in crate::stepping) fn report_impact(
+        &mut self,
+        contact: usize,
+        episode: &Episode,
+        finished: bool,
+    ) {
+        self.impacts.extend(impact_of(contact, episode, finished));
+    }
+}

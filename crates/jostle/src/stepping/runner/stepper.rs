@@ -1,0 +1,173 @@
+//! What a runner asks of the way in which buildings are stepped.
+
+use super::{ContactTrial, RunState};
+use crate::state::Episode;
+use crate::stepping::clock::{Clock, Stride};
+use crate::stepping::events::Cubic;
+use crate::stepping::outcome::StepError;
+
+/// What a sudden change of velocities by a momentum law does.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::stepping) struct Jump {
+    /// \[N·s\].
+    pub(in crate::stepping) impulse: f64,
+    /// \[J\].
+    pub(in crate::stepping) dissipated: f64,
+    /// Opening rate afterwards \[m/s\].
+    pub(in crate::stepping) separation_speed: f64,
+}
+
+/// Steps the buildings of a run. Slot 0 is for steps off the grid, every other slot for one division of the
+/// free-vibration step.
+pub(in crate::stepping) trait Stepper {
+    /// Whether steps end at corners of contact forces.
+    const ENDS_STEPS_AT_CORNERS: bool;
+
+    /// Records the start of the run.
+    fn record_start(&mut self, run: &mut RunState<'_>);
+
+    /// Takes several steps at once in which nothing touches; false where there are none.
+    fn take_free_steps(&mut self, run: &mut RunState<'_>) -> bool {
+        let _ = run;
+        false
+    }
+
+    /// Closing of a contact now \[m\].
+    fn closing(&self, run: &RunState<'_>, contact: usize) -> f64;
+
+    /// Rate of closing of a contact now \[m/s\].
+    fn closing_rate(&self, run: &RunState<'_>, contact: usize) -> f64;
+
+    /// Into how many parts the free-vibration step is divided now.
+    fn division(&self, run: &RunState<'_>) -> u32;
+
+    /// Prepares a slot for a step.
+    fn prepare(&mut self, run: &mut RunState<'_>, stride: &Stride) -> Result<usize, StepError>;
+
+    /// Prepares slot 0 for a step of a length \[s\].
+    fn prepare_length(&mut self, run: &mut RunState<'_>, length: f64) -> Result<(), StepError>;
+
+    /// Length of the steps of a slot \[s\].
+    fn length(&self, slot: usize) -> f64;
+
+    /// Takes the step to `end` without accepting it, and fills the trials.
+    fn try_step(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+        end: Clock,
+    ) -> Result<(), StepError>;
+
+    /// A closed contact whose motion or force the tried step does not resolve.
+    fn unresolved_contact(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
+        let _ = (run, step);
+        None
+    }
+
+    /// A closed contact that would open and close again within the tried step.
+    fn contact_that_opens_unseen(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
+        let _ = (run, step);
+        None
+    }
+
+    /// A step is about to be accepted.
+    fn before_step(&mut self, run: &mut RunState<'_>, step: f64);
+
+    /// Adds impulse and work of a closed contact over the tried step to its episode; `closed` is its place in the list of
+    /// closed contacts.
+    fn gather(
+        &mut self,
+        run: &mut RunState<'_>,
+        closed: usize,
+        episode: &mut Episode,
+        curve: &Cubic,
+        step: f64,
+    );
+
+    /// Moves the buildings to the end of the tried step.
+    fn advance(&mut self, run: &mut RunState<'_>, slot: usize) -> Result<(), StepError>;
+
+    /// Takes over what depends on the time at the end of the step.
+    fn arrive(&mut self, run: &mut RunState<'_>, slot: usize);
+
+    /// Rate of the force of a closed contact at the end of the accepted step, before anything opens \[N/s\].
+    fn end_slope(
+        &mut self,
+        run: &RunState<'_>,
+        contact: usize,
+        trial: &ContactTrial,
+        episode: &Episode,
+        step: f64,
+    ) -> f64;
+
+    /// Division that a closed contact needs after a step that began at `start` \[s\]; the greatest force of its gap is up
+    /// to date. `closed` is its place in the list of closed contacts.
+    fn next_division(
+        &self,
+        run: &RunState<'_>,
+        closed: usize,
+        episode: &Episode,
+        start: f64,
+        step: f64,
+    ) -> u32;
+
+    /// Lets steps grow again after impacts.
+    fn relax_divisions(&mut self, run: &mut RunState<'_>) {
+        let _ = run;
+    }
+
+    /// Peaks, history and balance of the accepted step, which began at `start`.
+    fn after_step(
+        &mut self,
+        run: &mut RunState<'_>,
+        start: f64,
+        step: f64,
+        ground: [f64; 2],
+        was_closed: bool,
+    ) -> Result<(), StepError>;
+
+    /// A contact touches at a rate and is about to be closed.
+    fn before_touch(&mut self, run: &RunState<'_>, contact: usize, rate: f64) {
+        let _ = (run, contact, rate);
+    }
+
+    /// Division for a contact that closes, no coarser than the planned one.
+    fn division_at_touch(
+        &self,
+        run: &RunState<'_>,
+        contact: usize,
+        rate: f64,
+        episode: &Episode,
+        planned: u32,
+    ) -> u32 {
+        let _ = (run, contact, rate, episode);
+        planned
+    }
+
+    /// A contact has opened.
+    fn after_release(&mut self, contact: usize) {
+        let _ = contact;
+    }
+
+    /// A sudden change of a contact force \[N\].
+    fn change_force(&mut self, run: &RunState<'_>, contact: usize, change: f64);
+
+    /// A contact closing at a rate opens at once with `restitution` times that.
+    fn jump_velocities(
+        &mut self,
+        run: &mut RunState<'_>,
+        contact: usize,
+        restitution: f64,
+        rate: f64,
+    ) -> Jump;
+
+    /// Forces have changed suddenly, all of them by now; `velocities`: velocities too.
+    fn restart(&mut self, run: &RunState<'_>, velocities: bool) {
+        let _ = (run, velocities);
+    }
+
+    /// An event has been applied.
+    fn after_event(&mut self, run: &RunState<'_>) {
+        let _ = run;
+    }
+}

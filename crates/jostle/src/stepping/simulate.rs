@@ -1,0 +1,112 @@
+//! From a system, a motion and a plan to the outcome of a run.
+
+use std::ops::ControlFlow;
+
+use super::direct::run_directly;
+use super::modal;
+use super::outcome::{Outcome, Progress, Settings, StepError};
+use super::plan::Plan;
+use super::within_tolerance::within_tolerance;
+use crate::model::Solver;
+use crate::motion::GroundMotion;
+use crate::state::State;
+use crate::stiffness::DirectStiffness;
+use crate::system::System;
+use crate::transfer::ProductEquations;
+use crate::transfer::riccati::RiccatiSweep;
+
+/// Runs a system from rest through a ground motion. `observer` is called now and then and may stop the run.
+///
+/// The answer depends on nothing but the arguments, bit for bit.
+pub fn simulate(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Outcome {
+    simulate_from(
+        system,
+        motion,
+        plan,
+        settings,
+        State::at_rest(system, motion.acceleration(0.0)),
+        observer,
+    )
+}
+
+/// Runs a system from a given state at time zero. Where that state is not in equilibrium, the missing load
+/// appears within the first step. [`Solver::Modal`] starts from rest only, and refuses every other state.
+pub fn simulate_from(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    state: State,
+    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Outcome {
+    step_through(system, motion, plan, settings, state, &mut observer)
+}
+
+/// [`simulate_from`] for any observer. A trait object keeps stepping out of generic code, which every crate that runs a
+/// simulation would compile again, without inlining the functions of this one.
+fn step_through(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    state: State,
+    observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Outcome {
+    if plan.solver != Solver::Modal
+        && let Some(building) = system.buildings.iter().find(|b| b.modal_damping.is_some())
+    {
+        let reason = format!(
+            "\"{}\" has damping in all modes, which only modal stepping knows",
+            building.name
+        );
+        return Outcome::not_begun(system, StepError::Unsuited { reason });
+    }
+    match plan.solver {
+        Solver::Modal if !modal::is_rest(&state) => {
+            let reason = "modal stepping starts from rest".to_owned();
+            Outcome::not_begun(system, StepError::Unsuited { reason })
+        }
+        Solver::Modal => match modal::Reduction::of(system, plan) {
+            Ok(shapes) => modal::simulate(system, motion, plan, settings, &shapes, observer),
+            Err(error) => Outcome::not_begun(system, error),
+        },
+        Solver::Riccati => {
+            within_tolerance::<RiccatiSweep>(system, motion, plan, settings, state, observer)
+        }
+        Solver::Stiffness => {
+            within_tolerance::<DirectStiffness>(system, motion, plan, settings, state, observer)
+        }
+        Solver::Product => {
+            within_tolerance::<ProductEquations>(system, motion, plan, settings, state, observer)
+        }
+    }
+}
+
+/// Runs a system from rest with the steps of the plan, whatever their error.
+pub(super) fn simulate_once(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Outcome {
+    let rest = || State::at_rest(system, motion.acceleration(0.0));
+    match plan.solver {
+        Solver::Modal => simulate(system, motion, plan, settings, observer),
+        Solver::Riccati => {
+            run_directly::<RiccatiSweep>(system, motion, plan, settings, rest(), observer)
+        }
+        Solver::Stiffness => {
+            run_directly::<DirectStiffness>(system, motion, plan, settings, rest(), observer)
+        }
+        Solver::Product => {
+            run_directly::<ProductEquations>(system, motion, plan, settings, rest(), observer)
+        }
+    }
+}
