@@ -1,5 +1,9 @@
 //! Every key of a model file, once: the reader, the misspelling hints and the JSON Schema all use this table.
 
+use jostle::Solver;
+use jostle::contact::{LawKind, ModifiedKelvin, RestitutionIs};
+use jostle::hysteresis::HysteresisRule;
+
 use crate::quantity::Dimension;
 
 /// The table of the file in which a key stands.
@@ -143,22 +147,17 @@ pub(crate) const SPACINGS: &[&str] = &["linear", "log"];
 pub(crate) const FRAGILITY_METHODS: &[&str] = &["stripes", "cloud", "modified-cloud"];
 pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear"];
 /// Spellings of the contact laws.
-pub const LAW_NAMES: [&str; 11] = [
-    "linear",
-    "kelvin",
-    "kelvin-no-tension",
-    "modified-kelvin",
-    "hertz",
-    "hertz-damp",
-    "ye",
-    "jankowski",
-    "bilinear",
-    "restitution",
-    "rubber",
-];
+pub const LAW_NAMES: [&str; LawKind::NAMES.len()] = LawKind::NAMES;
 pub(crate) const LAWS: &[&str] = &LAW_NAMES;
-pub(crate) const LAW_VARIANTS: &[&str] = &["ye", "mahmoud-jankowski"];
-pub(crate) const SOLVERS: &[&str] = &["auto", "riccati", "stiffness", "product", "modal"];
+pub(crate) const LAW_VARIANTS: &[&str] =
+    &[ModifiedKelvin::ALL[0].name(), ModifiedKelvin::ALL[1].name()];
+pub(crate) const SOLVERS: &[&str] = &[
+    "auto",
+    Solver::ALL[0].name(),
+    Solver::ALL[1].name(),
+    Solver::ALL[2].name(),
+    Solver::ALL[3].name(),
+];
 pub(crate) const INTEGRATORS: &[&str] = &[
     "average-acceleration",
     "newmark",
@@ -166,15 +165,17 @@ pub(crate) const INTEGRATORS: &[&str] = &[
     "generalized-alpha",
 ];
 pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
-pub(crate) const RESTITUTION_IS: &[&str] = &["input", "realised"];
-pub(crate) const RULES: &[&str] = &[
-    "normal",
-    "peak-oriented",
-    "takeda",
-    "d-tri",
-    "bilinear",
-    "elastic",
-];
+pub(crate) const RESTITUTION_IS: &[&str] =
+    &[RestitutionIs::ALL[0].name(), RestitutionIs::ALL[1].name()];
+pub(crate) const RULES: &[&str] = &{
+    let mut names = [""; HysteresisRule::ALL.len()];
+    let mut rule = 0;
+    while rule < names.len() {
+        names[rule] = HysteresisRule::ALL[rule].name();
+        rule += 1;
+    }
+    names
+};
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];

@@ -416,12 +416,9 @@ fn analysis(page: &Page) -> Facts {
 
 /// Equations that advance a step, by their name in model files.
 fn equations(solver: &str) -> &str {
-    match solver {
-        "riccati" => "Riccati transfer matrices",
-        "stiffness" => "direct stiffness",
-        "product" => "product of transfer matrices",
-        "modal" => "modes, exact between the points of the record",
-        other => other,
+    match Solver::from_name(solver) {
+        Some(solver) => solver.description(),
+        None => solver,
     }
 }
 

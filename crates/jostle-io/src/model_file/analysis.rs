@@ -28,15 +28,12 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
         analysis.energy_tolerance = value.unwrap_or(analysis.energy_tolerance);
     }
     if let Some(field) = reader.get(&view, "solver") {
-        analysis.solver = match reader.choice(&field, SOLVERS, &[]) {
-            Some("riccati") => Some(Solver::Riccati),
-            Some("stiffness") => Some(Solver::Stiffness),
-            Some("product") => Some(Solver::Product),
-            Some("modal") => Some(Solver::Modal),
-            _ => None,
-        };
+        // "auto" is none of them.
+        analysis.solver = reader
+            .choice(&field, SOLVERS, &[])
+            .and_then(Solver::from_name);
     }
-    // Whoever means unusual values also means the work that they make.
+    // Unusual values that are accepted include the work that they make.
     if reader.accepted.covers("analysis.step") {
         analysis.most_work = f64::INFINITY;
     }

@@ -1,6 +1,6 @@
 //! `[[gap]]`: the space between two neighbours, or before a wall, and the law of the contact there.
 
-use jostle::contact::{BilinearShape, ModifiedKelvin, RubberBumper};
+use jostle::contact::ModifiedKelvin;
 use jostle::{Building, ContactLaw, FloorPairs, Gap, LawKind, RestitutionIs};
 
 use super::between::{MOST_CONTACTS, floors, neighbours, tolerance};
@@ -8,6 +8,8 @@ use crate::keys::{LAW_VARIANTS, LAWS, RESTITUTION_IS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
+/// Law where none is named.
+const DEFAULT_LAW: LawKind = LawKind::HertzDamp;
 /// Contact stiffness of the Hertz laws for colliding concrete floors \[N/m^1.5\].
 const CONCRETE_STIFFNESS: f64 = 2e9;
 
@@ -95,19 +97,8 @@ fn law(reader: &mut Reader<'_>, view: &View<'_>) -> ContactLaw {
     let named = reader
         .get(view, "law")
         .map(|field| reader.choice(&field, LAWS, &[]));
-    let kind = match named.flatten() {
-        Some("linear") => LawKind::Linear,
-        Some("kelvin") => LawKind::Kelvin,
-        Some("kelvin-no-tension") => LawKind::KelvinNoTension,
-        Some("modified-kelvin") => LawKind::ModifiedKelvin(ModifiedKelvin::Ye),
-        Some("hertz") => LawKind::Hertz,
-        Some("ye") => LawKind::Ye,
-        Some("jankowski") => LawKind::Jankowski,
-        Some("bilinear") => LawKind::Bilinear(BilinearShape::USUAL),
-        Some("restitution") => LawKind::Restitution,
-        Some("rubber") => LawKind::Rubber(RubberBumper::USUAL),
-        _ => LawKind::HertzDamp,
-    };
+    let known = named.flatten().and_then(LawKind::from_name);
+    let kind = known.unwrap_or(DEFAULT_LAW);
     let law_is_bad = matches!(named, Some(None));
     let kind = with_parameters(reader, view, kind, law_is_bad);
     let stiffness = stiffness(reader, view, kind, law_is_bad);
@@ -126,10 +117,9 @@ fn law(reader: &mut Reader<'_>, view: &View<'_>) -> ContactLaw {
             _ => CONCRETE_STIFFNESS,
         }),
         restitution: restitution.unwrap_or(CONCRETE_RESTITUTION),
-        restitution_is: match restitution_is {
-            Some("realised") => RestitutionIs::Realised,
-            _ => RestitutionIs::Input,
-        },
+        restitution_is: restitution_is
+            .and_then(RestitutionIs::from_name)
+            .unwrap_or_default(),
     }
 }
 
@@ -153,11 +143,10 @@ fn with_parameters(
     match &mut kind {
         LawKind::ModifiedKelvin(variant) => {
             let named = reader.get(view, "variant");
-            if named.and_then(|field| reader.choice(&field, LAW_VARIANTS, &[]))
-                == Some(ModifiedKelvin::MahmoudJankowski.name())
-            {
-                *variant = ModifiedKelvin::MahmoudJankowski;
-            }
+            let named = named.and_then(|field| reader.choice(&field, LAW_VARIANTS, &[]));
+            *variant = named
+                .and_then(ModifiedKelvin::from_name)
+                .unwrap_or(*variant);
         }
         LawKind::Bilinear(shape) => {
             let share = optional(reader, view, "yield_share", Dimension::Dimensionless);
@@ -175,7 +164,14 @@ fn with_parameters(
             let exponent = optional(reader, view, "exponent", Dimension::Dimensionless);
             bumper.exponent = exponent.unwrap_or(bumper.exponent);
         }
-        _ => {}
+        LawKind::Linear
+        | LawKind::Kelvin
+        | LawKind::KelvinNoTension
+        | LawKind::Hertz
+        | LawKind::HertzDamp
+        | LawKind::Ye
+        | LawKind::Jankowski
+        | LawKind::Restitution => {}
     }
     if !law_is_bad {
         for (key, owner) in [

@@ -49,13 +49,9 @@ fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule>
         }
         None => DEFAULT_TAKEDA_EXPONENT,
     };
-    Some(match name? {
-        "normal" => HysteresisRule::Normal,
-        "peak-oriented" => HysteresisRule::PeakOriented,
-        "takeda" => HysteresisRule::Takeda { exponent },
-        "d-tri" => HysteresisRule::DegradingTrilinear,
-        "bilinear" => HysteresisRule::Bilinear,
-        _ => HysteresisRule::Elastic,
+    Some(match HysteresisRule::from_name(name?)? {
+        HysteresisRule::Takeda { .. } => HysteresisRule::Takeda { exponent },
+        rule => rule,
     })
 }
 

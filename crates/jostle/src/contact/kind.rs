@@ -40,9 +40,18 @@ pub enum ModifiedKelvin {
 }
 
 impl ModifiedKelvin {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Ye, Self::MahmoudJankowski];
+
+    /// The variant of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|variant| variant.name() == name)
+    }
+
     /// Spelling in model files.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Ye => "ye",
             Self::MahmoudJankowski => "mahmoud-jankowski",
@@ -67,9 +76,35 @@ impl LawKind {
         Self::Rubber(RubberBumper::USUAL),
     ];
 
+    /// Spellings in model files, in the same order; variants of a law share one.
+    pub const NAMES: [&'static str; 11] = Self::names();
+
+    const fn names() -> [&'static str; 11] {
+        let mut names = [""; 11];
+        let (mut kind, mut count) = (0, 0);
+        while kind < Self::ALL.len() {
+            let variant = matches!(
+                Self::ALL[kind],
+                Self::ModifiedKelvin(ModifiedKelvin::MahmoudJankowski)
+            );
+            if !variant {
+                names[count] = Self::ALL[kind].name();
+                count += 1;
+            }
+            kind += 1;
+        }
+        names
+    }
+
+    /// The law of a name, with parameters at their defaults.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
     /// Spelling in model files.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
             Self::Kelvin => "kelvin",

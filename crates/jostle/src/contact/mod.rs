@@ -71,6 +71,26 @@ pub enum RestitutionIs {
     Realised,
 }
 
+impl RestitutionIs {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Input, Self::Realised];
+
+    /// The meaning of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|one| one.name() == name)
+    }
+
+    /// Spelling in model files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Input => "input",
+            Self::Realised => "realised",
+        }
+    }
+}
+
 impl ContactLaw {
     /// The law between two bodies of the given masses \[kg\].
     ///

@@ -31,9 +31,27 @@ pub enum HysteresisRule {
 }
 
 impl HysteresisRule {
+    /// Every rule, those with parameters at their defaults, in the order of the documentation.
+    pub const ALL: [Self; 6] = [
+        Self::Normal,
+        Self::PeakOriented,
+        Self::Takeda {
+            exponent: DEFAULT_TAKEDA_EXPONENT,
+        },
+        Self::DegradingTrilinear,
+        Self::Bilinear,
+        Self::Elastic,
+    ];
+
+    /// The rule of a name, with parameters at their defaults.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|rule| rule.name() == name)
+    }
+
     /// Name in model files.
     #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub const fn name(&self) -> &'static str {
         match self {
             Self::Elastic => "elastic",
             Self::Bilinear => "bilinear",

@@ -528,9 +528,29 @@ pub enum Solver {
 }
 
 impl Solver {
+    /// Every solver, in the order of the documentation.
+    pub const ALL: [Self; 4] = [Self::Riccati, Self::Stiffness, Self::Product, Self::Modal];
+
+    /// The solver of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|solver| solver.name() == name)
+    }
+
+    /// What it does, in a few words.
+    #[must_use]
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::Riccati => "Riccati transfer matrices",
+            Self::Stiffness => "direct stiffness",
+            Self::Product => "product of transfer matrices",
+            Self::Modal => "modes, exact between the points of the record",
+        }
+    }
+
     /// As a model file spells it.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Riccati => "riccati",
             Self::Stiffness => "stiffness",

@@ -46,7 +46,7 @@ pub(crate) const SLOWEST_IMPACT: f64 = 1e-9;
 /// Sudden changes of velocity at one instant before bodies in touch are left to push each other.
 const MOST_JUMPS: usize = 10_000;
 /// Corrections of the length of a step that is to end on an event.
-const MOST_CORRECTIONS: usize = 20;
+const MOST_CORRECTIONS: usize = 12;
 
 impl<S: Stepper> Runner<'_, S> {
     /// The first touch, or release with a jump of force, in the tried step.
