@@ -125,7 +125,7 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             .collect();
         let heights: Vec<String> = contacts
             .iter()
-            .map(|contact| height(contact.height, contact.faces.floors(), &gap.between))
+            .map(|contact| height(contact.height, contact.ports.floors(), &gap.between))
             .collect();
         let [left, right] = names(system, gap.between);
         writeln!(text, "{}", styled(BOLD, &format!("{left} ↔ {right}")))?;
@@ -154,7 +154,7 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             gap.law.free_restitution()
         )?;
         if let Some(contact) = contacts.last() {
-            let [left, right] = contact.faces.masses().map(|mass| {
+            let [left, right] = contact.ports.masses().map(|mass| {
                 if mass.is_finite() {
                     format!("{:.1} t", mass * 1e-3)
                 } else {
@@ -171,7 +171,7 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
     for (index, link) in model.links.iter().enumerate() {
         let own = system.links.iter().filter(|element| element.link == index);
         let heights: Vec<String> = own
-            .map(|element| height(element.height, element.faces.floors(), &link.between))
+            .map(|element| height(element.height, element.ports.floors(), &link.between))
             .collect();
         let [left, right] = names(system, link.between);
         writeln!(text, "{}", styled(BOLD, &format!("{left} — {right}")))?;
@@ -218,8 +218,12 @@ fn describe_building(
     kind: &str,
 ) -> std::fmt::Result {
     let equations = &building.equations;
-    let skeleton = &building.idealisation.skeleton;
-    let lumps = skeleton.nodes.iter().filter(|node| node.mass > 0.0).count();
+    let stick_model = &building.discretization.stick_model;
+    let lumps = stick_model
+        .nodes
+        .iter()
+        .filter(|node| node.mass > 0.0)
+        .count();
     writeln!(text, "{}  {kind}", styled(BOLD, &building.name))?;
     writeln!(
         text,

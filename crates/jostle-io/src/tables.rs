@@ -226,7 +226,7 @@ pub fn write_hinges_parquet(
     let mut rows: Vec<Row<'_>> = Vec::new();
     for building in &system.buildings {
         for spring in springs_of(building, outcome) {
-            let places = &building.idealisation.spring_places;
+            let places = &building.discretization.spring_places;
             rows.push((&building.name, places.get(spring.index).copied(), spring));
         }
     }

@@ -35,7 +35,7 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             .filter(|contact| contact.gap == index);
         let contacts = contacts.map(|contact| {
             json!({
-                "floors": contact.faces.floors(),
+                "floors": contact.ports.floors(),
                 "height_m": contact.height,
                 "width_m": contact.width,
             })
@@ -53,7 +53,7 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let own = system.links.iter().filter(|element| element.link == index);
         let own = own
-            .map(|element| json!({ "floors": element.faces.floors(), "height_m": element.height }));
+            .map(|element| json!({ "floors": element.ports.floors(), "height_m": element.height }));
         json!({
             "between": names(model, link.between),
             "stiffness_n_m": link.stiffness,

@@ -175,7 +175,7 @@ impl Model {
         let contacts = self.system.contacts.iter();
         contacts
             .map(|contact| {
-                let [left, right] = contact.faces.0.map(|face| face.map(|f| f.dof));
+                let [left, right] = contact.ports.0.map(|face| face.map(|f| f.dof));
                 (contact.gap, left, right, contact.width)
             })
             .collect()
@@ -186,7 +186,7 @@ impl Model {
         let links = self.system.links.iter();
         links
             .map(|link| {
-                let [left, right] = link.faces.0.map(|face| face.map(|f| f.dof));
+                let [left, right] = link.ports.0.map(|face| face.map(|f| f.dof));
                 (left, right, link.stiffness, link.damping)
             })
             .collect()

@@ -3,7 +3,7 @@
 use jostle::hysteresis::{Backbone, Hysteresis, Side};
 use jostle::model::{Building, Hinges, Model};
 use jostle::results::summary::{HingeSummary, SpringSummary};
-use jostle::structure::{BaseMotion, Idealisation, MemberEnd, SpringPlace};
+use jostle::structure::{BaseMotion, Discretization, MemberEnd, SpringPlace};
 use maud::{Markup, html};
 
 use crate::{Page, format};
@@ -34,7 +34,7 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
         if !building.may_yield() {
             continue;
         }
-        for at in Idealisation::of(building).spring_places {
+        for at in Discretization::of(building).spring_places {
             if let Some(hysteresis) = hysteresis_of(building, at) {
                 places.push(Place {
                     building: index,

@@ -13,7 +13,7 @@ use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::pushover::{
     LoadPattern, PushDirection, PushSettings, PushedBuilding, Pushover, pushover,
 };
-use jostle::structure::Idealisation;
+use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
 use jostle::{
     Axial, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section, Structure,
@@ -61,7 +61,7 @@ fn frame(name: &str) -> BuildingSystem {
             beams: vec![vec![hinge; 2]; 2],
         })),
     };
-    let mut system = BuildingSystem::new(name, Idealisation::of(&building));
+    let mut system = BuildingSystem::new(name, Discretization::of(&building));
     system
         .put_under_gravity(Gravity {
             preload: true,

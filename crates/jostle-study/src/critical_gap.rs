@@ -430,7 +430,7 @@ impl Search<'_> {
             .iter()
             .map(|&contact| {
                 let contact = &apart.system.contacts[contact];
-                contact.faces.buildings().map(|building| {
+                contact.ports.buildings().map(|building| {
                     building.map_or(0.0, |building| peak_at(apart, building, contact.height))
                 })
             })

@@ -1,7 +1,7 @@
 //! Examples of a textbook: A. K. Chopra, Dynamics of Structures.
 
 use jostle::eigen::modes;
-use jostle::structure::Idealisation;
+use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
 use jostle::{Analysis, Building, Damping, GroundMotion, Plan, Shear, Solver, Structure, System};
 use jostle_io::builtin_record;
@@ -193,5 +193,5 @@ fn shear_frame(case: &Value) -> BuildingSystem {
         gravity: Default::default(),
         hinges: None,
     };
-    BuildingSystem::new(&building.name, Idealisation::of(&building))
+    BuildingSystem::new(&building.name, Discretization::of(&building))
 }

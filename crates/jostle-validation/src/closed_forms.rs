@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use jostle::structure::StepEquations;
-use jostle::structure::{Idealisation, Member, Node, Skeleton, Spring, Support};
+use jostle::structure::{Discretization, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::{Damping, GroundMotion, Plan, RiccatiFactor, RiccatiSweep, State, System, Wave};
 use serde_json::Value;
@@ -68,21 +68,21 @@ fn building(
     springs: Vec<Spring>,
     floors: Vec<usize>,
 ) -> BuildingSystem {
-    let skeleton = Skeleton {
+    let stick_model = StickModel {
         nodes,
         members,
         springs,
         hinges: Vec::new(),
     };
-    let idealisation = Idealisation {
+    let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
-        skeleton,
+        stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,
     };
-    BuildingSystem::new(name, idealisation)
+    BuildingSystem::new(name, discretization)
 }
 
 fn cantilever(basic: &Value) -> Vec<Row> {

@@ -164,7 +164,7 @@ fn gravity(name: &str, frame: &Value, building: &BuildingSystem) -> Vec<Row> {
 
 /// The lumped mass in the middle between the first two joints of a floor.
 fn middle_of_first_beam(building: &BuildingSystem, joints: &[usize]) -> usize {
-    let nodes = &building.idealisation.skeleton.nodes;
+    let nodes = &building.discretization.stick_model.nodes;
     let (a, b) = (nodes[joints[0]], nodes[joints[1]]);
     let there = |node: &&jostle::structure::Node| {
         (node.y - a.y).abs() < 1e-6 && (node.x - 0.5 * (a.x + b.x)).abs() < 1e-6

@@ -39,12 +39,12 @@ fn system(stored: &Value) -> System {
             building.structure.equations.beta,
         ) = (alpha[side], beta[side]);
     }
-    let faces = [
-        left.idealisation.right_face.clone(),
-        right.idealisation.left_face.clone(),
+    let ports = [
+        left.discretization.right_face.clone(),
+        right.discretization.left_face.clone(),
     ];
     let mut system = System::of_buildings(vec![left, right]);
-    for (&a, &b) in faces[0].iter().zip(&faces[1]) {
+    for (&a, &b) in ports[0].iter().zip(&ports[1]) {
         let contact = system
             .contact_between((0, a), (1, b))
             .expect("floors have mass");

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use jostle::contact::ForceLaw;
 use jostle::interface::Contact;
 use jostle::stepping::{ContactSteps, simulate_from};
-use jostle::structure::{Hinge, Idealisation, Member, Node, Skeleton, Spring, Support};
+use jostle::structure::{Discretization, Hinge, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::{GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Solver, State, System};
 use serde_json::Value;
@@ -17,9 +17,9 @@ const HEIGHT: f64 = 3.0;
 
 /// A frame given by nodes and elements.
 pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
-    let mut skeleton = Skeleton::default();
+    let mut stick_model = StickModel::default();
     for node in list(frame, "/nodes") {
-        skeleton.nodes.push(Node {
+        stick_model.nodes.push(Node {
             x: number(node, "/x"),
             y: number(node, "/y"),
             mass: number(node, "/m"),
@@ -28,13 +28,13 @@ pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
         });
     }
     for node in list(frame, "/fixed_nodes") {
-        skeleton.nodes[index(node)].support = Support::Fixed;
+        stick_model.nodes[index(node)].support = Support::Fixed;
     }
     for element in list(frame, "/elements") {
         let ends = [index(at(element, "/i")), index(at(element, "/j"))];
         let or_rigid = |path| at(element, path).as_f64();
         if at(element, "/type") == "beam" {
-            skeleton.members.push(Member {
+            stick_model.members.push(Member {
                 ends,
                 flexural_rigidity: number(element, "/EI"),
                 axial_rigidity: or_rigid("/EA"),
@@ -42,7 +42,7 @@ pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
                 compression: number(element, "/P"),
             });
         } else {
-            skeleton.hinges.push(Hinge {
+            stick_model.hinges.push(Hinge {
                 ends,
                 rotational_stiffness: Some(number(element, "/Ktheta")),
                 hysteresis: None,
@@ -58,15 +58,15 @@ pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
         .collect();
     let left_face: Vec<usize> = joints.iter().map(|floor| floor[0]).collect();
     let right_face = joints.iter().map(|floor| floor[floor.len() - 1]).collect();
-    let idealisation = Idealisation {
+    let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
-        skeleton,
+        stick_model,
         floors: left_face.clone(),
         left_face,
         right_face,
     };
-    BuildingSystem::new(name, idealisation)
+    BuildingSystem::new(name, discretization)
 }
 
 fn index(value: &Value) -> usize {
@@ -82,7 +82,7 @@ fn single_mass(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem 
         rotary_inertia: 0.0,
         support,
     };
-    let skeleton = Skeleton {
+    let stick_model = StickModel {
         nodes: vec![
             node(0.0, 0.0, Support::Fixed),
             node(HEIGHT, mass, Support::Guided),
@@ -91,17 +91,17 @@ fn single_mass(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem 
             .map(|stiffness| Spring::elastic([0, 1], stiffness))
             .into_iter()
             .collect(),
-        ..Skeleton::default()
+        ..StickModel::default()
     };
-    let idealisation = Idealisation {
+    let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
-        skeleton,
+        stick_model,
         floors: vec![1],
         left_face: vec![1],
         right_face: vec![1],
     };
-    BuildingSystem::new(name, idealisation)
+    BuildingSystem::new(name, discretization)
 }
 
 /// A body \[kg\] that nothing holds.
@@ -129,7 +129,7 @@ pub(crate) fn pair(
         .expect("both have mass");
     system.contacts.push(Contact {
         width: gap,
-        law: law(contact.faces.masses()[0], contact.faces.masses()[1]),
+        law: law(contact.ports.masses()[0], contact.ports.masses()[1]),
         ..contact
     });
     system

@@ -4,7 +4,7 @@
 use crate::linear::NotPositive;
 use crate::model::Integrator;
 use crate::stiffness::DirectStiffness;
-use crate::structure::Skeleton;
+use crate::structure::StickModel;
 use crate::structure::{StepEquations, solve_once};
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::RiccatiSweep;
@@ -63,13 +63,17 @@ impl MethodSurvey {
     /// [`NotPositive`] when the building offers no resistance.
     pub fn of(building: &BuildingSystem) -> Result<Self, NotPositive> {
         let equations = &building.equations;
-        let skeleton: &Skeleton = &building.idealisation.skeleton;
+        let stick_model: &StickModel = &building.discretization.stick_model;
         Ok(Self {
             name: building.name.clone(),
-            lumped_masses: skeleton.nodes.iter().filter(|node| node.mass > 0.0).count(),
-            members: skeleton.members.len(),
-            hinges: skeleton.hinges.len(),
-            springs: skeleton.springs.len(),
+            lumped_masses: stick_model
+                .nodes
+                .iter()
+                .filter(|node| node.mass > 0.0)
+                .count(),
+            members: stick_model.members.len(),
+            hinges: stick_model.hinges.len(),
+            springs: stick_model.springs.len(),
             degrees_of_freedom: equations.len(),
             stiffness_entries: equations.len() + equations.stiffness.values.len(),
             couplings: RiccatiSweep::new(building).couplings(),
@@ -137,7 +141,7 @@ fn relative_error(answer: &[f64], reference: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::model::{Building, Damping, Shear, Structure};
-    use crate::structure::Idealisation;
+    use crate::structure::Discretization;
 
     #[test]
     fn a_not_a_number_is_no_agreement() {
@@ -162,7 +166,7 @@ mod tests {
             gravity: Default::default(),
             hinges: None,
         };
-        let survey = MethodSurvey::of(&BuildingSystem::new("three", Idealisation::of(&building)))
+        let survey = MethodSurvey::of(&BuildingSystem::new("three", Discretization::of(&building)))
             .expect("it stands");
         assert_eq!(
             (survey.degrees_of_freedom, survey.springs, survey.couplings),

@@ -26,7 +26,7 @@ impl StepEquations for DirectStiffness {
 
     fn new(building: &AssembledBuilding) -> Self {
         let equations = &building.equations;
-        let entries = element::stiffnesses(&building.idealisation.skeleton)
+        let entries = element::stiffnesses(&building.discretization.stick_model)
             .flat_map(|element| element.entries);
         let (mut places, mut stiffness) = (Vec::new(), Vec::new());
         for (part, a, b, value) in entries {

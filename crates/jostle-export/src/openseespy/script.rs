@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use jostle::hysteresis::Hysteresis;
 use jostle::statics::STANDARD_GRAVITY;
-use jostle::structure::{Skeleton, Support};
+use jostle::structure::{StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::{GroundMotion, ModelFault, Wave};
 
@@ -47,7 +47,7 @@ impl<'a> Script<'a> {
             .system
             .buildings
             .iter()
-            .map(|building| building.idealisation.skeleton.nodes.len());
+            .map(|building| building.discretization.stick_model.nodes.len());
         let mut block = 1000;
         while block <= largest.clone().max().unwrap_or(0) {
             block *= 10;
@@ -74,7 +74,7 @@ impl<'a> Script<'a> {
         let mut place = 0.0;
         for (index, building) in export.system.buildings.iter().enumerate() {
             script.places.push(place);
-            let nodes = &building.idealisation.skeleton.nodes;
+            let nodes = &building.discretization.stick_model.nodes;
             place += nodes
                 .iter()
                 .fold(0.0, |widest: f64, node| widest.max(node.x));
@@ -121,13 +121,13 @@ impl<'a> Script<'a> {
         index: usize,
         building: &BuildingSystem,
     ) -> Result<(), &'static str> {
-        let skeleton = &building.idealisation.skeleton;
-        let ties = Ties::of(skeleton);
+        let stick_model = &building.discretization.stick_model;
+        let ties = Ties::of(stick_model);
         self.add_heading(index, building);
         self.add_nodes(index, building, &ties);
-        self.add_members(index, skeleton);
-        self.add_hinges(index, skeleton, &ties)?;
-        self.add_storeys(index, skeleton)
+        self.add_members(index, stick_model);
+        self.add_hinges(index, stick_model, &ties)?;
+        self.add_storeys(index, stick_model)
     }
 
     fn add_heading(&mut self, index: usize, building: &BuildingSystem) {
@@ -145,7 +145,7 @@ impl<'a> Script<'a> {
             table.push_str(&title);
         }
         let floors: Vec<String> = building
-            .idealisation
+            .discretization
             .floors
             .iter()
             .map(|node| self.tag(index, *node).to_string())
@@ -153,7 +153,7 @@ impl<'a> Script<'a> {
         let gravity = self.export.model.buildings[index].gravity;
         let (equations, nodes) = (
             &building.equations,
-            building.idealisation.skeleton.nodes.len(),
+            building.discretization.stick_model.nodes.len(),
         );
         let _ = writeln!(
             self.buildings,
@@ -169,7 +169,7 @@ impl<'a> Script<'a> {
     }
 
     fn add_nodes(&mut self, index: usize, building: &BuildingSystem, ties: &Ties) {
-        for (number, node) in building.idealisation.skeleton.nodes.iter().enumerate() {
+        for (number, node) in building.discretization.stick_model.nodes.iter().enumerate() {
             let tag = self.tag(index, number);
             // What does not move needs no mass.
             let mass = if node.support == Support::Fixed {
@@ -217,16 +217,16 @@ impl<'a> Script<'a> {
         }
     }
 
-    fn add_members(&mut self, index: usize, skeleton: &Skeleton) {
-        for member in &skeleton.members {
+    fn add_members(&mut self, index: usize, stick_model: &StickModel) {
+        for member in &stick_model.members {
             let tag = self.element();
             let [mut a, mut b] = member.ends;
-            let vertical = is_vertical(skeleton, member.ends);
+            let vertical = is_vertical(stick_model, member.ends);
             let along = |node: usize| {
                 if vertical {
-                    skeleton.nodes[node].y
+                    stick_model.nodes[node].y
                 } else {
-                    skeleton.nodes[node].x
+                    stick_model.nodes[node].x
                 }
             };
             if along(a) > along(b) {
@@ -260,10 +260,10 @@ impl<'a> Script<'a> {
     fn add_hinges(
         &mut self,
         index: usize,
-        skeleton: &Skeleton,
+        stick_model: &StickModel,
         ties: &Ties,
     ) -> Result<(), &'static str> {
-        for hinge in &skeleton.hinges {
+        for hinge in &stick_model.hinges {
             let ends = hinge.ends;
             // Strain is that of the second node against the first; the rotation of a hinge counts the other way.
             let (first, last) = (self.tag(index, ends[1]), self.tag(index, ends[0]));
@@ -293,8 +293,8 @@ impl<'a> Script<'a> {
         Ok(())
     }
 
-    fn add_storeys(&mut self, index: usize, skeleton: &Skeleton) -> Result<(), &'static str> {
-        for spring in &skeleton.springs {
+    fn add_storeys(&mut self, index: usize, stick_model: &StickModel) -> Result<(), &'static str> {
+        for spring in &stick_model.springs {
             let [first, last] = spring.ends.map(|node| self.tag(index, node));
             let materials = self.spring_materials(
                 spring.stiffness,
@@ -354,7 +354,7 @@ impl<'a> Script<'a> {
         let system = self.export.system;
         for contact in &system.contacts {
             let path = format!("gap[{}]", contact.gap);
-            if contact.faces.0.contains(&None) {
+            if contact.ports.0.contains(&None) {
                 let told = faults
                     .iter()
                     .any(|fault| fault.path == format!("{path}.between"));
@@ -367,15 +367,15 @@ impl<'a> Script<'a> {
                 continue;
             }
             let face = |side: usize| {
-                let face = contact.faces.0[side]?;
-                let idealisation = &system.buildings[face.building].idealisation;
+                let face = contact.ports.0[side]?;
+                let discretization = &system.buildings[face.building].discretization;
                 let nodes = if side == 0 {
-                    &idealisation.right_face
+                    &discretization.right_face
                 } else {
-                    &idealisation.left_face
+                    &discretization.left_face
                 };
                 let level = |node: &&usize| {
-                    (idealisation.skeleton.nodes[**node].y - face.height).abs() <= SAME_LEVEL
+                    (discretization.stick_model.nodes[**node].y - face.height).abs() <= SAME_LEVEL
                 };
                 let node = nodes.iter().find(level).copied()?;
                 Some(self.tag(face.building, node))
@@ -409,7 +409,7 @@ impl<'a> Script<'a> {
                 self.remark("OpenSees wants a gap: faces that touch at rest are 1e-12 m apart.");
             }
             let tag = self.element();
-            let floors = contact.faces.floors();
+            let floors = contact.ports.floors();
             let floor = |floor: Option<usize>| {
                 floor.map_or_else(|| "None".to_owned(), |floor| floor.to_string())
             };

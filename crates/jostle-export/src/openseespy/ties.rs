@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use jostle::structure::{Skeleton, Support};
+use jostle::structure::{StickModel, Support};
 
 /// Horizontal, vertical, rotation.
 pub(super) const COMPONENTS: usize = 3;
@@ -33,17 +33,17 @@ pub(super) fn is_held_by(support: Support, component: usize) -> bool {
 }
 
 impl Ties {
-    pub(super) fn of(skeleton: &Skeleton) -> Self {
-        let mut union = Union::new(skeleton.nodes.len() * COMPONENTS);
+    pub(super) fn of(stick_model: &StickModel) -> Self {
+        let mut union = Union::new(stick_model.nodes.len() * COMPONENTS);
         let place = |node: usize, component: usize| node * COMPONENTS + component;
-        for member in &skeleton.members {
+        for member in &stick_model.members {
             if member.axial_rigidity.is_none() {
                 let [a, b] = member.ends;
-                let along = usize::from(is_vertical(skeleton, member.ends));
+                let along = usize::from(is_vertical(stick_model, member.ends));
                 union.join(place(a, along), place(b, along));
             }
         }
-        for hinge in &skeleton.hinges {
+        for hinge in &stick_model.hinges {
             let [a, b] = hinge.ends;
             for (component, stiffness) in stiffnesses(hinge).into_iter().enumerate() {
                 if stiffness.is_none() {
@@ -51,7 +51,7 @@ impl Ties {
                 }
             }
         }
-        let classes: Vec<usize> = (0..skeleton.nodes.len() * COMPONENTS)
+        let classes: Vec<usize> = (0..stick_model.nodes.len() * COMPONENTS)
             .map(|at| union.root(at))
             .collect();
         let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -61,12 +61,12 @@ impl Ties {
         let mut ties = Self {
             held: Vec::new(),
             followed: Vec::new(),
-            constrained: vec![[false; COMPONENTS]; skeleton.nodes.len()],
+            constrained: vec![[false; COMPONENTS]; stick_model.nodes.len()],
             classes,
         };
         let (mut leader, mut is_leader) = (
-            vec![None; skeleton.nodes.len()],
-            vec![false; skeleton.nodes.len()],
+            vec![None; stick_model.nodes.len()],
+            vec![false; stick_model.nodes.len()],
         );
         // Horizontal ties first: they make the floors.
         let mut of_component: Vec<&Vec<usize>> = members.values().collect();
@@ -74,7 +74,7 @@ impl Ties {
         for class in of_component {
             let component = class[0] % COMPONENTS;
             let nodes: Vec<usize> = class.iter().map(|at| at / COMPONENTS).collect();
-            let is_support = |node: &usize| is_held_by(skeleton.nodes[*node].support, component);
+            let is_support = |node: &usize| is_held_by(stick_model.nodes[*node].support, component);
             if nodes.iter().any(is_support) {
                 for node in nodes {
                     ties.constrained[node][component] = true;
@@ -120,8 +120,8 @@ impl Ties {
 }
 
 /// Whether both ends lie on one vertical.
-pub(super) fn is_vertical(skeleton: &Skeleton, ends: [usize; 2]) -> bool {
-    let [a, b] = ends.map(|end| skeleton.nodes[end]);
+pub(super) fn is_vertical(stick_model: &StickModel, ends: [usize; 2]) -> bool {
+    let [a, b] = ends.map(|end| stick_model.nodes[end]);
     (b.y - a.y).abs() > (b.x - a.x).abs()
 }
 

@@ -3,7 +3,7 @@
 use jostle::Building;
 use jostle::Structure;
 use jostle::statics::{STANDARD_GRAVITY, compressions};
-use jostle::structure::Idealisation;
+use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
 use jostle_section::formula::Member;
 use jostle_section::{BarsError, Concrete, Reinforcement, Section, Steel, StrengthLevel, Ties};
@@ -276,22 +276,22 @@ fn column_loads(building: &Building) -> Result<Vec<Vec<f64>>, String> {
     let Structure::Frame(frame) = &building.structure else {
         return Ok(Vec::new());
     };
-    let system = BuildingSystem::new(&building.name, Idealisation::of(building));
+    let system = BuildingSystem::new(&building.name, Discretization::of(building));
     let compressions = compressions(&system, STANDARD_GRAVITY).map_err(|_| {
         "cannot be taken from gravity: the building does not stand by itself".to_owned()
     })?;
-    let skeleton = &system.idealisation.skeleton;
+    let stick_model = &system.discretization.stick_model;
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
     let (mut foot, mut loads) = (0.0, Vec::new());
     for height in &frame.storey_heights {
         let (mut x, mut row) = (0.0, Vec::new());
         for line in 0..=frame.spans.len() {
-            let at_foot = skeleton
+            let at_foot = stick_model
                 .members
                 .iter()
                 .zip(&compressions)
                 .find(|(member, _)| {
-                    let [a, b] = member.ends.map(|end| skeleton.nodes[end]);
+                    let [a, b] = member.ends.map(|end| stick_model.nodes[end]);
                     near(a.x, x) && near(b.x, x) && near(a.y.min(b.y), foot)
                 });
             row.push(at_foot.map_or(0.0, |(_, force)| *force));

@@ -241,7 +241,7 @@ fn pushed_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
 fn bilinear_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
     html! {
         div.card {
-            h3 { "Bilinear idealisation" (direction(one, curve)) }
+            h3 { "Bilinear discretization" (direction(one, curve)) }
             @match Bilinear::of(&curve.points) {
                 Some(two) => {
                     dl {

@@ -21,24 +21,24 @@ pub(super) fn payload(pushed: &[PushedBuilding], charts: &[Chart]) -> String {
 
 fn building(one: &PushedBuilding, chart: &Chart) -> Value {
     let system = one.building;
-    let skeleton = &system.idealisation.skeleton;
+    let stick_model = &system.discretization.stick_model;
     let across = |value: fn(&jostle::structure::Node) -> f64| -> Vec<f64> {
-        skeleton.nodes.iter().map(value).collect()
+        stick_model.nodes.iter().map(value).collect()
     };
-    let width = skeleton
+    let width = stick_model
         .nodes
         .iter()
         .fold(0.0_f64, |most, node| most.max(node.x));
     let height = system.floors.last().map_or(1.0, |floor| floor.height);
-    let members = skeleton.members.iter().map(|member| member.ends);
-    let springs = skeleton.springs.iter().map(|spring| spring.ends);
+    let members = stick_model.members.iter().map(|member| member.ends);
+    let springs = stick_model.springs.iter().map(|spring| spring.ends);
     let [left, bottom, x, y] = chart.scales();
     json!({
         "name": system.name,
         "nodes": { "x": across(|node| node.x), "y": across(|node| node.y) },
         "lines": members.chain(springs).collect::<Vec<_>>(),
-        "slab": if skeleton.members.is_empty() { 0.12 * height } else { 0.0 },
-        "floors": system.idealisation.floors,
+        "slab": if stick_model.members.is_empty() { 0.12 * height } else { 0.0 },
+        "floors": system.discretization.floors,
         "hinges": hinges(one),
         "width": width,
         "height": height,
@@ -50,20 +50,20 @@ fn building(one: &PushedBuilding, chart: &Chart) -> Value {
 
 /// Nodes that a hinge lies between, and to which side of them it is drawn.
 fn hinges(one: &PushedBuilding) -> Vec<Value> {
-    let idealisation = &one.building.idealisation;
-    let skeleton = &idealisation.skeleton;
-    let hinges = skeleton
+    let discretization = &one.building.discretization;
+    let stick_model = &discretization.stick_model;
+    let hinges = stick_model
         .hinges
         .iter()
         .filter(|hinge| hinge.hysteresis.is_some());
-    let springs = skeleton
+    let springs = stick_model
         .springs
         .iter()
         .filter(|spring| spring.hysteresis.is_some());
     let ends = hinges
         .map(|hinge| hinge.ends)
         .chain(springs.map(|spring| spring.ends));
-    let places = idealisation
+    let places = discretization
         .spring_places
         .iter()
         .map(Some)
@@ -96,7 +96,7 @@ fn hinges(one: &PushedBuilding) -> Vec<Value> {
 
 fn curve(one: &PushedBuilding, curve: &Pushover) -> Value {
     let system = one.building;
-    let nodes = system.idealisation.skeleton.nodes.len();
+    let nodes = system.discretization.stick_model.nodes.len();
     let kept = kept(curve, (BUDGET / (2 * nodes).max(1)).max(12));
     let places = (0..nodes).flat_map(|node| {
         [

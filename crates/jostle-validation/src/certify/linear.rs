@@ -74,7 +74,7 @@ pub(super) fn components(system: &System) -> Result<Vec<Component>, String> {
     let n = system.buildings.len();
     let mut group: Vec<usize> = (0..n).collect();
     for link in &system.links {
-        if let [Some(a), Some(b)] = link.faces.buildings() {
+        if let [Some(a), Some(b)] = link.ports.buildings() {
             let (from, to) = (group[a].max(group[b]), group[a].min(group[b]));
             group
                 .iter_mut()
@@ -121,7 +121,7 @@ impl Component {
             }
         }
         for link in &system.links {
-            let sides: Vec<_> = link.faces.sides().collect();
+            let sides: Vec<_> = link.ports.sides().collect();
             if !sides
                 .iter()
                 .any(|(face, _)| buildings.contains(&face.building))

@@ -225,7 +225,7 @@ impl<'a> Run<'a> {
         let mut meetings = Vec::new();
         for contact in &system.contacts {
             let mut by_component: Vec<(usize, Vec<(usize, f64)>)> = Vec::new();
-            for (face, sign) in contact.faces.sides() {
+            for (face, sign) in contact.ports.sides() {
                 let component = of_building(face.building);
                 match by_component.iter_mut().find(|(c, _)| *c == component) {
                     Some((_, list)) => list.push((face.dof, sign)),

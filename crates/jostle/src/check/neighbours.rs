@@ -40,11 +40,11 @@ fn check_room(faults: &mut Faults, model: &Model) {
                 let (Some(building), Some(height)) = (between[side], pair[side]) else {
                     continue;
                 };
-                let face = met.entry((building, side)).or_default();
-                if let Some(problem) = crowded(height, face.iter().copied()) {
+                let port = met.entry((building, side)).or_default();
+                if let Some(problem) = crowded(height, port.iter().copied()) {
                     faults.add(format!("{path}.floors"), problem);
                 }
-                face.push(height);
+                port.push(height);
             }
         }
     }

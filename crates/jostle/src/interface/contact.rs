@@ -1,6 +1,6 @@
 //! A place where two buildings, or a building and a wall, can touch.
 
-use super::Faces;
+use super::PortPair;
 use crate::contact::ForceLaw;
 
 /// A place where two neighbouring buildings, or a building and a wall, can touch.
@@ -9,7 +9,7 @@ pub struct Contact {
     /// Index of the gap in the model.
     pub gap: usize,
     /// The two faces.
-    pub faces: Faces,
+    pub ports: PortPair,
     /// Height above the base \[m\].
     pub height: f64,
     /// Gap at rest \[m\].
@@ -22,16 +22,16 @@ impl Contact {
     /// m₁m₂/(m₁ + m₂) of the two faces \[kg\].
     #[must_use]
     pub fn effective_mass(&self) -> f64 {
-        self.faces.effective_mass()
+        self.ports.effective_mass()
     }
 
     /// A contact without width whose law is still to be given.
     #[must_use]
-    pub fn without_law(faces: Faces) -> Self {
+    pub fn without_law(ports: PortPair) -> Self {
         Self {
             gap: 0,
-            faces,
-            height: faces.height(),
+            ports,
+            height: ports.height(),
             width: 0.0,
             law: ForceLaw::Hertz {
                 stiffness: 0.0,

@@ -1,6 +1,6 @@
 //! A spring and dashpot between two buildings, or a building and a wall.
 
-use super::Faces;
+use super::PortPair;
 
 /// A linear spring and dashpot between two points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,7 +8,7 @@ pub struct LinkElement {
     /// Index of the link in the model.
     pub link: usize,
     /// Its two ends.
-    pub faces: Faces,
+    pub ports: PortPair,
     /// Height above the base \[m\].
     pub height: f64,
     /// Force per shortening, ≥ 0 \[N/m\].
@@ -24,7 +24,7 @@ impl LinkElement {
     #[must_use]
     #[inline]
     pub fn shortening(&self, displacement: &[f64]) -> f64 {
-        self.faces.closing(displacement) - self.closing_at_rest
+        self.ports.closing(displacement) - self.closing_at_rest
     }
 
     /// Compression \[N\].

@@ -9,5 +9,5 @@ mod row;
 pub use contact::Contact;
 pub use contact_points::{UnmatchedFloors, floor_and_height};
 pub use link::LinkElement;
-pub use port::{Face, Faces};
+pub use port::{Port, PortPair};
 pub(crate) use row::Row;

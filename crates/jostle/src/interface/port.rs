@@ -4,7 +4,7 @@ use crate::contact::effective_mass;
 
 /// A point of a building that can be pushed sideways.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Face {
+pub struct Port {
     /// Index of the building.
     pub building: usize,
     /// Degree of freedom in the vectors of a [`crate::State`].
@@ -19,31 +19,31 @@ pub struct Face {
 
 /// The left and the right point; `None` is a rigid wall, which moves with the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Faces(pub [Option<Face>; 2]);
+pub struct PortPair(pub [Option<Port>; 2]);
 
-impl Faces {
+impl PortPair {
     /// Left minus right of a displacement, velocity or acceleration of all degrees of freedom: positive when the
     /// points approach.
     #[must_use]
     #[inline]
     pub fn closing(&self, values: &[f64]) -> f64 {
         let [left, right] = self.0;
-        left.map_or(0.0, |face| values[face.dof]) - right.map_or(0.0, |face| values[face.dof])
+        left.map_or(0.0, |port| values[port.dof]) - right.map_or(0.0, |port| values[port.dof])
     }
 
     /// Adds a force that pushes left and right apart to a load on all degrees of freedom \[N\].
     #[inline]
     pub fn push_apart(&self, force: f64, load: &mut [f64]) {
-        for (face, sign) in self.sides() {
-            load[face.dof] += sign * force;
+        for (port, sign) in self.sides() {
+            load[port.dof] += sign * force;
         }
     }
 
     /// The points on buildings, with the direction in which the other side pushes them: −1 left, 1 right.
     #[inline]
-    pub fn sides(&self) -> impl Iterator<Item = (Face, f64)> + use<> {
+    pub fn sides(&self) -> impl Iterator<Item = (Port, f64)> + use<> {
         let [left, right] = self.0;
-        [left.map(|face| (face, -1.0)), right.map(|face| (face, 1.0))]
+        [left.map(|port| (port, -1.0)), right.map(|port| (port, 1.0))]
             .into_iter()
             .flatten()
     }
@@ -51,7 +51,7 @@ impl Faces {
     /// Left and right mass; that of a wall is infinite \[kg\].
     #[must_use]
     pub fn masses(&self) -> [f64; 2] {
-        self.0.map(|face| face.map_or(f64::INFINITY, |f| f.mass))
+        self.0.map(|port| port.map_or(f64::INFINITY, |f| f.mass))
     }
 
     /// m₁m₂/(m₁ + m₂); before a wall that of the building \[kg\].
@@ -64,19 +64,19 @@ impl Faces {
     /// Left and right building.
     #[must_use]
     pub fn buildings(&self) -> [Option<usize>; 2] {
-        self.0.map(|face| face.map(|f| f.building))
+        self.0.map(|port| port.map(|f| f.building))
     }
 
     /// Left and right floor, from 1; `None` between floors and at a wall.
     #[must_use]
     pub fn floors(&self) -> [Option<usize>; 2] {
-        self.0.map(|face| face.and_then(|f| f.floor))
+        self.0.map(|port| port.and_then(|f| f.floor))
     }
 
     /// Height above the base, midway where both sides differ \[m\].
     #[must_use]
     pub fn height(&self) -> f64 {
-        match self.0.map(|face| face.map(|f| f.height)) {
+        match self.0.map(|port| port.map(|f| f.height)) {
             [Some(left), Some(right)] => 0.5 * (left + right),
             [one, other] => one.or(other).unwrap_or(0.0),
         }

@@ -41,14 +41,14 @@ impl Row {
             for side in 0..2 {
                 if joined.between[side] == Some(building) {
                     // The right one of two neighbours is hit on its left face.
-                    let face: &mut Vec<f64> = &mut points[1 - side];
-                    face.extend(joined.pairs.iter().filter_map(|pair| pair[side]));
+                    let port: &mut Vec<f64> = &mut points[1 - side];
+                    port.extend(joined.pairs.iter().filter_map(|pair| pair[side]));
                 }
             }
         }
-        for face in &mut points {
-            face.sort_by(f64::total_cmp);
-            face.dedup_by(|a, b| (*a - *b).abs() <= SAME);
+        for port in &mut points {
+            port.sort_by(f64::total_cmp);
+            port.dedup_by(|a, b| (*a - *b).abs() <= SAME);
         }
         points
     }

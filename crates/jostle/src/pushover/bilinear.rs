@@ -2,7 +2,7 @@
 
 use super::PushPoint;
 
-/// Bilinear idealisation of a capacity curve (FEMA 356, 2000, section 3.3.3.2.4), up to its greatest base shear: the
+/// Bilinear discretization of a capacity curve (FEMA 356, 2000, section 3.3.3.2.4), up to its greatest base shear: the
 /// first line is the secant through 60 % of the yield strength, the second ends on the curve, and the area below both
 /// is that below the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]

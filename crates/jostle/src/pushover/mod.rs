@@ -242,7 +242,7 @@ impl PushedBuilding<'_> {
     /// Where a spring sits, in words.
     #[must_use]
     pub fn place(&self, spring: usize) -> String {
-        let places = &self.building.idealisation.spring_places;
+        let places = &self.building.discretization.spring_places;
         let named = places.get(spring).map(ToString::to_string);
         named.unwrap_or_else(|| format!("spring {}", spring + 1))
     }
@@ -435,7 +435,7 @@ impl Push<'_> {
 
 /// Mass of the nodes above the base \[kg\].
 fn mass_above_base(building: &BuildingSystem) -> f64 {
-    let nodes = building.idealisation.skeleton.nodes.iter();
+    let nodes = building.discretization.stick_model.nodes.iter();
     nodes
         .filter(|node| node.y > 0.0)
         .map(|node| node.mass)
@@ -444,7 +444,7 @@ fn mass_above_base(building: &BuildingSystem) -> f64 {
 
 /// Shares of the floors, from the ground up.
 fn floor_loads(building: &BuildingSystem, forces: &[f64]) -> Vec<f64> {
-    let nodes = &building.idealisation.skeleton.nodes;
+    let nodes = &building.discretization.stick_model.nodes;
     let mut loads = vec![0.0; building.floors.len()];
     let mut counted = vec![false; forces.len()];
     for (index, node) in nodes.iter().enumerate() {

@@ -44,7 +44,7 @@ impl LoadPattern {
         };
         let mut forces = vec![0.0; equations.len()];
         for (node, mass) in floor_masses(building).into_iter().enumerate() {
-            let height = building.idealisation.skeleton.nodes[node].y;
+            let height = building.discretization.stick_model.nodes[node].y;
             let loaded = mass > 0.0 && height > LEVEL_TOLERANCE;
             let Some(dof) = equations.dof((node, X)).filter(|_| loaded) else {
                 continue;
@@ -69,7 +69,7 @@ impl LoadPattern {
 
 /// Mass of every node, that of nodes between floors moved to the nodes above and below on the same line \[kg\].
 fn floor_masses(building: &BuildingSystem) -> Vec<f64> {
-    let nodes = &building.idealisation.skeleton.nodes;
+    let nodes = &building.discretization.stick_model.nodes;
     let levels: Vec<f64> = std::iter::once(0.0)
         .chain(building.floors.iter().map(|floor| floor.height))
         .collect();

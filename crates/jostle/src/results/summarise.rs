@@ -202,11 +202,11 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
 }
 
 /// What every spring of a building that can yield has borne, in the order of
-/// [`Idealisation::spring_places`](crate::structure::Idealisation::spring_places).
+/// [`Discretization::spring_places`](crate::structure::Discretization::spring_places).
 #[must_use]
 pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSummary> {
     let springs = building.equations.springs.iter().enumerate();
-    let behind = end_stiffnesses(&building.idealisation.skeleton);
+    let behind = end_stiffnesses(&building.discretization.stick_model);
     let when = |spring: usize, reached: Stage, stage: Stage| {
         let mut events = outcome.spring_events.iter();
         // A spring may yield in the step in which it cracks, and crack under weight alone.
@@ -217,7 +217,7 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
         let global = building.spring_offset + index;
         let (memory, rule) = (&outcome.state.springs[global], &spring.hysteresis);
         let totals = &outcome.springs[global];
-        let place = building.idealisation.spring_places.get(index);
+        let place = building.discretization.spring_places.get(index);
         SpringSummary {
             place: place.map_or_else(|| format!("spring {index}"), ToString::to_string),
             index,
@@ -325,7 +325,7 @@ fn link_summary(index: usize, run: &Run) -> LinkSummary {
         .map(|(element, totals)| {
             let shortening = element.shortening(&outcome.state.displacement);
             LinkFloorSummary {
-                floors: element.faces.floors(),
+                floors: element.ports.floors(),
                 height_m: element.height,
                 peak_force_n: totals.peak_force.value,
                 peak_force_at_s: totals.peak_force.at,
@@ -371,7 +371,7 @@ fn contact_summary(
         .max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
     let contact = &system.contacts[index];
     ContactSummary {
-        floors: contact.faces.floors(),
+        floors: contact.ports.floors(),
         height_m: contact.height,
         width_m: contact.width,
         closing_peak_m: outcome.closing[index].value,

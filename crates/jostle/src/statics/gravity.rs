@@ -4,7 +4,7 @@ use super::{PathError, Settled, settle};
 use crate::linear::{NotPositive, StepMatrix};
 use crate::model::Gravity;
 use crate::structure::element::{self, Y};
-use crate::structure::{AssembledBuilding, Skeleton, StepEquations};
+use crate::structure::{AssembledBuilding, StepEquations, StickModel};
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 
 /// Standard gravity \[m/s²\].
@@ -48,13 +48,13 @@ pub fn static_displacement(
 /// [`PathError`] when the building cannot carry its weight.
 pub fn compressions(building: &AssembledBuilding, gravity: f64) -> Result<Vec<f64>, PathError> {
     let displacement = settle(building, gravity)?.displacement;
-    let skeleton = &building.idealisation.skeleton;
-    let hung = hung_on_nodes(skeleton, building, &displacement, gravity);
-    Ok(skeleton
+    let stick_model = &building.discretization.stick_model;
+    let hung = hung_on_nodes(stick_model, building, &displacement, gravity);
+    Ok(stick_model
         .members
         .iter()
         .map(|member| {
-            let nodes = &skeleton.nodes;
+            let nodes = &stick_model.nodes;
             if !member.is_vertical(nodes) {
                 return 0.0;
             }
@@ -131,13 +131,13 @@ pub fn under_gravity(
 /// The building with its weight leaning on the columns.
 fn with_p_delta(building: &AssembledBuilding) -> Result<AssembledBuilding, Collapse> {
     let carried = compressions(building, STANDARD_GRAVITY).map_err(|_| Collapse::Overloaded)?;
-    let mut idealisation = building.idealisation.clone();
-    let skeleton = &mut idealisation.skeleton;
-    for (member, compression) in skeleton.members.iter_mut().zip(carried) {
+    let mut discretization = building.discretization.clone();
+    let stick_model = &mut discretization.stick_model;
+    for (member, compression) in stick_model.members.iter_mut().zip(carried) {
         member.compression = compression;
     }
-    let nodes = &skeleton.nodes;
-    for spring in &mut skeleton.springs {
+    let nodes = &stick_model.nodes;
+    for spring in &mut stick_model.springs {
         let [a, b] = spring.ends.map(|end| nodes[end].y);
         // The spring of a base has no height to lean on.
         if (a - b).abs() > SAME_LINE {
@@ -146,7 +146,7 @@ fn with_p_delta(building: &AssembledBuilding) -> Result<AssembledBuilding, Colla
             spring.softening = weight / (a - b).abs();
         }
     }
-    let leaning = AssembledBuilding::new(&building.name, idealisation);
+    let leaning = AssembledBuilding::new(&building.name, discretization);
     RiccatiSweep::new(&leaning)
         .factorize(
             &StepMatrix::STATIC,
@@ -162,22 +162,22 @@ const SAME_LINE: f64 = 1e-6;
 
 /// Downward force on every node from its own mass and from the beams that end there, columns excluded \[N\].
 fn hung_on_nodes(
-    skeleton: &Skeleton,
+    stick_model: &StickModel,
     building: &AssembledBuilding,
     displacement: &[f64],
     gravity: f64,
 ) -> Vec<f64> {
-    let mut hung: Vec<f64> = skeleton
+    let mut hung: Vec<f64> = stick_model
         .nodes
         .iter()
         .map(|node| node.mass * gravity)
         .collect();
-    for member in skeleton
+    for member in stick_model
         .members
         .iter()
-        .filter(|member| !member.is_vertical(&skeleton.nodes))
+        .filter(|member| !member.is_vertical(&stick_model.nodes))
     {
-        for (_, a, b, value) in element::of_member(member, &skeleton.nodes).entries {
+        for (_, a, b, value) in element::of_member(member, &stick_model.nodes).entries {
             if a.1 == Y {
                 // The member holds the node up with −K u.
                 hung[a.0] += building
@@ -199,14 +199,18 @@ mod tests {
     fn columns_carry_all_that_lies_above_them() {
         for flexible in [false, true] {
             let building = frame(flexible);
-            let skeleton = &building.idealisation.skeleton;
+            let stick_model = &building.discretization.stick_model;
             let carried = compressions(&building, 10.0).expect("it stands");
             for cut in [0.1, 1.5, 3.1, 7.4] {
-                let through = skeleton.members.iter().zip(&carried).filter(|(member, _)| {
-                    let [a, b] = member.ends.map(|end| skeleton.nodes[end].y);
-                    a.min(b) < cut && a.max(b) > cut
-                });
-                let above: f64 = skeleton
+                let through = stick_model
+                    .members
+                    .iter()
+                    .zip(&carried)
+                    .filter(|(member, _)| {
+                        let [a, b] = member.ends.map(|end| stick_model.nodes[end].y);
+                        a.min(b) < cut && a.max(b) > cut
+                    });
+                let above: f64 = stick_model
                     .nodes
                     .iter()
                     .filter(|node| node.y > cut)
@@ -225,10 +229,10 @@ mod tests {
     fn a_column_shortens_under_what_it_carries() {
         // With flexible columns the compression is also EA times the shortening.
         let building = frame(true);
-        let skeleton = &building.idealisation.skeleton;
+        let stick_model = &building.discretization.stick_model;
         let sunk = static_displacement(&building, 10.0).expect("it stands");
         let carried = compressions(&building, 10.0).expect("it stands");
-        for (member, force) in skeleton
+        for (member, force) in stick_model
             .members
             .iter()
             .zip(&carried)
@@ -240,7 +244,7 @@ mod tests {
                     .vertical(member.ends[end])
                     .map_or(0.0, |dof| sunk[dof])
             };
-            let [a, b] = member.ends.map(|end| skeleton.nodes[end].y);
+            let [a, b] = member.ends.map(|end| stick_model.nodes[end].y);
             let shortened = (at(0) - at(1)) * (b - a).signum() / (b - a).abs() * 8e9;
             assert!(
                 (shortened / force - 1.0).abs() < 1e-9,

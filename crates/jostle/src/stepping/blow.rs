@@ -3,7 +3,7 @@
 use super::direct::Direct;
 use super::runner::{Jump, RunState};
 use crate::contact::momentum;
-use crate::interface::Face;
+use crate::interface::Port;
 use crate::linear::StepMatrix;
 use crate::structure::StepEquations;
 use crate::system::{BuildingSystem, System};
@@ -101,8 +101,8 @@ impl<E: StepEquations> Direct<E> {
         let contact = &run.system.contacts[index];
         let mass = contact.effective_mass();
         let impulse = momentum::impulse(restitution, mass, rate);
-        for (face, sign) in contact.faces.sides() {
-            self.push_at_once(run, face, sign * impulse / face.mass);
+        for (port, sign) in contact.ports.sides() {
+            self.push_at_once(run, port, sign * impulse / port.mass);
         }
         let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);
         self.audit.contact += dissipated;
@@ -115,8 +115,8 @@ impl<E: StepEquations> Direct<E> {
 
     /// Changes the velocity of one degree of freedom, of the massless ones that hang on it, and the accelerations by
     /// what the dampers then say: M Δa = −(α M + β K + C′) Δv.
-    fn push_at_once(&mut self, run: &mut RunState<'_>, face: Face, change: f64) {
-        let building = face.building;
+    fn push_at_once(&mut self, run: &mut RunState<'_>, port: Port, change: f64) {
+        let building = port.building;
         let system = &run.system.buildings[building];
         let (range, own) = (system.range(), &system.equations);
         let massless = own.mass.contains(&0.0);
@@ -130,7 +130,7 @@ impl<E: StepEquations> Direct<E> {
             acceleration,
             load,
         } = &mut self.blow;
-        velocity[face.dof - system.offset] = change;
+        velocity[port.dof - system.offset] = change;
         let mut follow = |motion: &mut [f64]| {
             if let Some(blow) = self.blows[building].as_ref().filter(|_| massless) {
                 blow.follow(&self.equations[building], &own.mass, motion, load);
@@ -159,6 +159,6 @@ impl<E: StepEquations> Direct<E> {
         accelerations
             .zip(&*acceleration)
             .for_each(|(a, change)| *a += change);
-        self.jerk_links(run.system, face.dof, change);
+        self.jerk_links(run.system, port.dof, change);
     }
 }

@@ -173,8 +173,8 @@ impl<E: StepEquations> Direct<E> {
 
     /// Rate of change of the closing rate of a contact \[m/s²\].
     fn relative_acceleration(&self, run: &RunState<'_>, contact: usize) -> f64 {
-        let faces = &run.system.contacts[contact].faces;
-        faces.closing(&self.state.acceleration)
+        let ports = &run.system.contacts[contact].ports;
+        ports.closing(&self.state.acceleration)
     }
 
     /// dF/dt of a contact with the present accelerations \[N/s\].
@@ -279,13 +279,13 @@ impl<E: StepEquations> Stepper for Direct<E> {
     }
 
     fn closing(&self, run: &RunState<'_>, contact: usize) -> f64 {
-        let faces = &run.system.contacts[contact].faces;
-        faces.closing(&self.state.displacement)
+        let ports = &run.system.contacts[contact].ports;
+        ports.closing(&self.state.displacement)
     }
 
     fn closing_rate(&self, run: &RunState<'_>, contact: usize) -> f64 {
-        let faces = &run.system.contacts[contact].faces;
-        faces.closing(&self.state.velocity)
+        let ports = &run.system.contacts[contact].ports;
+        ports.closing(&self.state.velocity)
     }
 
     fn division(&self, run: &RunState<'_>) -> u32 {
@@ -432,8 +432,8 @@ impl<E: StepEquations> Stepper for Direct<E> {
 
     /// Changes the accelerations of the two faces (theory, Eq. H2).
     fn change_force(&mut self, run: &RunState<'_>, contact: usize, change: f64) {
-        for (face, sign) in run.system.contacts[contact].faces.sides() {
-            self.state.acceleration[face.dof] += sign * change / face.mass;
+        for (port, sign) in run.system.contacts[contact].ports.sides() {
+            self.state.acceleration[port.dof] += sign * change / port.mass;
         }
     }
 
@@ -498,7 +498,7 @@ fn unbalanced_load(
         }
     }
     for (link, force) in system.links.iter().zip(&links.forces) {
-        link.faces.push_apart(*force, &mut load);
+        link.ports.push_apart(*force, &mut load);
         largest = largest.max(force.abs());
     }
     // Statics leave rounding behind.

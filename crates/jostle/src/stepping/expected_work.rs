@@ -3,7 +3,7 @@
 use super::Plan;
 use crate::model::{Analysis, ModelFault};
 use crate::motion::GroundMotion;
-use crate::structure::Skeleton;
+use crate::structure::StickModel;
 use crate::system::{BuildingSystem, System};
 
 /// Work of a step that does not depend on the displacements of a building, in displacements.
@@ -50,7 +50,7 @@ pub(super) fn too_long(
                 "a lateral period of \"{}\" is {period:.2e} s, with a mass of {:.3e} kg and {}; check the units of its stiffness and mass",
                 building.name,
                 building.equations.total_mass(),
-                stiffest(&building.idealisation.skeleton)
+                stiffest(&building.discretization.stick_model)
             ),
         ),
         _ => (
@@ -77,9 +77,9 @@ fn relevant_period(building: &BuildingSystem) -> Option<f64> {
 }
 
 /// The greatest stiffness of a building in words.
-fn stiffest(skeleton: &Skeleton) -> String {
-    let springs = skeleton.springs.iter().map(|spring| spring.stiffness);
-    let members = skeleton
+fn stiffest(stick_model: &StickModel) -> String {
+    let springs = stick_model.springs.iter().map(|spring| spring.stiffness);
+    let members = stick_model
         .members
         .iter()
         .map(|member| member.flexural_rigidity);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::interface::Faces;
+use crate::interface::PortPair;
 use crate::system::System;
 
 /// Contacts and links of a system, counted together: contacts first, then links.
@@ -28,10 +28,10 @@ impl Joints {
         let mut met = BTreeMap::new();
         let mut buildings: Vec<[usize; 2]> = Vec::new();
         for index in 0..system.contacts.len() + system.links.len() {
-            let faces = joints.faces(system, index);
-            joints.sides.push(faces.0.map(|face| {
-                let face = face?;
-                let point = (face.building, face.dof);
+            let ports = joints.ports(system, index);
+            joints.sides.push(ports.0.map(|port| {
+                let port = port?;
+                let point = (port.building, port.dof);
                 let next = joints.points.len();
                 let known = *met.entry(point).or_insert(next);
                 if known == next {
@@ -39,7 +39,7 @@ impl Joints {
                 }
                 Some(known)
             }));
-            let [left, right] = faces.buildings();
+            let [left, right] = ports.buildings();
             let only = left.or(right).unwrap_or(0);
             let (left, right) = (left.unwrap_or(only), right.unwrap_or(only));
             buildings.push([left.min(right), left.max(right)]);
@@ -66,10 +66,10 @@ impl Joints {
 
     /// The two sides of a contact or a link.
     #[inline]
-    pub(super) fn faces<'a>(&self, system: &'a System, index: usize) -> &'a Faces {
+    pub(super) fn ports<'a>(&self, system: &'a System, index: usize) -> &'a PortPair {
         match index.checked_sub(self.contacts) {
-            None => &system.contacts[index].faces,
-            Some(link) => &system.links[link].faces,
+            None => &system.contacts[index].ports,
+            Some(link) => &system.links[link].ports,
         }
     }
 

@@ -46,7 +46,7 @@ impl Links {
     pub(super) fn starting_from(system: &System, state: &State) -> Self {
         let start = |link: &LinkElement| {
             let shortening = link.shortening(&state.displacement);
-            let force = link.force(shortening, link.faces.closing(&state.velocity));
+            let force = link.force(shortening, link.ports.closing(&state.velocity));
             let totals = LinkTotals {
                 peak_force: Extreme {
                     value: force,
@@ -79,7 +79,7 @@ impl<E: StepEquations> Direct<E> {
     /// Adds the forces of the links at the start of the step to its loads, as those of closed contacts.
     pub(super) fn add_link_loads(&mut self, run: &RunState<'_>) {
         for (link, force) in run.system.links.iter().zip(&self.links.forces) {
-            link.faces.push_apart(-force, &mut self.rise);
+            link.ports.push_apart(-force, &mut self.rise);
         }
     }
 
@@ -162,11 +162,11 @@ impl<E: StepEquations> Direct<E> {
     /// accelerations of both ends.
     pub(super) fn jerk_links(&mut self, system: &System, dof: usize, change: f64) {
         for (link, force) in system.links.iter().zip(&mut self.links.forces) {
-            for (face, sign) in link.faces.sides() {
-                if face.dof == dof {
+            for (port, sign) in link.ports.sides() {
+                if port.dof == dof {
                     let jump = -sign * link.damping * change;
                     *force += jump;
-                    for (end, sign) in link.faces.sides() {
+                    for (end, sign) in link.ports.sides() {
                         self.state.acceleration[end.dof] += sign * jump / end.mass;
                     }
                 }

@@ -95,8 +95,8 @@ impl Recorder {
             self.before.push((u[floor.dof], v[floor.dof]));
         }
         for contact in &system.contacts {
-            let faces = &contact.faces;
-            self.before.push((faces.closing(u), faces.closing(v)));
+            let ports = &contact.ports;
+            self.before.push((ports.closing(u), ports.closing(v)));
         }
     }
 
@@ -144,7 +144,7 @@ impl Recorder {
         }
         for (contact, closing) in system.contacts.iter().zip(&mut self.closing) {
             if let Some(&then) = before.next() {
-                let now = (contact.faces.closing(u), contact.faces.closing(v));
+                let now = (contact.ports.closing(u), contact.ports.closing(v));
                 let greatest = greatest_in_step(then, now, start, step);
                 if greatest.value > closing.value {
                     *closing = greatest;

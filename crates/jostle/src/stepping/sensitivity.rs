@@ -99,8 +99,8 @@ fn sensitive_from(
 
 /// Greatest displacement of the floors that meet at a contact, or of their buildings where it lies between floors \[m\].
 fn greatest_displacement(contact: &Contact, outcome: &Outcome) -> f64 {
-    let sides = contact.faces.buildings().into_iter();
-    let sides = sides.zip(contact.faces.floors());
+    let sides = contact.ports.buildings().into_iter();
+    let sides = sides.zip(contact.ports.floors());
     sides
         .filter_map(|(building, floor)| {
             let floors = &outcome.floors[building?];

@@ -78,7 +78,7 @@ impl<E: StepEquations> Direct<E> {
         for (contact, phase) in run.system.contacts.iter().zip(&run.phases) {
             let force = phase.force();
             if force != 0.0 {
-                contact.faces.push_apart(-force, &mut self.rise);
+                contact.ports.push_apart(-force, &mut self.rise);
             }
         }
         self.add_link_loads(run);
@@ -121,20 +121,20 @@ impl<E: StepEquations> Direct<E> {
             &self.state.acceleration,
         );
         let contacts = run.system.contacts.iter();
-        let contacts = contacts.map(|contact| (&contact.faces, contact.width));
+        let contacts = contacts.map(|contact| (&contact.ports, contact.width));
         let links = run.system.links.iter();
-        let links = links.map(|link| (&link.faces, link.closing_at_rest));
-        for ((faces, at_rest), trial) in contacts.chain(links).zip(&mut run.trials) {
+        let links = links.map(|link| (&link.ports, link.closing_at_rest));
+        for ((ports, at_rest), trial) in contacts.chain(links).zip(&mut run.trials) {
             let mut closed_by = 0.0;
-            for (face, sign) in faces.sides() {
-                let dof = face.dof;
+            for (port, sign) in ports.sides() {
+                let dof = port.dof;
                 let drift = k.d_v * v[dof] + k.d_a * a[dof];
-                let rise = self.rise[dof] - factors.buildings[face.building].shift * drift;
+                let rise = self.rise[dof] - factors.buildings[port.building].shift * drift;
                 closed_by -= sign * rise;
             }
-            trial.indentation = faces.closing(u) - at_rest + closed_by;
+            trial.indentation = ports.closing(u) - at_rest + closed_by;
             trial.rate =
-                k.c * closed_by + (1.0 + k.d_v) * faces.closing(v) + k.d_a * faces.closing(a);
+                k.c * closed_by + (1.0 + k.d_v) * ports.closing(v) + k.d_a * ports.closing(a);
             trial.force = 0.0;
         }
     }

@@ -1,6 +1,6 @@
 //! A building on its own, assembled.
 
-use super::{Equations, Idealisation, StoreyForces};
+use super::{Discretization, Equations, StoreyForces};
 
 /// Masses, elements and matrices of one building, before it stands in a row.
 #[derive(Clone, Debug)]
@@ -8,7 +8,7 @@ pub struct AssembledBuilding {
     /// Name.
     pub name: String,
     /// Lumped masses and massless elements.
-    pub idealisation: Idealisation,
+    pub discretization: Discretization,
     /// Mass, damping and stiffness.
     pub equations: Equations,
     /// How storey shears and overturning moments follow from displacements.
@@ -19,21 +19,21 @@ pub struct AssembledBuilding {
 }
 
 impl AssembledBuilding {
-    /// Assembles the equations of an idealised building, without damping.
+    /// Assembles the equations of a discretized building, without damping.
     #[must_use]
-    pub fn new(name: &str, idealisation: Idealisation) -> Self {
-        let equations = Equations::assemble(&idealisation.skeleton);
-        let floors = idealisation.floors.iter();
+    pub fn new(name: &str, discretization: Discretization) -> Self {
+        let equations = Equations::assemble(&discretization.stick_model);
+        let floors = discretization.floors.iter();
         let (floor_dofs, heights): (Vec<usize>, Vec<f64>) = floors
             .filter_map(|&node| {
-                let height = idealisation.skeleton.nodes[node].y;
+                let height = discretization.stick_model.nodes[node].y;
                 Some((equations.horizontal(node)?, height))
             })
             .unzip();
-        let storeys = StoreyForces::new(&idealisation.skeleton, &equations, &heights);
+        let storeys = StoreyForces::new(&discretization.stick_model, &equations, &heights);
         Self {
             name: name.to_owned(),
-            idealisation,
+            discretization,
             equations,
             storeys,
             floor_dofs,

@@ -1,15 +1,15 @@
 //! From a building as described to lumped masses and massless elements.
 
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
-use super::stick_model::{Hinge, Member, Node, Skeleton, Spring, Support};
+use super::stick_model::{Hinge, Member, Node, Spring, StickModel, Support};
 use crate::hysteresis::Hysteresis;
 use crate::model::{Base, Building, Frame, FrameHinges, Hinges, Joint, Section, Shear, Structure};
 
-/// A skeleton and where its floors and faces are.
+/// A stick model and where its floors and faces are.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Idealisation {
+pub struct Discretization {
     /// Masses and elements.
-    pub skeleton: Skeleton,
+    pub stick_model: StickModel,
     /// The lowest node of the first column line, fixed or not.
     pub foot: Option<usize>,
     /// Node that stands for every floor, from the ground up: the joint of the first column line.
@@ -22,7 +22,7 @@ pub struct Idealisation {
     pub spring_places: Vec<SpringPlace>,
 }
 
-impl Idealisation {
+impl Discretization {
     /// Lumped masses, massless members and hinges of a building.
     #[must_use]
     pub fn of(building: &Building) -> Self {
@@ -40,20 +40,20 @@ impl Idealisation {
                     Some(Hinges::Frame(hinges)) => hinges,
                     _ => &FrameHinges::default(),
                 };
-                idealise_frame(frame, &building.base, hinges, points)
+                discretize_frame(frame, &building.base, hinges, points)
             }
             Structure::Shear(shear) => {
                 let springs: &[Hysteresis] = match &building.hinges {
                     Some(Hinges::Storeys(springs)) => springs,
                     _ => &[],
                 };
-                idealise_shear(shear, &building.base, springs)
+                discretize_shear(shear, &building.base, springs)
             }
         }
     }
 }
 
-impl Skeleton {
+impl StickModel {
     /// Adds a free node without mass and returns its index.
     fn add_node(&mut self, x: f64, y: f64) -> usize {
         self.nodes.push(Node {
@@ -184,31 +184,34 @@ impl Skeleton {
     }
 }
 
-fn idealise_frame(
+fn discretize_frame(
     frame: &Frame,
     base: &Base,
     hinges: &FrameHinges,
     points: [&[f64]; 2],
-) -> Idealisation {
-    let mut skeleton = Skeleton::default();
+) -> Discretization {
+    let mut stick_model = StickModel::default();
     let mut lines: Vec<f64> = vec![0.0];
     for span in &frame.spans {
         lines.push(lines[lines.len() - 1] + span);
     }
-    let mut below: Vec<usize> = lines.iter().map(|x| skeleton.add_foot(*x, base)).collect();
-    let mut idealisation = Idealisation {
-        skeleton: Skeleton::default(),
+    let mut below: Vec<usize> = lines
+        .iter()
+        .map(|x| stick_model.add_foot(*x, base))
+        .collect();
+    let mut discretization = Discretization {
+        stick_model: StickModel::default(),
         foot: Some(below[0]),
         floors: Vec::new(),
         left_face: Vec::new(),
         right_face: Vec::new(),
         spring_places: Vec::new(),
     };
-    // Hinges come before springs, in the order of the skeleton.
+    // Hinges come before springs, in the order of the stick model.
     let at_the_base =
         |motion| (1..=lines.len()).map(move |line| SpringPlace::Base { line, motion });
     if base.rotational_hinge.is_some() {
-        idealisation
+        discretization
             .spring_places
             .extend(at_the_base(BaseMotion::Rocking));
     }
@@ -217,15 +220,15 @@ fn idealise_frame(
         height += storey_height;
         let joints: Vec<usize> = lines
             .iter()
-            .map(|x| skeleton.add_node(*x, height))
+            .map(|x| stick_model.add_node(*x, height))
             .collect();
         let column = &frame.columns[storey];
         for (line, (&from, &to)) in below.iter().zip(&joints).enumerate() {
             let mut ends = [from, to];
             if let Some(hysteresis) = hinges.columns.get(storey).and_then(|row| row.get(line)) {
                 for (node, end) in ends.iter_mut().zip([MemberEnd::First, MemberEnd::Last]) {
-                    *node = skeleton.yielding(*node, *hysteresis, end);
-                    idealisation.spring_places.push(SpringPlace::Column {
+                    *node = stick_model.yielding(*node, *hysteresis, end);
+                    discretization.spring_places.push(SpringPlace::Column {
                         storey: storey + 1,
                         line: line + 1,
                         end,
@@ -233,15 +236,15 @@ fn idealise_frame(
                 }
             }
             let mut cuts = equal_cuts(frame.column_segments);
-            let faces = [line == 0, line + 1 == lines.len()].into_iter().zip(points);
-            for point in faces.filter(|(is_face, _)| *is_face).flat_map(|(_, p)| p) {
+            let ports = [line == 0, line + 1 == lines.len()].into_iter().zip(points);
+            for point in ports.filter(|(is_face, _)| *is_face).flat_map(|(_, p)| p) {
                 cut_at(
                     &mut cuts,
                     (point - height + storey_height) / storey_height,
                     0.25 / frame.column_segments as f64,
                 );
             }
-            let interior = skeleton.add_line(
+            let interior = stick_model.add_line(
                 ends[0],
                 ends[1],
                 &cuts,
@@ -249,30 +252,30 @@ fn idealise_frame(
                 column,
                 frame.axial.columns_flexible,
             );
-            let face = interior.into_iter().chain([to]);
+            let port = interior.into_iter().chain([to]);
             if line == 0 {
-                idealisation.left_face.extend(face.clone());
+                discretization.left_face.extend(port.clone());
             }
             if line + 1 == lines.len() {
-                idealisation.right_face.extend(face);
+                discretization.right_face.extend(port);
             }
         }
         for (bay, ends) in joints.windows(2).enumerate() {
             let mut ends = [
-                skeleton.hinged(ends[0], &frame.joint),
-                skeleton.hinged(ends[1], &frame.joint),
+                stick_model.hinged(ends[0], &frame.joint),
+                stick_model.hinged(ends[1], &frame.joint),
             ];
             if let Some(hysteresis) = hinges.beams.get(storey).and_then(|row| row.get(bay)) {
                 for (node, end) in ends.iter_mut().zip([MemberEnd::First, MemberEnd::Last]) {
-                    *node = skeleton.yielding(*node, *hysteresis, end);
-                    idealisation.spring_places.push(SpringPlace::Beam {
+                    *node = stick_model.yielding(*node, *hysteresis, end);
+                    discretization.spring_places.push(SpringPlace::Beam {
                         floor: storey + 1,
                         bay: bay + 1,
                         end,
                     });
                 }
             }
-            skeleton.add_line(
+            stick_model.add_line(
                 ends[0],
                 ends[1],
                 &equal_cuts(frame.beam_segments[bay]),
@@ -282,18 +285,18 @@ fn idealise_frame(
             );
         }
         for &joint in &joints {
-            skeleton.nodes[joint].mass += frame.floor_mass[storey] / joints.len() as f64;
+            stick_model.nodes[joint].mass += frame.floor_mass[storey] / joints.len() as f64;
         }
-        idealisation.floors.push(joints[0]);
+        discretization.floors.push(joints[0]);
         below = joints;
     }
     if base.horizontal_hinge.is_some() {
-        idealisation
+        discretization
             .spring_places
             .extend(at_the_base(BaseMotion::Sliding));
     }
-    idealisation.skeleton = skeleton;
-    idealisation
+    discretization.stick_model = stick_model;
+    discretization
 }
 
 /// Where a line is cut into equal segments, in shares of its length.
@@ -321,23 +324,23 @@ fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
     cuts.sort_by(f64::total_cmp);
 }
 
-fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealisation {
-    let mut skeleton = Skeleton::default();
+fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discretization {
+    let mut stick_model = StickModel::default();
     let (mut floors, mut spring_places) = (Vec::new(), Vec::new());
-    let mut below = skeleton.add_node(0.0, 0.0);
-    skeleton.nodes[below].support = Support::Fixed;
+    let mut below = stick_model.add_node(0.0, 0.0);
+    stick_model.nodes[below].support = Support::Fixed;
     // Floors do not turn, so that only the horizontal spring of a base has something to do.
     if let Some(stiffness) = base.horizontal_stiffness {
-        let foot = skeleton.add_node(0.0, 0.0);
-        skeleton.nodes[foot].mass = base.mass;
-        skeleton.nodes[foot].support = Support::Guided;
+        let foot = stick_model.add_node(0.0, 0.0);
+        stick_model.nodes[foot].mass = base.mass;
+        stick_model.nodes[foot].support = Support::Guided;
         if base.horizontal_hinge.is_some() {
             spring_places.push(SpringPlace::Base {
                 line: 1,
                 motion: BaseMotion::Sliding,
             });
         }
-        skeleton.springs.push(Spring {
+        stick_model.springs.push(Spring {
             dashpot: base.horizontal_damping,
             hysteresis: base.horizontal_hinge,
             proportional_damping: false,
@@ -354,11 +357,11 @@ fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealis
         .zip(&shear.storey_heights)
     {
         height += storey_height;
-        let floor = skeleton.add_node(0.0, height);
-        skeleton.nodes[floor].mass = *mass;
-        skeleton.nodes[floor].support = Support::Guided;
+        let floor = stick_model.add_node(0.0, height);
+        stick_model.nodes[floor].mass = *mass;
+        stick_model.nodes[floor].support = Support::Guided;
         let hysteresis = springs.get(floors.len()).copied();
-        skeleton.springs.push(Spring {
+        stick_model.springs.push(Spring {
             hysteresis,
             proportional_damping: hysteresis.is_none(),
             ..Spring::elastic([below, floor], *stiffness)
@@ -371,8 +374,8 @@ fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealis
         }
         below = floor;
     }
-    Idealisation {
-        skeleton,
+    Discretization {
+        stick_model,
         foot: Some(foot),
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -1,7 +1,7 @@
 //! Stiffness of the massless elements between lumped masses, in global axes.
 
 use crate::linear::StepMatrix;
-use crate::structure::{Hinge, Member, Node, Skeleton, Spring};
+use crate::structure::{Hinge, Member, Node, Spring, StickModel};
 
 /// Displacement of a node: horizontal, vertical, rotation.
 pub(crate) const X: usize = 0;
@@ -40,15 +40,15 @@ pub(crate) struct ElementStiffness {
     pub(crate) entries: Vec<(Part, Place, Place, f64)>,
 }
 
-/// Stiffness and dashpots of every element of a skeleton.
-pub(crate) fn stiffnesses(skeleton: &Skeleton) -> impl Iterator<Item = ElementStiffness> + '_ {
-    let members = skeleton
+/// Stiffness and dashpots of every element of a stick model.
+pub(crate) fn stiffnesses(stick_model: &StickModel) -> impl Iterator<Item = ElementStiffness> + '_ {
+    let members = stick_model
         .members
         .iter()
-        .map(|member| of_member(member, &skeleton.nodes));
+        .map(|member| of_member(member, &stick_model.nodes));
     members
-        .chain(skeleton.hinges.iter().map(of_hinge))
-        .chain(skeleton.springs.iter().map(of_spring))
+        .chain(stick_model.hinges.iter().map(of_hinge))
+        .chain(stick_model.springs.iter().map(of_spring))
 }
 
 impl Member {

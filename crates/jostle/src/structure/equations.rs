@@ -4,7 +4,7 @@ use crate::hysteresis::Hysteresis;
 use crate::linear::SparseSymmetric;
 use crate::structure::element::{self, Part, X, Y};
 use crate::structure::path::Path;
-use crate::structure::{Skeleton, Support};
+use crate::structure::{StickModel, Support};
 
 /// M ü + (α M + β K + C′) u̇ + (K + K′) u = −M r a_g + contact forces, for one building.
 ///
@@ -23,7 +23,7 @@ pub struct Equations {
     pub undamped: SparseSymmetric,
     /// C′: dashpots under the base.
     pub dashpots: SparseSymmetric,
-    /// Springs that yield: hinges first, then storey springs, each in the order of the skeleton. They are not part of
+    /// Springs that yield: hinges first, then storey springs, each in the order of the stick model. They are not part of
     /// K, and stiffness-proportional damping does not act on them.
     pub springs: Vec<YieldingSpring>,
     /// Mass-proportional damping α \[1/s\].
@@ -72,13 +72,13 @@ impl YieldingSpring {
 impl Equations {
     /// Assembles an undamped building.
     #[must_use]
-    pub fn assemble(skeleton: &Skeleton) -> Self {
-        let path = Path::through(skeleton);
+    pub fn assemble(stick_model: &StickModel) -> Self {
+        let path = Path::through(stick_model);
         let n = path.len();
         let (mut mass, mut driven_mass, mut vertical_mass) =
             (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let mut total_mass = 0.0;
-        for (index, node) in skeleton.nodes.iter().enumerate() {
+        for (index, node) in stick_model.nodes.iter().enumerate() {
             for (component, value) in [node.mass, node.mass, node.rotary_inertia]
                 .into_iter()
                 .enumerate()
@@ -100,7 +100,7 @@ impl Equations {
         let mut triplets = [Vec::new(), Vec::new(), Vec::new()];
         let mut base_shear = Vec::new();
         for (part, a, b, value) in
-            element::stiffnesses(skeleton).flat_map(|element| element.entries)
+            element::stiffnesses(stick_model).flat_map(|element| element.entries)
         {
             match (path.dof(a.0, a.1), path.dof(b.0, b.1)) {
                 (Some(row), Some(column)) if row >= column => {
@@ -120,7 +120,7 @@ impl Equations {
             mass,
             driven_mass,
             vertical_mass,
-            springs: yielding_springs(skeleton, &path),
+            springs: yielding_springs(stick_model, &path),
             stiffness,
             undamped,
             dashpots,
@@ -203,7 +203,7 @@ impl Equations {
     }
 }
 
-fn yielding_springs(skeleton: &Skeleton, path: &Path) -> Vec<YieldingSpring> {
+fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {
     let spring = |[first, second]: [usize; 2], component: usize, hysteresis: Hysteresis| {
         let dofs = [first, second].map(|node| path.dof(node, component));
         YieldingSpring {
@@ -212,12 +212,12 @@ fn yielding_springs(skeleton: &Skeleton, path: &Path) -> Vec<YieldingSpring> {
             carries_base_shear: component == X && dofs.contains(&None),
         }
     };
-    let hinges = skeleton.hinges.iter().filter_map(|hinge| {
+    let hinges = stick_model.hinges.iter().filter_map(|hinge| {
         let hysteresis = hinge.hysteresis?;
         Some(spring(hinge.ends, element::THETA, hysteresis))
     });
     // A storey is positive when its upper floor is to the right of its lower one.
-    let storeys = skeleton.springs.iter().filter_map(|storey| {
+    let storeys = stick_model.springs.iter().filter_map(|storey| {
         let [lower, upper] = storey.ends;
         Some(spring([upper, lower], X, storey.hysteresis?))
     });

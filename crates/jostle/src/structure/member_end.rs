@@ -1,32 +1,32 @@
 //! Rotation of a member end: what the hinge turns and what the member bends, in double curvature.
 
 use crate::hysteresis::{Hysteresis, Side};
-use crate::structure::Skeleton;
+use crate::structure::StickModel;
 
 /// Stiffness 6 EI/L of the member behind every hinge that yields, in the order of the hinges, antisymmetric bending
 /// between its two ends, less with shear deformation; `None` where no member is found \[N·m/rad\].
 #[must_use]
-pub(crate) fn end_stiffnesses(skeleton: &Skeleton) -> Vec<Option<f64>> {
-    let mut at_node: Vec<Vec<usize>> = vec![Vec::new(); skeleton.nodes.len()];
-    for (index, member) in skeleton.members.iter().enumerate() {
+pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
+    let mut at_node: Vec<Vec<usize>> = vec![Vec::new(); stick_model.nodes.len()];
+    for (index, member) in stick_model.members.iter().enumerate() {
         member.ends.iter().for_each(|end| at_node[*end].push(index));
     }
-    let mut hinged = vec![false; skeleton.nodes.len()];
-    for hinge in &skeleton.hinges {
+    let mut hinged = vec![false; stick_model.nodes.len()];
+    for hinge in &stick_model.hinges {
         hinge.ends.iter().for_each(|end| hinged[*end] = true);
     }
-    let yielding = skeleton.hinges.iter().filter(|h| h.hysteresis.is_some());
+    let yielding = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
     yielding
         .map(|hinge| {
             // The end that is no joint has one member only; from there along its segments.
             let ends = hinge.ends.iter();
             let start = *ends.max().filter(|end| at_node[**end].len() == 1)?;
             let (mut node, mut from, mut length) = (start, at_node[start][0], 0.0);
-            let section = skeleton.members[from];
+            let section = stick_model.members[from];
             loop {
-                let member = &skeleton.members[from];
+                let member = &stick_model.members[from];
                 let other = member.ends[usize::from(member.ends[0] == node)];
-                let [a, b] = [node, other].map(|n| skeleton.nodes[n]);
+                let [a, b] = [node, other].map(|n| stick_model.nodes[n]);
                 length += (b.x - a.x).hypot(b.y - a.y);
                 node = other;
                 let next = at_node[node].iter().find(|member| **member != from);
@@ -66,7 +66,7 @@ mod tests {
         Axial, Base, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section,
         Structure,
     };
-    use crate::structure::Idealisation;
+    use crate::structure::Discretization;
 
     fn spring(initial: f64) -> Hysteresis {
         let corners = Corners::bilinear(300e3, 1e-5);
@@ -127,7 +127,7 @@ mod tests {
                     beams: vec![vec![hinge; 2]; 2],
                 })),
             };
-            let found = end_stiffnesses(&Idealisation::of(&building).skeleton);
+            let found = end_stiffnesses(&Discretization::of(&building).stick_model);
             assert_eq!(found.len(), expected.len());
             for (index, (found, expected)) in found.iter().zip(&expected).enumerate() {
                 let mut expected = *expected;

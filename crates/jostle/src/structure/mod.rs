@@ -14,10 +14,10 @@ mod storey_forces;
 pub(crate) mod testkit;
 
 pub use assembled_building::AssembledBuilding;
-pub use discretization::Idealisation;
+pub use discretization::Discretization;
 pub use equations::{Equations, YieldingSpring};
 pub(crate) use member_end::{ductility, end_stiffnesses};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
-pub use stick_model::{Hinge, Member, Node, Skeleton, Spring, Support};
+pub use stick_model::{Hinge, Member, Node, Spring, StickModel, Support};
 pub use storey_forces::{StoreyForce, StoreyForces};

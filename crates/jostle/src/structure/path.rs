@@ -1,9 +1,9 @@
 //! The transfer path: which displacements a building has, and the order in which the recursion meets them.
 
 use crate::structure::element::{THETA, X, Y};
-use crate::structure::{Skeleton, Support};
+use crate::structure::{StickModel, Support};
 
-/// Degrees of freedom of a skeleton in the order of the transfer path.
+/// Degrees of freedom of a stick model in the order of the transfer path.
 #[derive(Clone, Debug)]
 pub(crate) struct Path {
     /// Degree of freedom of (node, component); `None` where the node moves with the ground.
@@ -15,10 +15,10 @@ impl Path {
     /// Ties axially rigid members and rigid hinges together (theory, Eq. K4) and orders what remains: beam
     /// interiors from left to right, column interiors upwards, then the floors upwards. A displacement
     /// shared by several nodes comes when the last of them does.
-    pub(crate) fn through(skeleton: &Skeleton) -> Self {
-        let mut ties = Ties::new(skeleton);
+    pub(crate) fn through(stick_model: &StickModel) -> Self {
+        let mut ties = Ties::new(stick_model);
         let mut last_met = vec![None; ties.len()];
-        for (position, &(rank, node)) in node_order(skeleton).iter().enumerate() {
+        for (position, &(rank, node)) in node_order(stick_model).iter().enumerate() {
             for component in [X, Y, THETA] {
                 if let Some(root) = ties.root(node, component) {
                     // Within a rank like goes with like: long runs of equal work.
@@ -34,7 +34,7 @@ impl Path {
         for (dof, &root) in roots.iter().enumerate() {
             number[root] = Some(dof);
         }
-        let dofs = (0..skeleton.nodes.len())
+        let dofs = (0..stick_model.nodes.len())
             .map(|node| {
                 [X, Y, THETA]
                     .map(|component| ties.root(node, component).and_then(|root| number[root]))
@@ -66,11 +66,11 @@ struct Ties {
 const GROUND: usize = 0;
 
 impl Ties {
-    fn new(skeleton: &Skeleton) -> Self {
+    fn new(stick_model: &StickModel) -> Self {
         let mut ties = Self {
-            parent: (0..=3 * skeleton.nodes.len()).collect(),
+            parent: (0..=3 * stick_model.nodes.len()).collect(),
         };
-        for (node, properties) in skeleton.nodes.iter().enumerate() {
+        for (node, properties) in stick_model.nodes.iter().enumerate() {
             let held: &[usize] = match properties.support {
                 Support::Free => &[],
                 Support::Fixed => &[X, Y, THETA],
@@ -80,12 +80,12 @@ impl Ties {
                 ties.merge(Self::place(node, component), GROUND);
             }
         }
-        for member in skeleton
+        for member in stick_model
             .members
             .iter()
             .filter(|member| member.axial_rigidity.is_none())
         {
-            let axial = if member.is_vertical(&skeleton.nodes) {
+            let axial = if member.is_vertical(&stick_model.nodes) {
                 Y
             } else {
                 X
@@ -95,7 +95,7 @@ impl Ties {
                 Self::place(member.ends[1], axial),
             );
         }
-        for hinge in &skeleton.hinges {
+        for hinge in &stick_model.hinges {
             let [horizontal, vertical] = hinge.translational_stiffness;
             let directions = [horizontal, vertical, hinge.rotational_stiffness];
             for (component, stiffness) in directions.into_iter().enumerate() {
@@ -142,22 +142,22 @@ impl Ties {
 /// abreast keeps a processor busy that would otherwise wait for every link of a single chain.
 ///
 /// Every node comes with its rank: nodes abreast share one, every joint has its own.
-fn node_order(skeleton: &Skeleton) -> Vec<(usize, usize)> {
-    let nodes = &skeleton.nodes;
+fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
+    let nodes = &stick_model.nodes;
     let mut neighbours = vec![Vec::new(); nodes.len()];
     let (mut horizontal, mut vertical) = (vec![0; nodes.len()], vec![0; nodes.len()]);
-    let members = skeleton
+    let members = stick_model
         .members
         .iter()
         .map(|member| (member.ends, member.is_vertical(nodes)));
     // A hinge belongs to the member whose end it is: the one that has nothing else there.
     let mut at_end = vec![[0; 2]; nodes.len()];
-    for member in &skeleton.members {
+    for member in &stick_model.members {
         for end in member.ends {
             at_end[end][usize::from(member.is_vertical(nodes))] += 1;
         }
     }
-    let hinges = skeleton.hinges.iter().map(|hinge| {
+    let hinges = stick_model.hinges.iter().map(|hinge| {
         let [mut beam, mut column] = [false; 2];
         for end in hinge.ends {
             beam |= at_end[end] == [1, 0];

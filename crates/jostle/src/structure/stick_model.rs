@@ -4,7 +4,7 @@ use crate::hysteresis::Hysteresis;
 
 /// Lumped masses and the massless elements between them, in the plane.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Skeleton {
+pub struct StickModel {
     /// Points with or without mass.
     pub nodes: Vec<Node>,
     /// Straight members, horizontal or vertical.

@@ -3,7 +3,7 @@
 use crate::linear::counting_sort::in_order;
 use crate::model::LEVEL_TOLERANCE;
 use crate::structure::Equations;
-use crate::structure::Skeleton;
+use crate::structure::StickModel;
 use crate::structure::element::{self, Part, X};
 
 /// How the forces of storeys follow from displacements, as linear forms.
@@ -40,7 +40,7 @@ pub struct StoreyForce {
 
 impl StoreyForces {
     /// `tops`: heights of the floors above the base, rising \[m\].
-    pub(crate) fn new(skeleton: &Skeleton, equations: &Equations, tops: &[f64]) -> Self {
+    pub(crate) fn new(stick_model: &StickModel, equations: &Equations, tops: &[f64]) -> Self {
         let mut storeys = Vec::with_capacity(tops.len());
         let mut base = 0.0;
         for top in tops {
@@ -52,21 +52,24 @@ impl StoreyForces {
         }
         let mut found = Self { storeys };
         for (part, a, b, value) in
-            element::stiffnesses(skeleton).flat_map(|element| element.entries)
+            element::stiffnesses(stick_model).flat_map(|element| element.entries)
         {
             let (true, Some(dof)) = (a.1 == X && part != Part::Dashpot, equations.dof(b)) else {
                 continue;
             };
-            if let Some((storey, arm)) = found.arm(tops, skeleton.nodes[a.0].y) {
+            if let Some((storey, arm)) = found.arm(tops, stick_model.nodes[a.0].y) {
                 storey.of_displacements.push((dof, [value, arm * value]));
             }
         }
-        let frame_hinges = skeleton.hinges.iter().filter(|h| h.hysteresis.is_some());
+        let frame_hinges = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
         let first = frame_hinges.count();
-        let yielding = skeleton.springs.iter().filter(|s| s.hysteresis.is_some());
+        let yielding = stick_model
+            .springs
+            .iter()
+            .filter(|s| s.hysteresis.is_some());
         for (index, spring) in yielding.enumerate() {
             for (node, sign) in spring.ends.into_iter().zip([-1.0, 1.0]) {
-                if let Some((storey, arm)) = found.arm(tops, skeleton.nodes[node].y) {
+                if let Some((storey, arm)) = found.arm(tops, stick_model.nodes[node].y) {
                     storey.of_springs.push((first + index, [sign, sign * arm]));
                 }
             }

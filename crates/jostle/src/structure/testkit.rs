@@ -1,6 +1,6 @@
 //! Buildings for tests.
 
-use super::{AssembledBuilding, Idealisation};
+use super::{AssembledBuilding, Discretization};
 use crate::model::{Axial, Building, Damping, Frame, Hinges, Joint, Section, Structure};
 
 /// Three storeys over two spans.
@@ -49,5 +49,5 @@ pub(crate) fn frame_with(change: impl FnOnce(&mut Frame) -> Option<Hinges>) -> A
         gravity: Default::default(),
         hinges,
     };
-    AssembledBuilding::new("frame", Idealisation::of(&building))
+    AssembledBuilding::new("frame", Discretization::of(&building))
 }

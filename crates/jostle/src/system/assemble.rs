@@ -2,9 +2,9 @@
 
 use super::{BuildingSystem, System, finite};
 use crate::interface::contact_points::{PointPair, SAME, mean};
-use crate::interface::{Contact, Face, Faces, LinkElement, Row};
+use crate::interface::{Contact, LinkElement, Port, PortPair, Row};
 use crate::model::{Model, ModelFault};
-use crate::structure::Idealisation;
+use crate::structure::Discretization;
 
 impl System {
     /// Assembles a model.
@@ -19,9 +19,9 @@ impl System {
         let mut faults = Vec::new();
         for (index, building) in model.buildings.iter().enumerate() {
             let points = row.points_between_floors(index);
-            let idealisation =
-                Idealisation::with_points(building, points.each_ref().map(|points| &points[..]));
-            let mut assembled = BuildingSystem::new(&building.name, idealisation);
+            let discretization =
+                Discretization::with_points(building, points.each_ref().map(|points| &points[..]));
+            let mut assembled = BuildingSystem::new(&building.name, discretization);
             if let Err(problem) = assembled.put_under_gravity(building.gravity) {
                 faults.push(ModelFault {
                     path: format!("building[{index}].{}", problem.field()),
@@ -79,14 +79,14 @@ impl System {
         for (index, (gap, joined)) in model.gaps.iter().zip(&row.gaps).enumerate() {
             let mut contacts = Vec::new();
             for (entry, pair) in joined.pairs.iter().enumerate() {
-                match faces(self, joined.between, pair) {
-                    Ok(faces) => {
-                        let [left, right] = faces.masses();
+                match ports(self, joined.between, pair) {
+                    Ok(ports) => {
+                        let [left, right] = ports.masses();
                         contacts.push(Contact {
                             gap: index,
                             width: gap.width_of(entry),
                             law: gap.law.between(left, right),
-                            ..Contact::without_law(faces)
+                            ..Contact::without_law(ports)
                         });
                     }
                     Err(problem) => faults.push(ModelFault {
@@ -102,15 +102,15 @@ impl System {
             let mut pairs = joined.pairs.clone();
             pairs.sort_by(|a, b| mean(a).total_cmp(&mean(b)));
             for pair in &pairs {
-                match faces(self, joined.between, pair) {
-                    Ok(faces) => {
+                match ports(self, joined.between, pair) {
+                    Ok(ports) => {
                         let element = LinkElement {
                             link: index,
-                            faces,
-                            height: faces.height(),
+                            ports,
+                            height: ports.height(),
                             stiffness: link.stiffness,
                             damping: link.damping,
-                            closing_at_rest: closing_at_rest(self, &faces),
+                            closing_at_rest: closing_at_rest(self, &ports),
                         };
                         self.links.push(element);
                     }
@@ -129,38 +129,42 @@ impl System {
     }
 }
 
-fn faces(system: &System, between: [Option<usize>; 2], pair: &PointPair) -> Result<Faces, String> {
-    let mut faces: [Option<Face>; 2] = [None; 2];
+fn ports(
+    system: &System,
+    between: [Option<usize>; 2],
+    pair: &PointPair,
+) -> Result<PortPair, String> {
+    let mut ports: [Option<Port>; 2] = [None; 2];
     for side in 0..2 {
         let (Some(building), Some(height)) = (between[side], pair[side]) else {
             continue;
         };
-        let idealisation = &system.buildings[building].idealisation;
-        let face = if side == 0 {
-            &idealisation.right_face
+        let discretization = &system.buildings[building].discretization;
+        let port = if side == 0 {
+            &discretization.right_face
         } else {
-            &idealisation.left_face
+            &discretization.left_face
         };
-        let nodes = &idealisation.skeleton.nodes;
-        let node = face
+        let nodes = &discretization.stick_model.nodes;
+        let node = port
             .iter()
             .copied()
             .find(|&node| (nodes[node].y - height).abs() <= 2.0 * SAME)
             .ok_or_else(|| format!("no point to hit at {height:.3} m"))?;
-        faces[side] = Some(system.face(building, node)?);
+        ports[side] = Some(system.port(building, node)?);
     }
-    Ok(Faces(faces))
+    Ok(PortPair(ports))
 }
 
 /// What gravity alone closes \[m\].
-fn closing_at_rest(system: &System, faces: &Faces) -> f64 {
-    let displacement = |face: Face| {
-        let building = &system.buildings[face.building];
-        let own = building.rest.displacement.get(face.dof - building.offset);
+fn closing_at_rest(system: &System, ports: &PortPair) -> f64 {
+    let displacement = |port: Port| {
+        let building = &system.buildings[port.building];
+        let own = building.rest.displacement.get(port.dof - building.offset);
         own.copied().unwrap_or(0.0)
     };
-    faces
+    ports
         .sides()
-        .map(|(face, sign)| -sign * displacement(face))
+        .map(|(port, sign)| -sign * displacement(port))
         .sum()
 }

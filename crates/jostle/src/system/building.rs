@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::eigen::{Mode, lateral_modes_along};
 use crate::model::{Damping, Gravity, usual_damping_modes};
 use crate::statics::{Collapse, Settled, under_gravity};
-use crate::structure::{AssembledBuilding, Idealisation};
+use crate::structure::{AssembledBuilding, Discretization};
 use crate::transfer::riccati::RiccatiSweep;
 
 /// One building of a system: its equations, and where they stand among those of the others.
@@ -57,20 +57,22 @@ impl Deref for BuildingSystem {
 }
 
 impl BuildingSystem {
-    /// Assembles an idealised building, without damping.
+    /// Assembles a discretized building, without damping.
     #[must_use]
-    pub fn new(name: &str, idealisation: Idealisation) -> Self {
-        Self::from_assembled(AssembledBuilding::new(name, idealisation))
+    pub fn new(name: &str, discretization: Discretization) -> Self {
+        Self::from_assembled(AssembledBuilding::new(name, discretization))
     }
 
     fn from_assembled(structure: AssembledBuilding) -> Self {
         let sweep = RiccatiSweep::through(&structure.equations);
-        let Idealisation {
-            skeleton, floors, ..
-        } = &structure.idealisation;
+        let Discretization {
+            stick_model,
+            floors,
+            ..
+        } = &structure.discretization;
         let mut below = 0.0;
         let floors = floors.iter().filter_map(|&node| {
-            let height = skeleton.nodes[node].y;
+            let height = stick_model.nodes[node].y;
             let storey_height = height - std::mem::replace(&mut below, height);
             Some(Floor {
                 dof: structure.equations.horizontal(node)?,
@@ -79,7 +81,7 @@ impl BuildingSystem {
             })
         });
         let floors = floors.collect();
-        let foot = structure.idealisation.foot;
+        let foot = structure.discretization.foot;
         let foot = foot.and_then(|node| structure.equations.horizontal(node));
         let modes = lateral_modes_along(&structure, &sweep).unwrap_or_default();
         Self {

@@ -4,7 +4,7 @@ mod assemble;
 mod building;
 mod finite;
 
-use crate::interface::{Contact, Face, Faces, LinkElement};
+use crate::interface::{Contact, LinkElement, Port, PortPair};
 use crate::model::LEVEL_TOLERANCE;
 
 pub use building::{BuildingSystem, Floor};
@@ -79,18 +79,18 @@ impl System {
         left: (usize, usize),
         right: (usize, usize),
     ) -> Result<Contact, String> {
-        let faces = Faces([
-            Some(self.face(left.0, left.1)?),
-            Some(self.face(right.0, right.1)?),
+        let ports = PortPair([
+            Some(self.port(left.0, left.1)?),
+            Some(self.port(right.0, right.1)?),
         ]);
-        Ok(Contact::without_law(faces))
+        Ok(Contact::without_law(ports))
     }
 
     /// The point of a building at a node.
     ///
     /// # Errors
     /// A message when the node cannot be pushed or carries no mass.
-    pub fn face(&self, building: usize, node: usize) -> Result<Face, String> {
+    pub fn port(&self, building: usize, node: usize) -> Result<Port, String> {
         let own = &self.buildings[building];
         let dof = own
             .equations
@@ -103,12 +103,12 @@ impl System {
                 own.name
             ));
         }
-        let height = own.idealisation.skeleton.nodes[node].y;
+        let height = own.discretization.stick_model.nodes[node].y;
         let floor = own
             .floors
             .iter()
             .position(|floor| (floor.height - height).abs() <= LEVEL_TOLERANCE);
-        Ok(Face {
+        Ok(Port {
             building,
             dof: own.offset + dof,
             mass,

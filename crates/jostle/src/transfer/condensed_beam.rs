@@ -35,7 +35,7 @@ pub(super) struct BeamFactor {
 
 impl CondensedBeam {
     pub(super) fn of(layout: &Layout, beam: &BeamLine) -> Self {
-        let skeleton = &layout.skeleton;
+        let stick_model = &layout.stick_model;
         let last = beam.nodes.len() - 1;
         let mut nodes = vec![beam.nodes[0], beam.nodes[last]];
         nodes.extend(&beam.nodes[1..last]);
@@ -55,13 +55,13 @@ impl CondensedBeam {
         for link in &beam.links {
             match link {
                 Link::Member(index) => {
-                    let member = &skeleton.members[*index];
+                    let member = &stick_model.members[*index];
                     if member.axial_rigidity.is_none() {
                         tie(member.ends[0], member.ends[1], X);
                     }
                 }
                 Link::Hinge(index) => {
-                    let hinge = &skeleton.hinges[*index];
+                    let hinge = &stick_model.hinges[*index];
                     let [horizontal, vertical] = hinge.translational_stiffness;
                     for (component, stiffness) in [horizontal, vertical, hinge.rotational_stiffness]
                         .into_iter()
@@ -88,10 +88,10 @@ impl CondensedBeam {
         for link in &beam.links {
             let element = match link {
                 Link::Member(index) => {
-                    element::of_member(&skeleton.members[*index], &skeleton.nodes)
+                    element::of_member(&stick_model.members[*index], &stick_model.nodes)
                 }
-                Link::Hinge(index) => element::of_hinge(&skeleton.hinges[*index]),
-                Link::Spring(index) => element::of_spring(&skeleton.springs[*index]),
+                Link::Hinge(index) => element::of_hinge(&stick_model.hinges[*index]),
+                Link::Spring(index) => element::of_spring(&stick_model.springs[*index]),
             };
             for (part, a, b, value) in element.entries {
                 if let (Some(a), Some(b)) = (place(a.0, a.1), place(b.0, b.1)) {
@@ -101,7 +101,7 @@ impl CondensedBeam {
         }
         let mut mass = vec![0.0; ENDS + numbers.len()];
         for (index, &node) in nodes.iter().enumerate().skip(2) {
-            let node = &skeleton.nodes[node];
+            let node = &stick_model.nodes[node];
             for (component, value) in [node.mass, node.mass, node.rotary_inertia]
                 .into_iter()
                 .enumerate()

@@ -30,7 +30,7 @@ const PER_BEAM_DECADE: f64 = 0.4;
 /// half decades.
 ///
 /// ```
-/// use jostle::structure::Idealisation;
+/// use jostle::structure::Discretization;
 /// use jostle::linear::StepMatrix;
 /// use jostle::system::AssembledBuilding;
 /// use jostle::transfer::digits_left;
@@ -47,7 +47,7 @@ const PER_BEAM_DECADE: f64 = 0.4;
 ///     gravity: Default::default(),
 ///     hinges: None,
 /// };
-/// let tower = AssembledBuilding::new("tower", Idealisation::of(&tower));
+/// let tower = AssembledBuilding::new("tower", Discretization::of(&tower));
 /// let at = |step: f64| digits_left(&tower, &StepMatrix::new(1.0, 4.0 / (step * step)));
 /// assert!(at(2e-2) > 7.0 && at(1e-3) < -10.0);
 /// ```
@@ -77,7 +77,7 @@ pub fn digits_left(building: &AssembledBuilding, matrix: &StepMatrix) -> f64 {
         .beams
         .iter()
         .map(|line| decades(&line.links, &line.nodes, Heading::Right));
-    let per_decade = if layout.skeleton.springs.is_empty() {
+    let per_decade = if layout.stick_model.springs.is_empty() {
         PER_COLUMN_DECADE
     } else {
         PER_SPRING_DECADE

@@ -1,16 +1,16 @@
-//! Column lines and beams, found in the geometry of a skeleton.
+//! Column lines and beams, found in the geometry of a stick model.
 
 use super::{BeamSegment, Heading, LumpedMass, PlanarHinge, Transfer};
 use crate::linear::StepMatrix;
 use crate::structure::AssembledBuilding;
 use crate::structure::Equations;
 use crate::structure::element::{self, THETA, X, Y};
-use crate::structure::{Skeleton, Support};
+use crate::structure::{StickModel, Support};
 
 /// Two heights or places nearer than this are the same \[m\].
 const SAME: f64 = 1e-6;
 
-/// A skeleton that no chain of transfer matrices runs through.
+/// A stick model that no chain of transfer matrices runs through.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotAFrame {
@@ -89,7 +89,7 @@ pub(super) struct BeamLine {
     pub(super) links: Vec<Link>,
 }
 
-/// What a skeleton is made of, from the point of view of transfer.
+/// What a stick model is made of, from the point of view of transfer.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     /// From left to right.
@@ -101,23 +101,23 @@ pub(super) struct Layout {
     /// Per node and component: the degree of freedom whose load the node carries and whose displacement it
     /// tells. A displacement that several nodes share belongs to the first of them.
     pub(super) carried: Vec<[Option<usize>; 3]>,
-    pub(super) skeleton: Skeleton,
+    pub(super) stick_model: StickModel,
 }
 
 impl Layout {
     pub(super) fn new(building: &AssembledBuilding) -> Result<Self, NotAFrame> {
-        let skeleton = &building.idealisation.skeleton;
+        let stick_model = &building.discretization.stick_model;
         if !building.equations.springs.is_empty() {
             return Err(NotAFrame::Yields);
         }
-        let elements = elements(skeleton);
-        let mut around = vec![Vec::new(); skeleton.nodes.len()];
+        let elements = elements(stick_model);
+        let mut around = vec![Vec::new(); stick_model.nodes.len()];
         for &(link, [a, b]) in &elements {
             around[a].push((link, b));
             around[b].push((link, a));
         }
-        let columns = column_lines(skeleton, &around)?;
-        let beams = beam_lines(skeleton, &around, &columns)?;
+        let columns = column_lines(stick_model, &around)?;
+        let beams = beam_lines(stick_model, &around, &columns)?;
         let mut meeting: Vec<Vec<[Option<usize>; 2]>> = columns
             .iter()
             .map(|line| vec![[None; 2]; line.nodes.len()])
@@ -130,8 +130,8 @@ impl Layout {
             columns,
             beams,
             meeting,
-            carried: carried(&building.equations, skeleton.nodes.len()),
-            skeleton: skeleton.clone(),
+            carried: carried(&building.equations, stick_model.nodes.len()),
+            stick_model: stick_model.clone(),
         };
         layout.check_all_found(&elements)?;
         Ok(layout)
@@ -141,8 +141,8 @@ impl Layout {
     pub(super) fn transfer(&self, link: Link, heading: Heading, matrix: &StepMatrix) -> Transfer {
         match link {
             Link::Member(index) => {
-                let member = &self.skeleton.members[index];
-                let [a, b] = member.ends.map(|end| self.skeleton.nodes[end]);
+                let member = &self.stick_model.members[index];
+                let [a, b] = member.ends.map(|end| self.stick_model.nodes[end]);
                 let segment = BeamSegment {
                     length: (b.x - a.x).abs().max((b.y - a.y).abs()),
                     flexural_rigidity: member.flexural_rigidity,
@@ -153,7 +153,7 @@ impl Layout {
                 segment.stiffened(matrix.stiffness).transfer(heading)
             }
             Link::Hinge(index) => {
-                let hinge = &self.skeleton.hinges[index];
+                let hinge = &self.stick_model.hinges[index];
                 let weight = element::part_of(hinge.proportional_damping).weight(matrix);
                 let in_step = |stiffness: Option<f64>, component: usize| {
                     stiffness.map(|k| weight * k + matrix.dashpots * hinge.dashpots[component])
@@ -167,7 +167,7 @@ impl Layout {
             }
             // Floors of a shear building neither rise nor turn: a hinge that gives way sideways only.
             Link::Spring(index) => {
-                let spring = &self.skeleton.springs[index];
+                let spring = &self.stick_model.springs[index];
                 let weight = element::part_of(spring.proportional_damping).weight(matrix);
                 PlanarHinge {
                     horizontal_stiffness: Some(
@@ -183,7 +183,7 @@ impl Layout {
 
     /// Transfer through the lumped mass of a node, without loads.
     pub(super) fn mass(&self, node: usize, mass_factor: f64) -> Transfer {
-        let node = &self.skeleton.nodes[node];
+        let node = &self.stick_model.nodes[node];
         let mass = LumpedMass {
             mass: node.mass,
             rotary_inertia: node.rotary_inertia,
@@ -193,11 +193,11 @@ impl Layout {
 
     /// Height of a node above the base \[m\].
     pub(super) fn height(&self, node: usize) -> f64 {
-        self.skeleton.nodes[node].y
+        self.stick_model.nodes[node].y
     }
 
     fn check_all_found(&self, elements: &[(Link, [usize; 2])]) -> Result<(), NotAFrame> {
-        let mut met = vec![false; self.skeleton.nodes.len()];
+        let mut met = vec![false; self.stick_model.nodes.len()];
         let mut passed = Vec::new();
         let columns = self.columns.iter().map(|line| (&line.nodes, &line.links));
         let beams = self.beams.iter().map(|line| (&line.nodes, &line.links));
@@ -218,7 +218,7 @@ impl Layout {
         if let Some(node) = met.iter().position(|met| !met) {
             return Err(NotAFrame::LooseNode { node });
         }
-        for (index, node) in self.skeleton.nodes.iter().enumerate() {
+        for (index, node) in self.stick_model.nodes.iter().enumerate() {
             let at_spring = |(link, ends): &(Link, [usize; 2])| {
                 matches!(link, Link::Spring(_)) && ends.contains(&index)
             };
@@ -244,10 +244,10 @@ impl Layout {
 }
 
 /// Every element with its ends.
-fn elements(skeleton: &Skeleton) -> Vec<(Link, [usize; 2])> {
-    let members = skeleton.members.iter().enumerate();
-    let hinges = skeleton.hinges.iter().enumerate();
-    let springs = skeleton.springs.iter().enumerate();
+fn elements(stick_model: &StickModel) -> Vec<(Link, [usize; 2])> {
+    let members = stick_model.members.iter().enumerate();
+    let hinges = stick_model.hinges.iter().enumerate();
+    let springs = stick_model.springs.iter().enumerate();
     members
         .map(|(index, member)| (Link::Member(index), member.ends))
         .chain(hinges.map(|(index, hinge)| (Link::Hinge(index), hinge.ends)))
@@ -269,10 +269,10 @@ fn carried(equations: &Equations, nodes: usize) -> Vec<[Option<usize>; 3]> {
 
 /// From every fixed node up as far as it goes.
 fn column_lines(
-    skeleton: &Skeleton,
+    stick_model: &StickModel,
     around: &[Vec<(Link, usize)>],
 ) -> Result<Vec<ColumnLine>, NotAFrame> {
-    let nodes = &skeleton.nodes;
+    let nodes = &stick_model.nodes;
     let mut bases: Vec<usize> = (0..nodes.len())
         .filter(|&node| nodes[node].support == Support::Fixed)
         .collect();
@@ -310,11 +310,11 @@ fn column_lines(
 
 /// From every joint to the right, until the next column line.
 fn beam_lines(
-    skeleton: &Skeleton,
+    stick_model: &StickModel,
     around: &[Vec<(Link, usize)>],
     columns: &[ColumnLine],
 ) -> Result<Vec<BeamLine>, NotAFrame> {
-    let nodes = &skeleton.nodes;
+    let nodes = &stick_model.nodes;
     let mut place = vec![None; nodes.len()];
     for (column, line) in columns.iter().enumerate() {
         for (index, &node) in line.nodes.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! What moves without deforming has no modes, and says so.
 
 use jostle::eigen::{Spectrum, lateral_modes, log_determinant, modes};
-use jostle::structure::Skeleton;
+use jostle::structure::StickModel;
 use jostle::system::BuildingSystem;
 
 use crate::support::{assembled, library_modes, stacks, stored_frame, stored_frames};
@@ -45,7 +45,7 @@ fn frames_without_supports_and_frames_that_buckle() {
 
 #[test]
 fn nothing_has_no_modes() {
-    let nothing = assembled(Skeleton::default(), Vec::new());
+    let nothing = assembled(StickModel::default(), Vec::new());
     assert_eq!(modes(&nothing, 3), Ok(Vec::new()));
     assert_eq!(library_modes(&nothing), Ok(Vec::new()));
     assert_eq!(lateral_modes(&nothing), Ok(Vec::new()));

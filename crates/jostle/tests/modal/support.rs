@@ -3,7 +3,7 @@
 use faer::{Mat, Side};
 use jostle::eigen::{Mode, modes_dense};
 use jostle::linear::NotPositive;
-use jostle::structure::{Hinge, Idealisation, Member, Node, Skeleton, Spring, Support};
+use jostle::structure::{Discretization, Hinge, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::{Axial, Building, Damping, Frame, Joint, Section, Structure};
 use serde_json::Value;
@@ -42,8 +42,8 @@ pub(crate) fn numbers(value: &Value) -> Vec<f64> {
 pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
     let entries = |key: &str| frame[key].as_array().expect("a list").iter();
     let index = |value: &Value| value.as_u64().expect("a node") as usize;
-    let mut skeleton = Skeleton::default();
-    skeleton.nodes.extend(entries("nodes").map(|node| Node {
+    let mut stick_model = StickModel::default();
+    stick_model.nodes.extend(entries("nodes").map(|node| Node {
         x: number(node, "x"),
         y: number(node, "y"),
         mass: number(node, "m"),
@@ -51,12 +51,12 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
         support: Support::Free,
     }));
     for node in entries("fixed_nodes") {
-        skeleton.nodes[index(node)].support = Support::Fixed;
+        stick_model.nodes[index(node)].support = Support::Fixed;
     }
     for element in entries("elements") {
         let ends = [index(&element["i"]), index(&element["j"])];
         if element["type"] == "beam" {
-            skeleton.members.push(Member {
+            stick_model.members.push(Member {
                 ends,
                 flexural_rigidity: number(element, "EI"),
                 axial_rigidity: element["EA"].as_f64(),
@@ -64,7 +64,7 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
                 compression: compressed * number(element, "P"),
             });
         } else {
-            skeleton.hinges.push(Hinge {
+            stick_model.hinges.push(Hinge {
                 ends,
                 rotational_stiffness: Some(number(element, "Ktheta")),
                 hysteresis: None,
@@ -77,41 +77,41 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
     let floors = entries("floor_joint_nodes")
         .map(|joints| index(&joints[0]))
         .collect();
-    assembled(skeleton, floors)
+    assembled(stick_model, floors)
 }
 
-pub(crate) fn assembled(skeleton: Skeleton, floors: Vec<usize>) -> BuildingSystem {
-    let idealisation = Idealisation {
+pub(crate) fn assembled(stick_model: StickModel, floors: Vec<usize>) -> BuildingSystem {
+    let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
-        skeleton,
+        stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,
     };
-    BuildingSystem::new("building", idealisation)
+    BuildingSystem::new("building", discretization)
 }
 
 /// Stacks of floors (mass \[kg\], storey spring \[N/m\]) beside each other on one ground, without connection.
 pub(crate) fn stacks(stacks: &[&[(f64, f64)]]) -> BuildingSystem {
-    let mut skeleton = Skeleton::default();
+    let mut stick_model = StickModel::default();
     let mut floors = Vec::new();
     for (line, floors_of_one) in stacks.iter().enumerate() {
         let mut node = |height: usize, mass, support| {
-            skeleton.nodes.push(Node {
+            stick_model.nodes.push(Node {
                 x: 10.0 * line as f64,
                 y: 3.0 * height as f64,
                 mass,
                 rotary_inertia: 0.0,
                 support,
             });
-            skeleton.nodes.len() - 1
+            stick_model.nodes.len() - 1
         };
         let mut below = node(0, 0.0, Support::Fixed);
         for (storey, &(mass, stiffness)) in floors_of_one.iter().enumerate() {
             let floor = node(storey + 1, mass, Support::Guided);
             if stiffness > 0.0 {
-                skeleton
+                stick_model
                     .springs
                     .push(Spring::elastic([below, floor], stiffness));
             }
@@ -121,7 +121,7 @@ pub(crate) fn stacks(stacks: &[&[(f64, f64)]]) -> BuildingSystem {
             below = floor;
         }
     }
-    assembled(skeleton, floors)
+    assembled(stick_model, floors)
 }
 
 /// A shear building of equal storeys.
@@ -170,7 +170,7 @@ pub(crate) fn framed(frame: Frame) -> BuildingSystem {
         gravity: Default::default(),
         hinges: None,
     };
-    BuildingSystem::new("frame", Idealisation::of(&building))
+    BuildingSystem::new("frame", Discretization::of(&building))
 }
 
 /// Equal masses \[kg\] beside each other, each on a spring to the ground and joined to all others by springs \[N/m\].
@@ -182,17 +182,19 @@ pub(crate) fn joined(masses: usize, mass: f64, grounded: f64, joining: f64) -> B
         rotary_inertia: 0.0,
         support,
     };
-    let mut skeleton = Skeleton::default();
-    skeleton.nodes.push(node(0, 0.0, 0.0, Support::Fixed));
+    let mut stick_model = StickModel::default();
+    stick_model.nodes.push(node(0, 0.0, 0.0, Support::Fixed));
     for index in 1..=masses {
-        skeleton.nodes.push(node(index, 3.0, mass, Support::Guided));
+        stick_model
+            .nodes
+            .push(node(index, 3.0, mass, Support::Guided));
         let spring = |from, stiffness| Spring::elastic([from, index], stiffness);
-        skeleton.springs.push(spring(0, grounded));
-        skeleton
+        stick_model.springs.push(spring(0, grounded));
+        stick_model
             .springs
             .extend((1..index).map(|from| spring(from, joining)));
     }
-    assembled(skeleton, vec![1])
+    assembled(stick_model, vec![1])
 }
 
 /// Greatest relative error of the frequencies, over as many as are given in both.

@@ -2,7 +2,7 @@
 
 use jostle::eigen::modes;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
-use jostle::structure::Idealisation;
+use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
 use jostle::{Base, Building, Damping, Frame, FrameHinges, Hinges, Joint, Structure};
 
@@ -30,7 +30,7 @@ fn hinged(frame: Frame, columns: Option<f64>, beams: f64, base: Base) -> Buildin
             beams: vec![vec![hinge(beams); bays]; storeys],
         })),
     };
-    BuildingSystem::new("hinged", Idealisation::of(&building))
+    BuildingSystem::new("hinged", Discretization::of(&building))
 }
 
 #[test]

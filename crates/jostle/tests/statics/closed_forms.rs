@@ -7,7 +7,7 @@ use jostle::statics::STANDARD_GRAVITY;
 use jostle::statics::{PathError, settle};
 use jostle::stiffness::DirectStiffness;
 use jostle::structure::solve_once;
-use jostle::structure::{Hinge, Idealisation, Member, Node, Skeleton, Support};
+use jostle::structure::{Discretization, Hinge, Member, Node, StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::{Base, Shear};
 
@@ -215,7 +215,7 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
         support,
     };
     let half = 0.5 * length;
-    let skeleton = Skeleton {
+    let stick_model = StickModel {
         nodes: vec![
             node(0.0, 0.0, Support::Fixed),
             node(0.0, 0.0, Support::Free),
@@ -240,15 +240,15 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
             .collect(),
         springs: Vec::new(),
     };
-    let idealisation = Idealisation {
-        skeleton,
+    let discretization = Discretization {
+        stick_model,
         foot: None,
         floors: Vec::new(),
         left_face: Vec::new(),
         right_face: Vec::new(),
         spring_places: Vec::new(),
     };
-    BuildingSystem::new("beam", idealisation)
+    BuildingSystem::new("beam", discretization)
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::pushover::{LoadPattern, PushDirection, PushSettings, Pushover, pushover};
-use jostle::structure::Idealisation;
+use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
 use jostle::{
     Axial, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section, Shear, Structure,
@@ -102,7 +102,7 @@ pub(crate) fn under(mut building: Building, preload: bool, p_delta: bool) -> Bui
 }
 
 pub(crate) fn assembled(building: &Building) -> BuildingSystem {
-    let mut assembled = BuildingSystem::new(&building.name, Idealisation::of(building));
+    let mut assembled = BuildingSystem::new(&building.name, Discretization::of(building));
     assembled
         .put_under_gravity(building.gravity)
         .expect("it stands");

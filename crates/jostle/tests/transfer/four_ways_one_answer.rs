@@ -79,14 +79,14 @@ fn four_solvers_agree_on_irregular_frames() {
     for variant in VARIANTS {
         for spans in [&[4.0, 6.0][..], &[6.0], &[5.0, 3.0, 4.0, 6.0]] {
             let plain = frame(variant, spans, 3, COLUMN);
-            let mut idealisation = plain.idealisation.clone();
-            let skeleton = &mut idealisation.skeleton;
-            for (index, node) in skeleton.nodes.iter_mut().enumerate() {
+            let mut discretization = plain.discretization.clone();
+            let stick_model = &mut discretization.stick_model;
+            for (index, node) in stick_model.nodes.iter_mut().enumerate() {
                 node.y *= 1.0 + 0.07 * node.y / 3.2;
                 node.rotary_inertia = 10.0 * (index % 5) as f64;
                 node.mass *= 1.0 + 0.2 * (index % 3) as f64;
             }
-            for (index, hinge) in skeleton.hinges.iter_mut().enumerate() {
+            for (index, hinge) in stick_model.hinges.iter_mut().enumerate() {
                 hinge.translational_stiffness = match index % 4 {
                     0 => [Some(3e8), None],
                     1 => [None, Some(2e8)],
@@ -94,7 +94,7 @@ fn four_solvers_agree_on_irregular_frames() {
                     _ => [None, None],
                 };
             }
-            let building = BuildingSystem::new("irregular", idealisation);
+            let building = BuildingSystem::new("irregular", discretization);
             let factors = step_factors([0.25, 0.5], 0.02, [0.35, 0.0025]);
             let load = step_load(&building, factors.1);
             let direct = solution::<DirectStiffness>(&building, factors, &load);

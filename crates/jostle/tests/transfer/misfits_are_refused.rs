@@ -1,24 +1,24 @@
 //! What is no frame is called by its fault.
 
 use jostle::structure::StepEquations;
-use jostle::structure::{Idealisation, Member, Node, Skeleton, Spring, Support};
+use jostle::structure::{Discretization, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::transfer::{ElementwiseRiccati, NotAFrame, ProductEquations, ProductRefusal};
 
 use crate::support::{COLUMN, Variant, frame, tower};
 
 /// The refusal of a frame of two bays and two storeys after a change.
-fn refusal(change: impl FnOnce(&mut Skeleton)) -> NotAFrame {
+fn refusal(change: impl FnOnce(&mut StickModel)) -> NotAFrame {
     refusal_of(
         &frame(Variant::FlexibleMembers, &[4.0, 6.0], 2, COLUMN),
         change,
     )
 }
 
-fn refusal_of(building: &BuildingSystem, change: impl FnOnce(&mut Skeleton)) -> NotAFrame {
-    let mut idealisation: Idealisation = building.idealisation.clone();
-    change(&mut idealisation.skeleton);
-    let building = BuildingSystem::new("misfit", idealisation);
+fn refusal_of(building: &BuildingSystem, change: impl FnOnce(&mut StickModel)) -> NotAFrame {
+    let mut discretization: Discretization = building.discretization.clone();
+    change(&mut discretization.stick_model);
+    let building = BuildingSystem::new("misfit", discretization);
     let mut factor = <ProductEquations as StepEquations>::Factor::default();
     let stepped = ProductEquations::new(&building).factorize(
         &jostle::linear::StepMatrix::new(1.0, 1e4),
@@ -43,9 +43,9 @@ fn brace(from: usize, to: usize) -> Member {
 }
 
 /// The joint at a place; the ends of beams behind hinges come after it.
-fn joint(skeleton: &Skeleton, x: f64, y: f64) -> usize {
+fn joint(stick_model: &StickModel, x: f64, y: f64) -> usize {
     let at = |node: &Node| (node.x - x).abs() < 1e-9 && (node.y - y).abs() < 1e-9;
-    skeleton
+    stick_model
         .nodes
         .iter()
         .position(at)
@@ -54,8 +54,8 @@ fn joint(skeleton: &Skeleton, x: f64, y: f64) -> usize {
 
 #[test]
 fn a_frame_without_base_is_refused() {
-    let free = |skeleton: &mut Skeleton| {
-        skeleton
+    let free = |stick_model: &mut StickModel| {
+        stick_model
             .nodes
             .iter_mut()
             .for_each(|node| node.support = Support::Free);
@@ -65,22 +65,22 @@ fn a_frame_without_base_is_refused() {
 
 #[test]
 fn stray_nodes_and_elements_are_refused() {
-    let stray = refusal(|skeleton| {
-        let node = skeleton.nodes[3];
-        skeleton.nodes.push(node);
+    let stray = refusal(|stick_model| {
+        let node = stick_model.nodes[3];
+        stick_model.nodes.push(node);
     });
     assert!(matches!(stray, NotAFrame::LooseNode { .. }), "{stray}");
     // A second beam beside the first.
-    let twin = refusal(|skeleton| {
-        let ends = [joint(skeleton, 0.0, 3.2), joint(skeleton, 4.0, 3.2)];
-        skeleton.members.push(brace(ends[0], ends[1]));
+    let twin = refusal(|stick_model| {
+        let ends = [joint(stick_model, 0.0, 3.2), joint(stick_model, 4.0, 3.2)];
+        stick_model.members.push(brace(ends[0], ends[1]));
     });
     assert!(matches!(twin, NotAFrame::LooseElement { .. }), "{twin}");
     assert!(twin.to_string().starts_with("member "), "{twin}");
     // A tie from the first to the last column line.
-    let far = refusal(|skeleton| {
-        let ends = [joint(skeleton, 0.0, 6.4), joint(skeleton, 10.0, 6.4)];
-        skeleton.springs.push(Spring::elastic(ends, 1e6));
+    let far = refusal(|stick_model| {
+        let ends = [joint(stick_model, 0.0, 6.4), joint(stick_model, 10.0, 6.4)];
+        stick_model.springs.push(Spring::elastic(ends, 1e6));
     });
     assert!(matches!(far, NotAFrame::LooseElement { .. }), "{far}");
 }
@@ -88,22 +88,22 @@ fn stray_nodes_and_elements_are_refused() {
 #[test]
 fn a_head_that_no_beam_meets_is_refused() {
     let building = frame(Variant::FlexibleMembers, &[4.0, 6.0], 2, COLUMN);
-    let mast = |skeleton: &mut Skeleton| {
-        let head = joint(skeleton, 10.0, 6.4);
-        let mut tip = skeleton.nodes[head];
+    let mast = |stick_model: &mut StickModel| {
+        let head = joint(stick_model, 10.0, 6.4);
+        let mut tip = stick_model.nodes[head];
         tip.y += 2.0;
-        skeleton.nodes.push(tip);
-        let tip = skeleton.nodes.len() - 1;
-        skeleton.members.push(brace(head, tip));
+        stick_model.nodes.push(tip);
+        let tip = stick_model.nodes.len() - 1;
+        stick_model.members.push(brace(head, tip));
     };
     assert!(matches!(
         refusal_of(&building, mast),
         NotAFrame::HeadWithoutBeam { .. }
     ));
     // The recursion from the base has no need of it.
-    let mut idealisation = building.idealisation.clone();
-    mast(&mut idealisation.skeleton);
-    let masted = BuildingSystem::new("masted", idealisation);
+    let mut discretization = building.discretization.clone();
+    mast(&mut discretization.stick_model);
+    let masted = BuildingSystem::new("masted", discretization);
     let mut factor = <ElementwiseRiccati as StepEquations>::Factor::default();
     assert!(
         ElementwiseRiccati::new(&masted)
@@ -114,30 +114,30 @@ fn a_head_that_no_beam_meets_is_refused() {
 
 #[test]
 fn forks_slopes_and_guides_are_refused() {
-    let fork = refusal(|skeleton| {
-        let mut node = skeleton.nodes[0];
+    let fork = refusal(|stick_model| {
+        let mut node = stick_model.nodes[0];
         node.y += 1.0;
         node.support = Support::Free;
-        skeleton.nodes.push(node);
-        let tip = skeleton.nodes.len() - 1;
-        skeleton.members.push(brace(0, tip));
+        stick_model.nodes.push(node);
+        let tip = stick_model.nodes.len() - 1;
+        stick_model.members.push(brace(0, tip));
     });
     assert_eq!(fork, NotAFrame::Branches { node: 0 });
-    let slope = refusal(|skeleton| {
-        let sunk = skeleton.members.iter().rposition(|member| {
-            let [a, b] = member.ends.map(|end| skeleton.nodes[end]);
+    let slope = refusal(|stick_model| {
+        let sunk = stick_model.members.iter().rposition(|member| {
+            let [a, b] = member.ends.map(|end| stick_model.nodes[end]);
             a.y == b.y
         });
-        let node = skeleton.members[sunk.expect("the frame has beams")].ends[0];
-        skeleton.nodes[node].y -= 0.3;
+        let node = stick_model.members[sunk.expect("the frame has beams")].ends[0];
+        stick_model.nodes[node].y -= 0.3;
     });
     assert!(matches!(slope, NotAFrame::NotLevel { .. }), "{slope}");
-    let guided = refusal(|skeleton| {
-        skeleton.nodes[5].support = Support::Guided;
+    let guided = refusal(|stick_model| {
+        stick_model.nodes[5].support = Support::Guided;
     });
     assert_eq!(guided, NotAFrame::Guided { node: 5 });
-    let loose_floor = refusal_of(&tower(3), |skeleton| {
-        skeleton.nodes[2].support = Support::Free;
+    let loose_floor = refusal_of(&tower(3), |stick_model| {
+        stick_model.nodes[2].support = Support::Free;
     });
     assert_eq!(loose_floor, NotAFrame::LooseNode { node: 2 });
 }

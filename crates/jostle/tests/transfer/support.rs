@@ -1,6 +1,6 @@
 //! Frames, loads and steps that the claims are tried on.
 
-use jostle::structure::Idealisation;
+use jostle::structure::Discretization;
 use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{Axial, Building, Damping, Frame, Joint, Section, Shear, Structure};
@@ -71,8 +71,8 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
         gravity: Default::default(),
         hinges: None,
     };
-    let mut idealisation = Idealisation::of(&building);
-    let skeleton = &mut idealisation.skeleton;
+    let mut discretization = Discretization::of(&building);
+    let stick_model = &mut discretization.stick_model;
     // Hinges of 50 times 6 EI/L of their bay.
     let lines: Vec<f64> = std::iter::once(0.0)
         .chain(spans.iter().scan(0.0, |x, span| {
@@ -80,17 +80,17 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
             Some(*x)
         }))
         .collect();
-    for (index, hinge) in skeleton.hinges.iter_mut().enumerate() {
+    for (index, hinge) in stick_model.hinges.iter_mut().enumerate() {
         // Two per beam, bay by bay.
         let span = spans[index / 2 % spans.len()];
         assert!(
-            lines.contains(&skeleton.nodes[hinge.ends[0]].x),
+            lines.contains(&stick_model.nodes[hinge.ends[0]].x),
             "hinges are at joints"
         );
         hinge.rotational_stiffness = Some(50.0 * 6.0 * beam.flexural_rigidity / span);
     }
-    for member in &mut skeleton.members {
-        let [a, b] = member.ends.map(|end| skeleton.nodes[end]);
+    for member in &mut stick_model.members {
+        let [a, b] = member.ends.map(|end| stick_model.nodes[end]);
         let vertical = a.x == b.x;
         match variant {
             Variant::Timoshenko => {
@@ -104,7 +104,7 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
             _ => {}
         }
     }
-    BuildingSystem::new(&building.name, idealisation)
+    BuildingSystem::new(&building.name, discretization)
 }
 
 /// A shear building of unequal floors and storeys.
@@ -124,7 +124,7 @@ pub(crate) fn tower(storeys: usize) -> BuildingSystem {
         gravity: Default::default(),
         hinges: None,
     };
-    BuildingSystem::new(&building.name, Idealisation::of(&building))
+    BuildingSystem::new(&building.name, Discretization::of(&building))
 }
 
 /// κ and g of a Newmark step \[s\] with Rayleigh damping.

@@ -9,7 +9,7 @@ use jostle::linear::SparseSymmetric;
 use jostle::linear::StepMatrix;
 use jostle::statics::STANDARD_GRAVITY;
 use jostle::stiffness::DirectStiffness;
-use jostle::structure::Idealisation;
+use jostle::structure::Discretization;
 use jostle::structure::solve_once;
 use jostle::system::BuildingSystem;
 use jostle::transfer::{ElementwiseRiccati, ProductEquations};
@@ -149,11 +149,11 @@ fn runs_agree_with_the_textbook_form() {
     shear.damping = heavy.damping.clone();
     for building in [heavy, shear] {
         let building = with_everything(building);
-        let mut idealisation = alone(building.clone()).buildings[0].idealisation.clone();
-        for node in &mut idealisation.skeleton.nodes {
+        let mut discretization = alone(building.clone()).buildings[0].discretization.clone();
+        for node in &mut discretization.stick_model.nodes {
             node.rotary_inertia = 0.3 * node.mass;
         }
-        let mut whole = BuildingSystem::new("whole", idealisation);
+        let mut whole = BuildingSystem::new("whole", discretization);
         whole.damp(&building.damping).expect("coefficients");
         for integrator in [
             Integrator::default(),
@@ -471,8 +471,11 @@ fn a_building_too_weak_for_its_weight_is_refused() {
 #[test]
 fn idealisation_without_base_is_unchanged() {
     let plain = framed("plain", frame(2, &[5.0]));
-    let nodes = Idealisation::of(&plain).skeleton.nodes.len();
+    let nodes = Discretization::of(&plain).stick_model.nodes.len();
     let mut based = plain.clone();
     based.base = soft_base();
-    assert_eq!(Idealisation::of(&based).skeleton.nodes.len(), nodes + 2);
+    assert_eq!(
+        Discretization::of(&based).stick_model.nodes.len(),
+        nodes + 2
+    );
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use jostle::contact::ForceLaw;
-use jostle::interface::Faces;
+use jostle::interface::PortPair;
 use jostle::interface::{Contact, LinkElement};
 use jostle::{
     Column, ContactLaw, FloorPairs, Gap, LawKind, Link, Model, Outcome, Plan, RestitutionIs,
@@ -18,21 +18,21 @@ use crate::support::{
 /// One mass before a wall on its right.
 fn before_a_wall(mass: f64, width: f64, law: ForceLaw) -> System {
     let mut system = System::of_buildings(vec![slider("mass", mass, None)]);
-    let faces = Faces([Some(system.face(0, 1).expect("it has mass")), None]);
+    let ports = PortPair([Some(system.port(0, 1).expect("it has mass")), None]);
     system.contacts.push(Contact {
         width,
         law,
-        ..Contact::without_law(faces)
+        ..Contact::without_law(ports)
     });
     system
 }
 
 fn linked(mut system: System, between: [Option<usize>; 2], stiffness: f64, damping: f64) -> System {
-    let faces = Faces(between.map(|side| side.map(|b| system.face(b, 1).expect("it has mass"))));
+    let ports = PortPair(between.map(|side| side.map(|b| system.port(b, 1).expect("it has mass"))));
     system.links.push(LinkElement {
         link: 0,
-        faces,
-        height: faces.height(),
+        ports,
+        height: ports.height(),
         stiffness,
         damping,
         closing_at_rest: 0.0,

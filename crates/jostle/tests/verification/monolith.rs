@@ -4,24 +4,24 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use jostle::hysteresis::HysteresisMemory;
-use jostle::interface::Faces;
+use jostle::interface::PortPair;
 use jostle::{GroundMotion, System};
 
 use crate::support::largest;
 
 /// Force that pushes both sides apart, in the residual and, with its slope, in the tangent where that is wanted.
 fn push(
-    faces: &Faces,
+    ports: &PortPair,
     force: f64,
     slope: f64,
     residual: &mut [f64],
     tangent: &mut Option<Mat<f64>>,
 ) {
-    for (face, sign) in faces.sides() {
-        residual[face.dof] += sign * force;
-        for (other, other_sign) in faces.sides() {
+    for (port, sign) in ports.sides() {
+        residual[port.dof] += sign * force;
+        for (other, other_sign) in ports.sides() {
             if let Some(tangent) = tangent.as_mut() {
-                tangent[(face.dof, other.dof)] += sign * other_sign * slope;
+                tangent[(port.dof, other.dof)] += sign * other_sign * slope;
             }
         }
     }
@@ -86,8 +86,8 @@ pub(crate) fn monolith(
     for pair in times.windows(2) {
         let h = pair[1] - pair[0];
         for (contact, speed) in system.contacts.iter().zip(&mut speeds) {
-            let indentation = contact.faces.closing(&u) - contact.width;
-            let rate = contact.faces.closing(&v);
+            let indentation = contact.ports.closing(&u) - contact.width;
+            let rate = contact.ports.closing(&v);
             if speed.is_none() && indentation >= -1e-11 && rate > 0.0 {
                 *speed = Some(rate);
             } else if speed.is_some() && indentation <= 0.0 && rate <= 0.0 {
@@ -128,13 +128,13 @@ pub(crate) fn monolith(
             }
             for (k, contact) in system.contacts.iter().enumerate() {
                 let Some(speed) = speeds[k] else { continue };
-                let rate = contact.faces.closing(&velocity);
-                let indentation = contact.faces.closing(next) - contact.width;
+                let rate = contact.ports.closing(&velocity);
+                let indentation = contact.ports.closing(next) - contact.width;
                 let response = contact.law.respond(indentation, rate, speed);
                 forces[k] = response.force;
                 let slope = response.by_indentation + 2.0 / h * response.by_rate;
                 push(
-                    &contact.faces,
+                    &contact.ports,
                     response.force,
                     slope,
                     &mut residual,
@@ -142,12 +142,12 @@ pub(crate) fn monolith(
                 );
             }
             for (k, link) in system.links.iter().enumerate() {
-                let shortening = link.faces.closing(next);
-                let rate = link.faces.closing(&velocity);
+                let shortening = link.ports.closing(next);
+                let rate = link.ports.closing(&velocity);
                 let force = link.stiffness * shortening + link.damping * rate;
                 forces[system.contacts.len() + k] = force;
                 let slope = link.stiffness + 2.0 / h * link.damping;
-                push(&link.faces, force, slope, &mut residual, tangent);
+                push(&link.ports, force, slope, &mut residual, tangent);
             }
             residual
         };

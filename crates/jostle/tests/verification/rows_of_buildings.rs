@@ -147,7 +147,7 @@ fn frames_of_unequal_storeys_equal_one_system_of_full_matrices() {
     let heights: Vec<(usize, [Option<usize>; 2], f64)> = system
         .contacts
         .iter()
-        .map(|c| (c.gap, c.faces.floors(), (1e3 * c.height).round() / 1e3))
+        .map(|c| (c.gap, c.ports.floors(), (1e3 * c.height).round() / 1e3))
         .collect();
     assert_eq!(
         heights,
@@ -244,7 +244,7 @@ fn a_point_put_into_a_column_changes_neither_statics_nor_mass() {
         law(LawKind::Hertz, 1.0),
     ));
     let system = struck(with);
-    assert_eq!(system.contacts[0].faces.floors(), [None, None]);
+    assert_eq!(system.contacts[0].ports.floors(), [None, None]);
     let mass = |system: &System| system.buildings[0].equations.total_mass();
     // The base takes half of the lowest segment's mass, which has become shorter on one face.
     let line_mass = 2500.0 * 0.25;
@@ -262,7 +262,7 @@ fn a_point_put_into_a_column_changes_neither_statics_nor_mass() {
             jostle::structure::solve_once::<jostle::RiccatiSweep>(building, &statics, &unit);
         solved.expect("it stands")[dof]
     };
-    let [point, floor] = [0, 1].map(|c| system.contacts[c].faces.0[0].expect("a building").dof);
+    let [point, floor] = [0, 1].map(|c| system.contacts[c].ports.0[0].expect("a building").dof);
     let known = plain.buildings[0].floors[0].dof;
     let (got, expected) = (
         flexibility(&system, floor, floor),
@@ -275,7 +275,7 @@ fn a_point_put_into_a_column_changes_neither_statics_nor_mass() {
     assert!(flexibility(&system, point, point) > 0.0);
     // Between rigid floors: a beam with fixed ends, and the storey that sways under what arrives at its top.
     let system = struck(rigid);
-    let point = system.contacts[0].faces.0[0].expect("a building").dof;
+    let point = system.contacts[0].ports.0[0].expect("a building").dof;
     let b = length - a;
     let share = a / length;
     let arrives = 3.0 * share * share - 2.0 * share.powi(3);
@@ -286,7 +286,7 @@ fn a_point_put_into_a_column_changes_neither_statics_nor_mass() {
         (got / expected - 1.0).abs() < 1e-6,
         "{got} against {expected}"
     );
-    assert!(matches!(system.buildings[0].idealisation.floors.len(), 2));
+    assert!(matches!(system.buildings[0].discretization.floors.len(), 2));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use jostle::interface::Contact;
 use jostle::stepping::{ContactSteps, simulate_from};
-use jostle::structure::{Idealisation, Node, Skeleton, Spring, Support};
+use jostle::structure::{Discretization, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::{
     Analysis, Axial, Building, Column, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint,
@@ -291,7 +291,7 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
         rotary_inertia: 0.0,
         support,
     };
-    let skeleton = Skeleton {
+    let stick_model = StickModel {
         nodes: vec![
             node(0.0, 0.0, Support::Fixed),
             node(3.0, mass, Support::Guided),
@@ -300,17 +300,17 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
             .map(|stiffness| Spring::elastic([0, 1], stiffness))
             .into_iter()
             .collect(),
-        ..Skeleton::default()
+        ..StickModel::default()
     };
-    let idealisation = Idealisation {
+    let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
-        skeleton,
+        stick_model,
         floors: vec![1],
         left_face: vec![1],
         right_face: vec![1],
     };
-    BuildingSystem::new(name, idealisation)
+    BuildingSystem::new(name, discretization)
 }
 
 /// Sliders side by side, each neighbouring pair with a contact.
@@ -324,7 +324,7 @@ pub(crate) fn sliders(buildings: Vec<BuildingSystem>, width: f64, law: &ContactL
         system.contacts.push(Contact {
             gap: left,
             width,
-            law: law.between(contact.faces.masses()[0], contact.faces.masses()[1]),
+            law: law.between(contact.ports.masses()[0], contact.ports.masses()[1]),
             ..contact
         });
     }

@@ -23,7 +23,7 @@ pub(super) struct Basis {
 /// Where and how closely the basis has to agree with the building.
 pub(super) struct Demand<'a> {
     /// Degrees of freedom of the building that contacts push.
-    pub(super) faces: &'a [usize],
+    pub(super) ports: &'a [usize],
     /// Degrees of freedom of its floors.
     pub(super) floors: &'a [usize],
     /// Rates s ≥ 0 at which the flexibilities gᵀ(K + s²M)⁻¹g are met exactly; the last is that of further vectors
@@ -176,7 +176,7 @@ impl<'a> Growing<'a> {
         }
         let factors = sweep.factorize_at(&rates)?;
         let loads: Vec<Vec<f64>> = std::iter::once(building.equations.driven_mass.clone())
-            .chain(demand.faces.iter().map(|face| push_on(building, *face)))
+            .chain(demand.ports.iter().map(|port| push_on(building, *port)))
             .collect();
         let answers: Vec<Vec<PerRate>> = loads
             .iter()
@@ -244,9 +244,9 @@ impl<'a> Growing<'a> {
     fn is_close(&self) -> Result<bool, NotPositive> {
         let shown =
             |place: &usize| -> Vec<f64> { self.span.vectors.iter().map(|v| v[*place]).collect() };
-        let faces = self.demand.faces.iter().map(shown);
+        let ports = self.demand.ports.iter().map(shown);
         let loads: Vec<Vec<f64>> = std::iter::once(self.span.driven.clone())
-            .chain(faces)
+            .chain(ports)
             .collect();
         let floors: Vec<Vec<f64>> = self.demand.floors.iter().map(shown).collect();
         for wanted in &self.wanted {
@@ -322,12 +322,12 @@ pub(super) fn at_once(equations: &Equations) -> f64 {
 
 /// The face that every load pushes: none for the ground, then one after the other.
 fn loaded<'a>(demand: &Demand<'a>) -> impl Iterator<Item = Option<&'a usize>> + use<'a> {
-    std::iter::once(None).chain(demand.faces.iter().map(Some))
+    std::iter::once(None).chain(demand.ports.iter().map(Some))
 }
 
 /// A unit force on one degree of freedom.
-fn push_on(building: &BuildingSystem, face: usize) -> Vec<f64> {
+fn push_on(building: &BuildingSystem, port: usize) -> Vec<f64> {
     let mut load = vec![0.0; building.equations.len()];
-    load[face] = 1.0;
+    load[port] = 1.0;
     load
 }

@@ -182,7 +182,7 @@ fn rates(system: &System, building: usize) -> Rates {
     let contacts = system
         .contacts
         .iter()
-        .filter(|contact| contact.faces.buildings().contains(&Some(building)));
+        .filter(|contact| contact.ports.buildings().contains(&Some(building)));
     let durations = contacts
         .filter(|contact| contact.law.stiffness() > 0.0)
         .map(|contact| {

@@ -98,7 +98,7 @@ impl ModalStepper<'_> {
 
     /// Division of free steps with which the quickest modes of buildings that have struck each other are seen.
     fn division_after_jump(&self, run: &RunState<'_>, index: usize) -> u32 {
-        let struck = run.system.contacts[index].faces.buildings();
+        let struck = run.system.contacts[index].ports.buildings();
         let modes = struck.into_iter().flatten().flat_map(|building| {
             let modes = self.reduced.buildings[building].modes.clone();
             &self.reduced.stiffness[modes]

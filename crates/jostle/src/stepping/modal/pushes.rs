@@ -16,10 +16,10 @@ pub(super) struct Push {
 
 impl Push {
     pub(super) fn of(reduced: &Reduced, contact: usize) -> Self {
-        let [left, right] = reduced.faces[contact];
-        let sides = [left.map(|face| (face, -1.0)), right.map(|face| (face, 1.0))];
+        let [left, right] = reduced.ports[contact];
+        let sides = [left.map(|port| (port, -1.0)), right.map(|port| (port, 1.0))];
         let sides = || sides.into_iter().flatten();
-        let touched = || sides().map(|(face, _)| face.building);
+        let touched = || sides().map(|(port, _)| port.building);
         let first = touched().min().unwrap_or(0);
         let buildings = first..touched().max().map_or(first, |last| last + 1);
         let joined = &reduced.buildings[buildings.clone()];
@@ -30,13 +30,13 @@ impl Push {
             .last()
             .map_or([0; 2], |b| [b.modes.end, b.watched.end]);
         let mut loads = vec![0.0; to[0] - from[0]];
-        for (face, sign) in sides() {
-            let modes = reduced.buildings[face.building].modes.clone();
+        for (port, sign) in sides() {
+            let modes = reduced.buildings[port.building].modes.clone();
             for (mode, load) in loads[modes.start - from[0]..modes.end - from[0]]
                 .iter_mut()
                 .enumerate()
             {
-                *load = sign * reduced.shape(face, mode);
+                *load = sign * reduced.shape(port, mode);
             }
         }
         Self {
@@ -88,11 +88,11 @@ impl Answer {
     /// How far and how fast the force, at contact `from`, opens a contact \[m/N, m/(N s)\].
     pub(super) fn opening(&self, contact: usize, from: usize, reduced: &Reduced) -> [f64; 2] {
         let seen = &reduced.pushes[from].watched;
-        let [left, right] = reduced.faces[contact];
+        let [left, right] = reduced.ports[contact];
         self.watched.each_ref().map(|list| {
-            let at = |face: Option<Shown>| {
-                face.filter(|face| seen.contains(&face.watched))
-                    .map_or(0.0, |face| list[face.watched - seen.start])
+            let at = |port: Option<Shown>| {
+                port.filter(|port| seen.contains(&port.watched))
+                    .map_or(0.0, |port| list[port.watched - seen.start])
             };
             at(right) - at(left)
         })

@@ -29,7 +29,7 @@ pub(super) struct Reduced {
     /// The registers at hand.
     arch: Arch,
     /// Where the two faces of every contact show; `None` is a wall.
-    pub(super) faces: Vec<[Option<Shown>; 2]>,
+    pub(super) ports: Vec<[Option<Shown>; 2]>,
     /// What a force at every contact makes of modal loads.
     pub(super) pushes: Vec<Push>,
 }
@@ -102,15 +102,15 @@ impl Reduced {
     ) -> Result<Self, (usize, NotPositive)> {
         let mut bases = Vec::with_capacity(system.buildings.len());
         for (index, building) in system.buildings.iter().enumerate() {
-            let Watched { places, faces } = Watched::of(system, index);
+            let Watched { places, ports } = Watched::of(system, index);
             let Rates { pushed, swaying } = rates[index];
             let [low, high] = COMPARED.map(|factor| factor * pushed);
             let mut struck = system.contacts.iter().filter(|contact| {
                 let law = matches!(contact.law, ForceLaw::Restitution { .. });
-                law && contact.faces.buildings().contains(&Some(index))
+                law && contact.ports.buildings().contains(&Some(index))
             });
             let jumps = system.contacts.iter().any(|contact| {
-                contact.law.onset(1.0) > 0.0 && contact.faces.buildings().contains(&Some(index))
+                contact.law.onset(1.0) > 0.0 && contact.ports.buildings().contains(&Some(index))
             });
             // A force that begins with a jump moves at first the mass that is struck alone, then those beside it.
             let at_once = jumps.then(|| basis::at_once(&building.equations));
@@ -121,7 +121,7 @@ impl Reduced {
                 .chain([pushed])
                 .collect();
             let demand = Demand {
-                faces: &faces,
+                ports: &ports,
                 floors: &places[..building.floors.len()],
                 met: &met,
                 compared: &[high, low, 3.0 * swaying, swaying],
@@ -181,7 +181,7 @@ impl Reduced {
             participation: Vec::new(),
             buildings: Vec::new(),
             arch: Arch::new(),
-            faces: vec![[None; 2]; system.contacts.len()],
+            ports: vec![[None; 2]; system.contacts.len()],
             pushes: Vec::new(),
         };
         for (index, basis) in bases.into_iter().enumerate() {
@@ -209,14 +209,14 @@ impl Reduced {
         let equations = &building.equations;
         let Watched { places, .. } = Watched::of(system, index);
         let watching = self.watched();
-        for (faces, contact) in self.faces.iter_mut().zip(&system.contacts) {
-            for (shown, face) in faces.iter_mut().zip(&contact.faces.0) {
-                let Some(face) = face.filter(|face| face.building == index) else {
+        for (ports, contact) in self.ports.iter_mut().zip(&system.contacts) {
+            for (shown, port) in ports.iter_mut().zip(&contact.ports.0) {
+                let Some(port) = port.filter(|port| port.building == index) else {
                     continue;
                 };
                 let place = places
                     .iter()
-                    .position(|dof| *dof == face.dof - building.offset);
+                    .position(|dof| *dof == port.dof - building.offset);
                 *shown = place.map(|place| Shown {
                     building: index,
                     watched: watching + place,
@@ -357,8 +357,8 @@ impl Reduced {
     /// Left minus right of watched values of a contact; a wall stands still.
     #[inline]
     pub(super) fn closing(&self, contact: usize, values: &[f64]) -> f64 {
-        let [left, right] = self.faces[contact];
-        let at = |face: Option<Shown>| face.map_or(0.0, |shown| values[shown.watched]);
+        let [left, right] = self.ports[contact];
+        let at = |port: Option<Shown>| port.map_or(0.0, |shown| values[shown.watched]);
         at(left) - at(right)
     }
 
@@ -369,9 +369,9 @@ impl Reduced {
     }
 
     /// Shape of one of its building's modes at a face \[kg^−½\].
-    pub(super) fn shape(&self, face: Shown, mode: usize) -> f64 {
-        let own = &self.buildings[face.building];
-        let place = face.watched - own.watched.start;
+    pub(super) fn shape(&self, port: Shown, mode: usize) -> f64 {
+        let own = &self.buildings[port.building];
+        let place = port.watched - own.watched.start;
         own.blocks[place / ROWS * own.modes.len() + mode][place % ROWS]
     }
 
@@ -401,7 +401,7 @@ impl Reduced {
 /// those that contacts push.
 struct Watched {
     places: Vec<usize>,
-    faces: Vec<usize>,
+    ports: Vec<usize>,
 }
 
 impl Watched {
@@ -409,17 +409,17 @@ impl Watched {
         let building = &system.buildings[index];
         let floors = building.floors.iter();
         let mut places: Vec<usize> = floors.map(|floor| floor.dof - building.offset).collect();
-        let mut faces = Vec::new();
-        let all = system.contacts.iter().flat_map(|contact| contact.faces.0);
-        for face in all.flatten().filter(|face| face.building == index) {
-            let dof = face.dof - building.offset;
-            for list in [&mut places, &mut faces] {
+        let mut ports = Vec::new();
+        let all = system.contacts.iter().flat_map(|contact| contact.ports.0);
+        for port in all.flatten().filter(|port| port.building == index) {
+            let dof = port.dof - building.offset;
+            for list in [&mut places, &mut ports] {
                 if !list.contains(&dof) {
                     list.push(dof);
                 }
             }
         }
-        Self { places, faces }
+        Self { places, ports }
     }
 }
 
