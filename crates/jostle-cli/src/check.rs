@@ -443,7 +443,7 @@ fn describe_work(
         .buildings
         .iter()
         .map(|building| RiccatiSweep::new(building));
-    let couplings: usize = sweeps.map(|sweep| sweep.couplings()).sum();
+    let couplings: usize = sweeps.map(|sweep| sweep.entries_of_l()).sum();
     writeln!(
         text,
         "  {} couplings in the factors: {} multiply-adds per solution\n",

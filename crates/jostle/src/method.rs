@@ -76,7 +76,7 @@ impl MethodSurvey {
             springs: stick_model.springs.len(),
             degrees_of_freedom: equations.len(),
             stiffness_entries: equations.len() + equations.stiffness.values.len(),
-            couplings: RiccatiSweep::new(building).couplings(),
+            couplings: RiccatiSweep::new(building).entries_of_l(),
             product_unknowns: ProductEquations::new(building).unknowns(),
             yields: !equations.springs.is_empty(),
             accuracy: SURVEYED_STEPS

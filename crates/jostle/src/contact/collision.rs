@@ -1,4 +1,4 @@
-//! The collision of two free masses, integrated precisely: what a law amounts to, whatever the time step of a run.
+//! The collision of two free masses, integrated precisely: what a law does, for any time step of a run.
 
 use super::runge_kutta::{Point, integrate, land};
 use super::{ForceLaw, Memory, effective_mass, momentum};

@@ -68,7 +68,7 @@ pub fn hertz_indentation(stiffness: f64, effective_mass: f64, impact_speed: f64)
     (1.25 * effective_mass * impact_speed * impact_speed / stiffness).powf(0.4)
 }
 
-/// The d with which free masses rebound with e, whatever n, k and the masses: ln[(1 + d)/(1 − e d)] = d (1 + e)
+/// The d with which free masses rebound with e, for any n, k and masses: ln[(1 + d)/(1 − e d)] = d (1 + e)
 /// (docs/contact.md, H2).
 #[must_use]
 pub fn hertz_damping(e: f64) -> f64 {

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! makes the loop lead from peak to peak; it is 1 until yield and falls afterwards. The lines stay
-//! (Fc⁺ + Fc⁻)(1 − k₂/k₁) apart whatever the peaks, so the elastic range keeps its height.
+//! (Fc⁺ + Fc⁻)(1 − k₂/k₁) apart for all peaks, so the elastic range keeps its height.
 
 use super::backbone::{Backbone, Corner, Side};
 use super::memory::{Branch, HysteresisMemory, Response};

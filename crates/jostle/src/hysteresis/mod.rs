@@ -1,7 +1,7 @@
 //! Restoring forces that remember: trilinear hysteresis of hinges and storeys.
 //!
 //! A [`Hysteresis`] is a rule on a [`Backbone`] and never changes. What a hinge remembers is a
-//! [`HysteresisMemory`], one per hinge, a plain value. [`Hysteresis::respond`] walks from the committed memory
+//! [`HysteresisMemory`], one per hinge, a plain value. [`Hysteresis::respond`] goes from the committed memory
 //! straight to a trial deformation, through all corners between, and says force, tangent, work and the memory
 //! to commit if the trial is taken. It is a pure function: a step that is tried again starts from the same memory.
 //!

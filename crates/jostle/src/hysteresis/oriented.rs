@@ -1,6 +1,6 @@
 //! Rules that aim at peaks: peak-oriented (Clough and Johnston) and Takeda.
 //!
-//! Both walk the same four branches: virgin → backbone → unloading → reloading towards the peak of the other
+//! Both follow the same four branches: virgin → backbone → unloading → reloading towards the peak of the other
 //! side → backbone. They differ in the slope of unloading and in what happens when a side is entered that has
 //! never been loaded: a peak-oriented spring turns towards its cracking point where the force vanishes, a Takeda
 //! spring unloads on until the cracking force of that side and then turns towards its yield point.

@@ -5,7 +5,7 @@ use crate::model::{Building, FloorPairs, LEVEL_TOLERANCE, Level, Model, Structur
 /// Heights of the left and of the right point above the base; `None` on a wall \[m\].
 pub(crate) type PointPair = [Option<f64>; 2];
 
-/// A point of a column nearer than this to a floor, or to another point, has no room of its own \[m\].
+/// A point of a column nearer than this to a floor, or to another point, cannot be hit separately \[m\].
 const NEAREST: f64 = 0.02;
 
 /// What is wrong with a list of points: the entry, and the problem.

@@ -477,7 +477,7 @@ impl FloorPairs {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// Step in free flight; `None` chooses it from `tolerance` \[s\].
+    /// Step in free vibration; `None` chooses it from `tolerance` \[s\].
     pub step: Option<f64>,
     /// Step while a contact is closed; `None` chooses it from `tolerance` \[s\].
     pub contact_step: Option<f64>,

@@ -227,7 +227,7 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
             deformation_min: memory.greatest(Side::Negative),
             ductility: Side::BOTH
                 .map(|side| {
-                    // A base has only itself, whatever member stands on it.
+                    // A base has only itself, not the member above.
                     let member = behind.get(index).copied().flatten();
                     let member =
                         member.filter(|_| !matches!(place, Some(SpringPlace::Base { .. })));

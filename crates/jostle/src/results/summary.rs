@@ -381,7 +381,7 @@ pub struct WorkSummary {
     pub shapes: u64,
     /// Runs repeated by modal stepping with more shapes or finer steps, to keep the tolerance.
     pub repeated_runs: u64,
-    /// Regular step of free flight \[s\].
+    /// Regular step of free vibration \[s\].
     pub step_s: f64,
     /// Smallest regular step in contact; `null` when nothing touched \[s\].
     pub contact_step_s: Option<f64>,

@@ -6,7 +6,7 @@ use crate::linear::{NotPositive, StepMatrix};
 use crate::structure::{AssembledBuilding, Equations, StepEquations, YieldingSpring};
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 
-/// Why a walk cannot go on.
+/// Why a path ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PathError {
     /// The stiffness ahead is not positive: the building moves on without more load, or falls.
@@ -23,7 +23,7 @@ pub enum PathError {
 /// What ended a straight piece of the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reached {
-    /// Length of the piece, in units of what drives the walk.
+    /// Length of the piece, in units of what drives the path.
     pub length: f64,
     /// Springs that came to a corner, in rising order; empty where the piece was long enough.
     pub corners: Vec<usize>,
@@ -31,7 +31,7 @@ pub struct Reached {
 
 /// Equilibrium path of one building under p = p₀ + λ p₁ (theory, Eq. X1).
 ///
-/// λ grows at rate one, or the displacement of one degree of freedom does, whatever λ does then: so a path is followed
+/// λ grows at rate one, or the displacement of one degree of freedom does, however λ then changes: so a path is followed
 /// over its peak and down, as long as the building stands while that one displacement is held.
 #[derive(Clone, Debug)]
 pub struct EquilibriumPath {
@@ -219,7 +219,7 @@ impl EquilibriumPath {
         Err(PathError::Undecided)
     }
 
-    /// Goes on to the next corner, at most by `most` in units of what drives the walk. [`EquilibriumPath::find_rates`] comes
+    /// Goes on to the next corner, at most by `most` in units of what drives the path. [`EquilibriumPath::find_rates`] comes
     /// first.
     ///
     /// # Errors

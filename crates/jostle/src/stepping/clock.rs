@@ -1,6 +1,6 @@
 //! Where a run stands on its grid of regular steps.
 
-/// Time as whole free-flight steps plus an offset: regular instants never drift, and steps that ended on an
+/// Time as whole free-vibration steps plus an offset: regular instants never drift, and steps that ended on an
 /// event find back to the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Clock {
@@ -11,7 +11,7 @@ pub(crate) struct Clock {
 
 /// The next step to take.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Stride {
+pub(crate) struct NextStep {
     /// Its length \[s\].
     pub(crate) length: f64,
     /// Whether it is exactly one regular step of the asked-for division.
@@ -36,8 +36,8 @@ impl Clock {
         self.index as f64 * self.step + self.offset
     }
 
-    /// The step to the next instant of the grid that divides every free-flight step into `division` parts.
-    pub(crate) fn stride(&self, division: u32) -> Stride {
+    /// The step to the next instant of the grid that divides every free-vibration step into `division` parts.
+    pub(crate) fn next_step(&self, division: u32) -> NextStep {
         let part = self.step / f64::from(division);
         let passed = (self.offset / part + 1e-9).floor() as u32;
         let on_grid = self.offset == f64::from(passed) * part;
@@ -51,20 +51,20 @@ impl Clock {
             offset: f64::from(next % division) * part,
         };
         if on_grid {
-            return Stride {
+            return NextStep {
                 length: part,
                 regular: true,
                 end,
             };
         }
-        Stride {
+        NextStep {
             length: f64::from(next) * part - self.offset,
             regular: false,
             end,
         }
     }
 
-    /// Whether this is an instant of the grid that divides every free-flight step into `division` parts.
+    /// Whether this is an instant of the grid that divides every free-vibration step into `division` parts.
     pub(crate) fn is_on_grid(&self, division: u32) -> bool {
         let part = self.step / f64::from(division);
         self.offset == (self.offset / part + 1e-9).floor() * part
@@ -90,9 +90,9 @@ mod tests {
     fn regular_strides_stay_on_the_grid() {
         let mut clock = Clock::new(0.002);
         for _ in 0..8 {
-            let stride = clock.stride(8);
-            assert!(stride.regular, "{clock:?}");
-            clock = stride.end;
+            let next = clock.next_step(8);
+            assert!(next.regular, "{clock:?}");
+            clock = next.end;
         }
         assert_eq!(
             clock,
@@ -102,18 +102,18 @@ mod tests {
                 offset: 0.0
             }
         );
-        assert!(clock.stride(1).regular);
+        assert!(clock.next_step(1).regular);
     }
 
     #[test]
     fn an_event_is_followed_by_one_odd_stride_back_to_the_grid() {
         let clock = Clock::new(0.01).after(0.0061);
-        let odd = clock.stride(4);
+        let odd = clock.next_step(4);
         assert!(!odd.regular);
         assert!((odd.length - 0.0014).abs() < 1e-15, "{odd:?}");
-        assert!(odd.end.stride(4).regular);
-        // Too little is left of this part: the stride takes the next one along, past the free-flight grid.
-        let late = Clock::new(0.01).after(0.0099).stride(4);
+        assert!(odd.end.next_step(4).regular);
+        // Too little is left of this part: the step includes the next one, past the free-vibration grid.
+        let late = Clock::new(0.01).after(0.0099).next_step(4);
         assert!((late.length - 0.0026).abs() < 1e-15, "{late:?}");
         assert_eq!(
             late.end,

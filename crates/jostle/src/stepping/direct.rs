@@ -2,8 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::blow::{BlowFactor, BlowScratch};
-use super::clock::{Clock, Stride};
+use super::clock::{Clock, NextStep};
 use super::control::{Observed, half_cycle, next_division};
 use super::energy::EnergyAudit;
 use super::events::Cubic;
@@ -16,6 +15,7 @@ use super::plan::Plan;
 use super::recorder::Recorder;
 use super::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use super::springs::YieldingSprings;
+use super::velocity_jump::{JumpFactor, JumpScratch};
 use crate::model::Integrator;
 use crate::motion::GroundMotion;
 use crate::simd;
@@ -24,7 +24,7 @@ use crate::statics::STANDARD_GRAVITY;
 use crate::structure::StepEquations;
 use crate::system::System;
 
-/// Runs a system with the steps of the plan, whatever their error.
+/// Runs a system with the steps of the plan, whatever error they have.
 pub(super) fn run_directly<E: StepEquations>(
     system: &System,
     motion: &GroundMotion,
@@ -54,15 +54,15 @@ pub(super) struct Direct<E: StepEquations> {
     /// Load that the initial state leaves unbalanced; empty once it has been applied.
     pub(super) unbalanced: Vec<f64>,
     /// The tried step: first the load, then y, then the displacement over the step.
-    pub(super) rise: Vec<f64>,
+    pub(super) increment: Vec<f64>,
     /// D′ of one building, for what K′ and C′ make of it.
-    pub(super) drift: Vec<f64>,
+    pub(super) rate_term: Vec<f64>,
     pub(super) yielding: YieldingSprings,
     pub(super) joints: Joints,
     pub(super) links: Links,
     /// For sudden changes of velocity, factorised when first needed.
-    pub(super) blows: Vec<Option<BlowFactor<E>>>,
-    pub(super) blow: BlowScratch,
+    pub(super) jump_factors: Vec<Option<JumpFactor<E>>>,
+    pub(super) jump: JumpScratch,
     pub(super) audit: EnergyAudit,
     recorder: Recorder,
 }
@@ -87,12 +87,12 @@ impl<E: StepEquations> Direct<E> {
             factors: vec![StepFactors::blank(system, &joints)],
             divisions: vec![0],
             unbalanced: unbalanced_load(system, &state, &links, run.ground[0], plan.integrator),
-            rise: vec![0.0; system.len()],
-            drift: vec![0.0; system.len()],
+            increment: vec![0.0; system.len()],
+            rate_term: vec![0.0; system.len()],
             joints,
             links,
-            blows: system.buildings.iter().map(|_| None).collect(),
-            blow: BlowScratch::for_buildings(system),
+            jump_factors: system.buildings.iter().map(|_| None).collect(),
+            jump: JumpScratch::for_buildings(system),
             audit: EnergyAudit::starting_from(system, &state),
             yielding: YieldingSprings::starting_from(system, &state),
             recorder,
@@ -225,7 +225,7 @@ impl<E: StepEquations> Direct<E> {
         for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
             for (dof, mass) in building.range().zip(&building.equations.mass) {
                 let (v, a) = (self.state.velocity[dof], self.state.acceleration[dof]);
-                let change = self.rise[dof] - own.shift * (k.d_v * v + k.d_a * a);
+                let change = self.increment[dof] - own.shift * (k.d_v * v + k.d_a * a);
                 let gained = k.a * change + k.b_v * v + k.b_a * a;
                 self.unbalanced[dof] = k.carried * self.unbalanced[dof] + k.left * mass * gained;
             }
@@ -238,12 +238,12 @@ impl<E: StepEquations> Direct<E> {
         let k = factors.coefficients;
         for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
             let (range, equations) = (building.range(), &building.equations);
-            let rises = &mut self.rise[range.clone()];
+            let rises = &mut self.increment[range.clone()];
             let advance = Advance {
                 equations,
                 k: &k,
                 shift: own.shift,
-                rise: rises,
+                increment: rises,
                 displacement: &mut self.state.displacement[range.clone()],
                 velocity: &mut self.state.velocity[range.clone()],
                 acceleration: &mut self.state.acceleration[range.clone()],
@@ -297,9 +297,9 @@ impl<E: StepEquations> Stepper for Direct<E> {
             .unwrap_or(1)
     }
 
-    fn prepare(&mut self, run: &mut RunState<'_>, stride: &Stride) -> Result<usize, StepError> {
-        if !stride.regular {
-            return self.factorize(run, 0, stride.length).map(|()| 0);
+    fn prepare(&mut self, run: &mut RunState<'_>, next: &NextStep) -> Result<usize, StepError> {
+        if !next.regular {
+            return self.factorize(run, 0, next.length).map(|()| 0);
         }
         let division = self.division(run);
         if let Some(slot) = self.divisions.iter().position(|d| *d == division) {
@@ -309,7 +309,7 @@ impl<E: StepEquations> Stepper for Direct<E> {
             .push(StepFactors::blank(run.system, &self.joints));
         self.divisions.push(division);
         let slot = self.factors.len() - 1;
-        let factorized = self.factorize(run, slot, stride.length);
+        let factorized = self.factorize(run, slot, next.length);
         if factorized.is_err() {
             self.factors.pop();
             self.divisions.pop();

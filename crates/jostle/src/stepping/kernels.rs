@@ -40,7 +40,7 @@ pub(super) struct Advance<'a> {
     pub(super) k: &'a Coefficients,
     pub(super) shift: f64,
     /// y, then the displacement over the step.
-    pub(super) rise: &'a mut [f64],
+    pub(super) increment: &'a mut [f64],
     pub(super) displacement: &'a mut [f64],
     pub(super) velocity: &'a mut [f64],
     pub(super) acceleration: &'a mut [f64],
@@ -52,8 +52,8 @@ impl NullaryFnOnce for Advance<'_> {
 
     #[inline(always)]
     fn call(self) -> [f64; 2] {
-        let n = self.rise.len();
-        let rise = &mut self.rise[..n];
+        let n = self.increment.len();
+        let increment = &mut self.increment[..n];
         let u = &mut self.displacement[..n];
         let v = &mut self.velocity[..n];
         let a = &mut self.acceleration[..n];
@@ -68,16 +68,16 @@ impl NullaryFnOnce for Advance<'_> {
         } = *self.k;
         for k in 0..n {
             let (v0, a0) = (v[k], a[k]);
-            let drift = d_v * v0 + d_a * a0;
-            let change = rise[k] - self.shift * drift;
-            rise[k] = change;
+            let rate_term = d_v * v0 + d_a * a0;
+            let change = increment[k] - self.shift * rate_term;
+            increment[k] = change;
             u[k] += change;
-            v[k] = v0 + c * change + drift;
+            v[k] = v0 + c * change + rate_term;
             a[k] = a0 + by_mass * change + (b_v * v0 + b_a * a0);
         }
         [
-            simd::dot(&self.equations.driven_mass, rise),
-            simd::weighted_square(&self.equations.mass, rise),
+            simd::dot(&self.equations.driven_mass, increment),
+            simd::weighted_square(&self.equations.mass, increment),
         ]
     }
 }

@@ -79,7 +79,7 @@ impl<E: StepEquations> Direct<E> {
     /// Adds the forces of the links at the start of the step to its loads, as those of closed contacts.
     pub(super) fn add_link_loads(&mut self, run: &RunState<'_>) {
         for (link, force) in run.system.links.iter().zip(&self.links.forces) {
-            link.ports.push_apart(-force, &mut self.rise);
+            link.ports.push_apart(-force, &mut self.increment);
         }
     }
 

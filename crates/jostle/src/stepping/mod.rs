@@ -1,11 +1,10 @@
 //! Stepping: from one instant to the next, with every impact found and none counted twice.
 //!
-//! [`simulate`] walks a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved alone;
-//! they meet only in `coupling`. A step in which a contact closes is repeated so that it ends on the touch.
+//! [`simulate`] takes a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved alone;
+//! forces between them are found in `coupling`. A step in which a contact closes is repeated so that it ends there.
 
 mod acceleration_parts;
 mod band;
-mod blow;
 mod clock;
 mod control;
 mod coupling;
@@ -30,6 +29,7 @@ mod settle;
 mod simulate;
 mod springs;
 mod trial;
+mod velocity_jump;
 mod within_tolerance;
 
 pub use outcome::{Accuracy, Outcome, Pounding, Progress, RunEnd, Settings, StepError};

@@ -14,7 +14,7 @@ use crate::system::{BuildingSystem, System};
 pub struct Settings {
     /// Whether buildings push each other or pass through each other.
     pub pounding: Pounding,
-    /// Least time between recorded instants in free flight, zero for every step; every step of a closed contact
+    /// Least time between recorded instants in free vibration, zero for every step; every step of a closed contact
     /// is recorded. `None` records no histories \[s\].
     pub record_interval: Option<f64>,
 }
@@ -73,7 +73,7 @@ pub struct Outcome {
     pub energy: Energy,
     /// Work done.
     pub work: Work,
-    /// Regular step of free flight; `None` when the run did not begin \[s\].
+    /// Regular step of free vibration; `None` when the run did not begin \[s\].
     pub free_step: Option<f64>,
     /// Smallest regular step taken in contact \[s\].
     pub contact_step: Option<f64>,
@@ -95,7 +95,7 @@ pub struct Accuracy {
     /// First instant at which a contact was made or missed by less than the tolerance; only modal stepping looks for it
     /// \[s\].
     pub doubtful_from: Option<f64>,
-    /// Instant from which answers hang on contacts made or missed within the tolerance, where
+    /// Instant from which results depend on contacts made or missed within the tolerance, where
     /// [`find_sensitivity`](super::find_sensitivity) has found one \[s\].
     pub sensitive_from: Option<f64>,
 }

@@ -12,7 +12,7 @@ use crate::transfer::{ProductEquations, ProductRefusal};
 /// How a run will step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Step in free flight \[s\].
+    /// Step in free vibration \[s\].
     pub step: f64,
     /// Steps while a contact is closed.
     pub contact_steps: ContactSteps,
@@ -22,7 +22,7 @@ pub struct Plan {
     pub solver: Solver,
 }
 
-/// Into how many parts a free-flight step is divided while a contact is closed.
+/// Into how many parts a free-vibration step is divided while a contact is closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContactSteps {
     /// Always the same.
@@ -37,15 +37,15 @@ pub enum ContactSteps {
     },
 }
 
-/// Free-flight steps per first lateral period, at a tolerance of 1e-3.
+/// Free-vibration steps per first lateral period, at a tolerance of 1e-3.
 const STEPS_PER_FIRST_PERIOD: f64 = 400.0;
-/// Free-flight steps per third lateral period, at a tolerance of 1e-3.
+/// Free-vibration steps per third lateral period, at a tolerance of 1e-3.
 const STEPS_PER_THIRD_PERIOD: f64 = 120.0;
 /// Share of the tolerance that the response of a mode at resonance may use up as steps move its frequency.
 const RESONANCE_SHARE: f64 = 0.5;
 /// No mode asks for shorter steps than this share of a radian, at a tolerance of 1e-3.
 const SHORTEST_OF_MODE: f64 = 0.01;
-/// Free-flight steps per period of an analytic ground motion, at a tolerance of 1e-3.
+/// Free-vibration steps per period of an analytic ground motion, at a tolerance of 1e-3.
 const STEPS_PER_MOTION_PERIOD: f64 = 100.0;
 /// Steps per elastic impact, at a tolerance of 1e-3.
 const STEPS_PER_IMPACT: f64 = 60.0;
@@ -59,14 +59,14 @@ const FEWEST_ADAPTED: f64 = 1.0 / 6.0;
 const FEWEST_OF_ALL: f64 = 4.0;
 /// How much finer steps begin where the force starts steeply.
 const STEEP_START: f64 = 32.0;
-/// Free-flight step where nothing else limits it \[s\].
+/// Free-vibration step where nothing else limits it \[s\].
 const LONGEST_STEP: f64 = 0.02;
 /// Fewest fixed steps per first period and per impact that still mean something.
 const FEWEST_PER_PERIOD: f64 = 20.0;
 const FEWEST_PER_IMPACT: f64 = 8.0;
 /// Impact speed for judging fixed contact steps \[m/s\].
 const TYPICAL_SPEED: f64 = 0.5;
-/// Free-flight steps of modal stepping, at a tolerance of 1e-3: per first and third lateral period, and per period of
+/// Free-vibration steps of modal stepping, at a tolerance of 1e-3: per first and third lateral period, and per period of
 /// an analytic motion.
 const MODAL_STEPS_PER_FIRST: f64 = 20.0;
 const MODAL_STEPS_PER_THIRD: f64 = 7.5;
@@ -77,7 +77,7 @@ const LONGEST_MODAL_STEP: f64 = 0.05;
 const MODAL_STEPS_PER_IMPACT: f64 = 36.0;
 /// And per half cycle of a contact however weak it is, relative to these.
 const MODAL_FEWEST_ADAPTED: f64 = 0.7;
-/// Finest division of a free-flight step.
+/// Finest division of a free-vibration step.
 const FINEST: u32 = 1 << 20;
 
 impl Plan {
@@ -154,7 +154,7 @@ impl Plan {
         }
     }
 
-    /// Whether the step of free flight is the one that the tolerance asks for, rather than one that was given.
+    /// Whether the step of free vibration is the one that the tolerance asks for, rather than one that was given.
     pub(super) fn is_automatic(&self, system: &System, motion: &GroundMotion) -> bool {
         let refinement = (self.tolerance() / 1e-3).sqrt();
         self.chooses_contact_steps() && {
@@ -163,7 +163,7 @@ impl Plan {
         }
     }
 
-    /// The same plan with steps shorter by about this factor, in free flight and in contact; longer ones for less than 1.
+    /// The same plan with steps shorter by about this factor, in free vibration and in contact; longer ones for less than 1.
     /// Steps go on landing on the points of a record.
     pub(super) fn refined(&self, factor: f64, motion: &GroundMotion) -> Self {
         let step = self.step / factor;
@@ -174,7 +174,7 @@ impl Plan {
         self.with_step(Some(step))
     }
 
-    /// The same plan with another step of free flight, and steps in contact to match, whose error falls with its square.
+    /// The same plan with another step of free vibration, and steps in contact to match, whose error falls with its square.
     pub(super) fn with_step(&self, step: Option<f64>) -> Self {
         let step = step.unwrap_or(self.step);
         let factor = self.step / step;
@@ -306,7 +306,7 @@ impl Plan {
             .clamp(1.0, f64::from(FINEST)) as u32
     }
 
-    /// Division of a free-flight step for a contact that closes at `impact_speed` \[m/s\].
+    /// Division of a free-vibration step for a contact that closes at `impact_speed` \[m/s\].
     #[must_use]
     pub fn division(&self, contact: &Contact, impact_speed: f64) -> u32 {
         match self.contact_steps {
@@ -373,7 +373,7 @@ fn check_solver(
     }
 }
 
-/// The free-flight step in modal coordinates, where only the search for touches and peaks needs any: cubics must follow
+/// The free-vibration step in modal coordinates, where only the search for touches and peaks needs any: cubics must follow
 /// the third mode.
 fn modal_step(system: &System, motion: &GroundMotion, refinement: f64) -> f64 {
     // Cubics are of fourth order.

@@ -1,4 +1,4 @@
-//! What a change of the gaps much smaller than the tolerance does to a run: whether its answers hang on a contact that is
+//! What a change of the gaps much smaller than the tolerance does to a run: whether its results depend on a contact that is
 //! just made or just missed.
 
 use std::ops::ControlFlow;

@@ -17,12 +17,12 @@ use crate::system::{BuildingSystem, System};
 /// A spring in the tried step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SpringTrial {
-    /// Where the line was laid: deformation and force.
+    /// Start of the line: deformation and force.
     deformation: f64,
     force: f64,
     tangent: f64,
     /// What the committed velocity and acceleration take from the change of deformation (theory, Eq. Y2) \[rad or m\].
-    drift: f64,
+    rate_term: f64,
     /// Force with which the solution before was balanced there.
     balance: f64,
     /// What the solution made of it: deformation, force on the line, and the answer of the rule.
@@ -111,19 +111,24 @@ const MOST_ITERATIONS: usize = 30;
 const HALVINGS: usize = 12;
 
 impl<E: StepEquations> Direct<E> {
-    /// Solves the step whose loads stand in `rise`, springs and contacts together.
+    /// Solves the step whose loads stand in `increment`, springs and contacts together.
     pub(super) fn find_spring_forces(
         &mut self,
         run: &mut RunState<'_>,
         slot: usize,
     ) -> Result<(), StepError> {
-        self.yielding.loads.copy_from_slice(&self.rise);
+        self.yielding.loads.copy_from_slice(&self.increment);
         self.lay_first_lines(run, slot);
         for iteration in 1..=MOST_ITERATIONS {
             self.retune(run, slot)?;
-            self.rise.copy_from_slice(&self.yielding.loads);
+            self.increment.copy_from_slice(&self.yielding.loads);
             self.add_spring_loads(run);
-            self.factors[slot].solve(run.system, &self.equations, &mut self.rise, &mut run.work);
+            self.factors[slot].solve(
+                run.system,
+                &self.equations,
+                &mut self.increment,
+                &mut run.work,
+            );
             self.solve_contacts(run, slot)?;
             run.work.outer_iterations += 1;
             if self.follow_springs(run) {
@@ -161,8 +166,8 @@ impl<E: StepEquations> Direct<E> {
             );
             let trials = &mut self.yielding.trials[building.spring_range()];
             for (spring, trial) in building.equations.springs.iter().zip(trials) {
-                let drift = k.d_v * spring.deformation(v) + k.d_a * spring.deformation(a);
-                trial.drift = own.shift * drift;
+                let rate_term = k.d_v * spring.deformation(v) + k.d_a * spring.deformation(a);
+                trial.rate_term = own.shift * rate_term;
             }
         }
         for (trial, tangent) in self.yielding.trials.iter_mut().zip(&self.yielding.tangents) {
@@ -195,7 +200,7 @@ impl<E: StepEquations> Direct<E> {
     fn add_spring_loads(&mut self, run: &RunState<'_>) {
         for building in &run.system.buildings {
             let (range, springs) = (building.range(), building.spring_range());
-            let load = &mut self.rise[range];
+            let load = &mut self.increment[range];
             let now = self.state.springs[springs.clone()]
                 .iter()
                 .zip(&self.yielding.balanced[springs.clone()]);
@@ -204,7 +209,7 @@ impl<E: StepEquations> Direct<E> {
                 building.equations.springs.iter().zip(trials).zip(now)
             {
                 let force = balanced - trial.force
-                    + trial.tangent * (trial.deformation - memory.deformation() + trial.drift);
+                    + trial.tangent * (trial.deformation - memory.deformation() + trial.rate_term);
                 spring.push(force, load);
             }
         }
@@ -215,7 +220,7 @@ impl<E: StepEquations> Direct<E> {
         let mut all_fit = true;
         for building in &run.system.buildings {
             let (range, springs) = (building.range(), building.spring_range());
-            let rise = &self.rise[range];
+            let increment = &self.increment[range];
             let memories = &self.state.springs[springs.clone()];
             for ((spring, trial), memory) in building
                 .equations
@@ -224,7 +229,7 @@ impl<E: StepEquations> Direct<E> {
                 .zip(&mut self.yielding.trials[springs])
                 .zip(memories)
             {
-                let change = spring.deformation(rise) - trial.drift;
+                let change = spring.deformation(increment) - trial.rate_term;
                 trial.reached = memory.deformation() + change;
                 trial.on_line = trial.force + trial.tangent * (trial.reached - trial.deformation);
                 [trial.answer, trial.next_tangent] =

@@ -11,7 +11,7 @@ use crate::state::ContactPhase;
 use crate::structure::StepEquations;
 
 impl<E: StepEquations> Direct<E> {
-    /// Solves the step to `end` without accepting it: fills `rise` and `trials`.
+    /// Solves the step to `end` without accepting it: fills `increment` and `trials`.
     pub(super) fn solve_step(
         &mut self,
         run: &mut RunState<'_>,
@@ -21,14 +21,19 @@ impl<E: StepEquations> Direct<E> {
         run.ground[1] = run.motion.acceleration(end.time());
         self.fill_loads(run, slot);
         if self.yielding.is_empty() {
-            self.factors[slot].solve(run.system, &self.equations, &mut self.rise, &mut run.work);
+            self.factors[slot].solve(
+                run.system,
+                &self.equations,
+                &mut self.increment,
+                &mut run.work,
+            );
             self.solve_contacts(run, slot)
         } else {
             self.find_spring_forces(run, slot)
         }
     }
 
-    /// Lets the closed contacts and the links push on the solution without them that stands in `rise`.
+    /// Lets the closed contacts and the links push on the solution without them that stands in `increment`.
     pub(super) fn solve_contacts(
         &mut self,
         run: &mut RunState<'_>,
@@ -66,19 +71,19 @@ impl<E: StepEquations> Direct<E> {
                 change,
                 velocity: &self.state.velocity[range.clone()],
                 acceleration: &self.state.acceleration[range.clone()],
-                out: &mut self.rise[range.clone()],
+                out: &mut self.increment[range.clone()],
             };
             simd::in_wide_registers(range.len(), loads);
         }
         self.add_undamped_loads(run, slot);
         let weight = self.factors[slot].coefficients.unbalanced;
-        for (load, missing) in self.rise.iter_mut().zip(&self.unbalanced) {
+        for (load, missing) in self.increment.iter_mut().zip(&self.unbalanced) {
             *load += weight * missing;
         }
         for (contact, phase) in run.system.contacts.iter().zip(&run.phases) {
             let force = phase.force();
             if force != 0.0 {
-                contact.ports.push_apart(-force, &mut self.rise);
+                contact.ports.push_apart(-force, &mut self.increment);
             }
         }
         self.add_link_loads(run);
@@ -93,21 +98,21 @@ impl<E: StepEquations> Direct<E> {
             if equations.plain {
                 continue;
             }
-            let drift = &mut self.drift[..range.len()];
-            let load = &mut self.rise[range.clone()];
+            let rate_term = &mut self.rate_term[..range.len()];
+            let load = &mut self.increment[range.clone()];
             let motion = self.state.velocity[range.clone()]
                 .iter()
                 .zip(&self.state.acceleration[range]);
             let weighted =
                 |weight: f64| move |(v, a): (&f64, &f64)| weight * (k.d_v * v + k.d_a * a);
-            for (drift, motion) in drift.iter_mut().zip(motion.clone()) {
-                *drift = weighted(own.shift)(motion);
+            for (rate_term, motion) in rate_term.iter_mut().zip(motion.clone()) {
+                *rate_term = weighted(own.shift)(motion);
             }
-            equations.undamped.multiply_add(drift, load);
-            for (drift, motion) in drift.iter_mut().zip(motion) {
-                *drift = weighted(-own.dashpot_load)(motion);
+            equations.undamped.multiply_add(rate_term, load);
+            for (rate_term, motion) in rate_term.iter_mut().zip(motion) {
+                *rate_term = weighted(-own.dashpot_load)(motion);
             }
-            equations.dashpots.multiply_add(drift, load);
+            equations.dashpots.multiply_add(rate_term, load);
         }
     }
 
@@ -128,9 +133,10 @@ impl<E: StepEquations> Direct<E> {
             let mut closed_by = 0.0;
             for (port, sign) in ports.sides() {
                 let dof = port.dof;
-                let drift = k.d_v * v[dof] + k.d_a * a[dof];
-                let rise = self.rise[dof] - factors.buildings[port.building].shift * drift;
-                closed_by -= sign * rise;
+                let rate_term = k.d_v * v[dof] + k.d_a * a[dof];
+                let increment =
+                    self.increment[dof] - factors.buildings[port.building].shift * rate_term;
+                closed_by -= sign * increment;
             }
             trial.indentation = ports.closing(u) - at_rest + closed_by;
             trial.rate =
@@ -193,7 +199,7 @@ impl<E: StepEquations> Direct<E> {
                     closed.force,
                     run.system,
                     &self.joints,
-                    &mut self.rise,
+                    &mut self.increment,
                 );
             }
         }

@@ -139,9 +139,9 @@ impl Ties {
 
 /// Nodes in the order of the transfer path: all beams at once, step by step from their left ends; all columns
 /// between floors at once, step by step upwards; then the floors. The beams do not meet, and taking them
-/// abreast keeps a processor busy that would otherwise wait for every link of a single chain.
+/// side by side keep a processor busy that would otherwise wait for every link of a single chain.
 ///
-/// Every node comes with its rank: nodes abreast share one, every joint has its own.
+/// Every node comes with its rank: nodes side by side share one, every joint has its own.
 fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
     let nodes = &stick_model.nodes;
     let mut neighbours = vec![Vec::new(); nodes.len()];
@@ -214,7 +214,7 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
                 _ => chains.push(vec![node]),
             }
         }
-        // The longest first: those abreast of each other at one link are so at every link before. Upwards, so that
+        // The longest first: those side by side at one link are so at every link before. Upwards, so that
         // those on the ground, which have one end less, are next to each other.
         chains.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| by_height(&a[0], &b[0])));
         let longest = chains.first().map_or(0, Vec::len);

@@ -8,7 +8,7 @@ pub trait StepEquations: Sized {
     /// What is kept of a factorisation.
     type Factor: Default + Clone;
 
-    /// Prepares whatever does not depend on the step size.
+    /// Prepares what does not depend on the step size.
     fn new(building: &AssembledBuilding) -> Self;
 
     /// Factorises a matrix, reusing the memory of `factor`. `tangents` has the present stiffness of every spring

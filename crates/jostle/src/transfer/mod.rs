@@ -1,4 +1,4 @@
-//! The transfer room: elements as transfer matrices, the path from the free ends of a frame to its base, and
+//! Elements as transfer matrices, the path from the free ends of a frame to its base, and
 //! the ways to solve a step along it.
 //!
 //! ```text
@@ -22,21 +22,21 @@
 //! [`ProductEquations`], the total transfer equation as published for pounding frames, whose digits
 //! [`digits_left`] counts.
 
-mod abreast;
-mod band;
+mod batched_chains;
 mod beam;
 mod condensed_beam;
 mod digits;
 mod elementwise;
 mod hinge;
+mod joint_band;
 mod layout;
 mod lumped_mass;
 mod product;
 mod state_vector;
 mod transfer_matrix;
 
+mod packed_factor;
 pub(crate) mod riccati;
-mod shelves;
 
 pub use beam::{BeamSegment, Heading};
 pub use digits::digits_left;

@@ -220,7 +220,7 @@ impl StepEquations for ProductEquations {
     }
 }
 
-/// One walk along all beams and column lines.
+/// One pass along all beams and column lines.
 struct Passage {
     /// Displacements of every node.
     displacements: Vec<[f64; 3]>,

@@ -1,7 +1,7 @@
 //! The Riccati transfer recursion in its stable form: block LDLᵀ of the step equations along the path.
 //!
 //! At a cut, what lies behind it exerts `b = R a + g` on what lies ahead (theory, Eq. R1). Passing one
-//! degree of freedom replaces R by a Schur complement (Eq. R3); the pivots D, the couplings L and the loads
+//! degree of freedom replaces R by a Schur complement (Eq. R3); the pivots D, the factor L and the loads
 //! are all that need be kept. Unlike the product of transfer matrices no growing and decaying solutions are
 //! ever mixed, so that nothing is lost at small steps or in tall frames.
 
@@ -12,9 +12,9 @@ use std::convert::Infallible;
 
 use pulp::NullaryFnOnce;
 
-use super::abreast::{Abreast, Lanes};
-use super::band::Band;
-use super::shelves::Shelves;
+use super::batched_chains::{BatchedChains, Lanes};
+use super::joint_band::Band;
+use super::packed_factor::PackedFactor;
 
 use crate::linear::SparseSymmetric;
 use crate::linear::counting_sort::in_order;
@@ -24,18 +24,18 @@ use crate::structure::AssembledBuilding;
 use crate::structure::Equations;
 use crate::structure::StepEquations;
 
-/// The recursion through one building: the pattern of the couplings, found once.
+/// The recursion through one building: the pattern of L, found once.
 #[derive(Clone, Debug)]
 pub struct RiccatiSweep {
     /// Start of every column of L in `rows`; one longer than the order.
     starts: Vec<usize>,
-    /// Row of every coupling.
+    /// Row of every entry of L.
     rows: Vec<u32>,
     /// Start of every row's list in `reached`.
     reached_starts: Vec<usize>,
     /// Columns that couple to a row, in an order in which they can be eliminated.
     reached: Vec<u32>,
-    /// Where the couplings of those columns to the row are kept.
+    /// Where the entries of those columns to the row are kept.
     positions: Vec<u32>,
     /// The displacement that each one is eliminated into; itself for the last.
     parent: Vec<u32>,
@@ -47,11 +47,11 @@ pub struct RiccatiSweep {
     mass: Vec<f64>,
     springs: Vec<SpringPlace>,
     initial_tangents: Vec<f64>,
-    /// The first columns: chains abreast.
-    abreast: Abreast,
+    /// The first columns: batched chains.
+    batched: BatchedChains,
     /// The others, where they couple to their neighbours only.
     band: Option<Band>,
-    shelves: Shelves,
+    packed: PackedFactor,
 }
 
 /// Where the tangent of a spring that yields enters the step matrix.
@@ -83,16 +83,16 @@ impl Parts {
     }
 }
 
-/// Pivots and couplings of one building for one step size.
+/// Pivots and entries of L of one building for one step size.
 #[derive(Clone, Debug, Default)]
 pub struct RiccatiFactor {
-    couplings: Vec<f64>,
-    /// Those of chains abreast with their inverse pivots, then those of the band, as the passes take them.
+    lower: Vec<f64>,
+    /// Those of batched chains with their inverse pivots, then those of the band, as the passes take them.
     laid: Vec<f64>,
     /// What links of chains hold between the passes.
-    held: RefCell<Vec<Lanes>>,
+    scratch: RefCell<Vec<Lanes>>,
     /// Room for a vector too short for registers.
-    roomier: RefCell<Vec<f64>>,
+    padded: RefCell<Vec<f64>>,
     inverse_pivots: Vec<f64>,
     pivots: Vec<f64>,
     /// The step matrix: diagonal, and entries before it by rows.
@@ -123,9 +123,9 @@ impl RiccatiFactor {
 }
 
 impl RiccatiSweep {
-    /// Couplings kept per factor: one solution costs two multiply-adds for each.
+    /// Entries of L below the diagonal: one solution costs two multiply-adds for each.
     #[must_use]
-    pub fn couplings(&self) -> usize {
+    pub fn entries_of_l(&self) -> usize {
         self.rows.len()
     }
 
@@ -176,10 +176,10 @@ impl RiccatiSweep {
         let parent: Vec<u32> = (0..n)
             .map(|dof| if parent[dof] == usize::MAX { dof } else { parent[dof] } as u32)
             .collect();
-        let abreast = Abreast::of(&starts, &rows, &parent);
-        let band = Band::of(abreast.columns(), &starts, &rows);
+        let batched = BatchedChains::of(&starts, &rows, &parent);
+        let band = Band::of(batched.columns(), &starts, &rows);
         let banded = band.as_ref().map_or(&[][..], Band::places);
-        let places = abreast.places().iter().chain(banded).copied();
+        let places = batched.places().iter().chain(banded).copied();
         let springs = equations.springs.iter().map(|spring| SpringPlace {
             diagonal: spring.dofs,
             between: match spring.dofs {
@@ -194,9 +194,9 @@ impl RiccatiSweep {
             },
         });
         Self {
-            shelves: Shelves::of(places, rows.len(), n),
+            packed: PackedFactor::of(places, rows.len(), n),
             band,
-            abreast,
+            batched,
             springs: springs.collect(),
             initial_tangents: equations.initial_tangents(),
             positions,
@@ -248,7 +248,7 @@ impl RiccatiSweep {
     /// The entries of a step matrix.
     fn compose(&self, matrix: &StepMatrix, tangents: &[f64], factor: &mut RiccatiFactor) {
         let n = self.mass.len();
-        factor.couplings.resize(self.rows.len(), 0.0);
+        factor.lower.resize(self.rows.len(), 0.0);
         factor.pivots.resize(n, 0.0);
         factor.inverse_pivots.resize(n, 0.0);
         factor.touched.resize(n, false);
@@ -302,12 +302,12 @@ impl RiccatiSweep {
 
     /// For the passes.
     fn make_room(&self, factor: &mut RiccatiFactor) {
-        factor.laid.extend_from_slice(self.shelves.blank());
-        let held = factor.held.get_mut();
-        held.resize(self.abreast.links(), Lanes::default());
-        if self.mass.len() < self.abreast.least_length() {
-            let roomier = factor.roomier.get_mut();
-            roomier.resize(self.abreast.least_length(), 0.0);
+        factor.laid.extend_from_slice(self.packed.blank());
+        let scratch = factor.scratch.get_mut();
+        scratch.resize(self.batched.links(), Lanes::default());
+        if self.mass.len() < self.batched.least_length() {
+            let padded = factor.padded.get_mut();
+            padded.resize(self.batched.least_length(), 0.0);
         }
     }
 
@@ -322,7 +322,7 @@ impl RiccatiSweep {
             self.make_room(factor);
         }
         let RiccatiFactor {
-            couplings,
+            lower,
             inverse_pivots,
             pivots,
             diagonal,
@@ -346,18 +346,18 @@ impl RiccatiSweep {
                 let (column, position) = (column as usize, position as usize);
                 let value = std::mem::take(&mut work[column]);
                 let known = self.starts[column]..position;
-                for (&below, &coupling) in self.rows[known.clone()].iter().zip(&couplings[known]) {
+                for (&below, &coupling) in self.rows[known.clone()].iter().zip(&lower[known]) {
                     work[below as usize] -= coupling * value;
                 }
                 let coupling = value * inverse_pivots[column];
                 pivot -= coupling * value;
-                couplings[position] = coupling;
-                self.shelves.put_coupling(laid, position, coupling);
+                lower[position] = coupling;
+                self.packed.put_coupling(laid, position, coupling);
             }
             let pivot = accept(row, own, pivot)?;
             pivots[row] = pivot;
             inverse_pivots[row] = 1.0 / pivot;
-            self.shelves
+            self.packed
                 .put_inverse_pivot(laid, row, inverse_pivots[row]);
         }
         Ok(())
@@ -367,12 +367,12 @@ impl RiccatiSweep {
 impl RiccatiSweep {
     /// Both passes over the columns behind the chains, however they couple.
     fn pass_one_by_one(&self, factor: &RiccatiFactor, load: &mut [f64]) {
-        let columns = self.abreast.columns()..self.mass.len();
+        let columns = self.batched.columns()..self.mass.len();
         for column in columns.clone() {
             let entries = self.starts[column]..self.starts[column + 1];
             let passed = load[column];
             let ahead = self.rows[entries.clone()].iter();
-            for (row, coupling) in ahead.zip(&factor.couplings[entries]) {
+            for (row, coupling) in ahead.zip(&factor.lower[entries]) {
                 load[*row as usize] -= coupling * passed;
             }
             load[column] = passed * factor.inverse_pivots[column];
@@ -382,7 +382,7 @@ impl RiccatiSweep {
             let ahead = self.rows[entries.clone()].iter();
             let mut sum = load[column];
             // The nearest, which has only just been found, last.
-            for (row, coupling) in ahead.zip(&factor.couplings[entries]).rev() {
+            for (row, coupling) in ahead.zip(&factor.lower[entries]).rev() {
                 sum -= coupling * load[*row as usize];
             }
             load[column] = sum;
@@ -450,11 +450,11 @@ impl StepEquations for RiccatiSweep {
             };
             simd::in_wide_registers(order, passes);
         };
-        if order < self.abreast.least_length() {
-            let mut roomier = factor.roomier.borrow_mut();
-            roomier[..order].copy_from_slice(load);
-            pass(&mut roomier);
-            load.copy_from_slice(&roomier[..order]);
+        if order < self.batched.least_length() {
+            let mut padded = factor.padded.borrow_mut();
+            padded[..order].copy_from_slice(load);
+            pass(&mut padded);
+            load.copy_from_slice(&padded[..order]);
         } else {
             pass(load);
         }
@@ -478,9 +478,9 @@ impl NullaryFnOnce for Passes<'_> {
             factor,
             load,
         } = self;
-        let mut held = factor.held.borrow_mut();
-        let (laid, banded) = factor.laid.split_at(sweep.abreast.places().len());
-        sweep.abreast.pass_on(laid, load, &mut held);
+        let mut scratch = factor.scratch.borrow_mut();
+        let (laid, banded) = factor.laid.split_at(sweep.batched.places().len());
+        sweep.batched.pass_on(laid, load, &mut scratch);
         match &sweep.band {
             Some(band) => {
                 band.pass_on(banded, &factor.inverse_pivots, load);
@@ -488,7 +488,7 @@ impl NullaryFnOnce for Passes<'_> {
             }
             None => sweep.pass_one_by_one(factor, load),
         }
-        sweep.abreast.gather(laid, load, &mut held);
+        sweep.batched.gather(laid, load, &mut scratch);
     }
 }
 
@@ -590,12 +590,12 @@ mod tests {
                     None
                 });
                 let sweep = RiccatiSweep::new(&building);
-                ways.extend(sweep.abreast.reaches());
+                ways.extend(sweep.batched.reaches());
                 bands += usize::from(sweep.band.is_some());
                 let order = building.equations.len();
-                short += usize::from(order < sweep.abreast.least_length());
+                short += usize::from(order < sweep.batched.least_length());
                 let one_by_one = RiccatiSweep {
-                    abreast: Abreast::default(),
+                    batched: BatchedChains::default(),
                     band: None,
                     ..sweep.clone()
                 };
@@ -608,7 +608,7 @@ mod tests {
                     found.expect("a standing frame");
                     let mut wide: Vec<f64> = load.clone().collect();
                     sweep.solve(&factor, &mut wide);
-                    if order >= sweep.abreast.least_length() {
+                    if order >= sweep.batched.least_length() {
                         let mut narrow: Vec<f64> = load.clone().collect();
                         let passes = Passes {
                             sweep,

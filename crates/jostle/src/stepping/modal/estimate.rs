@@ -1,6 +1,6 @@
 //! How far reported peaks may be off: what the shapes of a run miss, and what cubics between its steps cut off.
 
-use super::kernels::{ROWS, Show};
+use super::mode_kernels::{ROWS, Show};
 use super::peaks::{Peaks, Watched};
 use super::reduced::{Reduced, ReducedBuilding};
 use crate::history::FloorPeaks;

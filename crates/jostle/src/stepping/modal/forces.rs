@@ -1,6 +1,6 @@
 //! Forces of closed contacts at the end of a step: by Newton's method on the forces themselves, and what they then do.
 
-use super::kernels::AddUp;
+use super::mode_kernels::AddUp;
 use super::stepper::ModalStepper;
 use crate::stepping::coupling::Closed;
 use crate::stepping::outcome::StepError;
@@ -42,7 +42,7 @@ impl ModalStepper<'_> {
         let reduced = self.reduced;
         let closed = &run.coupling.closed;
         for column in closed {
-            self.tables[slot].find_answer(column.contact, reduced);
+            self.tables[slot].find_unit_response(column.contact, reduced);
         }
         for row in closed {
             let openings = closed.iter().map(|column| {
@@ -53,7 +53,7 @@ impl ModalStepper<'_> {
         }
     }
 
-    /// Forces with which indentations and rates agree, from those foreseen.
+    /// Forces with which indentations and rates agree, from those predicted.
     fn settle(&mut self, run: &mut RunState<'_>) -> Result<(), StepError> {
         self.begin_with_foreseen(run);
         if let Some(rounds) = self.equations.solve(&mut run.coupling.closed) {
@@ -65,11 +65,11 @@ impl ModalStepper<'_> {
     }
 
     fn begin_with_foreseen(&mut self, run: &RunState<'_>) {
-        let foreseen = |closed: &Closed| self.foreseen[closed.contact].end;
+        let predicted = |closed: &Closed| self.predicted[closed.contact].end;
         self.equations.forces.clear();
         self.equations
             .forces
-            .extend(run.coupling.closed.iter().map(foreseen));
+            .extend(run.coupling.closed.iter().map(predicted));
     }
 
     /// The same where Newton's method on the forces does not settle. Every round takes a rate that goes with the
@@ -127,7 +127,7 @@ impl ModalStepper<'_> {
     fn press(&mut self, run: &mut RunState<'_>, slot: usize) {
         let reduced = self.reduced;
         for closed in &run.coupling.closed {
-            let push = &reduced.pushes[closed.contact];
+            let push = &reduced.unit_forces[closed.contact];
             let answer = self.tables[slot].answer(closed.contact);
             let [modes, watched] = [&push.modes, &push.watched];
             let [q, v] = &answer.modal;

@@ -1,8 +1,8 @@
-//! Free flight: several regular steps at once while no contact is near.
+//! Free vibration: several regular steps at once while no contact is near.
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::kernels::{Ahead, LANES, Lanes, Show, Sums};
+use super::mode_kernels::{Ahead, LANES, Lanes, Show, Sums};
 use super::peaks::{Taken, Watched};
 use super::reduced::{Reduced, Table};
 use super::stepper::ModalStepper;
@@ -16,8 +16,8 @@ use crate::stepping::runner::RunState;
 const MOST: usize = 16;
 const FEWEST: usize = 2;
 
-/// Room for some steps of free flight.
-pub(super) struct Flight {
+/// Scratch space for some steps of free vibration.
+pub(super) struct FreeSteps {
     /// Length of its steps; zero before the first \[s\].
     step: f64,
     /// How many are tried next.
@@ -28,7 +28,7 @@ pub(super) struct Flight {
     area_by_ground: [f64; 2],
     /// Modal displacements and velocities now, filled up to whole lanes.
     start: [Vec<f64>; 2],
-    /// q, q̇, q̈ and the loose part of its rate, step after step.
+    /// q, q̇, q̈ and its rate without that of the loads, step after step.
     modal: [Vec<f64>; 4],
     /// What they show of everything watched; the present comes first.
     shown: [Vec<f64>; 4],
@@ -37,7 +37,7 @@ pub(super) struct Flight {
     sums: Vec<Sums>,
 }
 
-impl Flight {
+impl FreeSteps {
     pub(super) fn new(reduced: &Reduced) -> Self {
         let stride = reduced.modes().div_ceil(LANES) * LANES;
         Self {
@@ -94,12 +94,12 @@ impl Flight {
     /// Everything watched after so many steps.
     fn watched(&self, places: usize, steps: usize) -> Watched<'_> {
         let own = steps * places..(steps + 1) * places;
-        let [u, rate, acceleration, loose] = &self.shown;
+        let [u, rate, acceleration, unloaded_jerk] = &self.shown;
         Watched {
             u: &u[own.clone()],
             rate: &rate[own.clone()],
             acceleration: &acceleration[own.clone()],
-            loose: &loose[own],
+            unloaded_jerk: &unloaded_jerk[own],
         }
     }
 
@@ -112,13 +112,13 @@ impl Flight {
 }
 
 /// Steps ahead, and what they show.
-struct Fly<'a> {
+struct FreeStepsKernel<'a> {
     ahead: Ahead<'a>,
     reduced: &'a Reduced,
     shown: &'a mut [Vec<f64>; 4],
 }
 
-impl WithSimd for Fly<'_> {
+impl WithSimd for FreeStepsKernel<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -164,7 +164,7 @@ impl WithSimd for Fly<'_> {
 impl ModalStepper<'_> {
     /// Takes several regular steps at once in which nothing touches; false when there is none, and a step
     /// is to be taken by itself.
-    pub(super) fn fly(&mut self, run: &mut RunState<'_>) -> bool {
+    pub(super) fn take_free(&mut self, run: &mut RunState<'_>) -> bool {
         let quiet = |phase: &ContactPhase| *phase == ContactPhase::Open;
         if !run.phases.iter().all(quiet) || run.contact_division.iter().any(|d| *d > 1) {
             return false;
@@ -173,9 +173,9 @@ impl ModalStepper<'_> {
         if planned == 0 {
             return false;
         }
-        self.go_ahead();
-        let free = self.free_steps(run);
-        self.flight.ahead = if free < planned {
+        self.compute_ahead();
+        let free = self.count_free(run);
+        self.free_steps.ahead = if free < planned {
             FEWEST
         } else {
             (2 * planned).min(MOST)
@@ -184,83 +184,87 @@ impl ModalStepper<'_> {
             return false;
         }
         for step in 0..free {
-            self.take(run, step, free);
+            self.record_free_step(run, step, free);
         }
-        self.land(run, free);
+        self.move_to_last(run, free);
         true
     }
 
     /// Where the next steps end, and how the ground moves there; returns their number.
     fn plan_ahead(&mut self, run: &mut RunState<'_>) -> usize {
-        let flight = &mut self.flight;
-        flight.ends.clear();
-        flight.ground.clear();
-        flight.ground.push(run.ground[0]);
+        let free_steps = &mut self.free_steps;
+        free_steps.ends.clear();
+        free_steps.ground.clear();
+        free_steps.ground.push(run.ground[0]);
         let (mut clock, mut slot) = (run.clock, None);
-        while flight.ends.len() < flight.ahead {
-            let stride = clock.stride(self.least_division);
+        while free_steps.ends.len() < free_steps.ahead {
+            let stride = clock.next_step(self.least_division);
             let left = run.motion.duration - clock.time();
             if !stride.regular || stride.length > left * (1.0 + 1e-9) {
                 break;
             }
             slot = slot.or(Some(stride));
             clock = stride.end;
-            flight.ends.push(clock);
-            flight.ground.push(run.motion.acceleration(clock.time()));
+            free_steps.ends.push(clock);
+            free_steps
+                .ground
+                .push(run.motion.acceleration(clock.time()));
         }
-        let planned = flight.ends.len();
+        let planned = free_steps.ends.len();
         if let Some(stride) = slot {
             let slot = self.table_for(run, &stride);
-            if self.flight.step != stride.length {
-                self.flight.set(self.reduced, &self.tables[slot]);
+            if self.free_steps.step != stride.length {
+                self.free_steps.set(self.reduced, &self.tables[slot]);
             }
         }
         planned
     }
 
     /// All planned steps, as if nothing touched.
-    fn go_ahead(&mut self) {
-        let (flight, reduced) = (&mut self.flight, self.reduced);
-        for (list, now) in flight.start.iter_mut().zip([&self.q[0], &self.v[0]]) {
+    fn compute_ahead(&mut self) {
+        let (free_steps, reduced) = (&mut self.free_steps, self.reduced);
+        for (list, now) in free_steps.start.iter_mut().zip([&self.q[0], &self.v[0]]) {
             list[..now.len()].copy_from_slice(now);
         }
         let now = [
             &self.u[0],
             &self.rate[0],
             &self.acceleration[0],
-            &self.loose[0],
+            &self.unloaded_jerk[0],
         ];
-        for (list, now) in flight.shown.iter_mut().zip(now) {
+        for (list, now) in free_steps.shown.iter_mut().zip(now) {
             list[..now.len()].copy_from_slice(now);
         }
-        flight.sums.clear();
-        flight.sums.resize(flight.ends.len(), Sums::default());
-        let [q, v, a, j] = &mut flight.modal;
-        let [q0, v0] = &flight.start;
-        Arch::new().dispatch(Fly {
+        free_steps.sums.clear();
+        free_steps
+            .sums
+            .resize(free_steps.ends.len(), Sums::default());
+        let [q, v, a, j] = &mut free_steps.modal;
+        let [q0, v0] = &free_steps.start;
+        Arch::new().dispatch(FreeStepsKernel {
             ahead: Ahead {
-                lanes: &flight.lanes,
-                ground: &flight.ground,
+                lanes: &free_steps.lanes,
+                ground: &free_steps.ground,
                 start: [q0, v0],
                 modal: [q, v, a, j],
-                sums: &mut flight.sums,
+                sums: &mut free_steps.sums,
             },
             reduced,
-            shown: &mut flight.shown,
+            shown: &mut free_steps.shown,
         });
     }
 
     /// How many of the planned steps end before anything can touch, or is no number any more.
-    fn free_steps(&self, run: &RunState<'_>) -> usize {
-        let flight = &self.flight;
+    fn count_free(&self, run: &RunState<'_>) -> usize {
+        let free_steps = &self.free_steps;
         let places = self.reduced.watched();
         let is_free = |step: usize| {
-            let sums = &flight.sums[step];
+            let sums = &free_steps.sums[step];
             let energy = sums.kinetic.iter().sum::<f64>() + sums.strain.iter().sum::<f64>();
             if !energy.is_finite() {
                 return false;
             }
-            let [then, now] = [step, step + 1].map(|at| flight.watched(places, at));
+            let [then, now] = [step, step + 1].map(|at| free_steps.watched(places, at));
             !run.pounding
                 || (0..run.phases.len()).all(|index| {
                     let closing = |list: &[f64]| self.reduced.closing(index, list);
@@ -271,32 +275,32 @@ impl ModalStepper<'_> {
                         closing(then.rate),
                         closing(now.u) - width,
                         closing(now.rate),
-                        flight.step,
+                        free_steps.step,
                     )
                     .stays_below_zero()
                 })
         };
-        let planned = flight.ends.len();
+        let planned = free_steps.ends.len();
         (0..planned)
             .position(|step| !is_free(step))
             .unwrap_or(planned)
     }
 
-    /// Books a step of a flight of so many: energies, peaks, and a row where one is due.
-    fn take(&mut self, run: &mut RunState<'_>, index: usize, free: usize) {
-        let (flight, places) = (&self.flight, self.reduced.watched());
-        let step = flight.step;
-        let [g0, g1] = [flight.ground[index], flight.ground[index + 1]];
-        let sums = &flight.sums[index];
+    /// Records one of so many free steps: energies, peaks, and a row where one is due.
+    fn record_free_step(&mut self, run: &mut RunState<'_>, index: usize, free: usize) {
+        let (free_steps, places) = (&self.free_steps, self.reduced.watched());
+        let step = free_steps.step;
+        let [g0, g1] = [free_steps.ground[index], free_steps.ground[index + 1]];
+        let sums = &free_steps.sums[index];
         let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
-        let [cc, cd, dd] = flight.damped_by_ground;
+        let [cc, cd, dd] = free_steps.damped_by_ground;
         self.energy.damped += total(&sums.damped) + (g0 * (cc * g0 + cd * g1) + dd * g1 * g1);
-        let area =
-            total(&sums.area) + (flight.area_by_ground[0] * g0 + flight.area_by_ground[1] * g1);
+        let area = total(&sums.area)
+            + (free_steps.area_by_ground[0] * g0 + free_steps.area_by_ground[1] * g1);
         let before = if index == 0 {
             simd::dot(&self.reduced.participation, &self.q[0])
         } else {
-            total(&flight.sums[index - 1].moved)
+            total(&free_steps.sums[index - 1].moved)
         };
         // ∫ a_g q̇ dt by parts.
         self.energy.input += (g1 - g0) / step * area - (g1 * total(&sums.moved) - g0 * before);
@@ -304,10 +308,10 @@ impl ModalStepper<'_> {
             .energy
             .balance(0.5 * total(&sums.kinetic), 0.5 * total(&sums.strain));
         let start = run.time;
-        run.time = flight.ends[index].time();
-        let now = flight.watched(places, index + 1);
+        run.time = free_steps.ends[index].time();
+        let now = free_steps.watched(places, index + 1);
         let taken = Taken {
-            then: flight.watched(places, index),
+            then: free_steps.watched(places, index),
             now,
             ground: [g0, g1],
             start,
@@ -317,8 +321,8 @@ impl ModalStepper<'_> {
         self.peaks.after_step(run.system, self.reduced, &taken);
         if (index + 1).is_multiple_of(self.rows_per_step) || index + 1 == free {
             let modes = self.reduced.modes();
-            let [q, v] = flight.state(modes, index + 1);
-            let a = &flight.modal[2][index * flight.start[0].len()..][..modes];
+            let [q, v] = free_steps.state(modes, index + 1);
+            let a = &free_steps.modal[2][index * free_steps.start[0].len()..][..modes];
             self.peaks
                 .follow_forces(run.system, self.reduced, [q, v, a], run.time);
         }
@@ -331,32 +335,38 @@ impl ModalStepper<'_> {
         run.work.solves += 1;
     }
 
-    /// Stands at the end of so many steps of the flight.
-    fn land(&mut self, run: &mut RunState<'_>, steps: usize) {
-        let (flight, places) = (&self.flight, self.reduced.watched());
+    /// Moves to the end of the last of so many steps.
+    fn move_to_last(&mut self, run: &mut RunState<'_>, steps: usize) {
+        let (free_steps, places) = (&self.free_steps, self.reduced.watched());
         let modes = self.reduced.modes();
-        let stride = flight.start[0].len();
+        let stride = free_steps.start[0].len();
         for step in 0..steps {
-            let accelerations = &flight.modal[2][step * stride..][..modes];
-            if self.reached.widen(accelerations, Some(flight.step)) {
-                let (watched, ground) = (flight.watched(places, step + 1), flight.ground[step + 1]);
+            let accelerations = &free_steps.modal[2][step * stride..][..modes];
+            if self.reached.widen(accelerations, Some(free_steps.step)) {
+                let (watched, ground) = (
+                    free_steps.watched(places, step + 1),
+                    free_steps.ground[step + 1],
+                );
                 let (system, reduced) = (run.system, self.reduced);
-                reduced.show_forces(flight.state(modes, step + 1)[0], &mut self.looked_at);
-                let forces = &self.looked_at;
+                reduced.show_forces(
+                    free_steps.state(modes, step + 1)[0],
+                    &mut self.checked_forces,
+                );
+                let forces = &self.checked_forces;
                 self.reached
                     .look(system, reduced, accelerations, watched, ground, forces);
             }
         }
-        let [q, v] = flight.state(self.reduced.modes(), steps);
+        let [q, v] = free_steps.state(self.reduced.modes(), steps);
         self.q[0].copy_from_slice(q);
         self.v[0].copy_from_slice(v);
-        let now = flight.watched(places, steps);
+        let now = free_steps.watched(places, steps);
         self.u[0].copy_from_slice(now.u);
         self.rate[0].copy_from_slice(now.rate);
         self.acceleration[0].copy_from_slice(now.acceleration);
-        self.loose[0].copy_from_slice(now.loose);
-        run.clock = flight.ends[steps - 1];
-        let ground = flight.ground[steps];
+        self.unloaded_jerk[0].copy_from_slice(now.unloaded_jerk);
+        run.clock = free_steps.ends[steps - 1];
+        let ground = free_steps.ground[steps];
         run.ground = [ground; 2];
         for (load, participation) in self.p[0].iter_mut().zip(&self.reduced.participation) {
             *load = -participation * ground;
@@ -434,16 +444,16 @@ mod tests {
         };
         let refinement = Refinement { division: 1, work };
         let mut runner = runner(&system, &motion, &plan, settings, &reduced, refinement);
-        runner.stepper.flight.ahead = most;
+        runner.stepper.free_steps.ahead = most;
         finish(runner, |_| ControlFlow::Continue(())).0
     }
 
     #[test]
-    fn a_flight_is_so_many_steps() {
+    fn free_steps_at_once_are_so_many_steps() {
         let model = row_of_towers();
         for record_interval in [None, Some(0.004)] {
             let together = run(&model, record_interval, FEWEST);
-            // A flight of no steps never begins.
+            // No steps at once: one by one.
             let apart = run(&model, record_interval, 0);
             assert!(together.impacts.len() > 10, "{}", together.impacts.len());
             let work = |outcome: &Outcome| (outcome.work.steps, outcome.work.contact_steps);

@@ -1,7 +1,7 @@
 //! Elastic buildings by their modes: exact between the points of a record, coupled at their contacts only (theory,
 //! section 14).
 //!
-//! Between two instants at which loads bend, every mode is known in closed form. Free flight therefore needs no steps
+//! Between two instants at which loads bend, every mode is known in closed form. Free vibration therefore needs no steps
 //! but those of the record and of the search for touches; contacts take shorter ones, over which their forces are
 //! parabolas. What it cannot do is refused by [`refusals`].
 
@@ -11,15 +11,15 @@ mod defects;
 mod estimate;
 mod forces;
 mod free_steps;
-mod kernels;
+mod mode_kernels;
 mod peaks;
 mod predicted_force;
-mod pushes;
 mod reduced;
 mod response;
 mod series;
 mod span;
 mod stepper;
+mod unit_force;
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;

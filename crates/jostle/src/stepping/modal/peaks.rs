@@ -2,7 +2,7 @@
 
 use pulp::Arch;
 
-use super::kernels::{Exceeds, Limits, ROWS};
+use super::mode_kernels::{Exceeds, Limits, ROWS};
 use super::reduced::Reduced;
 use crate::history::{Energy, Extreme, FloorPeaks, History};
 use crate::state::ContactPhase;
@@ -46,12 +46,12 @@ pub(super) struct Watched<'a> {
     pub(super) rate: &'a [f64],
     /// Acceleration relative to the ground, and its rate but for that of the load.
     pub(super) acceleration: &'a [f64],
-    pub(super) loose: &'a [f64],
+    pub(super) unloaded_jerk: &'a [f64],
 }
 
 impl<'a> Watched<'a> {
     fn lists(self) -> [&'a [f64]; 4] {
-        [self.u, self.rate, self.acceleration, self.loose]
+        [self.u, self.rate, self.acceleration, self.unloaded_jerk]
     }
 }
 
@@ -284,8 +284,14 @@ impl Peaks {
                 below = ends;
                 let slope = ground_rate * (1.0 - self.driven[at]);
                 let total = Ends {
-                    then: [then.acceleration[at] + ground[0], then.loose[at] + slope],
-                    now: [now.acceleration[at] + ground[1], now.loose[at] + slope],
+                    then: [
+                        then.acceleration[at] + ground[0],
+                        then.unloaded_jerk[at] + slope,
+                    ],
+                    now: [
+                        now.acceleration[at] + ground[1],
+                        now.unloaded_jerk[at] + slope,
+                    ],
                 };
                 if taken.struck {
                     // What a dashpot makes of a jump of velocity dies away within the step, unlike a cubic.

@@ -18,9 +18,9 @@ pub(super) const AHEAD: f64 = 1e-3;
 /// Parts of a step in which a force sets in or ends.
 const CORNER_PARTS: u32 = 16;
 
-/// A contact force as it can be foreseen at the start of a step.
+/// A contact force as it can be predicted at the start of a step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Foreseen {
+pub(super) struct PredictedForce {
     /// At the end of the step \[N\].
     pub(super) end: f64,
     /// Its slope at the start \[N/s\].
@@ -29,8 +29,8 @@ pub(super) struct Foreseen {
     rise: f64,
 }
 
-impl Foreseen {
-    /// b in F₀ + (F₁ − F₀)τ + b(τ² − τ), a parabola that starts as foreseen \[N\].
+impl PredictedForce {
+    /// b in F₀ + (F₁ − F₀)τ + b(τ² − τ), a parabola that starts as predicted \[N\].
     pub(super) fn bend(&self, start: f64, end: f64) -> f64 {
         end - start - self.rise
     }
@@ -52,8 +52,8 @@ impl ModalStepper<'_> {
         unseen.next().map(|closed| closed.contact)
     }
 
-    /// A closed contact whose force is off from what was foreseen by more than the greatest force so far: the mean that can be
-    /// foreseen then has nothing to do with it.
+    /// A closed contact whose force differs from the prediction by more than the greatest force so far: the
+    /// predicted mean then says nothing.
     pub(super) fn misses_prediction(&self, run: &RunState<'_>) -> Option<usize> {
         if !run.plan.chooses_contact_steps() {
             return None;
@@ -65,7 +65,7 @@ impl ModalStepper<'_> {
                 ContactPhase::Open => 0.0,
             };
             let strongest = run.strongest[run.system.contacts[index].gap];
-            let missed = (run.trials[index].force - self.foreseen[index].end).abs();
+            let missed = (run.trials[index].force - self.predicted[index].end).abs();
             missed > known.max(strongest)
         })
     }
@@ -109,7 +109,7 @@ impl ModalStepper<'_> {
         wanted.next_power_of_two().clamp(fewest, most)
     }
 
-    /// Loads of the tried step while nothing is known of the forces at its end: every contact force sets out as foreseen,
+    /// Loads of the tried step while nothing is known of the forces at its end: every contact force begins as predicted,
     /// and bends so that it ends at nothing. Then a force at the end sets in as the square of time.
     pub(super) fn predict_forces(&mut self, run: &mut RunState<'_>, step: f64) {
         self.bend.fill(0.0);
@@ -118,7 +118,7 @@ impl ModalStepper<'_> {
             let ContactPhase::Closed(episode) = &run.phases[index] else {
                 continue;
             };
-            let foreseen = self.predict(run, index, episode, step);
+            let predicted = self.predict(run, index, episode, step);
             let closed = Closed {
                 contact: index,
                 law: run.system.contacts[index].law,
@@ -128,25 +128,31 @@ impl ModalStepper<'_> {
                 rate_gain: 0.0,
                 indentation: 0.0,
                 force: 0.0,
-                start_slope: foreseen.slope,
+                start_slope: predicted.slope,
                 turn: None,
                 start_acceleration: 0.0,
             };
-            let bend = foreseen.bend(episode.force, 0.0);
+            let bend = predicted.bend(episode.force, 0.0);
             self.reduced.push_apart(index, bend, &mut self.bend);
             run.coupling.closed.push(closed);
-            self.foreseen[index] = foreseen;
+            self.predicted[index] = predicted;
         }
     }
 
     /// A contact force over a step if the faces go on as they accelerate now.
-    fn predict(&self, run: &RunState<'_>, index: usize, episode: &Episode, step: f64) -> Foreseen {
+    fn predict(
+        &self,
+        run: &RunState<'_>,
+        index: usize,
+        episode: &Episode,
+        step: f64,
+    ) -> PredictedForce {
         let contact = &run.system.contacts[index];
         let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
         let start = closing(&self.u) - run.system.contacts[index].width;
         let (rate, acceleration) = (closing(&self.rate), closing(&self.acceleration));
         let driven = self.reduced.closing(index, self.peaks.driven());
-        let jerk = closing(&self.loose) - driven * (run.ground[1] - run.ground[0]) / step;
+        let jerk = closing(&self.unloaded_jerk) - driven * (run.ground[1] - run.ground[0]) / step;
         let respond =
             |indentation: f64, rate: f64| contact.law.follow(indentation, rate, &episode.memory);
         let force = |share: f64| {
@@ -174,7 +180,7 @@ impl ModalStepper<'_> {
             let response = respond(start, rate);
             response.by_indentation * rate + response.by_rate * acceleration
         };
-        Foreseen { end, slope, rise }
+        PredictedForce { end, slope, rise }
     }
 
     /// Rate of a contact force just after the present; modal accelerations stand in `scratch` \[N/s\].

@@ -8,9 +8,9 @@ use pulp::{Arch, Simd, WithSimd};
 use super::basis::{self, Basis, Demand};
 use super::damped::{Damped, Rules};
 use super::defects::Defects;
-use super::kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
-use super::pushes::{Answer, Push};
+use super::mode_kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
 use super::response::{INPUTS, PRODUCTS, Responses};
+use super::unit_force::{UnitForce, UnitResponse};
 use crate::contact::ForceLaw;
 use crate::history::Work;
 use crate::linear::NotPositive;
@@ -31,7 +31,7 @@ pub(super) struct Reduced {
     /// Where the two faces of every contact show; `None` is a wall.
     pub(super) ports: Vec<[Option<Shown>; 2]>,
     /// What a force at every contact makes of modal loads.
-    pub(super) pushes: Vec<Push>,
+    pub(super) unit_forces: Vec<UnitForce>,
 }
 
 /// Where a face shows: its building, and its place among all watched displacements.
@@ -182,7 +182,7 @@ impl Reduced {
             buildings: Vec::new(),
             arch: Arch::new(),
             ports: vec![[None; 2]; system.contacts.len()],
-            pushes: Vec::new(),
+            unit_forces: Vec::new(),
         };
         for (index, basis) in bases.into_iter().enumerate() {
             let added = reduced.add_building(system, index, basis, work);
@@ -192,8 +192,8 @@ impl Reduced {
             reduced.arch = Arch::Scalar;
         }
         let contacts = 0..system.contacts.len();
-        reduced.pushes = contacts
-            .map(|contact| Push::of(&reduced, contact))
+        reduced.unit_forces = contacts
+            .map(|contact| UnitForce::of(&reduced, contact))
             .collect();
         Ok(reduced)
     }
@@ -364,7 +364,7 @@ impl Reduced {
 
     /// The same of modal values.
     pub(super) fn closing_of_modes(&self, contact: usize, modal: &[f64]) -> f64 {
-        let push = &self.pushes[contact];
+        let push = &self.unit_forces[contact];
         -simd::dot(&push.loads, &modal[push.modes.clone()])
     }
 
@@ -377,7 +377,7 @@ impl Reduced {
 
     /// Adds what a force on the faces of a contact, pushing them apart, makes of modal loads.
     pub(super) fn push_apart(&self, contact: usize, force: f64, loads: &mut [f64]) {
-        let push = &self.pushes[contact];
+        let push = &self.unit_forces[contact];
         self.arch.dispatch(AddUp {
             factor: force,
             of: [&push.loads],
@@ -511,7 +511,7 @@ pub(super) struct Table {
     /// Of the products of these in the energy lost by damping: upper triangle row by row; empty without rules.
     pub(super) damped: [Vec<f64>; PRODUCTS],
     /// What unit end forces at the contacts do.
-    answers: Vec<Answer>,
+    answers: Vec<UnitResponse>,
 }
 
 /// What a step did to the energies of all modes \[J\].
@@ -526,8 +526,8 @@ impl Table {
     pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rules: Option<&Rules>) {
         self.step = step;
         self.answers
-            .resize_with(reduced.pushes.len(), Answer::default);
-        self.answers.iter_mut().for_each(Answer::forget);
+            .resize_with(reduced.unit_forces.len(), UnitResponse::default);
+        self.answers.iter_mut().for_each(UnitResponse::forget);
         let lists = self.displacement.iter_mut().chain(&mut self.velocity);
         let lists = lists.chain(&mut self.area).chain(&mut self.moment);
         lists.for_each(|list| list.resize(reduced.modes(), 0.0));
@@ -613,7 +613,7 @@ impl Table {
     }
 
     /// Finds what a unit end force of a contact does, where it is not known yet.
-    pub(super) fn find_answer(&mut self, contact: usize, reduced: &Reduced) {
+    pub(super) fn find_unit_response(&mut self, contact: usize, reduced: &Reduced) {
         let ends = [&self.displacement, &self.velocity].map(|factors| {
             let [.., line, bend] = factors;
             [&line[..], bend]
@@ -622,7 +622,7 @@ impl Table {
     }
 
     /// What a unit end force of a contact does, once found.
-    pub(super) fn answer(&self, contact: usize) -> &Answer {
+    pub(super) fn answer(&self, contact: usize) -> &UnitResponse {
         &self.answers[contact]
     }
 }

@@ -2,7 +2,7 @@
 
 use pulp::{Arch, NullaryFnOnce};
 
-use super::kernels::LANES;
+use super::mode_kernels::LANES;
 use super::series::{INTEGRALS, Impulse, SERIES, radians};
 
 /// What a step begins with: q₀, q̇₀, p₀, p₁ and the bend b.

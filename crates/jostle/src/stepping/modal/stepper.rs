@@ -6,16 +6,16 @@ use std::ops::ControlFlow;
 use super::damped::Rules;
 use super::estimate::{Estimate, Reached};
 use super::forces::ForceEquations;
-use super::free_steps::Flight;
+use super::free_steps::FreeSteps;
 use super::peaks::{Peaks, Taken, Watched};
-use super::predicted_force::{AHEAD, Foreseen, STRUCK_STEPS};
+use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
 use super::reduced::{Reduced, StepEnergy, Table};
 use crate::history::{Energy, Work};
 use crate::motion::GroundMotion;
 use crate::simd;
 use crate::state::{ContactPhase, Episode, State};
 use crate::stepping::acceleration_parts::AccelerationParts;
-use crate::stepping::clock::{Clock, Stride};
+use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::control::{Observed, next_division};
 use crate::stepping::energy::Imbalance;
 use crate::stepping::events::Cubic;
@@ -24,19 +24,19 @@ use crate::stepping::plan::Plan;
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::system::System;
 
-/// Most rows of a history in a step of free flight.
+/// Most rows of a history in a step of free vibration.
 const MOST_ROWS: f64 = 64.0;
 /// Modal coordinates of all buildings, and how their steps are taken.
 pub(super) struct ModalStepper<'a> {
     pub(super) reduced: &'a Reduced,
-    /// The first serves steps off the grid, the others one division of the free-flight step each.
+    /// The first serves steps off the grid, the others one division of the free-vibration step each.
     pub(super) tables: Vec<Table>,
     divisions: Vec<u32>,
-    /// Division of free flight, so that histories have their rows.
+    /// Division of free vibration, so that histories have their rows.
     pub(super) least_division: u32,
     /// How many times as many steps that are as the tolerance asks for.
     pub(super) rows_per_step: usize,
-    pub(super) flight: Flight,
+    pub(super) free_steps: FreeSteps,
     rules: Rules,
     /// Modal displacement, velocity and load now, and at the end of the tried step.
     pub(super) q: [Vec<f64>; 2],
@@ -44,7 +44,7 @@ pub(super) struct ModalStepper<'a> {
     pub(super) p: [Vec<f64>; 2],
     /// Bend of the modal load over the tried step: contact forces are parabolas.
     pub(super) bend: Vec<f64>,
-    /// ∫q of the accepted step, then whatever else needs a list of modes.
+    /// ∫q of the accepted step, then anything else that needs a list of modes.
     pub(super) scratch: Vec<f64>,
     /// ∫τq of the accepted step, where a contact is closed.
     moment: Vec<f64>,
@@ -53,20 +53,20 @@ pub(super) struct ModalStepper<'a> {
     pub(super) u: [Vec<f64>; 2],
     pub(super) rate: [Vec<f64>; 2],
     pub(super) acceleration: [Vec<f64>; 2],
-    pub(super) loose: [Vec<f64>; 2],
+    pub(super) unloaded_jerk: [Vec<f64>; 2],
     pub(super) jerk: Vec<f64>,
     /// Steps that a contact has been open, while its division still counts.
     pub(super) open_steps: Vec<u32>,
     pub(super) equations: ForceEquations,
-    /// Forces of closed contacts over the tried step as they could be foreseen.
-    pub(super) foreseen: Vec<Foreseen>,
+    /// Forces of closed contacts over the tried step as they could be predicted.
+    pub(super) predicted: Vec<PredictedForce>,
     pub(super) energy: Audit,
     pub(super) peaks: Peaks,
     pub(super) reached: Reached,
     /// Whether errors are looked at after this step.
-    wants_look: bool,
+    checks_errors: bool,
     /// Forces of storeys where errors are looked at \[N, N·m\].
-    pub(super) looked_at: Vec<f64>,
+    pub(super) checked_forces: Vec<f64>,
     /// Steps left in which accelerations may still follow a jump of velocities, unlike a cubic.
     pub(super) struck: u32,
     /// How far every open contact has opened since it was closed; infinite before it ever was \[m\].
@@ -180,7 +180,7 @@ impl<'a> ModalStepper<'a> {
             *acceleration = -share * ground;
         }
         Self {
-            flight: Flight::new(reduced),
+            free_steps: FreeSteps::new(reduced),
             tables: vec![Table::default()],
             divisions: vec![0],
             least_division: division.max(rows_per_step(plan, settings)),
@@ -195,16 +195,16 @@ impl<'a> ModalStepper<'a> {
             u: pair(watched),
             rate: pair(watched),
             acceleration,
-            loose: pair(watched),
+            unloaded_jerk: pair(watched),
             jerk: vec![0.0; modes],
             open_steps: vec![0; contacts],
             equations: ForceEquations::default(),
-            foreseen: vec![Foreseen::default(); contacts],
+            predicted: vec![PredictedForce::default(); contacts],
             energy: Audit::default(),
             peaks,
             reached: Reached::new(reduced),
-            wants_look: false,
-            looked_at: vec![0.0; reduced.forces()],
+            checks_errors: false,
+            checked_forces: vec![0.0; reduced.forces()],
             clearance: vec![f64::INFINITY; contacts],
             doubtful_from: None,
             struck: 0,
@@ -280,9 +280,9 @@ impl<'a> ModalStepper<'a> {
         }
     }
 
-    pub(super) fn table_for(&mut self, run: &mut RunState<'_>, stride: &Stride) -> usize {
-        if !stride.regular {
-            self.set_odd(run, stride.length);
+    pub(super) fn table_for(&mut self, run: &mut RunState<'_>, next: &NextStep) -> usize {
+        if !next.regular {
+            self.set_odd(run, next.length);
             return 0;
         }
         let division = self.division(run);
@@ -290,7 +290,7 @@ impl<'a> ModalStepper<'a> {
             return slot;
         }
         let mut table = Table::default();
-        table.set(self.reduced, stride.length, Some(&self.rules));
+        table.set(self.reduced, next.length, Some(&self.rules));
         run.work.factorizations += 1;
         self.tables.push(table);
         self.divisions.push(division);
@@ -343,13 +343,13 @@ impl<'a> ModalStepper<'a> {
     fn look(&mut self, run: &RunState<'_>, ground: [f64; 2], start: f64, step: f64) {
         let reduced = self.reduced;
         self.acceleration.swap(0, 1);
-        self.loose.swap(0, 1);
+        self.unloaded_jerk.swap(0, 1);
         self.show_accelerations();
         let at = |time: usize| Watched {
             u: &self.u[time],
             rate: &self.rate[time],
             acceleration: &self.acceleration[time],
-            loose: &self.loose[time],
+            unloaded_jerk: &self.unloaded_jerk[time],
         };
         let taken = Taken {
             then: at(1),
@@ -369,7 +369,7 @@ impl<'a> ModalStepper<'a> {
     fn show_accelerations(&mut self) {
         self.reduced.show(
             [&self.scratch, &self.jerk],
-            [&mut self.acceleration[0], &mut self.loose[0]],
+            [&mut self.acceleration[0], &mut self.unloaded_jerk[0]],
         );
     }
 
@@ -422,7 +422,7 @@ impl<'a> ModalStepper<'a> {
             let leaning = 2.0 * self.reduced.closing_of_modes(index, &self.moment) - closing;
             let before = self.reduced.closing(index, &self.u[0]) - width;
             let (first, last) = (episode.force, run.trials[index].force);
-            let bent = self.foreseen[index].bend(first, last);
+            let bent = self.predicted[index].bend(first, last);
             let work = last * run.trials[index].indentation
                 - first * before
                 - (last - first) * (closing / step - width)
@@ -446,7 +446,7 @@ impl<'a> ModalStepper<'a> {
                 u: &self.u[0],
                 rate: &self.rate[0],
                 acceleration: &self.acceleration[0],
-                loose: &self.loose[0],
+                unloaded_jerk: &self.unloaded_jerk[0],
             };
             let instant = (run.time, run.ground[0]);
             self.peaks.record(
@@ -473,7 +473,7 @@ impl Stepper for ModalStepper<'_> {
     }
 
     fn take_free_steps(&mut self, run: &mut RunState<'_>) -> bool {
-        self.fly(run)
+        self.take_free(run)
     }
 
     fn closing(&self, _: &RunState<'_>, contact: usize) -> f64 {
@@ -489,8 +489,8 @@ impl Stepper for ModalStepper<'_> {
         divisions.fold(self.least_division, u32::max)
     }
 
-    fn prepare(&mut self, run: &mut RunState<'_>, stride: &Stride) -> Result<usize, StepError> {
-        Ok(self.table_for(run, stride))
+    fn prepare(&mut self, run: &mut RunState<'_>, next: &NextStep) -> Result<usize, StepError> {
+        Ok(self.table_for(run, next))
     }
 
     fn prepare_length(&mut self, run: &mut RunState<'_>, length: f64) -> Result<(), StepError> {
@@ -551,7 +551,7 @@ impl Stepper for ModalStepper<'_> {
     ) {
         let index = run.coupling.closed[closed].contact;
         let force = [episode.force, run.trials[index].force];
-        let bend = self.foreseen[index].bend(force[0], force[1]);
+        let bend = self.predicted[index].bend(force[0], force[1]);
         episode.impulse += step * (0.5 * (force[0] + force[1]) - bend / 6.0);
     }
 
@@ -575,7 +575,7 @@ impl Stepper for ModalStepper<'_> {
     fn arrive(&mut self, run: &mut RunState<'_>, slot: usize) {
         self.accelerations();
         let free = (slot != 0 && !run.in_contact()).then_some(self.tables[slot].step);
-        self.wants_look = self.reached.widen(&self.scratch, free);
+        self.checks_errors = self.reached.widen(&self.scratch, free);
         self.jerks();
     }
 
@@ -630,7 +630,7 @@ impl Stepper for ModalStepper<'_> {
         let (contact, trial) = (&run.system.contacts[index], &run.trials[index]);
         let law = &contact.law;
         let response = law.follow(trial.indentation, trial.rate, &episode.memory);
-        let missed = (trial.force - self.foreseen[index].end).abs();
+        let missed = (trial.force - self.predicted[index].end).abs();
         let observed = Observed {
             step,
             stiffness: response.by_indentation,
@@ -672,12 +672,12 @@ impl Stepper for ModalStepper<'_> {
         was_closed: bool,
     ) -> Result<(), StepError> {
         self.look(run, ground, start, step);
-        if self.wants_look {
+        if self.checks_errors {
             let watched = Watched {
                 u: &self.u[0],
                 rate: &self.rate[0],
                 acceleration: &self.acceleration[0],
-                loose: &self.loose[0],
+                unloaded_jerk: &self.unloaded_jerk[0],
             };
             self.reached.look(
                 run.system,

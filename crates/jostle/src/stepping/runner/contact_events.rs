@@ -3,7 +3,7 @@
 use super::{RunState, Runner, Stepper};
 use crate::history::Impact;
 use crate::state::{ContactPhase, Episode};
-use crate::stepping::clock::Stride;
+use crate::stepping::clock::NextStep;
 use crate::stepping::events::{Crossing, Cubic};
 use crate::stepping::outcome::StepError;
 
@@ -113,9 +113,9 @@ impl<S: Stepper> Runner<'_, S> {
     pub(super) fn step_to(
         &mut self,
         mut event: Event,
-        stride: &Stride,
+        next: &NextStep,
     ) -> Result<Landing, StepError> {
-        let mut length = event.at * stride.length;
+        let mut length = event.at * next.length;
         for _ in 0..MOST_CORRECTIONS {
             self.try_length(length)?;
             if let Some(other) = self
@@ -137,7 +137,7 @@ impl<S: Stepper> Runner<'_, S> {
             let wrong_way = (event.crossing == Crossing::Upwards) != (trial.rate > 0.0);
             if trial.indentation.abs() <= TOUCH
                 || wrong_way
-                || !(corrected > 0.0 && corrected < stride.length)
+                || !(corrected > 0.0 && corrected < next.length)
             {
                 break;
             }

@@ -4,7 +4,7 @@
 use super::contact_events::{AT_ONCE, Landing};
 use super::{Runner, Stepper};
 use crate::state::ContactPhase;
-use crate::stepping::clock::Stride;
+use crate::stepping::clock::NextStep;
 use crate::stepping::events::{Cubic, bisect};
 use crate::stepping::outcome::StepError;
 
@@ -99,22 +99,22 @@ impl<S: Stepper> Runner<'_, S> {
     pub(super) fn step_to_corner(
         &mut self,
         corner: Corner,
-        stride: &Stride,
+        next: &NextStep,
     ) -> Result<Landing, StepError> {
         let Corner { contact, kind, at } = corner;
         let close = (CLOSENESS * self.run.plan.tolerance()).min(WIDEST);
-        let mut length = at * stride.length;
+        let mut length = at * next.length;
         for _ in 0..MOST_TRIES {
             self.try_length(length)?;
             if let Some(event) = self.first_event(length) {
-                let shorter = Stride { length, ..*stride };
+                let shorter = NextStep { length, ..*next };
                 return self.step_to(event, &shorter);
             }
             let Some(share) = self.corner_at(contact, kind, length, EXTENSION) else {
                 break;
             };
             let corrected = share * length;
-            if (share - 1.0).abs() <= close || corrected >= stride.length {
+            if (share - 1.0).abs() <= close || corrected >= next.length {
                 break;
             }
             length = corrected;

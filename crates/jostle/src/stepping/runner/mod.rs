@@ -13,7 +13,7 @@ pub(super) use contact_events::{ContactTrial, TOGETHER};
 pub(super) use run_state::RunState;
 pub(super) use stepper::{Jump, Stepper};
 
-use super::clock::{Clock, Stride};
+use super::clock::{Clock, NextStep};
 use super::outcome::{Progress, RunEnd, StepError};
 use crate::state::ContactPhase;
 
@@ -72,20 +72,20 @@ impl<S: Stepper> Runner<'_, S> {
     fn step(&mut self) -> Result<(), StepError> {
         let mut refinements = 0;
         for _ in 0..MOST_EVENTS_AT_ONCE {
-            let (slot, stride) = self.try_next_stride()?;
-            let event = self.first_event(stride.length);
+            let (slot, next) = self.try_next_step()?;
+            let event = self.first_event(next.length);
             if S::ENDS_STEPS_AT_CORNERS {
                 let before = event.map_or(1.0, |event| event.at);
-                if let Some(corner) = self.first_corner(stride.length, before) {
+                if let Some(corner) = self.first_corner(next.length, before) {
                     self.run.work.repeated_steps += 1;
-                    match self.step_to_corner(corner, &stride)? {
+                    match self.step_to_corner(corner, &next)? {
                         Landing::Later => return Ok(()),
                         Landing::AtStart => continue,
                     }
                 }
             }
             let Some(event) = event else {
-                let coarse = self.stepper.unresolved_contact(&self.run, stride.length);
+                let coarse = self.stepper.unresolved_contact(&self.run, next.length);
                 if let Some(contact) = coarse.filter(|_| refinements < MOST_REFINEMENTS) {
                     refinements += 1;
                     let division = self.stepper.division(&self.run);
@@ -93,11 +93,11 @@ impl<S: Stepper> Runner<'_, S> {
                     self.run.work.repeated_steps += 1;
                     continue;
                 }
-                return self.accept(slot, stride.end);
+                return self.accept(slot, next.end);
             };
             self.run.work.repeated_steps += 1;
-            if event.at * stride.length > self.shortest_step(&event) {
-                match self.step_to(event, &stride)? {
+            if event.at * next.length > self.shortest_step(&event) {
+                match self.step_to(event, &next)? {
                     Landing::Later => return Ok(()),
                     Landing::AtStart => continue,
                 }
@@ -111,45 +111,45 @@ impl<S: Stepper> Runner<'_, S> {
     }
 
     /// Tries the next step; where contact forces or springs that yield do not converge, half of it, and so on.
-    fn try_next_stride(&mut self) -> Result<(usize, Stride), StepError> {
-        let mut stride = self.next_stride();
-        let shortest = stride.length * SHORTEST_TRIED;
+    fn try_next_step(&mut self) -> Result<(usize, NextStep), StepError> {
+        let mut next = self.next_step();
+        let shortest = next.length * SHORTEST_TRIED;
         loop {
             let (run, stepper) = (&mut self.run, &mut self.stepper);
             let tried = stepper
-                .prepare(run, &stride)
-                .and_then(|slot| stepper.try_step(run, slot, stride.end).map(|()| slot));
+                .prepare(run, &next)
+                .and_then(|slot| stepper.try_step(run, slot, next.end).map(|()| slot));
             match tried {
                 Err(
                     StepError::ContactDiverged { .. }
                     | StepError::SpringsDiverged { .. }
                     | StepError::NotPositive { .. },
-                ) if stride.length > shortest => {
+                ) if next.length > shortest => {
                     self.run.work.halved_steps += 1;
-                    let length = 0.5 * stride.length;
-                    stride = Stride {
+                    let length = 0.5 * next.length;
+                    next = NextStep {
                         length,
                         regular: false,
                         end: self.run.clock.after(length),
                     };
                 }
-                tried => return tried.map(|slot| (slot, stride)),
+                tried => return tried.map(|slot| (slot, next)),
             }
         }
     }
 
     /// The regular step from here, cut at the end of the motion.
-    fn next_stride(&self) -> Stride {
-        let stride = self.run.clock.stride(self.stepper.division(&self.run));
+    fn next_step(&self) -> NextStep {
+        let next = self.run.clock.next_step(self.stepper.division(&self.run));
         let left = self.run.motion.duration - self.run.time;
-        if stride.length > left * (1.0 + 1e-9) {
-            return Stride {
+        if next.length > left * (1.0 + 1e-9) {
+            return NextStep {
                 length: left,
                 regular: false,
                 end: self.run.clock.after(left),
             };
         }
-        stride
+        next
     }
 
     /// Moves on to the end of the tried step.

@@ -2,7 +2,7 @@
 
 use super::{ContactTrial, RunState};
 use crate::state::Episode;
-use crate::stepping::clock::{Clock, Stride};
+use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::events::Cubic;
 use crate::stepping::outcome::StepError;
 
@@ -42,7 +42,7 @@ pub(in crate::stepping) trait Stepper {
     fn division(&self, run: &RunState<'_>) -> u32;
 
     /// Prepares a slot for a step.
-    fn prepare(&mut self, run: &mut RunState<'_>, stride: &Stride) -> Result<usize, StepError>;
+    fn prepare(&mut self, run: &mut RunState<'_>, next: &NextStep) -> Result<usize, StepError>;
 
     /// Prepares slot 0 for a step of a length \[s\].
     fn prepare_length(&mut self, run: &mut RunState<'_>, length: f64) -> Result<(), StepError>;

@@ -15,7 +15,7 @@ pub(crate) type PerRate = [f64; RATES];
 /// Couplings and pivots of K + s²M for [`RATES`] rates.
 #[derive(Clone, Debug)]
 pub(crate) struct RateFactors {
-    couplings: Vec<PerRate>,
+    lower: Vec<PerRate>,
     inverse_pivots: Vec<PerRate>,
 }
 
@@ -24,7 +24,7 @@ impl RateFactors {
     pub(crate) fn only(&self, rate: usize) -> Self {
         let of = |list: &[PerRate]| list.iter().map(|values| [values[rate]; RATES]).collect();
         Self {
-            couplings: of(&self.couplings),
+            lower: of(&self.lower),
             inverse_pivots: of(&self.inverse_pivots),
         }
     }
@@ -40,7 +40,7 @@ impl RiccatiSweep {
         let tangents = &self.initial_tangents;
         self.compose(&StepMatrix::STATIC, tangents, &mut static_matrix);
         let mut factors = RateFactors {
-            couplings: vec![[0.0; RATES]; self.rows.len()],
+            lower: vec![[0.0; RATES]; self.rows.len()],
             inverse_pivots: vec![[0.0; RATES]; self.mass.len()],
         };
         let eliminate = Eliminate {
@@ -88,7 +88,7 @@ impl NullaryFnOnce for Eliminate<'_> {
             factors,
         } = self;
         let RateFactors {
-            couplings,
+            lower,
             inverse_pivots,
         } = factors;
         let mut work = vec![[0.0; RATES]; diagonal.len()];
@@ -105,7 +105,7 @@ impl NullaryFnOnce for Eliminate<'_> {
                 let (column, position) = (column as usize, position as usize);
                 let values = std::mem::replace(&mut work[column], [0.0; RATES]);
                 let known = sweep.starts[column]..position;
-                for (&below, coupling) in sweep.rows[known.clone()].iter().zip(&couplings[known]) {
+                for (&below, coupling) in sweep.rows[known.clone()].iter().zip(&lower[known]) {
                     subtract(&mut work[below as usize], coupling, &values);
                 }
                 let inverse = &inverse_pivots[column];
@@ -114,7 +114,7 @@ impl NullaryFnOnce for Eliminate<'_> {
                     coupling[rate] *= inverse[rate];
                 }
                 subtract(&mut pivots, &coupling, &values);
-                couplings[position] = coupling;
+                lower[position] = coupling;
             }
             let unsound = |rate: usize| super::sound(row, own[rate], pivots[rate]).err();
             if let Some(failure) = (0..RATES).find_map(unsound) {
@@ -150,7 +150,7 @@ impl NullaryFnOnce for Passes<'_> {
         for (column, entries) in columns.clone().enumerate().skip(first) {
             let passed = loads[column];
             let ahead = sweep.rows[entries.clone()].iter();
-            for (row, coupling) in ahead.zip(&factors.couplings[entries]) {
+            for (row, coupling) in ahead.zip(&factors.lower[entries]) {
                 subtract(&mut loads[*row as usize], coupling, &passed);
             }
         }
@@ -161,7 +161,7 @@ impl NullaryFnOnce for Passes<'_> {
                 *sum *= pivot;
             }
             let ahead = sweep.rows[entries.clone()].iter();
-            for (row, coupling) in ahead.zip(&factors.couplings[entries]) {
+            for (row, coupling) in ahead.zip(&factors.lower[entries]) {
                 subtract(&mut sums, coupling, &loads[*row as usize]);
             }
             loads[column] = sums;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::reduced::{Reduced, Shown};
 
 /// A force that pushes the faces of a contact apart, as the modes of the buildings on both sides feel it.
-pub(super) struct Push {
+pub(super) struct UnitForce {
     /// These buildings, their modes and what is watched of them, among all.
     buildings: Range<usize>,
     pub(super) modes: Range<usize>,
@@ -14,7 +14,7 @@ pub(super) struct Push {
     pub(super) loads: Vec<f64>,
 }
 
-impl Push {
+impl UnitForce {
     pub(super) fn of(reduced: &Reduced, contact: usize) -> Self {
         let [left, right] = reduced.ports[contact];
         let sides = [left.map(|port| (port, -1.0)), right.map(|port| (port, 1.0))];
@@ -50,15 +50,15 @@ impl Push {
 
 /// What a unit force at the end of a step does until then, when it sets in as the square of time.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Answer {
+pub(super) struct UnitResponse {
     known: bool,
-    /// Displacements and velocities of the modes of its [`Push`].
+    /// Displacements and velocities of the modes of its [`UnitForce`].
     pub(super) modal: [Vec<f64>; 2],
     /// What is watched there of displacements and velocities \[m/N, m/(N s)\].
     pub(super) watched: [Vec<f64>; 2],
 }
 
-impl Answer {
+impl UnitResponse {
     /// The step has changed.
     pub(super) fn forget(&mut self) {
         self.known = false;
@@ -71,7 +71,7 @@ impl Answer {
             return;
         }
         self.known = true;
-        let push = &reduced.pushes[contact];
+        let push = &reduced.unit_forces[contact];
         for (list, factors) in self.modal.iter_mut().zip(ends) {
             let [line, bend] = factors.map(|list| &list[push.modes.clone()]);
             let factors = line.iter().zip(bend).zip(&push.loads);
@@ -87,7 +87,7 @@ impl Answer {
 
     /// How far and how fast the force, at contact `from`, opens a contact \[m/N, m/(N s)\].
     pub(super) fn opening(&self, contact: usize, from: usize, reduced: &Reduced) -> [f64; 2] {
-        let seen = &reduced.pushes[from].watched;
+        let seen = &reduced.unit_forces[from].watched;
         let [left, right] = reduced.ports[contact];
         self.watched.each_ref().map(|list| {
             let at = |port: Option<Shown>| {

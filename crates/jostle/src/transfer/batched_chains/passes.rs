@@ -3,20 +3,20 @@
 use super::{LANES, Lanes};
 
 /// One group in a pass.
-pub(super) struct Walk<'a> {
+pub(super) struct ChainPasses<'a> {
     pub(super) chains: usize,
     /// First of its columns at every link.
     pub(super) firsts: &'a [u32],
     /// Rows of its far and near ends, chain by chain.
     pub(super) far: &'a [[u32; LANES]],
     pub(super) near: &'a [[u32; LANES]],
-    /// A block for every link: inverse pivots, couplings to the links behind, farthest first, and to the near ends.
+    /// A block for every link: inverse pivots, entries of L to the links behind, farthest first, and to the near ends.
     pub(super) laid: &'a [Lanes],
     /// What links hold between the passes.
-    pub(super) held: &'a mut [Lanes],
+    pub(super) scratch: &'a mut [Lanes],
 }
 
-impl Walk<'_> {
+impl ChainPasses<'_> {
     /// Passes loads on, or gathers on the way back.
     #[inline(always)]
     pub(super) fn walk<const BAND: usize, const NEAR: usize, const FORWARD: bool>(
@@ -34,13 +34,13 @@ impl Walk<'_> {
     fn pass_on<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
         let mut at_hand = AtHand::<BAND, NEAR>::nothing();
         let mut blocks = self.laid.chunks_exact(1 + BAND + NEAR);
-        let (columns, ends) = self.held.split_at_mut(self.firsts.len());
-        for ((held, first), block) in columns.iter_mut().zip(self.firsts).zip(&mut blocks) {
-            *held = at_hand.pass_on(block, at(load, *first));
+        let (columns, ends) = self.scratch.split_at_mut(self.firsts.len());
+        for ((scratch, first), block) in columns.iter_mut().zip(self.firsts).zip(&mut blocks) {
+            *scratch = at_hand.pass_on(block, at(load, *first));
         }
-        for ((held, rows), block) in ends.iter_mut().zip(self.far).zip(blocks) {
-            *held = at_hand.pass_on(block, [0.0; LANES]);
-            add(load, rows, held, self.chains);
+        for ((scratch, rows), block) in ends.iter_mut().zip(self.far).zip(blocks) {
+            *scratch = at_hand.pass_on(block, [0.0; LANES]);
+            add(load, rows, scratch, self.chains);
         }
         for (sum, rows) in at_hand.near.iter().zip(self.near) {
             add(load, rows, sum, self.chains);
@@ -60,14 +60,14 @@ impl Walk<'_> {
             at_hand.gather(block, rows.map(|row| load[row as usize]));
         }
         let blocks = columns.chunks_exact(1 + BAND + NEAR);
-        for ((held, first), block) in self.held.iter().zip(self.firsts).zip(blocks).rev() {
-            let found = at_hand.gather(block, *held);
+        for ((scratch, first), block) in self.scratch.iter().zip(self.firsts).zip(blocks).rev() {
+            let found = at_hand.gather(block, *scratch);
             put(load, *first, &found, self.chains);
         }
     }
 }
 
-/// What a walk has at hand.
+/// What a pass uses.
 struct AtHand<const BAND: usize, const NEAR: usize> {
     /// Of the links behind, nearest last: on the way forward what they hold, on the way back what they have been given so far.
     behind: [Lanes; BAND],
@@ -105,8 +105,8 @@ impl<const BAND: usize, const NEAR: usize> AtHand<BAND, NEAR> {
 
     /// Takes what the next link holds and returns what is found there.
     #[inline(always)]
-    fn gather(&mut self, block: &[Lanes], held: Lanes) -> Lanes {
-        let mut sum = held;
+    fn gather(&mut self, block: &[Lanes], scratch: Lanes) -> Lanes {
+        let mut sum = scratch;
         for end in 0..NEAR {
             subtract(&mut sum, &block[1 + BAND + end], &self.near[end]);
         }

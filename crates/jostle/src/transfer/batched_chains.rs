@@ -1,11 +1,11 @@
-//! Chains of displacements taken abreast: the insides of members, which meet nothing but the joints at their ends.
+//! Batches of chains of displacements: the insides of members, which meet nothing but the joints at their ends.
 
 mod chain;
-mod walk;
+mod passes;
 
 use self::chain::{Chain, Reach};
-use self::walk::Walk;
-use super::shelves::Place;
+use self::passes::ChainPasses;
+use super::packed_factor::Place;
 
 /// Chains taken at once.
 const LANES: usize = 8;
@@ -19,7 +19,7 @@ pub(super) type Lanes = [f64; LANES];
 /// with a lane for every chain. Ends that only the last links meet are further links; what is passed on to the near ones is
 /// summed up on the way.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Abreast {
+pub(super) struct BatchedChains {
     groups: Vec<Group>,
     /// First of the columns that a group has at every link, group by group.
     firsts: Vec<u32>,
@@ -39,7 +39,7 @@ struct Group {
     chains: usize,
 }
 
-impl Abreast {
+impl BatchedChains {
     /// Of a pattern: starts of its columns, rows of its entries, the row that each column is eliminated into.
     pub(super) fn of(starts: &[usize], rows: &[u32], parent: &[u32]) -> Self {
         // Where paths meet there is a joint.
@@ -81,7 +81,7 @@ impl Abreast {
         for (entry, missing) in first.places.iter().enumerate() {
             let missing = match missing {
                 Place::One | Place::InversePivot(_) => Place::One,
-                Place::Zero | Place::Coupling(_) => Place::Zero,
+                Place::Zero | Place::Lower(_) => Place::Zero,
             };
             let place = |lane: usize| {
                 chains
@@ -131,23 +131,23 @@ impl Abreast {
     /// Every column passes its load on, the ends theirs to the joints. What columns then hold, divided by their pivots,
     /// is left in `held`.
     #[inline(always)]
-    pub(super) fn pass_on(&self, laid: &[f64], load: &mut [f64], held: &mut [Lanes]) {
-        self.walk::<true>(laid, load, held);
+    pub(super) fn pass_on(&self, laid: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
+        self.walk::<true>(laid, load, scratch);
     }
 
     /// Every column, last first, gathers from what is ahead of it.
     #[inline(always)]
-    pub(super) fn gather(&self, laid: &[f64], load: &mut [f64], held: &mut [Lanes]) {
-        self.walk::<false>(laid, load, held);
+    pub(super) fn gather(&self, laid: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
+        self.walk::<false>(laid, load, scratch);
     }
 
     #[inline(always)]
-    fn walk<const FORWARD: bool>(&self, laid: &[f64], load: &mut [f64], held: &mut [Lanes]) {
+    fn walk<const FORWARD: bool>(&self, laid: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
         let mut rest = Parts {
             firsts: &self.firsts,
             ends: &self.ends,
             laid: laid.as_chunks().0,
-            held,
+            scratch,
         };
         for group in &self.groups {
             let own = rest.take(group);
@@ -174,26 +174,26 @@ struct Parts<'a> {
     firsts: &'a [u32],
     ends: &'a [[u32; LANES]],
     laid: &'a [Lanes],
-    held: &'a mut [Lanes],
+    scratch: &'a mut [Lanes],
 }
 
 impl<'a> Parts<'a> {
     #[inline(always)]
-    fn take(&mut self, group: &Group) -> Walk<'a> {
+    fn take(&mut self, group: &Group) -> ChainPasses<'a> {
         let links = group.links();
-        let (far, near, firsts, laid, held);
+        let (far, near, firsts, laid, scratch);
         (firsts, self.firsts) = self.firsts.split_at(group.columns);
         (far, self.ends) = self.ends.split_at(group.far);
         (near, self.ends) = self.ends.split_at(group.reach.near);
         (laid, self.laid) = self.laid.split_at(links * group.reach.block());
-        (held, self.held) = std::mem::take(&mut self.held).split_at_mut(links);
-        Walk {
+        (scratch, self.scratch) = std::mem::take(&mut self.scratch).split_at_mut(links);
+        ChainPasses {
             chains: group.chains,
             firsts,
             far,
             near,
             laid,
-            held,
+            scratch,
         }
     }
 }

@@ -1,7 +1,7 @@
-//! A chain of columns: its couplings, and the rows beyond the chains that it meets.
+//! A chain of columns: its entries of L, and the rows beyond the chains that it meets.
 
 use crate::linear::counting_sort::in_order;
-use crate::transfer::shelves::Place;
+use crate::transfer::packed_factor::Place;
 
 /// How far links of a chain couple, and how many of its ends meet links from the beginning: loops are compiled for each of
 /// these, so that what they need stays in registers. Bending couples two displacements of a node and of its neighbour; change of
@@ -24,7 +24,7 @@ impl Reach {
         Self { band, near }
     }
 
-    /// Registers laid out for a link: its inverse pivot, couplings to the links behind it and to the near ends.
+    /// Registers laid out for a link: its inverse pivot, entries of L to the links behind it and to the near ends.
     pub(super) fn block(self) -> usize {
         1 + self.band + self.near
     }
@@ -84,7 +84,7 @@ impl Chain {
         chains.collect()
     }
 
-    /// A chain of columns with such couplings, if it reaches no farther.
+    /// A chain of columns with such entries of L, if it reaches no farther.
     fn within(reach: Reach, columns: &[u32], met: &[Met]) -> Option<Self> {
         // Those met first are near as long as there is room.
         let (mut far, mut near) = (Vec::new(), Vec::new());
@@ -122,7 +122,7 @@ impl Chain {
                     from * reach.block() + 1 + reach.band + end
                 }
             };
-            places[own] = Place::Coupling(*place);
+            places[own] = Place::Lower(*place);
         }
         // Near ends that are missing are given nothing, and read what is never used.
         let spare = near.first().or(far.first()).or(columns.last());

@@ -10,7 +10,7 @@ use crate::system::{BuildingSystem, System};
 
 /// K + K′ + s C + G M with s and G so large that damping says how massless degrees of freedom follow, where it acts on
 /// them, and that massive ones do not give way.
-pub(super) struct BlowFactor<E: StepEquations> {
+pub(super) struct JumpFactor<E: StepEquations> {
     factor: E::Factor,
     mass_factor: f64,
 }
@@ -20,7 +20,7 @@ const HEAVY: f64 = 1e13;
 /// s: what is slower than this does not matter at a sudden change \[1/s\].
 const SUDDEN: f64 = 1e9;
 
-impl<E: StepEquations> BlowFactor<E> {
+impl<E: StepEquations> JumpFactor<E> {
     /// `None` when every degree of freedom has mass, or nothing can be said about the others.
     fn of(building: &BuildingSystem, equations: &E) -> Option<Self> {
         let own = &building.equations;
@@ -64,13 +64,13 @@ impl<E: StepEquations> BlowFactor<E> {
 
 /// Room for the changes of one building.
 #[derive(Clone, Debug, Default)]
-pub(super) struct BlowScratch {
+pub(super) struct JumpScratch {
     velocity: Vec<f64>,
     acceleration: Vec<f64>,
     load: Vec<f64>,
 }
 
-impl BlowScratch {
+impl JumpScratch {
     pub(super) fn for_buildings(system: &System) -> Self {
         let sizes = system.buildings.iter().map(|b| b.equations.len());
         let room = || Vec::with_capacity(sizes.clone().max().unwrap_or(0));
@@ -113,27 +113,27 @@ impl<E: StepEquations> Direct<E> {
         }
     }
 
-    /// Changes the velocity of one degree of freedom, of the massless ones that hang on it, and the accelerations by
+    /// Changes the velocity of one degree of freedom, of the massless ones that follow it, and the accelerations by
     /// what the dampers then say: M Δa = −(α M + β K + C′) Δv.
     fn push_at_once(&mut self, run: &mut RunState<'_>, port: Port, change: f64) {
         let building = port.building;
         let system = &run.system.buildings[building];
         let (range, own) = (system.range(), &system.equations);
         let massless = own.mass.contains(&0.0);
-        if massless && self.blows[building].is_none() {
-            self.blows[building] = BlowFactor::of(system, &self.equations[building]);
+        if massless && self.jump_factors[building].is_none() {
+            self.jump_factors[building] = JumpFactor::of(system, &self.equations[building]);
             run.work.factorizations += 1;
         }
-        self.blow.clear(own.len());
-        let BlowScratch {
+        self.jump.clear(own.len());
+        let JumpScratch {
             velocity,
             acceleration,
             load,
-        } = &mut self.blow;
+        } = &mut self.jump;
         velocity[port.dof - system.offset] = change;
         let mut follow = |motion: &mut [f64]| {
-            if let Some(blow) = self.blows[building].as_ref().filter(|_| massless) {
-                blow.follow(&self.equations[building], &own.mass, motion, load);
+            if let Some(jump) = self.jump_factors[building].as_ref().filter(|_| massless) {
+                jump.follow(&self.equations[building], &own.mass, motion, load);
             }
         };
         follow(velocity);

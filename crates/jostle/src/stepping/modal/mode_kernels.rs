@@ -154,7 +154,7 @@ impl<const N: usize> WithSimd for Show<'_, N> {
     }
 }
 
-/// Factors of [`LANES`] modes for steps of one length in free flight, where loads follow from the ground alone: of
+/// Factors of [`LANES`] modes for steps of one length in free vibration, where loads follow from the ground alone: of
 /// (q₀, q̇₀, a₀, a₁), a being the ground acceleration.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Lanes {
@@ -183,7 +183,7 @@ pub(super) struct Sums {
     pub(super) strain: [f64; LANES],
 }
 
-/// Several steps of free flight, for all modes.
+/// Several steps of free vibration, for all modes.
 pub(super) struct Ahead<'a> {
     pub(super) lanes: &'a [Lanes],
     /// Ground acceleration at the start and after every step.

@@ -1,11 +1,11 @@
 //! Displacements that couple to nothing but their next neighbours: the joints of a frame, floor by floor.
 
-use super::shelves::Place;
+use super::packed_factor::Place;
 
 /// Widths that loops are compiled for: what they need stays in registers.
 const WIDTHS: [usize; 4] = [4, 6, 8, 12];
 
-/// The last columns of a factor, each with its couplings to the rows that come next; those that a matrix does not have are
+/// The last columns of a factor, each with its entries in the rows that come next; those that a matrix does not have are
 /// zero.
 #[derive(Clone, Debug)]
 pub(super) struct Band {
@@ -25,7 +25,7 @@ impl Band {
         let mut places = vec![Place::Zero; (order - first) * width];
         for (column, place) in own() {
             places[(column - first) * width + reach((column, place)) - 1] =
-                Place::Coupling(place as u32);
+                Place::Lower(place as u32);
         }
         Some(Self {
             width,
@@ -34,7 +34,7 @@ impl Band {
         })
     }
 
-    /// What the passes take, so many couplings for every column.
+    /// What the passes take, as many entries for every column.
     pub(super) fn places(&self) -> &[Place] {
         &self.places
     }
@@ -72,25 +72,25 @@ fn pass_on<const WIDTH: usize>(laid: &[f64], inverse_pivots: &[f64], load: &mut 
         *own = *value;
     }
     let columns = laid.as_chunks::<WIDTH>().0.iter().zip(inverse_pivots);
-    for (column, (couplings, inverse_pivot)) in columns.enumerate() {
+    for (column, (lower, inverse_pivot)) in columns.enumerate() {
         let passed = ahead[0];
         load[column] = passed * inverse_pivot;
         for entry in 1..WIDTH {
-            ahead[entry - 1] = ahead[entry] - couplings[entry - 1] * passed;
+            ahead[entry - 1] = ahead[entry] - lower[entry - 1] * passed;
         }
         let fresh = load.get(column + WIDTH).copied().unwrap_or(0.0);
-        ahead[WIDTH - 1] = fresh - couplings[WIDTH - 1] * passed;
+        ahead[WIDTH - 1] = fresh - lower[WIDTH - 1] * passed;
     }
 }
 
 #[inline(always)]
 fn gather<const WIDTH: usize>(laid: &[f64], load: &mut [f64]) {
     let mut ahead = [0.0; WIDTH];
-    for (couplings, value) in laid.as_chunks::<WIDTH>().0.iter().zip(load).rev() {
+    for (lower, value) in laid.as_chunks::<WIDTH>().0.iter().zip(load).rev() {
         let mut sum = *value;
         // The nearest, which has only just been found, last.
         for entry in (0..WIDTH).rev() {
-            sum -= couplings[entry] * ahead[entry];
+            sum -= lower[entry] * ahead[entry];
         }
         *value = sum;
         for entry in (1..WIDTH).rev() {

@@ -3,8 +3,8 @@
 /// What stands in a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    /// A coupling, by its number.
-    Coupling(u32),
+    /// An entry of L, by its number.
+    Lower(u32),
     /// The inverse pivot of a column.
     InversePivot(u32),
     Zero,
@@ -14,45 +14,37 @@ pub(super) enum Place {
 /// Which place every number of a factor has. Elimination puts each number there as it finds it: after a hinge has
 /// changed only those that changed with it are moved.
 #[derive(Clone, Debug)]
-pub(super) struct Shelves {
-    couplings: Vec<u32>,
+pub(super) struct PackedFactor {
+    lower: Vec<u32>,
     inverse_pivots: Vec<u32>,
     /// All places before anything is found.
     blank: Vec<f64>,
 }
 
-impl Shelves {
-    /// Of places, for a factor of so many couplings and columns. What has no place is put behind them.
-    pub(super) fn of(
-        places: impl Iterator<Item = Place>,
-        couplings: usize,
-        columns: usize,
-    ) -> Self {
-        let mut shelves = Self {
-            couplings: vec![u32::MAX; couplings],
+impl PackedFactor {
+    /// Of places, for a factor of this many entries of L and columns. Unmapped entries go to one spare slot.
+    pub(super) fn of(places: impl Iterator<Item = Place>, lower: usize, columns: usize) -> Self {
+        let mut packed = Self {
+            lower: vec![u32::MAX; lower],
             inverse_pivots: vec![u32::MAX; columns],
             blank: Vec::new(),
         };
         for (index, place) in places.enumerate() {
-            shelves.blank.push(f64::from(u8::from(place == Place::One)));
+            packed.blank.push(f64::from(u8::from(place == Place::One)));
             match place {
-                Place::Coupling(number) => shelves.couplings[number as usize] = index as u32,
+                Place::Lower(number) => packed.lower[number as usize] = index as u32,
                 Place::InversePivot(column) => {
-                    shelves.inverse_pivots[column as usize] = index as u32;
+                    packed.inverse_pivots[column as usize] = index as u32;
                 }
                 Place::Zero | Place::One => {}
             }
         }
-        let behind = shelves.blank.len() as u32;
-        shelves.blank.push(0.0);
-        for place in shelves
-            .couplings
-            .iter_mut()
-            .chain(&mut shelves.inverse_pivots)
-        {
+        let behind = packed.blank.len() as u32;
+        packed.blank.push(0.0);
+        for place in packed.lower.iter_mut().chain(&mut packed.inverse_pivots) {
             *place = behind.min(*place);
         }
-        shelves
+        packed
     }
 
     pub(super) fn blank(&self) -> &[f64] {
@@ -61,7 +53,7 @@ impl Shelves {
 
     #[inline]
     pub(super) fn put_coupling(&self, laid: &mut [f64], number: usize, value: f64) {
-        laid[self.couplings[number] as usize] = value;
+        laid[self.lower[number] as usize] = value;
     }
 
     #[inline]
