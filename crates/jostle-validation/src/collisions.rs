@@ -110,14 +110,14 @@ fn hertz_closed_forms() -> Vec<Row> {
     let mut rows = vec![
         Row::relative(
             SOURCE,
-            "Hertz, greatest indentation [m]",
+            "Hertz, peak indentation [m]",
             value("delta_max"),
             indentation,
             1e-12,
         ),
         Row::relative(
             SOURCE,
-            "Hertz, greatest force [N]",
+            "Hertz, peak force [N]",
             value("F_max"),
             force,
             1e-12,
@@ -367,14 +367,14 @@ fn single_collision(
     let mut rows = vec![
         Row::relative(
             source,
-            name("greatest force [N]"),
+            name("peak force [N]"),
             expected("F_max"),
             impact.peak_force,
             tolerance,
         ),
         Row::relative(
             source,
-            name("greatest indentation [m]"),
+            name("peak indentation [m]"),
             expected("delta_max"),
             impact.peak_indentation,
             tolerance,
@@ -413,7 +413,7 @@ fn single_collision(
         0.5 * effective_mass(bodies.masses[0], bodies.masses[1]) * bodies.closing_speed().powi(2);
     rows.push(Row::absolute(
         source,
-        name("energy lost ÷ energy that met [–]"),
+        name("dissipated energy ÷ kinetic energy of approach [–]"),
         of_variant("dissipated") / met,
         impact.dissipated / met,
         tolerance,
@@ -432,7 +432,7 @@ fn single_collision(
     if let Some(at) = case.pointer("/expected/t_F_max").and_then(Value::as_f64) {
         rows.push(Row::relative(
             source,
-            name("time from touch to greatest force [s]"),
+            name("time from first contact to peak force [s]"),
             at,
             got.peak_after,
             10.0 * tolerance,
