@@ -14,7 +14,7 @@ pub struct Setting {
     pub name: String,
     /// Mean work of a run: solutions, a factorisation counted as three of them.
     pub work: f64,
-    /// Median and 90 % quantile of the relative error of the greatest force of the gap.
+    /// Median and 90 % quantile of the relative error of the peak force of the gap.
     pub force: [f64; 2],
     /// The same of the sum of impulses.
     pub impulse: [f64; 2],
