@@ -439,7 +439,7 @@ fn describe_work(
     let couplings: usize = sweeps.map(|sweep| sweep.couplings()).sum();
     writeln!(
         text,
-        "  {} couplings in the factors: {} multiply-adds per solution\n",
+        "  {} entries of L: {} multiply-adds per solution\n",
         grouped(couplings as u64),
         grouped(2 * couplings as u64)
     )

@@ -121,7 +121,7 @@ fn note(notes: &mut Vec<String>, warning: &str) {
     }
 }
 
-/// The run under way on a terminal.
+/// Progress of the current run on a terminal.
 struct Shown {
     bar: RefCell<TimeBar>,
     motion: String,

@@ -19,7 +19,7 @@ use crate::progress::TimeBar;
 use crate::replace::{Kind, may_write};
 use crate::{method, run_text, terminal};
 
-/// Where results go when nothing else is said.
+/// Default folder of results.
 const RESULTS: &str = "jostle-out";
 
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         .map_err(|error| error.to_string())
     {
         if !args.force {
-            let problem = format!("{refusal}; --force runs it all the same");
+            let problem = format!("{refusal}; --force runs it anyway");
             return Err(opened.input.fault("analysis.solver", problem).into());
         }
         terminal::warn(&refusal);
@@ -179,7 +179,7 @@ fn not_compared(without: &Outcome, duration: f64) -> Option<String> {
         RunEnd::Failed(error) => format!("failed: {error}"),
     };
     Some(format!(
-        "the run without contact {reason}; nothing is compared with it"
+        "the run without contact {reason}; there is no comparison with it"
     ))
 }
 

@@ -50,7 +50,7 @@ impl Model {
         let refusal = plan.check_digits(&self.system).err();
         match refusal.map(|refusal| refusal.to_string()) {
             Some(refusal) if !force => {
-                let problem = format!("{refusal}; force=True runs it all the same");
+                let problem = format!("{refusal}; force=True runs it anyway");
                 Err(input_error(&input.fault("analysis.solver", problem)))
             }
             refusal => Ok((motion, plan, refusal)),

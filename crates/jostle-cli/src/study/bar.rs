@@ -11,7 +11,7 @@ use crate::terminal;
 /// Studies shorter than this need no progress bar.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// A bar that appears on a terminal if the study takes a while.
+/// A bar that a terminal shows if the study takes some time.
 pub(super) struct Bar {
     bar: ProgressBar,
     started: Instant,
