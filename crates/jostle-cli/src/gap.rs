@@ -1,4 +1,4 @@
-//! `jostle gap`: the smallest gap without pounding, beside what rules and codes ask for.
+//! `jostle gap`: the smallest gap without pounding, compared with rules and codes.
 
 use std::cell::RefCell;
 use std::path::PathBuf;

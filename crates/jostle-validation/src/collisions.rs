@@ -51,18 +51,18 @@ impl Bodies {
     }
 }
 
-/// What came out of a collision.
+/// Results of a collision.
 struct Collision {
-    /// Time counts from the touch.
+    /// Time counts from first contact.
     impact: Impact,
     velocities: [f64; 2],
-    /// Where the force is greatest and where it ends, from the touch \[s\].
+    /// Times of the peak force and of the end of force, from first contact \[s\].
     peak_after: f64,
     lasted: f64,
 }
 
-/// Lets two bodies meet, with so many steps per elastic collision. They start a fraction of a step apart, so
-/// that the touch falls between two steps.
+/// Collides two bodies with a given number of steps per elastic collision. They start a fraction of a step apart,
+/// so that first contact lies between two steps.
 fn collide(law: &ContactLaw, bodies: Bodies, steps_per_impact: f64) -> Collision {
     let [m1, m2] = bodies.masses;
     let speed = bodies.closing_speed();
@@ -190,7 +190,7 @@ fn restitutions() -> Vec<Row> {
     rows
 }
 
-/// Laws of the table that a precise integration of theirs and ours should agree on.
+/// Laws of the table for which both precise integrations should agree.
 fn precise_collisions() -> Vec<Row> {
     const SOURCE: &str = "theory/oracle_contact";
     let stored = document(include_str!("../data/theory/oracle_contact.json"));
@@ -408,7 +408,7 @@ fn single_collision(
             10.0 * tolerance,
         ),
     ];
-    // A share of the energy that met.
+    // Relative to the kinetic energy of the approach.
     let met =
         0.5 * effective_mass(bodies.masses[0], bodies.masses[1]) * bodies.closing_speed().powi(2);
     rows.push(Row::absolute(
@@ -441,7 +441,7 @@ fn single_collision(
     rows
 }
 
-/// Errors with N steps per impact, against those of an independent program that also lands on the touch.
+/// Errors with N steps per impact, against those of an independent program that also ends steps at first contact.
 fn order_of_convergence() -> Vec<Row> {
     const SOURCE: &str = "theory/contact_dt_twomass";
     let stored = document(include_str!("../data/theory/contact_dt_twomass.json"));
@@ -466,7 +466,8 @@ fn order_of_convergence() -> Vec<Row> {
             let quantity = format!(
                 "hertz-damp calibrated to {e}, {steps} steps per impact, error of the restitution [–]"
             );
-            // Theirs is the worst of 13 phases; the touch and the parting lie elsewhere in the steps here.
+            // The reference is the worst of 13 phases; here first contact and separation lie elsewhere in the
+            // steps.
             rows.push(Row::absolute(
                 SOURCE,
                 quantity,

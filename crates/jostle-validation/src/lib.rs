@@ -1,7 +1,7 @@
 //! jostle against closed forms, other programs and the literature: one [`row::Row`] per number compared.
 //!
-//! Every module is one family of checks over the data stored in `data`, whose READMEs say where the numbers
-//! come from. The tolerances are those stated with the data; none is widened to let a check pass.
+//! Every module is one family of checks over the data stored in `data`, whose READMEs state the sources of the
+//! numbers. The tolerances are those stated with the data; none is widened to make a check pass.
 
 pub mod bits;
 pub mod certify;
@@ -31,7 +31,7 @@ use row::Row;
 /// How much is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// What a test can wait for.
+    /// Checks fast enough for a test.
     Reduced,
     /// Small steps as well.
     Full,
@@ -42,7 +42,7 @@ pub enum Extent {
 pub struct Family {
     /// Heading.
     pub title: &'static str,
-    /// What is compared with what.
+    /// Description of the comparison.
     pub about: &'static str,
     /// The comparisons.
     pub rows: Vec<Row>,

@@ -47,7 +47,7 @@ fn against_a_stop() -> Vec<Row> {
         velocity: vec![input("v0"), 0.0],
         ..State::at_rest(&system, 0.0)
     };
-    // Until shortly after the second touch.
+    // Until shortly after the second contact.
     let outcome = run(
         &system,
         &still(1.2 * expected("period")),

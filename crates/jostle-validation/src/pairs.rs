@@ -13,7 +13,7 @@ use crate::Extent;
 use crate::row::Row;
 use crate::structures::uniform;
 
-/// What automatic steps make of one pair, relative to uniform fine ones.
+/// Errors of automatic steps for one pair, relative to uniform fine steps.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// Seed of the pair.

@@ -18,7 +18,7 @@ const REFERENCE_STEP: f64 = 1e-5;
 /// The reference runs, as stored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reference {
-    /// What the numbers are and which command makes them.
+    /// Description of the numbers and the command that computes them.
     pub how: String,
     /// Uniform step \[s\].
     pub step_s: f64,
@@ -56,7 +56,7 @@ pub struct ReferenceFloor {
     pub impulse_n_s: f64,
     /// Greatest closing \[m\].
     pub closing_m: f64,
-    /// First touch \[s\].
+    /// First contact \[s\].
     pub first_start_s: Option<f64>,
 }
 
@@ -131,7 +131,7 @@ fn stored_reference() -> Reference {
         .expect("stored data are valid")
 }
 
-/// Ground motion and gap as a reader would say them.
+/// Ground motion and gap as text.
 fn case_name(pga: f64, gap: f64) -> String {
     format!("{:.0} cm/s², gap {:.0} mm", pga * 100.0, gap * 1000.0)
 }
@@ -420,7 +420,7 @@ fn summed_up(pga: f64, gap: f64, system: &System, outcome: &Outcome) -> Referenc
     }
 }
 
-/// Makes the reference runs anew; takes minutes.
+/// Repeats the reference runs; takes minutes.
 #[must_use]
 pub fn reference() -> Reference {
     let cases = std::thread::scope(|scope| {

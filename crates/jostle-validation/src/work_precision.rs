@@ -1,4 +1,4 @@
-//! Work against precision: automatic steps beside fixed ones, on random pairs of shear buildings.
+//! Work against precision: automatic and fixed steps on random pairs of shear buildings.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use crate::pairs::{self, quantile};
 /// One way of choosing steps, at one setting.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// Tolerance or step, for people.
+    /// Tolerance or step, for display.
     pub name: String,
     /// Mean work of a run: solutions, a factorisation counted as three of them.
     pub work: f64,
@@ -23,7 +23,7 @@ pub struct Setting {
 /// One way of choosing steps.
 #[derive(Clone, Debug)]
 pub struct Way {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
     /// Coarse to fine.
     pub settings: Vec<Setting>,

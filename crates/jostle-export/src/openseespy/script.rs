@@ -12,7 +12,7 @@ use super::materials::Materials;
 use super::ties::{COMPONENTS, Ties, is_held_by, is_vertical, stiffnesses};
 use crate::Export;
 
-/// Free-flight step that is to be tried first \[s\]; the record may ask for a shorter one.
+/// Free-vibration step that is tried first \[s\]; the record may require a shorter one.
 const FREE_STEP: f64 = 2e-3;
 /// Parts of it while contacts are closed \[–\].
 const PARTS_IN_CONTACT: usize = 10;
@@ -171,7 +171,7 @@ impl<'a> Script<'a> {
     fn add_nodes(&mut self, index: usize, building: &BuildingSystem, ties: &Ties) {
         for (number, node) in building.idealisation.skeleton.nodes.iter().enumerate() {
             let tag = self.tag(index, number);
-            // What does not move needs no mass.
+            // Fixed nodes need no mass.
             let mass = if node.support == Support::Fixed {
                 0.0
             } else {
@@ -313,7 +313,7 @@ impl<'a> Script<'a> {
         Ok(())
     }
 
-    /// What stands side by side: a spring, elastic or not, and a dashpot.
+    /// Parallel elements: a spring, elastic or not, and a dashpot.
     fn spring_materials(
         &mut self,
         stiffness: f64,
@@ -671,7 +671,7 @@ fn python_bool(value: bool) -> &'static str {
     if value { "True" } else { "False" }
 }
 
-/// Lines of at most so many characters.
+/// Lines with a maximum length.
 fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
