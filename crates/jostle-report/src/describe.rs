@@ -355,7 +355,7 @@ fn analysis(page: &Page) -> Facts {
             ),
         ),
         (
-            "step in free flight",
+            "step of free vibration",
             format!(
                 "{} ({})",
                 format::milliseconds(work.step_s),

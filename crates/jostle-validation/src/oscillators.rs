@@ -28,7 +28,7 @@ fn linear(stiffness: f64) -> ForceLaw {
 fn against_a_stop() -> Vec<Row> {
     const SOURCE: &str = "literature/B01_free_vibration_elastic_stop";
     // The relative error of a period is (ωh)²/12, here 1.3·10⁻⁷ in contact; rounding adds about 10⁻¹⁵/(ωh)² in
-    // free flight, here 6·10⁻⁸. The closed forms are good to 10⁻⁹.
+    // free vibration, here 6·10⁻⁸. The closed forms are good to 10⁻⁹.
     const STEP: f64 = 2e-5;
     const TOLERANCE: f64 = 1e-6;
     let case = document(include_str!(

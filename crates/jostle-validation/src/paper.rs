@@ -12,7 +12,7 @@ use crate::row::Row;
 /// \[m/s²\] and gap \[m\].
 const CASES: [(f64, f64); 3] = [(2.2, 0.1), (0.7, 0.01), (0.35, 0.01)];
 
-/// Step of the reference runs, in free flight and in contact \[s\].
+/// Step of the reference runs, in free vibration and in contact \[s\].
 const REFERENCE_STEP: f64 = 1e-5;
 
 /// The reference runs, as stored.
@@ -65,7 +65,7 @@ pub struct ReferenceFloor {
 enum Steps {
     /// Automatic, by a solver.
     Tolerance(f64, Option<Solver>),
-    /// In free flight and in contact \[s\].
+    /// In free vibration and in contact \[s\].
     Fixed(f64, f64),
 }
 

@@ -123,9 +123,9 @@ impl Materials {
         contact: &Contact,
     ) -> Result<(usize, Option<&'static str>), &'static str> {
         let gap = -contact.width.max(NO_GAP);
-        const IMPACT_SPEED: &str = "Hertzdamp divides by the closing rate that the first closed step ends with, not by \
-             that at the touch: its damping depends on the step and converges with it. It pulls where damping exceeds \
-             the spring; jostle cuts the force at zero. Its stated tangent has the wrong sign, which small steps forgive.";
+        const IMPACT_SPEED: &str = "Hertzdamp divides by the closing rate at the end of the first closed step, not at first \
+             contact: its damping depends on the step and converges with it. It is in tension where damping exceeds \
+             the spring force; jostle cuts the force at zero. Its tangent has the wrong sign, which is harmless at small steps.";
         Ok(match contact.law {
             ForceLaw::Hertz { stiffness, damping } => (
                 self.add("Hertzdamp", vec![stiffness, damping, gap, 1.5]),

@@ -406,7 +406,7 @@ impl<'a> Script<'a> {
                 self.remark(remark);
             }
             if contact.width == 0.0 {
-                self.remark("OpenSees wants a gap: faces that touch at rest are 1e-12 m apart.");
+                self.remark("OpenSees needs a gap: sides that touch at rest are 1e-12 m apart.");
             }
             let tag = self.element();
             let floors = contact.faces.floors();
@@ -470,7 +470,7 @@ impl<'a> Script<'a> {
         )?;
         writeln!(
             out,
-            "#   python FILE                     at its best: long linear steps in free flight, short ones near contact"
+            "#   python FILE                     at its best: long linear steps in free vibration, short ones near contact"
         )?;
         writeln!(
             out,
@@ -623,7 +623,7 @@ impl<'a> Script<'a> {
         }
         writeln!(
             out,
-            "\n# Steps at its best, in free flight and around contact [s]."
+            "\n# Steps at its best, in free vibration and around contact [s]."
         )?;
         writeln!(out, "FREE_STEP = {free:?}")?;
         writeln!(out, "PARTS_IN_CONTACT = {PARTS_IN_CONTACT}")
