@@ -131,7 +131,45 @@ pub struct Gravity {
     pub p_delta: bool,
 }
 
-/// Where and how a building cracks and yields.
+/// Springs of a building that crack and yield.
+///
+/// ```
+/// use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+/// use jostle::{
+///     Analysis, Base, Building, Damping, Gravity, Hinges, Model, Shear, Structure, System,
+/// };
+///
+/// // Storeys of 60 MN/m that yield at 20 mm and keep 5 % of their stiffness.
+/// let corners = || Corners::bilinear(0.02, 0.05);
+/// let backbone = Backbone::from_deformations(60e6, corners(), corners())
+///     .map_err(|faults| faults[0].problem.clone())?;
+/// assert!((backbone.force_at(0.03) / 1.23e6 - 1.0).abs() < 1e-12); // 1.2 MN + 5 % of 0.6 MN
+/// let storey = Hysteresis::new(HysteresisRule::Bilinear, backbone)
+///     .map_err(|faults| faults[0].problem.clone())?;
+///
+/// let building = Building {
+///     name: "tower".to_owned(),
+///     structure: Structure::Shear(Shear {
+///         mass: vec![40e3; 2],
+///         stiffness: vec![60e6; 2],
+///         storey_heights: vec![3.0; 2],
+///     }),
+///     damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+///     base: Base::default(),
+///     gravity: Gravity::default(),
+///     hinges: Some(Hinges::Storeys(vec![storey; 2])),
+/// };
+/// let model = Model {
+///     title: "Yielding tower".to_owned(),
+///     buildings: vec![building],
+///     gaps: Vec::new(),
+///     links: Vec::new(),
+///     analysis: Analysis::default(),
+/// };
+/// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;
+/// assert_eq!(system.buildings[0].spring_range().len(), 2);
+/// # Ok::<(), String>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Hinges {
     /// Rotational hinges at the ends of the members of a frame.

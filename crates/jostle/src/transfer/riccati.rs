@@ -22,7 +22,51 @@ use crate::small_keys::in_order;
 use crate::stepping::{NotPositive, StepEquations, StepMatrix};
 use crate::system::BuildingSystem;
 
-/// The recursion through one building: the pattern of the couplings, found once.
+/// The Riccati recursion of one building: the pattern of L, computed once.
+///
+/// The example solves one step of three storeys with 40 t and 40 MN/m each, by 20 ms, under 40 kN on every floor
+/// (docs/method.md, section 2):
+///
+/// ```
+/// use jostle::stepping::{StepEquations, StepMatrix};
+/// use jostle::{
+///     Analysis, Base, Building, Damping, Gravity, Model, RiccatiFactor, RiccatiSweep, Shear, Structure, System,
+/// };
+///
+/// let building = Building {
+///     name: "three storeys".to_owned(),
+///     structure: Structure::Shear(Shear {
+///         mass: vec![40e3; 3],
+///         stiffness: vec![40e6; 3],
+///         storey_heights: vec![3.0; 3],
+///     }),
+///     damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+///     base: Base::default(),
+///     gravity: Gravity::default(),
+///     hinges: None,
+/// };
+/// let model = Model {
+///     title: "one step".to_owned(),
+///     buildings: vec![building],
+///     gaps: Vec::new(),
+///     links: Vec::new(),
+///     analysis: Analysis::default(),
+/// };
+/// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;
+///
+/// let sweep = RiccatiSweep::of(&system.buildings[0]);
+/// let mut factor = RiccatiFactor::default();
+/// let matrix = StepMatrix::new(1.0, 4.0 / 0.02_f64.powi(2)); // K + 4/h² M
+/// sweep.factorize(&matrix, &[], &mut factor).map_err(|error| error.to_string())?;
+/// let mut floors = [40e3; 3]; // loads [N]
+/// sweep.solve(&factor, &mut floors); // displacements [m]
+///
+/// for (displacement, expected) in floors.into_iter().zip([5720.0, 6200.0, 6240.0]) {
+///     assert!((displacement / (expected / 1561.0 / 40e3) - 1.0).abs() < 1e-12);
+/// }
+/// assert_eq!(sweep.couplings(), 2);
+/// # Ok::<(), String>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct RiccatiSweep {
     /// Start of every column of L in `rows`; one longer than the order.
@@ -81,7 +125,45 @@ impl Parts {
     }
 }
 
-/// Pivots and couplings of one building for one step size.
+/// Pivots and entries of L of one building for one step size.
+///
+/// [`RiccatiSweep`] fills it and solves with it. A factor can be filled again for another step size:
+///
+/// ```
+/// use jostle::stepping::{StepEquations, StepMatrix};
+/// use jostle::{
+///     Analysis, Base, Building, Damping, Gravity, Model, RiccatiFactor, RiccatiSweep, Shear, Structure, System,
+/// };
+///
+/// let building = Building {
+///     name: "one floor".to_owned(),
+///     structure: Structure::Shear(Shear { mass: vec![10e3], stiffness: vec![1e6], storey_heights: vec![3.0] }),
+///     damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+///     base: Base::default(),
+///     gravity: Gravity::default(),
+///     hinges: None,
+/// };
+/// let model = Model {
+///     title: "one mass".to_owned(),
+///     buildings: vec![building],
+///     gaps: Vec::new(),
+///     links: Vec::new(),
+///     analysis: Analysis::default(),
+/// };
+/// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;
+/// let sweep = RiccatiSweep::of(&system.buildings[0]);
+/// let mut factor = RiccatiFactor::default();
+/// for step in [10e-3_f64, 5e-3] {
+///     let mass = 4.0 / step.powi(2);
+///     sweep
+///         .factorize(&StepMatrix::new(1.0, mass), &[], &mut factor)
+///         .map_err(|error| error.to_string())?;
+///     let mut load = [4.79e6];
+///     sweep.solve(&factor, &mut load);
+///     assert!((load[0] * (1e6 + mass * 10e3) / 4.79e6 - 1.0).abs() < 1e-12);
+/// }
+/// # Ok::<(), String>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct RiccatiFactor {
     couplings: Vec<f64>,
