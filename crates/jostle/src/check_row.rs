@@ -1,4 +1,4 @@
-//! Faults of what stands between the buildings: gaps and links.
+//! Faults of gaps and links.
 
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ pub(crate) fn check_row(faults: &mut Faults, model: &Model) {
     check_room(faults, model);
 }
 
-/// Points of different gaps and links that nearly coincide on one face.
+/// Points of different gaps and links that nearly coincide on one side of a building.
 fn check_room(faults: &mut Faults, model: &Model) {
     let gaps = each(&model.gaps, "gap")
         .map(|(path, gap)| (path, gap.between, &gap.floors, gap.level_tolerance));
@@ -165,7 +165,7 @@ fn check_link(faults: &mut Faults, path: &str, link: &Link, model: &Model) {
     }
 }
 
-/// What only some laws have.
+/// Parameters of individual laws.
 fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
     match law.kind {
         LawKind::Bilinear(shape) => {
@@ -197,7 +197,7 @@ fn check_floors(
     tolerance: f64,
     model: &Model,
 ) -> Option<usize> {
-    // Faults of the buildings are told by themselves.
+    // Faults of the buildings are reported separately.
     let heights = neighbours(model, between).into_iter().flatten();
     if heights
         .flat_map(|building| building.storey_heights())

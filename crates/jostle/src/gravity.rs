@@ -1,4 +1,4 @@
-//! Gravity: static displacements under self weight, and the axial compression it leaves in columns.
+//! Gravity: static displacements under self weight, and the axial compression of columns.
 
 use crate::element::{self, Y};
 use crate::model::Gravity;
@@ -11,10 +11,10 @@ use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 /// Standard gravity \[m/s²\].
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// Static displacement of every degree of freedom of a building under its own weight \[m, rad\], as long as nothing
-/// cracks; [`statics::settle`] goes further.
+/// Static displacement of every degree of freedom of a building under self weight \[m, rad\] without cracking;
+/// [`statics::settle`] includes cracking.
 ///
-/// `gravity` ≥ 0 \[m/s²\]. Where members keep their length, what rests on them does not sink.
+/// `gravity` ≥ 0 \[m/s²\]. Nodes on axially rigid columns do not move vertically.
 ///
 /// # Errors
 /// [`NotPositive`] when the building can move without deforming.
@@ -41,9 +41,8 @@ pub fn static_displacement(
 
 /// Axial compression of every member under gravity, zero in horizontal ones \[N\].
 ///
-/// By equilibrium of the column lines: a column carries the masses above on its line, and what the beams that
-/// end there hang on it, hinges cracked as the weight leaves them. So it is the same whether columns keep their length
-/// or not.
+/// From equilibrium of the column lines: a column carries the masses above on its line and the end forces of beams,
+/// with hinges cracked under the weight. So the result does not depend on axial flexibility of columns.
 ///
 /// # Errors
 /// [`WalkError`] when the building cannot carry its weight.
@@ -73,7 +72,7 @@ pub fn compressions(building: &BuildingSystem, gravity: f64) -> Result<Vec<f64>,
         .collect())
 }
 
-/// A building that cannot stand.
+/// A building that is unstable under self weight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Collapse {
     /// It can move without deforming.
@@ -84,7 +83,7 @@ pub enum Collapse {
         "the hinges cannot carry the weight of the building: a mechanism forms before all of it is on; are yield moments and masses right?"
     )]
     Overloaded,
-    /// P-Delta has used up its stiffness.
+    /// P-Delta exceeds its stiffness.
     #[error(
         "the building buckles under its own weight: P-Delta exceeds its lateral stiffness; are its masses and sections right?"
     )]
@@ -92,7 +91,7 @@ pub enum Collapse {
 }
 
 impl Collapse {
-    /// The field of a building that brought it about.
+    /// The field of a building that caused it.
     #[must_use]
     pub fn field(&self) -> &'static str {
         match self {
@@ -103,10 +102,10 @@ impl Collapse {
 }
 
 impl BuildingSystem {
-    /// Lets the weight lean on the columns and sets the displacements at rest, as far as each is asked for.
+    /// Applies P-Delta and sets the displacements at rest, as requested.
     ///
-    /// The compression of every member is that of the building standing straight (theory, Eq. K1): axial forces
-    /// that shaking adds are not followed.
+    /// The compression of every member is that of the undeformed building (theory, Eq. K1); axial forces due to the
+    /// earthquake are not included.
     ///
     /// # Errors
     /// [`Collapse`]; the building is then as it was.
@@ -127,7 +126,7 @@ impl BuildingSystem {
             let nodes = &skeleton.nodes;
             for spring in &mut skeleton.springs {
                 let [a, b] = spring.ends.map(|end| nodes[end].y);
-                // The spring of a base has no height to lean on.
+                // A base spring has no height for P-Delta.
                 if (a - b).abs() > SAME_LINE {
                     let above = nodes.iter().filter(|node| node.y > a.max(b) - SAME_LINE);
                     let weight = STANDARD_GRAVITY * above.map(|node| node.mass).sum::<f64>();
@@ -177,7 +176,7 @@ fn hung_on_nodes(
     {
         for (_, a, b, value) in element::of_member(member, &skeleton.nodes).entries {
             if a.1 == Y {
-                // The member holds the node up with −K u.
+                // The member supports the node with −K u.
                 hung[a.0] += building
                     .equations
                     .dof(b)
@@ -202,7 +201,7 @@ pub(crate) mod tests {
         })
     }
 
-    /// Three storeys, two bays, members of several masses, changed at will, with the hinges that are returned.
+    /// Three storeys, two bays, members of several masses, modified by `change`, with the hinges that it returns.
     pub(crate) fn frame_with(change: impl FnOnce(&mut Frame) -> Option<Hinges>) -> BuildingSystem {
         let section = |line_mass| Section {
             flexural_rigidity: 1e8,

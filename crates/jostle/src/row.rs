@@ -1,4 +1,4 @@
-//! What stands between the buildings of a model: from gaps and links to contacts and elements between points.
+//! Gaps and links of a model, converted to contacts and elements between points.
 
 use crate::contact_points::{PointPair, SAME, mean, point_pairs};
 use crate::faces::{Face, Faces};
@@ -36,13 +36,13 @@ impl Row {
         }
     }
 
-    /// Heights of the points on the left and on the right face of a building that are not floors \[m\].
+    /// Heights of the points on the left and on the right side of a building that are not floors \[m\].
     pub(crate) fn points_between_floors(&self, building: usize) -> [Vec<f64>; 2] {
         let mut points = [Vec::new(), Vec::new()];
         for joined in self.gaps.iter().chain(&self.links) {
             for side in 0..2 {
                 if joined.between[side] == Some(building) {
-                    // The right one of two neighbours is hit on its left face.
+                    // Contact points of the right neighbour are on its left side.
                     let face: &mut Vec<f64> = &mut points[1 - side];
                     face.extend(joined.pairs.iter().filter_map(|pair| pair[side]));
                 }
@@ -58,7 +58,7 @@ impl Row {
     /// Adds contacts and links to a system of the buildings of the model.
     ///
     /// # Errors
-    /// Points that cannot be pushed.
+    /// Points without a horizontal degree of freedom.
     pub(crate) fn put_into(
         &self,
         system: &mut System,
@@ -146,7 +146,7 @@ fn faces(system: &System, between: [Option<usize>; 2], pair: &PointPair) -> Resu
     Ok(Faces(faces))
 }
 
-/// What gravity alone closes \[m\].
+/// Closing due to gravity \[m\].
 fn closing_at_rest(system: &System, faces: &Faces) -> f64 {
     let displacement = |face: Face| {
         let building = &system.buildings[face.building];

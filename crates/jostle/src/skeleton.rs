@@ -27,18 +27,18 @@ pub struct Node {
     pub mass: f64,
     /// Rotary inertia, ≥ 0 \[kg·m²\].
     pub rotary_inertia: f64,
-    /// How it is held.
+    /// Support.
     pub support: Support,
 }
 
-/// How a node is held.
+/// Support of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Support {
-    /// Not at all.
+    /// Free.
     Free,
     /// Moves with the ground.
     Fixed,
-    /// Guided horizontally: neither rises nor turns.
+    /// Guided horizontally: no vertical displacement, no rotation.
     Guided,
 }
 
@@ -49,7 +49,7 @@ pub struct Member {
     pub ends: [usize; 2],
     /// EI, > 0 \[N·m²\].
     pub flexural_rigidity: f64,
-    /// EA \[N\]; `None` keeps the length.
+    /// EA \[N\]; `None` is axially rigid.
     pub axial_rigidity: Option<f64>,
     /// GA_s \[N\]; `None` neglects shear deformation.
     pub shear_rigidity: Option<f64>,
@@ -57,15 +57,15 @@ pub struct Member {
     pub compression: f64,
 }
 
-/// Planar elastic hinge, with dashpots beside its springs.
+/// Planar elastic hinge, with dashpots parallel to its springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hinge {
     /// The two coincident nodes.
     pub ends: [usize; 2],
     /// Moment per relative rotation, > 0; `None` is rigid \[N·m/rad\].
     pub rotational_stiffness: Option<f64>,
-    /// What the rotational spring remembers, if it yields; it then replaces `rotational_stiffness`, which must not
-    /// be rigid. Positive is the rotation of the first end against the second.
+    /// Hysteresis of the rotational spring, if it yields; it then replaces `rotational_stiffness`, which must not
+    /// be rigid. Positive: rotation of the first end relative to the second.
     pub hysteresis: Option<Hysteresis>,
     /// Force per relative horizontal and vertical displacement; `None` is rigid \[N/m\].
     pub translational_stiffness: [Option<f64>; 2],
@@ -77,7 +77,7 @@ pub struct Hinge {
 }
 
 impl Hinge {
-    /// Gives way in rotation only, by a rule that remembers.
+    /// Flexible in rotation only, with hysteresis.
     #[must_use]
     pub fn yielding(ends: [usize; 2], hysteresis: Hysteresis) -> Self {
         Self {
@@ -87,7 +87,7 @@ impl Hinge {
         }
     }
 
-    /// Gives way in rotation only and takes part in the damping of the building.
+    /// Flexible in rotation only, and part of the damping of the building.
     #[must_use]
     pub fn rotational(ends: [usize; 2], stiffness: f64) -> Self {
         Self {
@@ -101,17 +101,17 @@ impl Hinge {
     }
 }
 
-/// Horizontal spring, with a dashpot beside it.
+/// Horizontal spring with a parallel dashpot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
     /// Ends.
     pub ends: [usize; 2],
     /// Force per relative horizontal displacement, ≥ 0 \[N/m\].
     pub stiffness: f64,
-    /// What the spring remembers, if it yields; it then replaces `stiffness`. Positive is the displacement of the
-    /// second end against the first.
+    /// Hysteresis of the spring, if it yields; it then replaces `stiffness`. Positive: displacement of the second
+    /// end relative to the first.
     pub hysteresis: Option<Hysteresis>,
-    /// P/h: what the weight above takes from the stiffness, ≥ 0 \[N/m\].
+    /// P/h: reduction of the stiffness by the weight above, ≥ 0 \[N/m\].
     pub softening: f64,
     /// Force per relative velocity, ≥ 0 \[N·s/m\].
     pub dashpot: f64,
@@ -134,20 +134,20 @@ impl Spring {
     }
 }
 
-/// A skeleton and where its floors and faces are.
+/// A skeleton with its floors and contact points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Idealisation {
     /// Masses and elements.
     pub skeleton: Skeleton,
     /// The lowest node of the first column line, fixed or not.
     pub foot: Option<usize>,
-    /// Node that stands for every floor, from the ground up: the joint of the first column line.
+    /// Reference node of every floor, from the ground up: the joint of the first column line.
     pub floors: Vec<usize>,
-    /// Nodes of the left face from the ground up that can be hit.
+    /// Contact nodes of the left side, from the ground up.
     pub left_face: Vec<usize>,
-    /// Nodes of the right face from the ground up that can be hit.
+    /// Contact nodes of the right side, from the ground up.
     pub right_face: Vec<usize>,
-    /// Where the springs sit that yield, in the order of [`crate::equations::Equations::springs`].
+    /// Positions of the springs that yield, in the order of [`crate::equations::Equations::springs`].
     pub spring_places: Vec<SpringPlace>,
 }
 
@@ -158,9 +158,9 @@ impl Idealisation {
         Self::with_points(building, [&[], &[]])
     }
 
-    /// The same with lumped masses at further heights of the left and the right face, so that the columns of a frame
-    /// can be hit there \[m\]: the nearest lumped mass between the floors moves there if it is no further than a
-    /// quarter of a segment away, otherwise another one is put in.
+    /// The same with lumped masses at additional heights of the left and the right side, for contacts with columns
+    /// of a frame \[m\]: the nearest lumped mass between the floors moves there if it is within a quarter of a
+    /// segment; otherwise a mass is added.
     #[must_use]
     pub fn with_points(building: &Building, points: [&[f64]; 2]) -> Self {
         match &building.structure {
@@ -195,8 +195,8 @@ impl Skeleton {
         self.nodes.len() - 1
     }
 
-    /// Joins two nodes by a beam cut at these shares of its length; half of each segment's mass goes to either end.
-    /// Returns the new nodes in between.
+    /// Joins two nodes by a beam divided at these fractions of its length; half of each segment's mass goes to
+    /// either end. Returns the new nodes in between.
     fn add_line(
         &mut self,
         from: usize,
@@ -215,7 +215,7 @@ impl Skeleton {
         let segments = cuts.len() + 1;
         let starts = std::iter::once(0.0).chain(cuts.iter().copied());
         let half_masses: Vec<f64> = if *cuts == equal_cuts(segments) {
-            // All the same, to the last bit.
+            // All equal to the last bit.
             vec![half_mass / segments as f64; segments]
         } else {
             let ends = cuts.iter().copied().chain([1.0]);
@@ -241,7 +241,7 @@ impl Skeleton {
         interior
     }
 
-    /// The node itself, or behind an elastic hinge a new one at the same place.
+    /// The node itself, or a new node at the same position beyond an elastic hinge.
     fn hinged(&mut self, joint: usize, properties: &Joint) -> usize {
         if *properties == Joint::default() {
             return joint;
@@ -261,9 +261,9 @@ impl Skeleton {
         end
     }
 
-    /// Puts a hinge that yields between a joint and the end of a member, and returns the node at the member. Positive
-    /// is the rotation that stretches the bottom of a beam and the right face of a column: along the member, from
-    /// left to right or upwards, it turns counter-clockwise there.
+    /// Adds a yielding hinge between a joint and the end of a member, and returns the node at the member. Positive:
+    /// tension at the bottom of a beam and on the right side of a column, which is a counter-clockwise rotation
+    /// along the member, from left to right or upwards.
     fn yielding(&mut self, joint: usize, hysteresis: Hysteresis, end: MemberEnd) -> usize {
         let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
         let ends = match end {
@@ -274,8 +274,8 @@ impl Skeleton {
         node
     }
 
-    /// The lowest point of a column: a node fixed to the ground, or behind the springs and dashpots of a base a
-    /// new one that carries the mass of the footing.
+    /// The lowest point of a column: a node fixed to the ground, or a new node beyond the springs and dashpots of a
+    /// base, with the mass of the footing.
     fn add_foot(&mut self, x: f64, base: &Base) -> usize {
         let ground = self.add_node(x, 0.0);
         self.nodes[ground].support = Support::Fixed;
@@ -284,7 +284,7 @@ impl Skeleton {
         }
         let foot = self.add_node(x, 0.0);
         self.nodes[foot].mass = base.mass;
-        // A spring that slides stands beside the hinge, which then only carries the dashpot.
+        // A yielding horizontal spring is parallel to the hinge, which then has only the dashpot.
         let horizontal = match base.horizontal_hinge {
             Some(hysteresis) => {
                 self.springs.push(Spring {
@@ -297,7 +297,7 @@ impl Skeleton {
             None => base.horizontal_stiffness,
         };
         self.hinges.push(Hinge {
-            // As with a column: positive stretches its right face, which turns the foot counter-clockwise.
+            // As for a column: positive means tension on its right side, a counter-clockwise rotation of the foot.
             ends: [foot, ground],
             rotational_stiffness: base.rotational_stiffness,
             hysteresis: base.rotational_hinge,
@@ -313,7 +313,7 @@ impl Skeleton {
     }
 }
 
-/// Which end of a member a hinge is at.
+/// End of a member with a hinge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MemberEnd {
     /// The lower end of a column, the left end of a beam.
@@ -322,7 +322,7 @@ pub enum MemberEnd {
     Last,
 }
 
-/// Where a spring that yields sits; floors, storeys, column lines and bays count from 1, from the ground up and from
+/// Position of a yielding spring; floors, storeys, column lines and bays count from 1, from the ground up and from
 /// the left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpringPlace {
@@ -353,17 +353,17 @@ pub enum SpringPlace {
     Base {
         /// Column line; 1 for a shear building.
         line: usize,
-        /// Which way it gives.
+        /// Direction of yielding.
         motion: BaseMotion,
     },
 }
 
-/// Which way a base gives.
+/// Direction in which a base yields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BaseMotion {
-    /// It turns.
+    /// Rotation.
     Rocking,
-    /// It moves sideways.
+    /// Horizontal displacement.
     Sliding,
 }
 
@@ -508,15 +508,15 @@ fn idealise_frame(
     idealisation
 }
 
-/// Where a line is cut into equal segments, in shares of its length.
+/// Division points of a line into equal segments, as fractions of its length.
 fn equal_cuts(segments: usize) -> Vec<f64> {
     (1..segments).map(|k| k as f64 / segments as f64).collect()
 }
 
-/// Cuts a line at a share of its length too, by moving an equal cut that is near enough, unless the place is not inside
-/// the line.
+/// Adds a division point at a fraction of the length, by moving a point that is near enough, if the fraction lies
+/// inside the line.
 fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
-    /// Shares closer than this are one.
+    /// Fractions closer than this coincide.
     const SAME: f64 = 1e-6;
     if !(share > SAME && share < 1.0 - SAME) || cuts.iter().any(|c| (c - share).abs() <= SAME) {
         return;
@@ -538,7 +538,7 @@ fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealis
     let (mut floors, mut spring_places) = (Vec::new(), Vec::new());
     let mut below = skeleton.add_node(0.0, 0.0);
     skeleton.nodes[below].support = Support::Fixed;
-    // Floors do not turn, so that only the horizontal spring of a base has something to do.
+    // Floors do not rotate, so only the horizontal spring of a base acts.
     if let Some(stiffness) = base.horizontal_stiffness {
         let foot = skeleton.add_node(0.0, 0.0);
         skeleton.nodes[foot].mass = base.mass;

@@ -15,7 +15,7 @@ use crate::state::State;
 use crate::storey_forces::{StoreyForce, StoreyForces};
 use crate::transfer::riccati::RiccatiSweep;
 
-/// Buildings in a row and what stands between them, ready to be stepped.
+/// Buildings in a row with contacts and links, ready for time stepping.
 ///
 /// ```
 /// use jostle::{State, System};
@@ -54,21 +54,21 @@ pub struct BuildingSystem {
     pub floors: Vec<Floor>,
     /// How storey shears and overturning moments follow from displacements.
     pub storeys: StoreyForces,
-    /// Displacements under self weight, from which a run starts; empty where weight is left out \[m, rad\].
+    /// Displacements under self weight, from which a run starts; empty without self weight \[m, rad\].
     pub rest: Vec<f64>,
-    /// What springs that yield remember then.
+    /// State of yielding springs at rest.
     pub rest_springs: Vec<HysteresisMemory>,
     /// First spring that yields of this building in the list of a [`crate::State`].
     pub spring_offset: usize,
-    /// Degree of freedom of the foot of the first column line in the vectors of a [`crate::State`], where the base
-    /// gives way sideways.
+    /// Degree of freedom of the foot of the first column line in the vectors of a [`crate::State`], if the base has
+    /// a horizontal spring.
     pub foot: Option<usize>,
-    /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
+    /// The damping ratio of all modes, if damping is not of the Rayleigh type \[–\].
     pub modal_damping: Option<f64>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
     /// [`modal::modes`] finds those of all kinds.
     pub modes: Vec<Mode>,
-    /// The recursion through it as it was assembled, before weight softened it.
+    /// The recursion of the building as assembled, before P-Delta.
     pub(crate) sweep: Arc<RiccatiSweep>,
 }
 
@@ -83,12 +83,12 @@ pub struct Floor {
     pub storey_height: f64,
 }
 
-/// A place where two neighbouring buildings, or a building and a wall, can touch.
+/// A contact between two neighbouring buildings, or a building and a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// Index of the gap in the model.
     pub gap: usize,
-    /// The two faces.
+    /// The two points.
     pub faces: Faces,
     /// Height above the base \[m\].
     pub height: f64,
@@ -99,7 +99,7 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// m₁m₂/(m₁ + m₂) of the two faces \[kg\].
+    /// m₁m₂/(m₁ + m₂) of the two points \[kg\].
     #[must_use]
     pub fn effective_mass(&self) -> f64 {
         self.faces.effective_mass()
@@ -119,12 +119,12 @@ pub struct LinkElement {
     pub stiffness: f64,
     /// Force per rate of shortening, ≥ 0 \[N·s/m\].
     pub damping: f64,
-    /// Closing of its ends when it is free of force \[m\].
+    /// Closing of its ends at zero force \[m\].
     pub closing_at_rest: f64,
 }
 
 impl LinkElement {
-    /// How much shorter it is than at rest \[m\].
+    /// Shortening since the state at rest \[m\].
     #[must_use]
     #[inline]
     pub fn shortening(&self, displacement: &[f64]) -> f64 {
@@ -150,8 +150,8 @@ impl System {
     /// Assembles a model.
     ///
     /// # Errors
-    /// All faults of the model, as [`Model::check`] finds them, or what only assembly shows: damping at modes
-    /// that do not exist, contacts at points without mass, periods and durations that are not finite.
+    /// All faults of the model, as found by [`Model::check`], or faults found in assembly: damping at modes that do
+    /// not exist, contacts at points without mass, periods and durations that are not finite.
     pub fn assemble(model: &Model) -> Result<Self, Vec<ModelFault>> {
         model.check()?;
         let row = Row::of(model);
@@ -194,8 +194,8 @@ impl System {
         }
     }
 
-    /// The same buildings with the gaps of another model, which may differ from that of this system in the widths of
-    /// its gaps only: nothing is assembled anew.
+    /// The same buildings with the gaps of another model, which may differ from that of this system in the widths
+    /// of its gaps only: nothing is assembled again.
     ///
     /// # Errors
     /// As [`System::assemble`].
@@ -209,7 +209,7 @@ impl System {
         Row::of(model).put_into(&mut system, model).map(|()| system)
     }
 
-    /// A row of assembled buildings that do not touch; contacts may be added to the list.
+    /// A row of assembled buildings without contacts; contacts may be added to the list.
     #[must_use]
     pub fn of_buildings(mut buildings: Vec<BuildingSystem>) -> Self {
         let (mut offset, mut spring_offset) = (0, 0);
@@ -238,17 +238,17 @@ impl System {
             .map_or(0, |building| building.offset + building.equations.len())
     }
 
-    /// Whether there is nothing to move.
+    /// Whether there are no degrees of freedom.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// A contact without width between nodes of two buildings, `left` and `right` being (building, node). Its law is
-    /// to be given.
+    /// A contact without width between nodes of two buildings, `left` and `right` being (building, node). Its law
+    /// must be set.
     ///
     /// # Errors
-    /// A message when a node cannot be pushed or carries no mass.
+    /// A message if a node has no horizontal degree of freedom or no mass.
     pub fn contact_between(
         &self,
         left: (usize, usize),
@@ -264,7 +264,7 @@ impl System {
     /// The point of a building at a node.
     ///
     /// # Errors
-    /// A message when the node cannot be pushed or carries no mass.
+    /// A message if the node has no horizontal degree of freedom or no mass.
     pub fn face(&self, building: usize, node: usize) -> Result<Face, String> {
         let own = &self.buildings[building];
         let dof = own
@@ -294,7 +294,7 @@ impl System {
 }
 
 impl Contact {
-    /// A contact without width whose law is still to be given.
+    /// A contact without width; its law must be set.
     #[must_use]
     pub fn without_law(faces: Faces) -> Self {
         Self {
