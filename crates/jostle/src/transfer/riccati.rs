@@ -1,9 +1,9 @@
 //! The Riccati transfer recursion in its stable form: block LDLᵀ of the step equations along the path.
 //!
-//! At a cut, what lies behind it exerts `b = R a + g` on what lies ahead (theory, Eq. R1). Passing one
-//! degree of freedom replaces R by a Schur complement (Eq. R3); the pivots D, the couplings L and the loads
-//! are all that need be kept. Unlike the product of transfer matrices no growing and decaying solutions are
-//! ever mixed, so that nothing is lost at small steps or in tall frames.
+//! At a cut, the part behind it exerts `b = R a + g` on the part ahead (theory, Eq. R1). Passing one degree of
+//! freedom replaces R by a Schur complement (Eq. R3); only the pivots D, the entries of L and the loads are stored.
+//! Unlike in the product of transfer matrices, growing and decaying solutions are never mixed, so no digits are
+//! lost at small steps or in tall frames.
 
 pub(crate) mod rates;
 
@@ -71,15 +71,15 @@ use crate::system::BuildingSystem;
 pub struct RiccatiSweep {
     /// Start of every column of L in `rows`; one longer than the order.
     starts: Vec<usize>,
-    /// Row of every coupling.
+    /// Row of every entry of L.
     rows: Vec<u32>,
     /// Start of every row's list in `reached`.
     reached_starts: Vec<usize>,
-    /// Columns that couple to a row, in an order in which they can be eliminated.
+    /// Columns with an entry in a row, in an admissible order of elimination.
     reached: Vec<u32>,
-    /// Where the couplings of those columns to the row are kept.
+    /// Indices of these entries of L.
     positions: Vec<u32>,
-    /// The displacement that each one is eliminated into; itself for the last.
+    /// Parent in the elimination tree; itself for the last.
     parent: Vec<u32>,
     /// Diagonal of the parts of the step matrix.
     diagonal: Vec<Parts>,
@@ -89,14 +89,14 @@ pub struct RiccatiSweep {
     mass: Vec<f64>,
     springs: Vec<SpringPlace>,
     initial_tangents: Vec<f64>,
-    /// The first columns: chains abreast.
+    /// The first columns: groups of chains.
     abreast: Abreast,
-    /// The others, where they couple to their neighbours only.
+    /// The other columns, if they couple to their neighbours only.
     band: Option<Band>,
     shelves: Shelves,
 }
 
-/// Where the tangent of a spring that yields enters the step matrix.
+/// Positions of the tangent of a yielding spring in the step matrix.
 #[derive(Clone, Copy, Debug)]
 struct SpringPlace {
     diagonal: [Option<usize>; 2],
@@ -111,7 +111,7 @@ struct SpringEntries {
     between: f64,
 }
 
-/// What makes up an entry of the step matrix.
+/// Parts of an entry of the step matrix.
 #[derive(Clone, Copy, Debug, Default)]
 struct Parts {
     elastic: f64,
@@ -167,20 +167,21 @@ impl Parts {
 #[derive(Clone, Debug, Default)]
 pub struct RiccatiFactor {
     couplings: Vec<f64>,
-    /// Those of chains abreast with their inverse pivots, then those of the band, as the passes take them.
+    /// Entries of the chain groups with their inverse pivots, then those of the band, in the order of the
+    /// substitutions.
     laid: Vec<f64>,
-    /// What links of chains hold between the passes.
+    /// Values of chain links between the two substitutions.
     held: RefCell<Vec<Lanes>>,
-    /// Room for a vector too short for registers.
+    /// Padded copy of a vector too short for registers.
     roomier: RefCell<Vec<f64>>,
     inverse_pivots: Vec<f64>,
     pivots: Vec<f64>,
     /// The step matrix: diagonal, and entries before it by rows.
     diagonal: Vec<f64>,
     before: Vec<f64>,
-    /// Its entries where springs yield, without them.
+    /// Its entries at yielding springs, without these springs.
     bare: Vec<SpringEntries>,
-    /// Rows to eliminate anew.
+    /// Rows to eliminate again.
     touched: Vec<bool>,
     work: Vec<f64>,
 }
@@ -203,7 +204,7 @@ impl RiccatiFactor {
 }
 
 impl RiccatiSweep {
-    /// Couplings kept per factor: one solution costs two multiply-adds for each.
+    /// Entries of L per factor: one solution takes two multiply-adds for each.
     #[must_use]
     pub fn couplings(&self) -> usize {
         self.rows.len()
@@ -213,7 +214,7 @@ impl RiccatiSweep {
     pub(crate) fn through(equations: &Equations) -> Self {
         let n = equations.len();
         let (before_starts, before) = rows_before_diagonal(equations);
-        // The displacement that each one is eliminated into: the parent in the elimination tree.
+        // Parent in the elimination tree.
         let mut parent = vec![usize::MAX; n];
         let mut met_by = vec![usize::MAX; n];
         let (mut reached, mut reached_starts, mut counts) = (Vec::new(), vec![0], vec![0_usize; n]);
@@ -235,7 +236,7 @@ impl RiccatiSweep {
                 }
                 reached.extend(branch.iter());
             }
-            // Along the path every column comes after those it depends on.
+            // Along the path every column follows those it depends on.
             reached[first..].sort_unstable();
             reached_starts.push(reached.len());
         }
@@ -298,8 +299,8 @@ impl RiccatiSweep {
         }
     }
 
-    /// Factorises K − `shift`·M whatever the signs of its pivots, and returns how many are negative: as many as
-    /// there are eigenvalues ω² below the shift (Sylvester; theory, Eq. M3).
+    /// Factorises K − `shift`·M with pivots of any sign, and returns the number of negative ones. It equals the
+    /// number of eigenvalues ω² below the shift (Sylvester; theory, Eq. M3).
     pub(crate) fn factorize_shifted(&self, shift: f64, factor: &mut RiccatiFactor) -> Inertia {
         let mut inertia = Inertia {
             negative: 0,
@@ -313,7 +314,7 @@ impl RiccatiSweep {
             let inertia_part = shift * self.mass[row];
             let scale = (own + inertia_part).abs() + inertia_part.abs();
             inertia.growth = (own - pivot).abs().max(inertia.growth * scale) / scale;
-            // A part behind the cut resonates with its end held: any small pivot does, its sign is immaterial.
+            // A part behind the cut resonates with its end fixed: any small pivot serves, its sign does not matter.
             let least = f64::EPSILON * scale;
             let pivot = if pivot.abs() < least { least } else { pivot };
             inertia.negative += usize::from(pivot < 0.0);
@@ -380,7 +381,7 @@ impl RiccatiSweep {
         }
     }
 
-    /// For the passes.
+    /// Allocates memory for the substitutions.
     fn make_room(&self, factor: &mut RiccatiFactor) {
         factor.laid.extend_from_slice(self.shelves.blank());
         let held = factor.held.get_mut();
@@ -391,8 +392,8 @@ impl RiccatiSweep {
         }
     }
 
-    /// L D Lᵀ of the touched rows of the matrix in `factor`; every pivot is what `accept` makes of (row, entry of the
-    /// matrix on the diagonal, pivot).
+    /// L D Lᵀ of the touched rows of the matrix in `factor`; every pivot is the result of `accept` for (row,
+    /// diagonal entry of the matrix, pivot).
     fn eliminate<E>(
         &self,
         factor: &mut RiccatiFactor,
@@ -445,7 +446,7 @@ impl RiccatiSweep {
 }
 
 impl RiccatiSweep {
-    /// Both passes over the columns behind the chains, however they couple.
+    /// Both substitutions over the columns after the chains, for any pattern.
     fn pass_one_by_one(&self, factor: &RiccatiFactor, load: &mut [f64]) {
         let columns = self.abreast.columns()..self.mass.len();
         for column in columns.clone() {
@@ -461,7 +462,7 @@ impl RiccatiSweep {
             let entries = self.starts[column]..self.starts[column + 1];
             let ahead = self.rows[entries.clone()].iter();
             let mut sum = load[column];
-            // The nearest, which has only just been found, last.
+            // The nearest row last, because its value has just been computed.
             for (row, coupling) in ahead.zip(&factor.couplings[entries]).rev() {
                 sum -= coupling * load[*row as usize];
             }
@@ -470,7 +471,7 @@ impl RiccatiSweep {
     }
 }
 
-/// A pivot that leaves digits to what comes after it.
+/// Accepts a pivot that is not dominated by rounding errors.
 fn sound(row: usize, own: f64, pivot: f64) -> Result<f64, NotPositive> {
     if pivot > 1e-14 * own.abs() && pivot.is_finite() {
         Ok(pivot)
@@ -497,7 +498,7 @@ impl StepEquations for RiccatiSweep {
         self.eliminate(factor, sound)
     }
 
-    /// Only what lies ahead of the changed springs on the transfer path is passed again.
+    /// Only rows ahead of the changed springs on the transfer path are eliminated again.
     fn update(
         &self,
         _: &StepMatrix,
@@ -541,7 +542,7 @@ impl StepEquations for RiccatiSweep {
     }
 }
 
-/// Both passes over a load, compiled for the registers at hand.
+/// Both substitutions of a load, compiled for the available registers.
 struct Passes<'a> {
     sweep: &'a RiccatiSweep,
     factor: &'a RiccatiFactor,
@@ -639,8 +640,8 @@ mod tests {
     use crate::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
     use crate::model::{Axial, FrameHinges, Hinges};
 
-    /// Chains in registers and joints in a band give what columns give one by one, for members of every kind, more and fewer
-    /// of them than lanes, and buildings smaller than a register.
+    /// Chains in registers and joints in a band give the same result as single columns, for members of every kind,
+    /// more and fewer of them than lanes, and buildings smaller than a register.
     #[test]
     fn passes_in_registers_are_passes_one_by_one() {
         let (mut ways, mut bands, mut short) = (BTreeSet::new(), 0, 0);
@@ -713,7 +714,7 @@ mod tests {
         assert!(short > 0, "none is smaller than a register");
     }
 
-    /// Hinges that change one after another, and back, leave the factor that the whole matrix has, to the bit.
+    /// Hinges that change one after another, and back, give the factor of the full matrix bit by bit.
     #[test]
     fn a_factor_brought_up_to_date_is_a_new_one() {
         let building = frame_with(|frame| {

@@ -1,9 +1,9 @@
-//! The numbers of a factor in the order in which the passes take them.
+//! The entries of a factor in the order of the substitutions.
 
-/// What stands in a place.
+/// Content of a position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    /// A coupling, by its number.
+    /// An entry of L, by its index.
     Coupling(u32),
     /// The inverse pivot of a column.
     InversePivot(u32),
@@ -11,18 +11,18 @@ pub(super) enum Place {
     One,
 }
 
-/// Which place every number of a factor has. Elimination puts each number there as it finds it: after a hinge has
-/// changed only those that changed with it are moved.
+/// Position of every entry of a factor. Elimination stores each entry there when it is computed; after a hinge has
+/// changed, only changed entries are written.
 #[derive(Clone, Debug)]
 pub(super) struct Shelves {
     couplings: Vec<u32>,
     inverse_pivots: Vec<u32>,
-    /// All places before anything is found.
+    /// All positions before elimination.
     blank: Vec<f64>,
 }
 
 impl Shelves {
-    /// Of places, for a factor of so many couplings and columns. What has no place is put behind them.
+    /// Builds the map for a given number of entries of L and columns; unmapped entries go to one spare slot.
     pub(super) fn of(
         places: impl Iterator<Item = Place>,
         couplings: usize,
