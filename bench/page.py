@@ -64,7 +64,7 @@ def table(results):
 
 
 def missed(results):
-    """Every aim beside the best ratio of a run that is accurate enough."""
+    """Every target with the best ratio of a run that is accurate enough."""
     lines = []
     for result in results:
         for (way, case), target in TARGETS.items():
@@ -72,7 +72,7 @@ def missed(results):
             if rows:
                 best = max(row["ratio_best"] for row in rows)
                 word = "reached" if best >= target else "missed"
-                lines.append(f"- {result['title']}, {way}: aim {times(target)}, {word} with {times(best)}")
+                lines.append(f"- {result['title']}, {way}: target {times(target)}, {word} ({times(best)})")
     return "\n".join(lines)
 
 

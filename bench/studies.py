@@ -123,18 +123,18 @@ def text(results):
         apart = study["forces_apart"]
         lines.append(
             f"**A study of {study['cases']} cases**, J1 and J2 elastic, 25 gaps × 40 peak accelerations (`benches/studies/gap_by_pga.toml`), modal stepping, "
-            f"one thread, all of the process with its report and tables, median of {len(study['rounds'])}: {page.seconds(study['cpu_s'])} of CPU, {1e3 * study['cpu_s'] / study['cases']:.2f} ms a case. "
-            f"OpenSees at its best takes {page.seconds(study['opensees_mean_cpu_s'])} a case, the mean of {len(study['sample'])} spread evenly over the study "
-            f"and run beside it (stepping alone): **{page.times(study['ratio'])}** per core (aim 20 000 ×). Greatest forces of these cases are "
-            f"{apart['median']:.0e} (median) and at most {apart['largest']:.0e} apart."
+            f"one thread, the whole process with its report and tables, median of {len(study['rounds'])}: {page.seconds(study['cpu_s'])} of CPU, {1e3 * study['cpu_s'] / study['cases']:.2f} ms per case. "
+            f"OpenSees at its best takes {page.seconds(study['opensees_mean_cpu_s'])} per case, the mean of {len(study['sample'])} cases spread evenly over the study, "
+            f"run alternately with it (time steps alone): **{page.times(study['ratio'])}** per core (target 20 000 ×). Peak forces of these cases differ by "
+            f"{apart['median']:.0e} (median) and at most {apart['largest']:.0e}."
         )
     used = results.get("cores")
     if used:
         lines.append(
-            f"**Two cores.** {used['cases']} of the million pairs of towers (`benches/studies/million_towers.toml`), medians of {len(used['rates']['one'])} rounds in turn: one thread "
-            f"{used['one']:.0f} cases a second, two threads {used['threads']:.0f}, two processes that share nothing {used['processes']:.0f}. The efficiency of two "
-            f"threads is {used['efficiency']:.2f}; two processes show what this machine allows, {used['machine']:.2f}; threads lose "
-            f"{max(0.0, 1.0 - used['threads'] / used['processes']):.1%} against them."
+            f"**Two cores.** {used['cases']} of the million pairs of towers (`benches/studies/million_towers.toml`), medians of {len(used['rates']['one'])} alternating rounds: one thread "
+            f"{used['one']:.0f} cases per second, two threads {used['threads']:.0f}, two independent processes {used['processes']:.0f}. The efficiency of two "
+            f"threads is {used['efficiency']:.2f}. The limit of this machine, from two processes, is {used['machine']:.2f}; threads are "
+            f"{max(0.0, 1.0 - used['threads'] / used['processes']):.1%} slower."
         )
     if results:
         about = next(iter(results.values()))["machine_description"]

@@ -18,7 +18,7 @@ _STAGE_ONLY = (
 
 
 class Animation:
-    """The animation of a report: a notebook shows it, offline."""
+    """The animation of a report. A notebook displays it without a network."""
 
     def __init__(self, page: str) -> None:
         self._page = page.replace("</head>", _STAGE_ONLY, 1)
@@ -51,7 +51,7 @@ class Animation:
 
 
 def frame(page: str, height: int) -> str:
-    """A page inside a page, kept from everything around it."""
+    """An isolated page inside a page."""
     return (
         f'<iframe srcdoc="{html.escape(page)}" sandbox="allow-scripts" title="jostle" '
         f'style="width:100%;height:{height}px;border:0;border-radius:8px"></iframe>'

@@ -1,4 +1,4 @@
-"""Buildings, gaps and links, to be put together to a model."""
+"""Buildings, gaps and links: the parts of a model."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ Floors = Union[str, Sequence[Union[Quantity, Sequence[Quantity]]]]
 
 
 class Part:
-    """A table of the model file. It is checked when a model is made of it, by the same reader as model files."""
+    """A table of the model file. The reader of model files checks it when a model is created."""
 
     #: Keywords with a unit in their name that editors offer.
     _with_units: ClassVar[tuple[str, ...]] = ()
@@ -58,7 +58,7 @@ class Part:
         self._fields = merge(type(self).__name__, fields, extra, self._with_units)
 
     def to_dict(self) -> dict[str, Any]:
-        """The table as it would stand in a model file."""
+        """The table as in a model file."""
         return dict(self._fields)
 
     def __repr__(self) -> str:
@@ -75,30 +75,31 @@ class Frame(Part):
     """A plane frame of columns and beams with lumped masses.
 
     Args:
-        name: name, by which gaps refer to the building; ``"B1"``, ``"B2"``, … by default.
-        storeys: number of storeys, 1 to 200; not needed beside a list per storey.
+        name: name of the building, used by gaps and links; ``"B1"``, ``"B2"``, … by default.
+        storeys: number of storeys, 1 to 200; not needed with a list per storey.
         storey_height: one length, or a list from the ground up.
         spans: widths of the bays from left to right, lengths.
         column: section of the columns, or a list from the ground up: ``{"width": "500 mm", "depth": "500 mm"}`` or
-            ``{"EI": "150 MN.m2"}``; units may stand in the keys, ``{"width_mm": 500, "depth_mm": 500}``.
+            ``{"EI": "150 MN.m2"}``; keys may contain units, ``{"width_mm": 500, "depth_mm": 500}``.
         beam: section of the beams, or a list from the ground up.
         elastic_modulus: modulus of elasticity.
         concrete: grade of GB 50010 such as ``"C30"``, instead of ``elastic_modulus``.
         stiffness_factor: factor on every EI, or ``{"column": 0.7, "beam": 0.35}``.
         density: density of columns, 2500 kg/m³ by default.
         beam_mass: mass per length on the beams, self weight included: one, or a list from the ground up.
-        floor_mass: further mass of a whole floor: one, or a list from the ground up.
+        floor_mass: additional mass of a whole floor: one, or a list from the ground up.
         column_segments: segments of a column in one storey, 4 by default.
         beam_segments: segments of the beams, 4 by default: one count, or one per span.
         axial: ``"rigid"`` (default) or ``"flexible"``, or ``{"columns": …, "beams": …}``.
         joint: elastic hinges at the beam ends, ``{"rotational_stiffness": "2e8 N.m/rad"}``.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
         base: springs and dashpots under every column: ``"fixed"`` (default) or ``{"rotational_stiffness": …}``.
-        hinges: plastic hinges at the member ends, elastic without: ``{"rule": "peak-oriented", "from": "section"}`` or
+        hinges: plastic hinges at the member ends; without them the frame is elastic:
+            ``{"rule": "peak-oriented", "from": "section"}`` or
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
-        p_delta: whether the weight above acts on the sway (P-Delta); ``False`` by default.
-        shear: ``"rigid"`` (default), or ``"flexible"`` for members that shear deforms (Timoshenko), or
+        p_delta: whether P-Delta from the weight above is included; ``False`` by default.
+        shear: ``"rigid"`` (default), or ``"flexible"`` for members with shear deformation (Timoshenko), or
             ``{"columns": …, "beams": …}``.
         poisson_ratio: for the shear modulus, 0.2 by default.
         floors: the same as ``storeys``.
@@ -175,17 +176,17 @@ class Shear(Part):
     """A shear building: floor masses on storey springs.
 
     Args:
-        name: name, by which gaps refer to the building; ``"B1"``, ``"B2"``, … by default.
+        name: name of the building, used by gaps and links; ``"B1"``, ``"B2"``, … by default.
         mass: floor masses from the ground up, or one for all.
         stiffness: storey stiffnesses from the ground up, or one for all.
-        storeys: number of storeys, 1 to 200; not needed beside a list per storey.
+        storeys: number of storeys, 1 to 200; not needed with a list per storey.
         storey_height: one length, or a list from the ground up; 3 m by default.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
         base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …}``.
-        hinges: cracking and yield of the storeys, elastic without: ``{"rule": "bilinear", "yield": "20 mm",
+        hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
             "post_yield": 0.05}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
-        p_delta: whether the weight above acts on the sway (P-Delta); ``False`` by default.
+        p_delta: whether P-Delta from the weight above is included; ``False`` by default.
         floors: the same as ``storeys``.
         **units: the same with units in names, as in ``mass_t=[40, 40]``.
 
@@ -231,29 +232,29 @@ class Shear(Part):
 
 
 class Gap(Part):
-    """The gap between two neighbours, or before a rigid wall, and the law of the contact there.
+    """The gap between two neighbours, or beside a rigid wall, and its contact law.
 
     Args:
         width: width at rest, a length ≥ 0, or a list for the contacts in the order of ``floors``, from the lowest up
-            where these are not listed.
+            if these are not listed.
         between: names of the left and the right neighbour, ``"wall"`` for a rigid wall at an end of the row; in order
             by default.
         floors: ``"common"`` (default), ``"all"`` for floors against floors or columns, pairs of floors or heights
             ``[[5, 5], [4, "12.8 m"]]``, or heights.
-        level_tolerance: floors no further apart in height than this meet each other, 1 mm by default.
+        level_tolerance: floors whose heights differ by no more than this can touch, 1 mm by default.
         law: contact law, ``"hertz-damp"`` by default.
         stiffness: contact stiffness: N/m^1.5 for Hertz laws, N/m for linear ones.
         restitution: coefficient of restitution, 0.65 by default.
-        restitution_is: ``"input"`` (default) puts it into the published formula; with ``"realised"`` free masses
-            really rebound with it.
-        variant: of the law ``"modified-kelvin"``: ``"ye"`` (default), damping with the indentation, or
+        restitution_is: ``"input"`` (default): it goes into the published formula. ``"realised"``: damping is
+            calibrated so that free masses rebound with it.
+        variant: of the law ``"modified-kelvin"``: ``"ye"`` (default), damping proportional to the indentation, or
             ``"mahmoud-jankowski"``, damping in the approach only.
         yield_share: of the law ``"bilinear"``: yield indentation ÷ greatest design indentation, 0.1 by default.
-        design_speed: of the law ``"bilinear"``: impact speed for which its stiffnesses are computed; that of every
-            impact by default.
+        design_speed: of the law ``"bilinear"``: impact speed for which its stiffnesses are computed; by default that of
+            each impact.
         thickness: of the law ``"rubber"``: thickness of the bumper.
         exponent: of the law ``"rubber"``: exponent of the compression, 2.65 by default.
-        minimum_separation: impacts of one contact that follow each other sooner count as one, 0 s by default.
+        minimum_separation: impacts of one contact closer in time than this count as one, 0 s by default.
         **units: the same with units in names, as in ``width_mm=20``.
 
     Raises:
@@ -303,12 +304,12 @@ class Gap(Part):
 
 
 class Link(Part):
-    """Springs and dampers that join floors of two neighbours, or of a building and a rigid wall, and act both ways.
+    """Springs and dampers between floors of two neighbours, or of a building and a wall; they act in both directions.
 
     Args:
         between: names of the left and the right neighbour, ``"wall"`` for a rigid wall at an end of the row.
-        floors: which points are joined, as for a gap; every pair of floors at equal height by default.
-        level_tolerance: floors no further apart in height than this can be joined, 1 mm by default.
+        floors: points that are joined, as for a gap; every pair of floors at equal height by default.
+        level_tolerance: floors whose heights differ by no more than this can be joined, 1 mm by default.
         stiffness: force per change of length, of each link, ≥ 0; 0 by default.
         damping: force per rate of change of length, of each link, ≥ 0; 0 by default.
         **units: the same with units in names, as in ``damping_kn_s_m=500``.

@@ -1,4 +1,4 @@
-"""Two free masses under contact laws: published ones, and the user's own."""
+"""Two free masses under published and user-defined contact laws."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ContactLaw:
-    """A contact law of your own, for experiments: slow, because every force is a call into Python.
+    """A user-defined contact law for experiments. It is slow, because every force is a call into Python.
 
     Attributes:
         force: ``force(indentation, rate, impact_speed)`` [N] of the indentation [m] > 0, its rate [m/s] (positive while
-            closing) and the closing speed at the touch [m/s]; positive presses the masses apart.
+            closing) and the impact speed [m/s]; a positive force pushes the masses apart.
         name: name in tables.
     """
 
@@ -34,18 +34,18 @@ class ContactLaw:
 
 @dataclass(frozen=True, eq=False)
 class Collision:
-    """How two free masses met.
+    """The collision of two free masses.
 
     Attributes:
         law: name of the law, with its variant if it has several.
-        stiffness: stiffness of the law [N/m or N/m^1.5]; ``None`` for laws of your own.
-        restitution: coefficient put in [–]; ``None`` for laws of your own.
-        impact_speed: closing speed at the touch [m/s].
+        stiffness: stiffness of the law [N/m or N/m^1.5]; ``None`` for user-defined laws.
+        restitution: input coefficient [–]; ``None`` for user-defined laws.
+        impact_speed: closing speed at first contact [m/s].
         separation_speed: opening speed at the end [m/s].
         realised_restitution: their ratio [–].
-        peak_force: greatest force [N]; ``None`` for the momentum law, which has none.
+        peak_force: peak force [N]; ``None`` for the momentum law, which has none.
         peak_indentation: greatest indentation [m].
-        duration: from the touch to the last instant of force [s].
+        duration: from first contact to the last instant of force [s].
         impulse: time integral of the force [N·s].
         dissipated: kinetic energy lost [J].
         time: instants [s], shape ``(points,)``.
@@ -101,25 +101,25 @@ def collide(
     thickness: Quantity | None = None,
     exponent: float | None = None,
 ) -> Collision:
-    """Two free masses meet: the numbers of ``jostle collide``, and the course of the collision.
+    """Returns the collision of two free masses: the results of ``jostle collide`` and the histories.
 
     Args:
-        law: a name of :func:`contact_laws`, or a law of your own; for that one only masses and speed count.
+        law: a name of :func:`contact_laws`, or a user-defined law; for the latter only masses and speed are used.
         m1: mass [kg].
-        m2: the other one; ``float("inf")`` is not taken, use a large mass for a wall [kg].
-        speed: closing speed at the touch, > 0 [m/s].
-        stiffness: in N/m^1.5 for the Hertz family, in N/m for the others; 2e9 N/m^1.5 when left out.
+        m2: the other one; ``float("inf")`` is not accepted, use a large mass for a wall [kg].
+        speed: closing speed at first contact, > 0 [m/s].
+        stiffness: in N/m^1.5 for the Hertz family, in N/m for the others; 2e9 N/m^1.5 by default.
         restitution: coefficient of restitution, 0 to 1.
-        restitution_is: ``"input"`` puts it into the published formula, ``"realised"`` makes it true.
+        restitution_is: ``"input"``: it goes into the published formula; ``"realised"``: free masses rebound with it.
         variant: of ``modified-kelvin``: ``"ye"`` or ``"mahmoud-jankowski"``.
-        yield_share: of ``bilinear``: yield indentation over the greatest.
-        design_speed: of ``bilinear``: speed for which it is laid out.
+        yield_share: of ``bilinear``: yield indentation ÷ greatest indentation.
+        design_speed: of ``bilinear``: speed for which its stiffnesses are computed.
         thickness: of ``rubber``: thickness of the bumper.
         exponent: of ``rubber``: exponent of the compression.
 
     Raises:
-        ModelError: a value outside its range, with what it may be.
-        AnalysisError: a law of your own that never lets go.
+        ModelError: a value outside its range; the message gives the range.
+        AnalysisError: a user-defined law whose contact does not end.
     """
     if isinstance(law, ContactLaw):
         masses = [in_si(name, value, "mass") for name, value in (("m1", m1), ("m2", m2))]
@@ -150,9 +150,9 @@ def collide_all(
     restitution: float = 0.65,
     restitution_is: str = "input",
 ) -> list[Collision]:
-    """The same collision under every law, with stiffnesses of one secant at the greatest elastic Hertz indentation.
+    """Returns the same collision under every law, with equal secant stiffness at the greatest elastic Hertz indentation.
 
-    Laws that cannot realise the restitution are left out. Arguments as for :func:`collide`.
+    Laws that cannot realise the restitution are omitted. Arguments as for :func:`collide`.
     """
     return _collide(
         ["--all"],

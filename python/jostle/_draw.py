@@ -1,4 +1,4 @@
-"""What models, motions and results look like in a notebook: HTML with inline SVG, offline, for light and dark."""
+"""Notebook display of models, motions and results: HTML with inline SVG, offline, for light and dark themes."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def colour(index: int) -> str:
 
 
 def contact_name(contact: Contact) -> str:
-    """Where a contact is, for legends."""
+    """Name of a contact for legends."""
     left, right = contact.floors
     place = f"floor {left}" if left == right else f"floors {left} | {right}"
     if left is None or right is None:
@@ -42,7 +42,7 @@ def contact_name(contact: Contact) -> str:
 
 
 def model_html(model: Model) -> str:
-    """The buildings to scale, and what they amount to."""
+    """The buildings to scale, with masses and periods."""
     tree = model.description
     rows = [
         (
@@ -93,7 +93,7 @@ def model_svg(tree: dict[str, Any]) -> str:
     drawn: set[int] = set()
 
     def sides(pair: Sequence[str]) -> tuple[float, float]:
-        """Where the left and the right side of a gap or a link are."""
+        """Positions of the left and the right side of a gap or a link."""
         places = []
         for side, name in enumerate(pair):
             if name == "wall":

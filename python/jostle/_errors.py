@@ -19,8 +19,8 @@ class Fault:
 
     Attributes:
         path: the field, as in ``building[0].storey_height``; empty for the model as a whole.
-        problem: what is wrong.
-        remedy: what to do about it, where that is known.
+        problem: description of the problem.
+        remedy: the remedy, if known.
         line: line of the model file, from 1; ``None`` for models made in Python.
         column: column on that line, from 1.
     """
@@ -33,14 +33,14 @@ class Fault:
 
 
 class JostleError(Exception):
-    """Whatever jostle raises on purpose."""
+    """Base class of all errors of jostle."""
 
 
 class ModelError(JostleError, ValueError):
     """The model, its ground motion or an argument is wrong (exit code 2 of the command line).
 
     Attributes:
-        faults: every fault of the model; empty if the error is about a single argument.
+        faults: all faults of the model; empty if the error concerns a single argument.
     """
 
     faults: tuple[Fault, ...]
@@ -57,7 +57,7 @@ class MissingFileError(ModelError, FileNotFoundError):
     """A model file or a record does not exist.
 
     Attributes:
-        filename: the path, as it was given.
+        filename: the path as given.
     """
 
     def __init__(self, message: str = "", filename: str = "", faults: Sequence[FaultParts] = ()) -> None:
@@ -70,10 +70,10 @@ class MissingFileError(ModelError, FileNotFoundError):
 
 
 class AnalysisError(JostleError, RuntimeError):
-    """The analysis could not be carried through (exit code 1 of the command line).
+    """The analysis failed (exit code 1 of the command line).
 
     Attributes:
-        result: what was computed until then; ``None`` if there is nothing.
+        result: the results up to the failure; ``None`` if there are none.
     """
 
     result: Result | None
@@ -84,16 +84,16 @@ class AnalysisError(JostleError, RuntimeError):
 
 
 class JostleWarning(UserWarning):
-    """A result may not be what was meant."""
+    """Base class of all warnings: a result may not be as intended."""
 
 
 class ModelWarning(JostleWarning):
-    """A model is valid but may not be meant."""
+    """A model is valid but unusual."""
 
 
 class StudyWarning(JostleWarning):
-    """A folder of results held a file that is damaged or belongs elsewhere; it was set aside, as the text says."""
+    """A folder of results contained a damaged file or one of another study; it was moved to ``set-aside``."""
 
 
 class InterruptedWarning(JostleWarning):
-    """Ctrl-C stopped a run; the result holds what was computed until then."""
+    """Ctrl-C stopped a run; the result covers the time until then."""

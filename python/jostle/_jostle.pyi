@@ -1,4 +1,4 @@
-"""The compiled half of the package; its contents are used by `jostle` and may change at any time."""
+"""The compiled part of the package. It is internal and may change at any time."""
 
 import os
 from collections.abc import Callable, Sequence

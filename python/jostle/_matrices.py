@@ -1,4 +1,4 @@
-"""The equations of a building in full, for those who want to compute something else with them."""
+"""Full matrices of a building, for further calculations."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Matrices:
         mass: diagonal of M [kg, kg·m²], shape ``(n,)``.
         damping: C, shape ``(n, n)``.
         stiffness: K, P-Delta and base springs included, shape ``(n, n)``.
-        driven_mass: what horizontal ground acceleration acts on [kg], shape ``(n,)``.
+        driven_mass: mass on which the horizontal ground acceleration acts [kg], shape ``(n,)``.
         floors: degree of freedom of the horizontal displacement of every floor from the ground up.
     """
 

@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 class Model:
     """Buildings from left to right, the gaps between them, a ground motion and settings of the analysis.
 
-    A model never changes; it may be used by many threads at once, and be pickled.
+    A model is immutable; several threads may share it, and it can be pickled.
 
     Args:
         buildings: from left to right; tables of the model file are accepted as well.
-        gaps: one for each pair of neighbours, or one for all of them. ``between`` may be left out of all. Walls need
+        gaps: one for each pair of neighbours, or one for all of them. ``between`` may be omitted from all. Walls need
             it, and so do several gaps of one pair.
         links: springs and dampers that join neighbours.
         motion: a :class:`Motion`, the name or path of a record, or ``[motion]`` of the model file.
@@ -38,7 +38,7 @@ class Model:
         analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
 
     Raises:
-        ModelError: every fault at once, with the text of the command line.
+        ModelError: all faults at once, with the message of the command line.
     """
 
     _core: _jostle.Model
@@ -83,7 +83,7 @@ class Model:
 
         Raises:
             MissingFileError: there is no such file; a ``ModelError`` and a ``FileNotFoundError``.
-            ModelError: every fault of the file at once, each with its line and a remedy.
+            ModelError: all faults of the file at once, each with its line and a remedy.
         """
         name = os.fspath(path)
         model = cls.__new__(cls)
@@ -103,11 +103,11 @@ class Model:
     def of(cls, model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> Model:
         """Returns a model from a model, a model file, a built-in name such as ``"paper"``, or a tree.
 
-        A file comes before a built-in model of the same name, as on the command line.
+        A file takes precedence over a built-in model of the same name, as on the command line.
 
         Raises:
             MissingFileError: neither a file nor a built-in name.
-            ModelError: every fault of the model at once.
+            ModelError: all faults of the model at once.
         """
         if isinstance(model, Model):
             return model
@@ -126,8 +126,8 @@ class Model:
 
         Args:
             text: the text.
-            name: stands in messages.
-            folder: from where records are looked for; the current folder by default.
+            name: name for messages.
+            folder: folder of the records; the current folder by default.
         """
         if not isinstance(text, str):
             raise TypeError(f"text: expected a text, found {type(text).__name__}")
@@ -142,7 +142,7 @@ class Model:
 
         Args:
             tree: the tree, as in ``{"building": [{"kind": "shear", "mass": "40 t", …}], "gap": […]}``.
-            folder: from where records are looked for; the current folder by default.
+            folder: folder of the records; the current folder by default.
         """
         model = cls.__new__(cls)
         model._build("read", ("model", text_of(tree), True, os.path.abspath(folder), False))
@@ -163,7 +163,7 @@ class Model:
         return model
 
     def matrices(self, building: str | int = 0) -> Matrices:
-        """Mass, damping and stiffness of an elastic building, as the steps use them.
+        """Mass, damping and stiffness of an elastic building, as used by time steps.
 
         Args:
             building: name or index.
@@ -183,12 +183,12 @@ class Model:
         motion: Motion | str | os.PathLike[str] | None = None,
         **units: Unpack[RunUnits],
     ) -> Model:
-        """The same model with another width of every gap, another peak acceleration or another ground motion.
+        """Returns the model with another width of every gap, another peak acceleration or another ground motion.
 
         Args:
             gap: width of every gap, a length ≥ 0; also ``gap_mm=20``.
             pga: scales the ground motion to this peak, > 0; also ``pga_g=0.2``.
-            motion: a :class:`Motion` is taken as it is; a record by name or path keeps the scaling of the model,
+            motion: a :class:`Motion` is used as it is; a record by name or path keeps the scaling of the model,
                 as ``--record`` of the command line does.
 
         Raises:
@@ -214,14 +214,14 @@ class Model:
 
     @property
     def warnings(self) -> list[str]:
-        """What is valid but may not be meant."""
+        """Warnings about valid but unusual values."""
         return self._core.warnings
 
     @property
     def records(self) -> list[str]:
         """The records of a model that lists several; empty otherwise.
 
-        A run takes one of them, ``model.changed(motion=name)``; a study and :func:`critical_gap` take all.
+        A run uses one of them, ``model.changed(motion=name)``; a study and :func:`critical_gap` use all.
         """
         return self._core.records
 
@@ -237,7 +237,7 @@ class Model:
 
     @property
     def description(self) -> dict[str, Any]:
-        """Buildings, gaps and links in numbers: geometry, masses, periods, contacts; names carry units."""
+        """Buildings, gaps and links in numbers: geometry, masses, periods, contacts; names contain units."""
         return cast("dict[str, Any]", json.loads(self._core.describe()))
 
     @property
@@ -290,7 +290,7 @@ def _table(part: object) -> object:
 
 
 def _gaps(gaps: Gap | Table | Sequence[Gap | Table], buildings: list[Any]) -> list[Any]:
-    """Tables of the gaps; those without names stand between neighbours in order."""
+    """Tables of the gaps; those without names belong to neighbours in order."""
     tables: list[Any]
     if isinstance(gaps, (Part, Mapping)):
         one = _table(gaps)

@@ -25,7 +25,7 @@ class BuildingModes:
         effective_mass_ratios_y: share of the mass that moves vertically [–], shape ``(n,)``.
         lateral: whether the mode is lateral (at least 1 % of the mass horizontally), shape ``(n,)``.
         floor_shapes: horizontal shapes at the floors from the ground up, the greatest ±1 [–], shape ``(n, f)``.
-        lateral_periods: periods of the lateral modes alone, as far as ``count`` asks [s].
+        lateral_periods: periods of the lateral modes, at most ``count`` [s].
     """
 
     name: str
@@ -49,7 +49,8 @@ class BuildingModes:
 def modes(model: Model, count: int = 10) -> dict[str, BuildingModes]:
     """Natural modes of every building, by name.
 
-    None is missing: frequencies by counting negative pivots of the Riccati recursion, shapes by inverse iteration.
+    No mode is missed: frequencies are found by counting negative pivots of the Riccati recursion, shapes by inverse
+    iteration.
 
     Args:
         model: the model.

@@ -107,7 +107,7 @@ class Motion:
         step: Quantity | None = None,
         column: int | None = None,
     ) -> Motion:
-        """Reads a record (PEER AT2, CSV, columns of text), or takes a built-in one by its name.
+        """Reads a record in a supported format, or returns a built-in one by its name.
 
         Args:
             path: the file, or the name of a built-in record.
@@ -173,7 +173,7 @@ class Motion:
     ) -> Motion:
         """The same motion scaled to a peak (``pga="0.2 g"`` or ``pga_g=0.2``), or by a factor.
 
-        The peak refers to the whole record, also where the analysis is shorter.
+        The peak refers to the whole record, even if the analysis is shorter.
         """
         extra: dict[str, Any] = dict(units)
         peak = argument("pga", pga, "acceleration", extra)
@@ -190,7 +190,7 @@ class Motion:
         return self._of(self._core.changed(reverse=True))
 
     def lasting(self, duration: Quantity) -> Motion:
-        """The same motion cut, or continued by a ground at rest, so that it lasts this long."""
+        """The same motion with this duration: cut, or continued with the ground at rest."""
         return self._of(self._core.changed(duration=_positive("duration", duration)))
 
     def spectrum(
@@ -202,14 +202,14 @@ class Motion:
         post_yield: float = 0.0,
         between: bool = False,
     ) -> Spectrum:
-        """Response spectra, exact for an acceleration straight between the samples.
+        """Returns response spectra, exact for linear acceleration between the samples.
 
         Args:
-            periods: natural periods, > 0 [s], shape ``(n,)``; 200 from 0.02 to 10 s when left out.
+            periods: natural periods, > 0 [s], shape ``(n,)``; by default 200 from 0.02 to 10 s.
             damping: fraction of critical, 0 to below 1; one or several.
-            ductility: further spectra of constant ductility, each ≥ 1.
-            post_yield: stiffness after yield over the initial one, of these.
-            between: looks for peaks between the samples too; without it, as is usual, at the samples alone.
+            ductility: ductilities of additional inelastic spectra, each ≥ 1.
+            post_yield: ratio of post-yield to initial stiffness of these.
+            between: true finds peaks between the samples too; false, as usual, at the samples only.
 
         Raises:
             ModelError: a number outside its range.
@@ -232,7 +232,7 @@ class Motion:
 
     @property
     def step(self) -> float | None:
-        """Time step of the record [s]; ``None`` for waves."""
+        """Time step of the record [s]; ``None`` for analytic motions."""
         return self._core.step
 
     @property
@@ -252,7 +252,7 @@ class Motion:
 
     @property
     def time(self) -> npt.NDArray[np.float64]:
-        """Instants of the record [s], shape ``(points,)``; for waves 200 a period."""
+        """Instants of the record [s], shape ``(points,)``; for analytic motions 200 per period."""
         import numpy as np
 
         step = self._core.drawn_step
@@ -265,7 +265,7 @@ class Motion:
         return self._core.at(self.time)
 
     def at(self, time: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Ground acceleration at any instants, straight between the points of a record [m/s²].
+        """Ground acceleration at any instants, linear between the points of a record [m/s²].
 
         Args:
             time: instants [s], shape ``(n,)``.

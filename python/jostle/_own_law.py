@@ -1,4 +1,4 @@
-"""Buildings that meet by a contact law written in Python."""
+"""Pounding with a contact law written in Python."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ _CORRECTIONS = 60
 
 @dataclass(frozen=True, eq=False)
 class Experiment:
-    """What a run with a contact law of your own leaves; ``t`` instants, ``c`` contacts.
+    """Results of a run with a user-defined contact law; ``t`` instants, ``c`` contacts.
 
     Attributes:
         time: instants [s], shape ``(t,)``.
         displacement: floors by building, from the ground up [m], each of shape ``(t, floors)``.
         contact_force: forces of the contacts, gap by gap, from the lowest up [N], shape ``(t, c)``.
-        closing: how far each contact has closed [m], shape ``(t, c)``; it touches at the width of its gap.
+        closing: closing of each contact [m], shape ``(t, c)``; contact starts when it exceeds the width of the gap.
     """
 
     time: npt.NDArray[np.float64]
@@ -46,7 +46,8 @@ def experiment(model: Model, law: ContactLaw, *, step: Quantity = 1e-4) -> Exper
     """Runs a small elastic model with a contact law written in Python at every contact.
 
     Average acceleration in equal steps with full matrices, and Newton's method for the forces of closed contacts:
-    slow, meant for trying laws out. Ten to a hundred steps a contact are needed; halve the step to see what is left.
+    slow, intended for testing laws. Ten to a hundred steps per contact are needed; halve the step to estimate the
+    error.
 
     Args:
         model: the model; its own contact laws are not used.
@@ -55,7 +56,7 @@ def experiment(model: Model, law: ContactLaw, *, step: Quantity = 1e-4) -> Exper
 
     Raises:
         ModelError: a building that may yield, or is too large.
-        AnalysisError: contact forces that are not found.
+        AnalysisError: the contact forces do not converge.
     """
     import numpy as np
 
@@ -136,7 +137,7 @@ def _forces(
     state: tuple[npt.NDArray[np.float64], ...],
     h: float,
 ) -> npt.NDArray[np.float64]:
-    """Contact forces at the end of a step; ``speeds`` keeps the closing speeds of touches."""
+    """Contact forces at the end of a step; ``speeds`` stores the impact speeds."""
     import numpy as np
 
     u, v, free = state

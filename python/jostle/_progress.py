@@ -1,4 +1,4 @@
-"""How far a run has come: a line on a terminal, a bar in a notebook."""
+"""Progress of a run: a line on a terminal, a bar in a notebook."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ Observer = Callable[[float, float], object]
 
 
 class ProgressLine:
-    """Shows how far a run has come, once it takes a while and where somebody watches; leaves no trace.
+    """Shows the progress of a run that takes some time, on a terminal or in a notebook, and removes it afterwards.
 
-    On a terminal it is a line on standard error. A Jupyter notebook shows it as HTML, since it prints standard error as
-    if something were wrong. Elsewhere nothing is shown.
+    On a terminal it is a line on standard error. A Jupyter notebook shows it as HTML, since it shows standard
+    error like an error message. Elsewhere nothing is shown.
     """
 
     #: Runs shorter than this need none, and it is written no more often than this apart [s].
@@ -39,7 +39,7 @@ class ProgressLine:
             self._draw(part, f"{100 * part:3.0f} %  {time:.1f} of {duration:.1f} s, {left:.0f} s left")
 
     def _is_due(self) -> bool:
-        """Whether it is time to show something again."""
+        """Whether the display is due."""
         now = clock.monotonic()
         hasty = now - self._started < self.PATIENCE or now - self._written < self.APART
         if hasty or not self._watched:
@@ -48,7 +48,7 @@ class ProgressLine:
         return True
 
     def _draw(self, part: float, text: str) -> None:
-        """Shows a part from 0 to 1, and what it means."""
+        """Shows a fraction from 0 to 1 and its text."""
         if self._notebook is None:
             bar = "█" * round(24 * part)
             self._show(f"{self._label}{bar:░<24} {text}")

@@ -18,19 +18,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class CapacityCurve:
-    """A building pushed sideways; ``p`` points, ``f`` floors.
+    """The capacity curve of a building; ``p`` points, ``f`` floors.
 
     Attributes:
         building: name.
         direction: ``"right"`` or ``"left"``.
-        roof_displacement: in the direction of the push [m], shape ``(p,)``.
+        roof_displacement: in the direction of the load [m], shape ``(p,)``.
         roof_drift: roof displacement over height [–], shape ``(p,)``.
         base_shear: base shear [N], shape ``(p,)``.
         base_shear_coefficient: base shear over weight [–], shape ``(p,)``.
         storey_drifts: drift ratios from the ground up [–], shape ``(p, f)``.
-        events: at each point, hinges and what they did.
-        end: why the curve ends.
-        tree: everything, as ``jostle pushover --json`` has it.
+        events: at each point, hinges that crack or yield.
+        end: reason for the end of the curve.
+        tree: all results, as in ``jostle pushover --json``.
     """
 
     building: str
@@ -64,17 +64,17 @@ def pushover(
     direction: str = "right",
     drift: Quantity = 0.02,
 ) -> list[CapacityCurve]:
-    """Pushes buildings sideways, from corner to corner of their hinges.
+    """Computes capacity curves of buildings, from corner to corner of their hinges.
 
     Args:
         model: the model.
-        building: one building by name; all when left out.
-        pattern: spread of the load: ``"first-mode"``, ``"uniform"`` or ``"triangular"``.
+        building: one building by name; by default all.
+        pattern: distribution of the load: ``"first-mode"``, ``"uniform"`` or ``"triangular"``.
         direction: ``"right"``, ``"left"`` or ``"both"``.
         drift: roof displacement over height at which to stop, above 0 and up to 0.5.
 
     Raises:
-        ModelError: an argument that cannot be.
+        ModelError: an invalid argument.
     """
     if not isinstance(model, Model):
         raise TypeError(f"model: expected a Model, found {type(model).__name__}")

@@ -74,9 +74,9 @@ class LinkedFloors:
         floors: floors on the left and on the right, from 1; ``None`` for a point between floors, and for a wall.
         height: height above the base [m].
         force: force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
-        peak_force: force of greatest size, with its sign [N].
+        peak_force: force of greatest magnitude, with its sign [N].
         peak_stroke: greatest change of length, either sign [m].
-        dissipated: energy that the damper took [J].
+        dissipated: energy dissipated in the damper [J].
     """
 
     between: tuple[str, str]
@@ -91,7 +91,7 @@ class LinkedFloors:
 class Result:
     """Summary, histories and impacts of a run.
 
-    Histories are NumPy views of one table that nobody copies or writes to.
+    Histories are read-only NumPy views of one table.
     """
 
     _core: _jostle.Run
@@ -129,7 +129,7 @@ class Result:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """Peaks, impacts, energies and work: the tree of ``summary.json``, names carry units."""
+        """Peaks, impacts, energies and work: the tree of ``summary.json``; names contain units."""
         return cast("dict[str, Any]", json.loads(self._core.summary_json(self._twin)))
 
     @cached_property
@@ -143,7 +143,7 @@ class Result:
 
     @property
     def time(self) -> npt.NDArray[np.float64]:
-        """Recorded instants [s], shape ``(n,)``; dense where buildings touch."""
+        """Recorded instants [s], shape ``(n,)``; dense during contact."""
         return self._history("time")
 
     @property
@@ -228,7 +228,7 @@ class Result:
 
     @cached_property
     def without_contact(self) -> Result | None:
-        """The same buildings passing through each other; run when it is first asked for. ``None`` without gaps."""
+        """The result of the same buildings without contact, computed on first access. ``None`` without gaps."""
         if not self.summary["gaps"] or not self.completed:
             return None
         if self._twin is None:
@@ -246,7 +246,7 @@ class Result:
     def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Writes the report: one HTML page with animation, histories and tables, which opens offline.
 
-        The page compares with a run without contact, which is made for it if there is none yet.
+        The page includes a comparison with a run without contact, which is computed if it does not exist yet.
 
         Args:
             path: file to write; an earlier page of jostle is replaced.
@@ -267,8 +267,8 @@ class Result:
         """Writes ``summary.json``, ``history.parquet``, ``impacts.parquet`` and ``report.html``, as ``jostle run`` does.
 
         Args:
-            folder: made where it does not exist.
-            report: false leaves out the report and the run without contact that it compares with.
+            folder: created if it does not exist.
+            report: false omits the report and its run without contact.
             force: true replaces files of these names even if jostle did not write them.
 
         Returns:
@@ -286,7 +286,7 @@ class Result:
         return Path(folder)
 
     def animate(self) -> Animation:
-        """The buildings in motion, for a notebook, or for a browser with ``.show()``."""
+        """The animation of the buildings, for a notebook, or for a browser with ``.show()``."""
         return Animation(self._page())
 
     def plot(self) -> Figure:
@@ -314,7 +314,7 @@ class Result:
 
 
 def position(building: str | int, names: Sequence[str]) -> int:
-    """Position of a building by name or position."""
+    """Index of a building by name or index."""
     if isinstance(building, str):
         if building in names:
             return names.index(building)

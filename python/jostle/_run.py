@@ -51,30 +51,30 @@ def run(
 ) -> Result:
     """Runs a model from rest through its ground motion.
 
-    Other Python threads go on meanwhile. The answer depends on the arguments alone, bit for bit, and is that of the
-    command line. Ctrl-C stops the run: the result then holds what was computed until then (``result.completed`` is
-    false) and an :class:`InterruptedWarning` is given; a second Ctrl-C within two seconds raises as usual.
+    Other Python threads continue during a run. The result depends only on the arguments, bit by bit, and equals that of
+    the command line. Ctrl-C stops the run: the result then covers the time until then (``result.completed`` is
+    false), with an :class:`InterruptedWarning`; a second Ctrl-C within two seconds raises as usual.
 
     Args:
         model: the model, a model file, a built-in name such as ``"paper"``, or the tree of a model file.
         motion: another ground motion; a record by name or path keeps the scaling of the model.
         gap: another width of every gap, a length ≥ 0; also ``gap_mm=20``.
         pga: scales the ground motion to this peak, > 0; also ``pga_g=0.2``.
-        pounding: false lets the buildings pass through each other.
-        without_contact: makes a second run in which they do, as the command line does for its report; the summary
-            then knows the smallest gap without pounding.
-        record_interval: least time between recorded instants in free flight, zero for every step (every step of a
-            closed contact is recorded); ``None`` records no histories. Rows are steps of modal stepping, so that its
-            last digits depend on them.
-        progress: true shows how far a run of more than half a second has come: a line on a terminal (standard error),
-            a bar in a Jupyter notebook, nothing elsewhere. Or a function that is called with the time reached and the
-            time to reach [s] a few times a second.
-        force: runs even where ``solver = "product"`` is expected to lose its digits.
+        pounding: false runs the buildings without contact.
+        without_contact: adds a second run without contact, as the command line does for its report; the summary
+            then includes the smallest gap without pounding.
+        record_interval: least time between recorded instants in free vibration, zero for every step (every step of a
+            closed contact is recorded); ``None`` records no histories. Rows are additional steps of modal stepping, so
+            its last digits depend on them.
+        progress: true shows the progress of a run of more than half a second: a line on a terminal (standard error),
+            a bar in a Jupyter notebook, nothing elsewhere. A function is called with the current and the final
+            time [s] a few times per second.
+        force: runs even if ``solver = "product"`` is expected to lose all digits.
 
     Raises:
         ModelError: model, motion or an argument is wrong; :class:`MissingFileError` if the model file does not exist.
         TypeError: an unknown keyword, with the nearest known one.
-        AnalysisError: a step failed; ``error.result`` holds what was computed until then.
+        AnalysisError: a step failed; ``error.result`` has the results up to then.
     """
     for key in units:
         if not any(split(key, (name,)) for name in ("gap", "pga")):
@@ -113,7 +113,7 @@ def _walk(
 
 
 def _interrupted(result: Result) -> None:
-    """Says that a run was stopped, or raises if the user means it."""
+    """Warns that a run was stopped, or raises at the second Ctrl-C."""
     global _last_interrupt
     now = clock.monotonic()
     soon, _last_interrupt = now - _last_interrupt < _SOON, now

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 class _CaseLine(ProgressLine):
-    """Shows how many cases are finished."""
+    """Shows the number of finished cases."""
 
     def __call__(self, time: float, duration: float) -> None:
         if self._is_due():
@@ -37,20 +37,20 @@ _Base = tuple[str, str, bool, str]
 class Study:
     """Many cases of one model: lists, ranges and distributions of any key of the model file.
 
-    The table has one row a case and is the same, bit for bit, for any number of threads, processes, workers and
-    interruptions. ``docs/studies.md`` describes what a study can hold.
+    The table has one row per case and is the same, bit by bit, for any number of threads, processes, workers and
+    interruptions. ``docs/studies.md`` describes the contents of a study.
 
     Args:
         model: the base model: a :class:`Model`, a model file, the name of a built-in model, or a tree.
-        vary: what varies, as in ``[{"name": "gap", "path": "gap[0].width", "values": ["20 mm", "40 mm"]}]``; may be
-            left out for a model that lists several records.
-        design: how cases are made of it, as in ``{"kind": "latin-hypercube", "samples": 200, "seed": 1}``; every
-            combination without it.
+        vary: keys that vary, as in ``[{"name": "gap", "path": "gap[0].width", "values": ["20 mm", "40 mm"]}]``; may
+            be omitted for a model that lists several records.
+        design: the design of the cases, as in ``{"kind": "latin-hypercube", "samples": 200, "seed": 1}``; by
+            default every combination.
         title: title of its report.
         **wishes: ``histories``, ``fragility``, ``ida``, ``sensitivity`` and ``selection`` as in a study file.
 
     Raises:
-        ModelError: every fault at once, each with its place.
+        ModelError: all faults at once, each with its location.
     """
 
     _core: _jostle.Study
@@ -120,7 +120,7 @@ class Study:
 
     @property
     def columns(self) -> list[str]:
-        """Names of the columns of its table; they carry units."""
+        """Names of the columns of the table; they contain units."""
         return self._core.columns
 
     def run(
@@ -133,22 +133,25 @@ class Study:
         progress: bool | Observer = False,
         report: bool = True,
     ) -> StudyResult:
-        """Runs what is not finished in a folder. The same call continues where an earlier one stopped, whatever
-        stopped it. Ctrl-C raises ``KeyboardInterrupt`` within a second; finished cases stay. Finished parts are verified:
-        one that is damaged or belongs elsewhere is moved to ``set-aside`` with a ``StudyWarning``, and computed again.
+        """Runs the unfinished cases of a folder. The same call resumes after any interruption.
+
+        Ctrl-C raises ``KeyboardInterrupt`` within a second; finished cases are kept. Finished parts are verified: a part
+        that is damaged or belongs to another study is moved to ``set-aside`` with a ``StudyWarning``, and computed
+        again.
 
         Args:
-            out: folder of the results; with a client, one that all workers see.
-            jobs: threads; one for every core by default. Without effect with a client, whose workers have their own.
+            out: folder of the results; with a client, one that all workers can access.
+            jobs: threads; by default one per core. No effect with a client.
             shard: ``(i, n)`` computes the i-th of n equal shares, i from 1; all may use one folder.
-            client: a ``dask.distributed.Client``: its workers compute the parts of the table. A part whose worker
-                dies is taken over by another, from the last finished case on.
-            progress: true shows a line on a terminal or a bar in a notebook; or a function called with cases finished and cases to finish.
-            report: writes the report and the tables behind it once all cases are finished.
+            client: a ``dask.distributed.Client``: its workers compute the parts of the table. If a worker
+                dies, another one continues its part after the last finished case.
+            progress: true shows a line on a terminal or a bar in a notebook; or a function called with
+                the numbers of finished cases and of all cases.
+            report: true writes the report and its tables when all cases are finished.
 
         Raises:
-            ModelError: the folder holds another study, or an argument is wrong.
-            OSError: nothing more can be written; what is finished stays.
+            ModelError: the folder contains another study, or an argument is wrong.
+            OSError: a file cannot be written; finished cases are kept.
         """
         folder = os.path.abspath(os.fspath(out))
         observer = None if isinstance(progress, bool) else progress
@@ -171,7 +174,7 @@ class Study:
         return result
 
     def _run_on(self, client: Any, folder: str, observer: Observer | None) -> None:
-        """Gives every part that is missing to the workers of a client."""
+        """Submits every missing part to the workers of a client."""
         distributed: Any = import_module("distributed")
         parts = self._core.parts
         missing = self._core.missing(folder)
@@ -235,7 +238,7 @@ class StudyResult:
 
     @property
     def report(self) -> Path:
-        """The page."""
+        """The report."""
         return self.folder / "report.html"
 
     def __getitem__(self, name: str) -> npt.NDArray[Any]:
@@ -266,9 +269,9 @@ class RuleGap:
 
     Attributes:
         rule: short name.
-        source: where the rule stands.
+        source: source of the rule.
         gap: width [m].
-        impact_count: impacts at this gap; ``None`` when it was not run.
+        impact_count: impacts at this gap; ``None`` without a run.
         peak_force: greatest force at this gap [N].
     """
 
@@ -288,9 +291,9 @@ class CriticalGap:
         motion: name of the motion.
         pga: its peak [m/s²].
         gap: smallest gap found without an impact [m].
-        pounding_at: widest gap tried with an impact; ``None`` when not even a gap of zero is hit [m].
-        closing_without_contact: greatest closing of the buildings passing through each other [m].
-        rules: what rules and codes ask for.
+        pounding_at: widest tested gap with an impact; ``None`` if there is no impact even at a gap of zero [m].
+        closing_without_contact: peak closing of the buildings without contact [m].
+        rules: gaps required by rules and codes.
     """
 
     between: tuple[str, str]
@@ -311,15 +314,15 @@ def critical_gap(
     system: str = "frame",
     outcomes: bool = True,
 ) -> list[CriticalGap]:
-    """The smallest gap without pounding, by bracketing on the response, beside ABS, SRSS, DDC and codes.
+    """Returns the smallest gap without pounding, by bracketing with runs, compared with ABS, SRSS, DDC and codes.
 
     Args:
         model: the model, or a model file.
-        motions: ground motions, or names or paths of records; by default that of the model, or all that it lists.
+        motions: ground motions, or names or paths of records; by default that of the model, or all of its list.
         pga: scales every motion to this peak [m/s², or a text with a unit].
-        tolerance: width of the last bracket, ≥ 1e-9 [m].
+        tolerance: width of the final bracket, ≥ 1e-9 [m].
         system: structural system for GB 50011: ``frame``, ``frame-wall``, ``wall`` or ``steel-frame``.
-        outcomes: runs the gap of every rule too.
+        outcomes: true also runs the model with the gap of every rule.
 
     Returns:
         One entry for every gap of the model and every motion.
@@ -374,7 +377,7 @@ def _compute(study: Study, folder: str, part: int, parts: int) -> int:
 
 
 def _remark(text: str) -> None:
-    """Warns of what a run found in its folder."""
+    """Issues a warning about the folder of a study."""
     import warnings
 
     warnings.warn(text, StudyWarning, stacklevel=4)

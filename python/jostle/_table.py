@@ -1,4 +1,4 @@
-"""Tables that NumPy, pandas, polars and pyarrow take directly."""
+"""Tables that NumPy, pandas, polars and pyarrow accept directly."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 
 class Table:
-    """Columns of equal length with names that carry their units.
+    """Columns of equal length; their names contain units.
 
     ``table["time_s"]`` is a NumPy array, ``table[3]`` a row as a dict. ``polars.DataFrame(table)``,
-    ``pyarrow.table(table)`` and ``pandas.DataFrame.from_arrow(table)`` take it as it is (Arrow PyCapsule interface).
+    ``pyarrow.table(table)`` and ``pandas.DataFrame.from_arrow(table)`` accept it directly (Arrow PyCapsule interface).
     """
 
     _core: _jostle.Table
@@ -102,7 +102,7 @@ class Table:
 
 
 def _plain(value: Any) -> Any:
-    """A Python number for a NumPy one; ``None`` where it is absent."""
+    """The Python number of a NumPy number; ``None`` if absent."""
     import numpy as np
 
     if value is np.ma.masked:

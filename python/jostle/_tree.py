@@ -20,7 +20,7 @@ def text_of(tree: object, name: str = "model") -> str:
     """JSON text of a tree of dicts, lists, texts, numbers and flags, NumPy's arrays and scalars included.
 
     Raises:
-        ModelError: a value that no model file can hold, with its place.
+        ModelError: a value that a model file cannot contain, with its location.
     """
     if not isinstance(tree, Mapping):
         raise TypeError(f"{name}: expected a dict, found {type(tree).__name__}")

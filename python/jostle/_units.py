@@ -164,7 +164,7 @@ def split(key: str, bases: Collection[str]) -> tuple[str, str] | None:
 
 
 def with_unit(value: object, unit: str) -> object:
-    """A number, or every number of a list, as a text with its unit; anything else stays for the reader to refuse."""
+    """A number, or every number of a list, as a text with its unit; anything else is left for the reader to reject."""
     plain = number(value)
     if plain is not None and not isinstance(value, bool):
         if not math.isfinite(plain):
@@ -178,10 +178,10 @@ def with_unit(value: object, unit: str) -> object:
 def merge(
     what: str, fields: Mapping[str, object], extra: Mapping[str, object], known: Iterable[str] = ()
 ) -> dict[str, Any]:
-    """Fields that were given, with those whose unit is in the name of the keyword; ``known`` lists such keywords.
+    """The given fields, including those with a unit in the keyword; ``known`` lists such keywords.
 
     Raises:
-        TypeError: a keyword that is neither, with the nearest that is.
+        TypeError: an unknown keyword, with the nearest known one.
     """
     merged = {key: value for key, value in fields.items() if value is not None}
     for key, value in extra.items():
@@ -215,7 +215,7 @@ def argument(
 
 
 def refuse(function: str, extra: Iterable[str], known: Iterable[str] = ()) -> None:
-    """No keyword may be left over; the message names the nearest of those that are known."""
+    """Raises for unknown keywords; the message names the nearest known one."""
     for key in extra:
         nearest = difflib.get_close_matches(key, list(known), 1)
         hint = f"; did you mean {nearest[0]!r}?" if nearest else ""

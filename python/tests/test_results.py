@@ -257,7 +257,7 @@ def test_lost_digits_are_refused_unless_forced() -> None:
         "motion": {"record": "el-centro", "duration": "0.05 s"},
     }  # fmt: skip
     model = jostle.Model.from_dict(tree)
-    with pytest.raises(jostle.ModelError, match="force=True runs it all the same") as caught:
+    with pytest.raises(jostle.ModelError, match="force=True runs it anyway") as caught:
         jostle.run(model)
     assert caught.value.faults[0].path == "analysis.solver"
     with pytest.warns(jostle.JostleWarning):

@@ -21,10 +21,10 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    /// Parses, or says what is wrong (or what was asked for, as with `--help`) and returns the exit code.
+    /// Parses the arguments, or prints the error (or the help for `--help`) and returns the exit code.
     pub(crate) fn of(arguments: impl IntoIterator<Item = OsString>) -> Result<Self, u8> {
         Self::try_parse_from(arguments).map_err(|error| {
-            // A closed pipe, as of `head`, is the reader's wish.
+            // A closed pipe, as of `head`, is not an error.
             let _ = error.print();
             u8::try_from(error.exit_code()).unwrap_or(2)
         })
@@ -54,9 +54,9 @@ pub(crate) enum Command {
     Study(crate::study::StudyArgs),
     /// Find the smallest gap without pounding, and compare it with rules and codes
     Gap(crate::gap::GapArgs),
-    /// Open a page on this machine that runs the model at every change
+    /// Open a local page that runs the model after every change
     Live(crate::live::LiveArgs),
-    /// Push buildings sideways to a target drift or loss of strength
+    /// Run a pushover analysis to a target drift or loss of strength
     Pushover(PushoverArgs),
     /// Write a commented starter file
     New(NewArgs),
@@ -173,7 +173,7 @@ pub(crate) struct CollideArgs {
     /// Mass of the right body
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) m2: String,
-    /// Closing speed at the touch
+    /// Closing speed at first contact
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) speed: String,
     /// Contact stiffness in N/m^1.5 or N/m; for laws of the other family the one with the same secant at the greatest
@@ -252,7 +252,7 @@ pub(crate) struct SectionArgs {
     /// Strength that belongs to a grade
     #[arg(long, value_name = "LEVEL", default_value = jostle_section::StrengthLevel::NAMES[0], value_parser = jostle_section::StrengthLevel::NAMES)]
     pub(crate) strength: String,
-    /// Concrete over the surfaces of the bars
+    /// Concrete cover of the bars
     #[arg(long, value_name = "QUANTITY", default_value = "35mm")]
     pub(crate) cover: String,
     /// Ties that confine the core, such as "d10 @ 100 mm"
@@ -279,7 +279,7 @@ pub(crate) struct SectionArgs {
 pub(crate) struct PushoverArgs {
     /// Model file, or the name of a built-in example; without it, the built-in "paper"
     pub(crate) model: Option<PathBuf>,
-    /// Push only this building
+    /// Analyse only this building
     #[arg(long, value_name = "NAME")]
     pub(crate) building: Option<String>,
     /// Load over the height: mass × first mode, mass, or mass × height
@@ -288,7 +288,7 @@ pub(crate) struct PushoverArgs {
     /// Roof displacement ÷ height at which to stop
     #[arg(long, value_name = "RATIO", default_value = "0.02")]
     pub(crate) drift: String,
-    /// Direction of the push
+    /// Direction of the load
     #[arg(long, value_enum, default_value_t = Push::Right)]
     pub(crate) direction: Push,
     /// Folder for the results [default: jostle-out/MODEL; with --json, none]
@@ -302,7 +302,7 @@ pub(crate) struct PushoverArgs {
     pub(crate) force: bool,
 }
 
-/// How the load of a pushover is spread.
+/// Distribution of the load of a pushover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Spread {
     FirstMode,
@@ -310,7 +310,7 @@ pub(crate) enum Spread {
     Triangular,
 }
 
-/// Which way to push.
+/// Direction of the load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Push {
     Left,

@@ -272,7 +272,7 @@ fn percent(ratio: f64) -> f64 {
     (1e4 * ratio).round() / 1e2
 }
 
-/// A number with so many decimals, or with three digits where these would not show it or be too many.
+/// A number with a given number of decimals, or with three digits if the decimals are too few or too many.
 fn decimals(value: f64, count: usize) -> String {
     let least = 10f64.powi(2 - count as i32);
     if value == 0.0 || (least..1e6).contains(&value) {
@@ -282,7 +282,7 @@ fn decimals(value: f64, count: usize) -> String {
     }
 }
 
-/// What a building has beyond the plain case, one line each.
+/// Special features of a building, one line each.
 fn special(building: &Building) -> Vec<String> {
     let mut lines = Vec::new();
     let list = |parts: &[(&str, Option<f64>, &str)]| {
@@ -446,7 +446,7 @@ fn describe_work(
     let couplings: usize = sweeps.map(|sweep| sweep.entries_of_l()).sum();
     writeln!(
         text,
-        "  {} couplings in the factors: {} multiply-adds per solution\n",
+        "  {} entries of L: {} multiply-adds per solution\n",
         grouped(couplings as u64),
         grouped(2 * couplings as u64)
     )

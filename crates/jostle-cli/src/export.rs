@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::replace::{Kind, may_write};
 use crate::terminal;
 
-/// Which model, for whom.
+/// Model and target program.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExportArgs {
     #[command(flatten)]
@@ -25,7 +25,7 @@ pub(crate) struct ExportArgs {
     force: bool,
 }
 
-/// What the head of every script says.
+/// First lines of every script.
 const SCRIPT: Kind = Kind {
     name: "script that jostle exported",
     marks: &[

@@ -1,4 +1,4 @@
-//! `jostle gap`: the smallest gap without pounding, beside what rules and codes ask for.
+//! `jostle gap`: the smallest gap without pounding, compared with rules and codes.
 
 use std::cell::RefCell;
 use std::path::PathBuf;
@@ -121,7 +121,7 @@ fn note(notes: &mut Vec<String>, warning: &str) {
     }
 }
 
-/// The run under way on a terminal.
+/// Progress of the current run on a terminal.
 struct Shown {
     bar: RefCell<TimeBar>,
     motion: String,

@@ -1,4 +1,4 @@
-//! Command line of jostle: parse, do, say how it went. The program itself is `bin/jostle`.
+//! Command line of jostle: parses arguments, runs commands, reports results. The program itself is `bin/jostle`.
 
 mod args;
 mod check;
@@ -43,7 +43,7 @@ pub fn may_replace_report(path: &std::path::Path, force: bool) -> Result<(), Str
     asked.map(drop).map_err(|failure| failure.to_string())
 }
 
-/// Refuses to replace files in a folder that are no results of a run; everything may be replaced with `force`.
+/// Refuses to replace files in a folder that are not results of a run, except with `force`.
 ///
 /// # Errors
 /// Which file must stay.
@@ -52,7 +52,7 @@ pub fn may_replace_run(folder: &std::path::Path, force: bool) -> Result<(), Stri
     asked.map(drop).map_err(|failure| failure.to_string())
 }
 
-/// Does what the arguments say, the first of which names the program, and returns the exit code.
+/// Runs the command given by the arguments, of which the first is the program name, and returns the exit code.
 pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
     let args = match Args::of(arguments) {
         Ok(args) => args,

@@ -12,7 +12,7 @@ use crate::open::EXAMPLE;
 use crate::run::stop_on_interrupt;
 use crate::terminal;
 
-/// The program ends by itself once all pages have been gone for so long.
+/// Time without an open page after which the program ends.
 const PATIENCE: Duration = Duration::from_secs(30 * 60);
 
 #[derive(Debug, clap::Args)]
@@ -44,7 +44,7 @@ pub(crate) fn live(args: &LiveArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Opens the address in the browser of this desktop; `false` if that cannot even be tried.
+/// Opens the address in the default browser; `false` if there is no way to try.
 fn open_browser(address: &str) -> bool {
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "windows") {
         ("rundll32", &["url.dll,FileProtocolHandler"])

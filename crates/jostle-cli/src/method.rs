@@ -69,7 +69,7 @@ fn describe(text: &mut String, survey: &MethodSurvey) -> std::fmt::Result {
     writeln!(text, "  product    {product}")?;
     writeln!(
         text,
-        "  Riccati    {} displacements, {} couplings: {} multiply-adds a solution",
+        "  Riccati    {} displacements, {} entries of L: {} multiply-adds per solution",
         grouped(survey.degrees_of_freedom as u64),
         grouped(survey.couplings as u64),
         grouped((2 * survey.couplings + survey.degrees_of_freedom) as u64)
@@ -99,7 +99,7 @@ fn describe(text: &mut String, survey: &MethodSurvey) -> std::fmt::Result {
             "  {}\n",
             styled(
                 DIM,
-                "hinges with their initial stiffness; product and element by element know no yielding"
+                "hinges have their initial stiffness; the product and the element-by-element form do not support yielding"
             )
         );
     }

@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Number formats.
 
 /// A whole number with thin spaces between thousands.
 pub(crate) fn grouped(number: u64) -> String {

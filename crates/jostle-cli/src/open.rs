@@ -70,7 +70,7 @@ pub(crate) fn read(path: &Path) -> Result<Input, Failure> {
 }
 
 impl Opened {
-    /// Prints to standard error what is valid but may not be meant.
+    /// Prints warnings to standard error.
     pub(crate) fn warn(&self) {
         for warning in &self.input.warnings {
             terminal::warn(warning);
@@ -109,7 +109,7 @@ impl ModelArgs {
         open(self.model.as_deref(), &self.overrides()?)
     }
 
-    /// What the options change, in SI.
+    /// Changes by options, in SI.
     fn overrides(&self) -> Result<Overrides, Failure> {
         let quantity = |option: &str, text: &Option<String>, dimension| {
             let parsed = text

@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::terminal;
 
-/// What takes less time than this needs no progress bar.
+/// Shortest duration with a progress bar.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// A bar over the time of a run, which appears only on a terminal and only after a while.

@@ -17,7 +17,7 @@ use crate::open::open;
 use crate::replace::{Kind, Target};
 use crate::{pushover_text, terminal};
 
-/// Where results go when nothing else is said.
+/// Default folder of results.
 const RESULTS: &str = "jostle-out";
 
 pub(crate) fn pushover(args: &PushoverArgs) -> Result<(), Failure> {

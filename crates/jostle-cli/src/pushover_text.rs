@@ -147,10 +147,7 @@ fn write_events(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> st
         more => writeln!(
             text,
             "    {}",
-            styled(
-                DIM,
-                &format!("and at {more} points more, all in pushover.csv")
-            )
+            styled(DIM, &format!("and {more} more points in pushover.csv"))
         ),
     }
 }

@@ -14,9 +14,9 @@ const LOOK: u64 = 8192;
 /// A kind of file that jostle writes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Kind {
-    /// What it is, as in "is no summary of jostle".
+    /// Its type, as in "is no summary of jostle".
     pub(crate) name: &'static str,
-    /// All of this stands in its first or last kilobytes.
+    /// Texts that its first or last kilobytes contain.
     pub(crate) marks: &'static [&'static str],
 }
 

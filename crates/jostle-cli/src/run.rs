@@ -19,7 +19,7 @@ use crate::progress::TimeBar;
 use crate::replace::{Kind, may_write};
 use crate::{method, run_text, terminal};
 
-/// Where results go when nothing else is said.
+/// Default folder of results.
 const RESULTS: &str = "jostle-out";
 
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         .map_err(|error| error.to_string())
     {
         if !args.force {
-            let problem = format!("{refusal}; --force runs it all the same");
+            let problem = format!("{refusal}; --force runs it anyway");
             return Err(opened.input.fault("analysis.solver", problem).into());
         }
         terminal::warn(&refusal);
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         record_interval: Settings::default().record_interval.filter(|_| seen),
         ..Settings::default()
     };
-    // Both runs step the same shapes; what is wrong with them the run says.
+    // Both runs use the same shapes; the run reports errors.
     let shapes = (plan.solver == Solver::Modal)
         .then(|| modal::Reduction::of(&opened.system, &plan).ok())
         .flatten();
@@ -179,7 +179,7 @@ fn not_compared(without: &Outcome, duration: f64) -> Option<String> {
         RunEnd::Failed(error) => format!("failed: {error}"),
     };
     Some(format!(
-        "the run without contact {reason}; nothing is compared with it"
+        "the run without contact {reason}; there is no comparison with it"
     ))
 }
 
@@ -195,7 +195,7 @@ const FILES: [(&str, Kind); 5] = [
 /// Files of an earlier run in a folder, which a run replaces.
 ///
 /// # Errors
-/// A file is none of a run, and `force` is not given.
+/// A file does not belong to a run, and `force` is not given.
 pub(crate) fn replaced_by_a_run(out: &Path, force: bool) -> Result<Vec<&'static str>, Failure> {
     let mut earlier = Vec::new();
     for (name, kind) in FILES {
@@ -206,7 +206,7 @@ pub(crate) fn replaced_by_a_run(out: &Path, force: bool) -> Result<Vec<&'static 
     Ok(earlier)
 }
 
-/// Says that results of an earlier run go, and refuses to replace what is none.
+/// Reports that results of an earlier run are replaced, and refuses to replace other files.
 fn replace_earlier(out: &Path, force: bool) -> Result<(), Failure> {
     let earlier = replaced_by_a_run(out, force)?;
     if !earlier.is_empty() {
@@ -248,7 +248,7 @@ fn folder(args: &RunArgs, opened: &Opened) -> Option<PathBuf> {
     args.out.clone().or_else(default)
 }
 
-/// The file that a user will want to open.
+/// The main result file.
 fn result(out: &Path, no_report: bool) -> PathBuf {
     out.join(if no_report {
         "summary.json"

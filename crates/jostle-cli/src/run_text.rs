@@ -130,7 +130,7 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
     Ok(())
 }
 
-/// What contact does to every building: the least and the greatest ratio over the height, and where the greatest is.
+/// Effect of contact on every building: least and greatest ratio over the height, and the place of the greatest.
 fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     let width = buildings
         .iter()
@@ -291,7 +291,7 @@ fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
     )
 }
 
-/// The joint that a code asks for, beside the answer.
+/// The gap required by a code, compared with the result.
 fn write_code_joint(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt::Result {
     let height = |name: &String| {
         let building = summary

@@ -26,7 +26,7 @@ pub(crate) fn styled(style: Style, text: &str) -> String {
     reason = "commands that only print end with it"
 )]
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    // A closed pipe, as of `head`, is the reader's wish.
+    // A closed pipe, as of `head`, is not an error.
     let _ = writeln!(anstream::stdout().lock(), "{}", text.trim_end());
     Ok(())
 }

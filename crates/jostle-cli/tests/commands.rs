@@ -308,7 +308,7 @@ fn interrupt_without_contact_keeps_the_finished_run() {
         notes.iter().any(|note| {
             let note = note.as_str().unwrap_or_default();
             note.starts_with("the run without contact was interrupted at t = ")
-                && note.ends_with(" s of 3.000 s; nothing is compared with it")
+                && note.ends_with(" s of 3.000 s; there is no comparison with it")
         }),
         "{notes:?}"
     );

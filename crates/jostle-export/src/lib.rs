@@ -1,13 +1,14 @@
 //! Models of jostle as scripts for other programs, so that anyone can check one with the other.
 //!
-//! Text comes out, nothing is run and no file is touched. What the other program cannot do is refused, field by
-//! field; what it does a little differently is said in the head of the script and in [`Exported::remarks`].
+//! The result is text; nothing is run and no file is opened. Features that the other program lacks are refused,
+//! field by field; what it does a little differently is said in the head of the script and in
+//! [`Exported::remarks`].
 
 pub mod openseespy;
 
 use jostle::{GroundMotion, Model, System};
 
-/// What is to be exported.
+/// Input of an export.
 #[derive(Clone, Copy, Debug)]
 pub struct Export<'a> {
     /// The model.
@@ -23,6 +24,6 @@ pub struct Export<'a> {
 pub struct Exported {
     /// The script.
     pub text: String,
-    /// Where the other program computes something else than jostle; they stand in the head of the script as well.
+    /// Differences between the other program and jostle; the head of the script lists them as well.
     pub remarks: Vec<String>,
 }

@@ -14,7 +14,7 @@ pub struct BuiltinRecord {
     pub name: &'static str,
     /// Other names understood.
     pub aliases: &'static [&'static str],
-    /// One line for people.
+    /// Description, one line.
     pub description: &'static str,
     /// The file.
     text: &'static str,
@@ -37,7 +37,7 @@ const MODELS: &[(&str, &str)] = &[
     ),
 ];
 
-/// A built-in ground motion by name, unscaled; `None` if there is none of that name.
+/// A built-in ground motion by name, unscaled; `None` if the name is unknown.
 #[must_use]
 pub fn builtin_record(name: &str) -> Option<GroundMotion> {
     let name = name.trim().to_ascii_lowercase();
@@ -55,7 +55,7 @@ pub fn builtin_record(name: &str) -> Option<GroundMotion> {
     ))
 }
 
-/// A named artificial motion, made anew from its seed.
+/// A named artificial motion, generated from its seed.
 fn artificial(name: &str) -> Option<GroundMotion> {
     let recipe = jostle_motion::recipe(name)?;
     let motion = recipe.make().ok()?.motion;
@@ -106,7 +106,7 @@ pub fn model_text(name: &str) -> Option<&'static str> {
 /// Reads a built-in model.
 ///
 /// # Errors
-/// When there is none of that name.
+/// If the name is unknown.
 pub fn builtin_model(name: &str) -> Result<Input, InputError> {
     let text = model_text(name).ok_or_else(|| {
         let names = model_names().join(", ");

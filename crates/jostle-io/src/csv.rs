@@ -1,10 +1,10 @@
 //! Text fields of CSV files.
 
-/// What a spreadsheet takes for the beginning of a formula (OWASP, "CSV Injection").
+/// First characters that a spreadsheet interprets as a formula (OWASP, "CSV Injection").
 const FORMULA: [char; 7] = ['=', '+', '-', '@', '\t', '\r', '\n'];
 
-/// A text as a field of a CSV file: in quotes where RFC 4180 wants them, and behind an apostrophe where a spreadsheet
-/// would take it for a formula. Numbers are no texts and need neither.
+/// A text as a field of a CSV file: in quotes if RFC 4180 requires them, and after an apostrophe if a spreadsheet
+/// would interpret it as a formula. Numbers need neither.
 #[must_use]
 pub fn csv_field(text: &str) -> String {
     let text = inert(text);
@@ -15,7 +15,7 @@ pub fn csv_field(text: &str) -> String {
     }
 }
 
-/// A text for a line of remarks, whose pieces between commas or semicolons a spreadsheet would take for fields.
+/// A text for a line of remarks, whose parts between commas or semicolons a spreadsheet would read as fields.
 pub(crate) fn csv_remark(text: &str) -> String {
     let pieces = text.split_inclusive([',', ';']);
     let inert_piece = |piece: &str| {
@@ -26,7 +26,7 @@ pub(crate) fn csv_remark(text: &str) -> String {
     pieces.map(inert_piece).collect()
 }
 
-/// A text that no spreadsheet takes for a formula.
+/// A text that no spreadsheet interprets as a formula.
 fn inert(text: &str) -> String {
     if text.starts_with(FORMULA) {
         format!("'{text}")

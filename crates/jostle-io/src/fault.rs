@@ -11,9 +11,9 @@ pub struct Fault {
     pub path: String,
     /// Where; `None` when the fault belongs to no line.
     pub place: Option<Place>,
-    /// What is wrong.
+    /// The problem.
     pub problem: String,
-    /// What to do about it.
+    /// Remedy.
     pub remedy: Option<String>,
 }
 

@@ -6,7 +6,7 @@ use jostle::hysteresis::HysteresisRule;
 
 use crate::quantity::Dimension;
 
-/// The table of the file in which a key stands.
+/// The table of the file that contains a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Section {
     Root,
@@ -39,9 +39,9 @@ pub(crate) enum Section {
     Hinge,
     /// One side of them.
     HingeSide,
-    /// How the rotational spring of a base yields.
+    /// Yielding of the rotational spring of a base.
     BaseRocking,
-    /// How its horizontal spring yields.
+    /// Yielding of its horizontal spring.
     BaseSliding,
     /// Inelastic storeys of a shear building.
     StoreyHinges,
@@ -61,11 +61,11 @@ pub(crate) enum Section {
     Fragility,
     Ida,
     Sensitivity,
-    /// The code that the records of a study are held against.
+    /// The code by which the records of a study are checked.
     Selection,
 }
 
-/// What may stand behind a key.
+/// Type of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
     Text,
@@ -92,7 +92,7 @@ pub(crate) enum Kind {
     Choice(&'static [&'static str]),
     /// A word in place of a value.
     WordOr(&'static str, Dimension),
-    /// A word for the usual, or a table.
+    /// A word for the default, or a table.
     WordOrTable(&'static str, &'static [Section]),
     /// A word for all, or a table.
     ChoiceOrTable(&'static [&'static str], Section),
@@ -100,7 +100,7 @@ pub(crate) enum Kind {
     Table(Section),
     /// One table, or a list of tables from the ground up.
     TablePerStorey(Section),
-    /// A text, or a table in its place.
+    /// A text, or a table instead.
     TextOrTable(Section),
     /// A word, or the number it spells.
     Word(&'static [&'static str]),
@@ -114,7 +114,7 @@ pub(crate) enum Kind {
     PerContact(Dimension),
     /// A grade, or a strength.
     GradeOr(&'static [&'static str]),
-    /// Whatever the key of the model file takes that a study varies.
+    /// Any value that the varied key of the model file accepts.
     Any,
 }
 
@@ -124,10 +124,10 @@ pub(crate) struct Key {
     pub(crate) section: Section,
     pub(crate) name: &'static str,
     pub(crate) kind: Kind,
-    /// What holds when the key is absent; `None` for keys without a default.
+    /// Value if the key is absent; `None` for keys without a default.
     pub(crate) default: Option<&'static str>,
     pub(crate) required: bool,
-    /// One line for people.
+    /// Description, one line.
     pub(crate) doc: &'static str,
 }
 
@@ -247,14 +247,14 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "link", Tables(&[S::Link]), "Springs and dampers that join neighbours."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
 
-    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC. A study and jostle gap take all of a list; the other keys then hold for each."),
-    optional(S::Motion, "kind", Choice(WAVES), "An analytic wave instead of a record."),
-    optional(S::Motion, "amplitude", Quantity(D::Acceleration), "Amplitude of the analytic wave."),
-    optional(S::Motion, "period", Quantity(D::Time), "Period of the analytic wave."),
+    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC. A study and jostle gap use all records of a list; the other keys apply to each."),
+    optional(S::Motion, "kind", Choice(WAVES), "An analytic motion instead of a record."),
+    optional(S::Motion, "amplitude", Quantity(D::Acceleration), "Amplitude of the analytic motion."),
+    optional(S::Motion, "period", Quantity(D::Time), "Period of the analytic motion."),
     default(S::Motion, "centre", Quantity(D::Time), "1.5 periods", "Time at which the Ricker pulse peaks."),
-    optional(S::Motion, "pga", Quantity(D::Acceleration), "Scale the motion so that its greatest acceleration is this."),
+    optional(S::Motion, "pga", Quantity(D::Acceleration), "Scale the motion to this peak acceleration."),
     default(S::Motion, "scale", Quantity(D::Dimensionless), "1", "Multiply the motion by this factor."),
-    optional(S::Motion, "match", Kind::Table(S::Match), "Scale the motion so that its response spectrum agrees with another."),
+    optional(S::Motion, "match", Kind::Table(S::Match), "Scale the motion so that its response spectrum matches another."),
     default(S::Motion, "reverse", Flag, "false", "Change the sign of the motion."),
     default(S::Motion, "duration", Quantity(D::Time), "the whole record", "Length of the analysis: cuts the record, or continues with the ground at rest."),
     optional(S::Motion, "unit", Text, "Unit of the numbers of a record that does not state it, such as \"g\"."),
@@ -262,19 +262,19 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Motion, "column", Count, "Column of a text record that holds the acceleration, counted from 1."),
     optional(S::Motion, "component", Component, "Channel of a file with several: its name in the file, \"H1\", \"H2\", \"up\", \"N-S\", an azimuth such as \"090\", or a number from 1."),
     default(S::Motion, "record_scale", Quantity(D::Dimensionless), "1", "Size of one count of the file in unit: 1/sensitivity."),
-    optional(S::Motion, "remove_mean", Flag, "Remove the mean of the record; needed for counts whose zero is not the ground at rest."),
+    optional(S::Motion, "remove_mean", Flag, "Remove the mean of the record; required for counts with an instrument offset."),
     optional(S::Motion, "format", Choice(RECORD_FORMATS), "Format of the file, if auto-detection is wrong."),
 
-    optional(S::Match, "spectrum", TextOrTable(S::Spectrum), "The design spectrum to agree with: a table, or a file of periods and accelerations."),
-    optional(S::Match, "value", Quantity(D::Acceleration), "A pseudo-acceleration to agree with, instead of a spectrum."),
-    optional(S::Match, "at", Quantity(D::Time), "The period at which to agree."),
-    optional(S::Match, "periods", Quantities(D::Time), "First and last period between which to agree on average, instead of one period."),
+    optional(S::Match, "spectrum", TextOrTable(S::Spectrum), "The design spectrum to match: a table, or a file of periods and accelerations."),
+    optional(S::Match, "value", Quantity(D::Acceleration), "A pseudo-acceleration to match, instead of a spectrum."),
+    optional(S::Match, "at", Quantity(D::Time), "The period at which to match."),
+    optional(S::Match, "periods", Quantities(D::Time), "First and last period of a range to match on average, instead of one period."),
     default(S::Match, "damping", Quantity(D::Dimensionless), "0.05", "Damping ratio of both spectra."),
     required(S::Spectrum, "code", Choice(crate::target::TARGET_CODES), "The code."),
     optional(S::Spectrum, "intensity", Kind::Word(&["6", "7", "7.5", "8", "8.5", "9"]), "GB 50011: fortification intensity; 7.5 is 7 with 0.15 g, 8.5 is 8 with 0.30 g."),
     optional(S::Spectrum, "site", Kind::Word(&["I0", "I1", "II", "III", "IV"]), "GB 50011: site class."),
     optional(S::Spectrum, "group", Kind::Word(&["1", "2", "3"]), "GB 50011: design earthquake group."),
-    default(S::Spectrum, "level", Kind::Word(&["frequent", "fortification", "rare"]), "\"frequent\"", "GB 50011: level of shaking."),
+    default(S::Spectrum, "level", Kind::Word(&["frequent", "fortification", "rare"]), "\"frequent\"", "GB 50011: earthquake level."),
     default(S::Spectrum, "type", Kind::Word(&["1", "2"]), "1", "EN 1998-1: type of the spectrum."),
     optional(S::Spectrum, "ground", Kind::Word(&["A", "B", "C", "D", "E"]), "EN 1998-1: ground type."),
     optional(S::Spectrum, "ag", Quantity(D::Acceleration), "EN 1998-1: design ground acceleration on ground A, importance factor included."),
@@ -283,11 +283,11 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Spectrum, "tl", Quantity(D::Time), "\"8 s\"", "ASCE 7: long-period transition period."),
     default(S::Spectrum, "factor", Quantity(D::Dimensionless), "1", "Factor on the spectrum."),
 
-    default(S::Building, "name", Text, "\"B1\", \"B2\", …", "Name, by which gaps refer to the building."),
-    default(S::Building, "kind", Choice(BUILDING_KINDS), "\"frame\"", "Frame of beams and columns, or floors on storey springs."),
-    optional(S::Building, "storeys", Count, "Number of storeys; not needed beside a list per storey."),
+    default(S::Building, "name", Text, "\"B1\", \"B2\", …", "Name of the building, used by gaps and links."),
+    default(S::Building, "kind", Choice(BUILDING_KINDS), "\"frame\"", "Frame of beams and columns, or shear building with storey springs."),
+    optional(S::Building, "storeys", Count, "Number of storeys; not needed with a list per storey."),
     optional(S::Building, "floors", Count, "The same as storeys."),
-    optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; needed for frames, 3 m for shear buildings."),
+    optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings."),
     default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`."),
     default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight."),
     default(S::Building, "p_delta", Flag, "false", "Include P-Delta from the weight above."),
@@ -301,49 +301,49 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Frame, "stiffness_factor", NumberOrTable(S::StiffnessFactor), "1", "Factor on every EI, for cracked sections."),
     default(S::Frame, "density", Quantity(D::Density), "\"2500 kg/m3\"", "Density of columns; a weight per volume is converted."),
     optional(S::Frame, "beam_mass", PerStorey(D::LineMass), "Mass carried by the beams, self weight included; needed unless floor_mass is given. A weight per length is converted."),
-    default(S::Frame, "floor_mass", PerStorey(D::Mass), "0", "Further mass of a whole floor, shared by its joints. A weight is converted."),
+    default(S::Frame, "floor_mass", PerStorey(D::Mass), "0", "Additional mass of a whole floor, shared by its joints. A weight is converted."),
     default(S::Frame, "column_segments", Count, "4", "Segments of a column in one storey; k segments have k − 1 lumped masses between them."),
     default(S::Frame, "beam_segments", CountPerSpan, "4", "Segments of the beams: one value, or one per span."),
     default(S::Frame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"rigid\"", "Axial deformation of members."),
     default(S::Frame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::Frame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus."),
     optional(S::Frame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
-    optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame stays elastic."),
+    optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame is elastic."),
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
     required(S::Shear, "mass", PerStorey(D::Mass), "Floor masses from the ground up. A weight is converted."),
     required(S::Shear, "stiffness", PerStorey(D::Stiffness), "Storey stiffnesses from the ground up."),
-    optional(S::Shear, "hinges", Kind::Table(S::StoreyHinges), "Cracking and yield of the storeys; without it they stay elastic."),
+    optional(S::Shear, "hinges", Kind::Table(S::StoreyHinges), "Cracking and yield of the storeys; without it they are elastic."),
 
     optional(S::Column, "width", Quantity(D::Length), "Width, across the direction of bending."),
     optional(S::Column, "depth", Quantity(D::Length), "Depth, in the direction of bending."),
     optional(S::Column, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth."),
-    optional(S::Column, "EA", Quantity(D::Force), "Axial rigidity beside EI; needed when columns shorten."),
-    optional(S::Column, "GA", Quantity(D::Force), "Shear rigidity G·A_s beside EI; needed when shear deforms columns."),
+    optional(S::Column, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible columns."),
+    optional(S::Column, "GA", Quantity(D::Force), "Shear rigidity G·A_s, with EI; needed for columns with shear deformation."),
     default(S::Column, "mass", Quantity(D::LineMass), "density × area", "Self mass per length of the column."),
     optional(S::Beam, "width", Quantity(D::Length), "Width, across the direction of bending."),
     optional(S::Beam, "depth", Quantity(D::Length), "Depth, in the direction of bending."),
     optional(S::Beam, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth."),
-    optional(S::Beam, "EA", Quantity(D::Force), "Axial rigidity beside EI; needed when beams shorten."),
-    optional(S::Beam, "GA", Quantity(D::Force), "Shear rigidity G·A_s beside EI; needed when shear deforms beams."),
+    optional(S::Beam, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible beams."),
+    optional(S::Beam, "GA", Quantity(D::Force), "Shear rigidity G·A_s, with EI; needed for beams with shear deformation."),
 
-    optional(S::Column, "concrete", GradeOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010, or its prismatic strength; else that of the building."),
+    optional(S::Column, "concrete", GradeOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010, or its prismatic strength; by default that of the building."),
     optional(S::Column, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010, or its yield strength; needed with bars."),
     default(S::Column, "strength", Choice(STRENGTHS), "\"characteristic\"", "Strength level of a grade."),
     optional(S::Column, "bars", TextOrTable(S::Bars), "Reinforcement, such as 12 d20 (around); diameters in mm."),
-    default(S::Column, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete over the surfaces of the bars."),
+    default(S::Column, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars."),
     optional(S::Column, "ties", Text, "Ties that confine the core, such as d10 @ 100 mm."),
-    default(S::Column, "axial_load", WordOr("from gravity", D::Force), "\"from gravity\"", "Axial compression with which the section yields."),
-    optional(S::Beam, "concrete", GradeOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010, or its prismatic strength; else that of the building."),
+    default(S::Column, "axial_load", WordOr("from gravity", D::Force), "\"from gravity\"", "Axial compression for which the yield moment is computed."),
+    optional(S::Beam, "concrete", GradeOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010, or its prismatic strength; by default that of the building."),
     optional(S::Beam, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010, or its yield strength; needed with bars."),
     default(S::Beam, "strength", Choice(STRENGTHS), "\"characteristic\"", "Strength level of a grade."),
     optional(S::Beam, "bars", TextOrTable(S::Bars), "Reinforcement, such as 4 d25 top, 4 d25 bottom; diameters in mm."),
-    default(S::Beam, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete over the surfaces of the bars."),
+    default(S::Beam, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars."),
     optional(S::Beam, "ties", Text, "Ties that confine the core, such as d10 @ 100 mm."),
 
     optional(S::Bars, "top", Text, "Bars in the upper row, such as 4 d25."),
     optional(S::Bars, "bottom", Text, "Bars in the lower row."),
-    optional(S::Bars, "sides", Text, "Bars between them, half on either face."),
+    optional(S::Bars, "sides", Text, "Bars between these rows, half on either side."),
 
     default(S::StiffnessFactor, "column", Quantity(D::Dimensionless), "1", "Factor on EI of the columns."),
     default(S::StiffnessFactor, "beam", Quantity(D::Dimensionless), "1", "Factor on EI of the beams."),
@@ -355,14 +355,14 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::ShearDeformation, "beams", Choice(AXIAL), "\"rigid\"", "Shear deformation of beams."),
 
     default(S::ShearBase, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal spring to the ground."),
-    default(S::ShearBase, "horizontal_damping", Quantity(D::Damping), "0", "Dashpot beside the horizontal spring."),
-    optional(S::ShearBase, "horizontal_hinge", Kind::Table(S::BaseSliding), "How the horizontal spring yields; without it it stays elastic."),
+    default(S::ShearBase, "horizontal_damping", Quantity(D::Damping), "0", "Dashpot parallel to the horizontal spring."),
+    optional(S::ShearBase, "horizontal_hinge", Kind::Table(S::BaseSliding), "Yielding of the horizontal spring; without this table it is elastic."),
     default(S::ShearBase, "mass", Quantity(D::Mass), "0", "Mass of the footing."),
     default(S::FrameBase, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical spring to the ground."),
-    default(S::FrameBase, "vertical_damping", Quantity(D::Damping), "0", "Dashpot beside the vertical spring."),
+    default(S::FrameBase, "vertical_damping", Quantity(D::Damping), "0", "Dashpot parallel to the vertical spring."),
     default(S::FrameBase, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational spring to the ground."),
-    optional(S::FrameBase, "rotational_hinge", Kind::Table(S::BaseRocking), "How the rotational spring yields; without it it stays elastic."),
-    default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot beside the rotational spring."),
+    optional(S::FrameBase, "rotational_hinge", Kind::Table(S::BaseRocking), "Yielding of the rotational spring; without this table it is elastic."),
+    default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to the rotational spring."),
 
     default(S::Joint, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal stiffness between beam end and column."),
     default(S::Joint, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical stiffness between beam end and column."),
@@ -378,15 +378,15 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Hinges, "initial", WordOr("rigid", D::Dimensionless), "100; \"rigid\" from sections", "Stiffness of a hinge before it cracks, in units of EI/L of its member."),
     optional(S::Hinges, "from", Choice(HINGE_SOURCES), "Computes the moments from the reinforcement of columns and beams."),
     default(S::Hinges, "method", Choice(HINGE_METHODS), "\"formula\"", "Published formulas, or fibre analysis."),
-    optional(S::Hinges, "column", TablePerStorey(S::Hinge), "Hinges of the columns; without it they stay elastic."),
-    optional(S::Hinges, "beam", TablePerStorey(S::Hinge), "Hinges of the beams; without it they stay elastic."),
+    optional(S::Hinges, "column", TablePerStorey(S::Hinge), "Hinges of the columns; without it they are elastic."),
+    optional(S::Hinges, "beam", TablePerStorey(S::Hinge), "Hinges of the beams; without it they are elastic."),
 
     optional(S::Hinge, "cracking", Quantity(D::Moment), "Cracking moment."),
     optional(S::Hinge, "yield", Quantity(D::Moment), "Yield moment."),
     optional(S::Hinge, "post_cracking", Quantity(D::Dimensionless), "Ratio of post-cracking to initial stiffness."),
     optional(S::Hinge, "post_yield", Quantity(D::Dimensionless), "Ratio of post-yield to initial stiffness."),
-    optional(S::Hinge, "positive", Kind::Table(S::HingeSide), "Values that differ when the bottom of a beam is in tension."),
-    optional(S::Hinge, "negative", Kind::Table(S::HingeSide), "Values that differ when its top is in tension."),
+    optional(S::Hinge, "positive", Kind::Table(S::HingeSide), "Values of the side on which the bottom of a beam is in tension."),
+    optional(S::Hinge, "negative", Kind::Table(S::HingeSide), "Values of the side on which the top of a beam is in tension."),
     optional(S::HingeSide, "cracking", Quantity(D::Moment), "Cracking moment of this side."),
     optional(S::HingeSide, "yield", Quantity(D::Moment), "Yield moment of this side."),
     optional(S::HingeSide, "post_cracking", Quantity(D::Dimensionless), "Ratio of post-cracking to initial stiffness."),
@@ -396,15 +396,15 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::BaseRocking, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
     optional(S::BaseRocking, "cracking", Quantity(D::Moment), "Moment at the first corner; not for bilinear."),
     optional(S::BaseRocking, "yield", Quantity(D::Moment), "Moment at yield."),
-    optional(S::BaseRocking, "post_cracking", Quantity(D::Dimensionless), "Stiffness after the first corner over rotational_stiffness."),
-    optional(S::BaseRocking, "post_yield", Quantity(D::Dimensionless), "Stiffness after yield over rotational_stiffness."),
+    optional(S::BaseRocking, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to rotational_stiffness."),
+    optional(S::BaseRocking, "post_yield", Quantity(D::Dimensionless), "Ratio of the stiffness after yield to rotational_stiffness."),
 
     required(S::BaseSliding, "rule", Choice(RULES), "Unloading and reloading rule of the base."),
     default(S::BaseSliding, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
     optional(S::BaseSliding, "cracking", Quantity(D::Force), "Force at the first corner; not for bilinear."),
     optional(S::BaseSliding, "yield", Quantity(D::Force), "Force at yield."),
-    optional(S::BaseSliding, "post_cracking", Quantity(D::Dimensionless), "Stiffness after the first corner over horizontal_stiffness."),
-    optional(S::BaseSliding, "post_yield", Quantity(D::Dimensionless), "Stiffness after yield over horizontal_stiffness."),
+    optional(S::BaseSliding, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to horizontal_stiffness."),
+    optional(S::BaseSliding, "post_yield", Quantity(D::Dimensionless), "Ratio of the stiffness after yield to horizontal_stiffness."),
 
     required(S::StoreyHinges, "rule", Choice(RULES), "Unloading and reloading rule of storeys."),
     default(S::StoreyHinges, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
@@ -414,36 +414,36 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::StoreyHinges, "post_yield", PerStorey(D::Dimensionless), "Ratio of post-yield to initial stiffness."),
 
     required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),
-    required(S::Gap, "width", PerContact(D::Length), "Width at rest: one, or a list for the contacts in the order of floors, from the lowest up where these are not listed."),
-    default(S::Gap, "floors", FloorPairs, "\"common\"", "Where the neighbours can touch: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights."),
+    required(S::Gap, "width", PerContact(D::Length), "Width at rest: one value, or a list for the contacts in the order of floors, from the lowest contact up if floors are not listed."),
+    default(S::Gap, "floors", FloorPairs, "\"common\"", "Contact locations: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights."),
     default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can touch."),
     default(S::Gap, "law", Choice(LAWS), "\"hertz-damp\"", "Contact law."),
-    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski and bilinear, N/m for the others; of rubber the secant stiffness at 0.8 of the thickness; of restitution that of lasting contact."),
+    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski and bilinear, N/m for the others. For rubber, the secant stiffness at 0.8 of the thickness; for restitution, the stiffness of lasting contact."),
     default(S::Gap, "restitution", Quantity(D::Dimensionless), "0.65", "Coefficient of restitution."),
     default(S::Gap, "restitution_is", Choice(RESTITUTION_IS), "\"input\"", "\"input\": e goes into the published formula. \"realised\": damping is calibrated so that free masses rebound with e."),
 
-    default(S::Gap, "variant", Choice(LAW_VARIANTS), "\"ye\"", "modified-kelvin: damping with the indentation, or in the approach only."),
+    default(S::Gap, "variant", Choice(LAW_VARIANTS), "\"ye\"", "modified-kelvin: ye, damping proportional to the indentation; mahmoud-jankowski, damping in the approach only."),
     default(S::Gap, "yield_share", Quantity(D::Dimensionless), "0.1", "bilinear: yield indentation ÷ greatest design indentation."),
     optional(S::Gap, "design_speed", Quantity(D::Speed), "bilinear: impact speed for which its stiffnesses are computed; without it, the speed of each impact."),
     optional(S::Gap, "thickness", Quantity(D::Length), "rubber: thickness of the bumper."),
     default(S::Gap, "exponent", Quantity(D::Dimensionless), "2.65", "rubber: exponent of the compression."),
-    default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact that follow each other sooner count as one."),
+    default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact closer in time than this count as one."),
 
     required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),
-    default(S::Link, "floors", FloorPairs, "\"common\"", "Which points are joined, as for gaps."),
-    default(S::Link, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors no further apart in height than this can be joined."),
+    default(S::Link, "floors", FloorPairs, "\"common\"", "Points that are joined, as for gaps."),
+    default(S::Link, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can be joined."),
     default(S::Link, "stiffness", Quantity(D::Stiffness), "0", "Force per change of length, of each link."),
     default(S::Link, "damping", Quantity(D::Damping), "0", "Force per rate of change of length, of each link."),
 
-    default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step in free flight."),
+    default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step of free vibration."),
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),
-    default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Largest error of a reported peak, relative to the greatest of its kind in the building or gap, with automatic steps; 1e-6 to 0.1. `promise` in `summary.json` says whether it is met; docs/theory.md, section 14, lists the exceptions."),
+    default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Largest error of a reported peak, relative to the greatest of its kind in the building or gap, with automatic steps; 1e-6 to 0.1. `promise` in `summary.json` reports whether it is met; docs/theory.md, section 14, lists the exceptions."),
     default(S::Analysis, "energy_tolerance", Quantity(D::Dimensionless), "1e-6", "Relative energy imbalance above which a run warns."),
     default(S::Analysis, "solver", Choice(SOLVERS), "\"auto\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, the published product of transfer matrices, or, for elastic buildings, their modes. \"auto\" is modal for elastic buildings with automatic steps, otherwise riccati."),
     default(S::Analysis, "integrator", ChoiceOrTable(INTEGRATORS, S::Integrator), "\"average-acceleration\"", "Time integration rule."),
     default(S::Analysis, "accept_unusual", FlagOrTexts, "false", "Accepts values outside their usual ranges: true for all, or a list of fields such as [\"building[0].spans\"]; \"analysis.step\" stands for the work of a run."),
 
-    required(S::Integrator, "method", Choice(INTEGRATORS), "Name of the rule; all but average acceleration can damp the motion themselves."),
+    required(S::Integrator, "method", Choice(INTEGRATORS), "Name of the rule; all rules except average acceleration can add numerical damping."),
     default(S::Integrator, "beta", Quantity(D::Dimensionless), "0.25", "Newmark's beta."),
     default(S::Integrator, "gamma", Quantity(D::Dimensionless), "0.5", "Newmark's gamma."),
     default(S::Integrator, "alpha", Quantity(D::Dimensionless), "0.05", "Shift of HHT, 0 to 1/3."),
@@ -453,20 +453,20 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Study, "base", Text, "The model that varies: a path from this file, or a built-in name."),
     optional(S::Study, "model", Kind::Any, "The model written out here, instead of base."),
     optional(S::Study, "vary", Tables(&[S::Vary]), "Keys that vary; needed unless the base model lists several records."),
-    optional(S::Study, "design", Kind::Table(S::Design), "Design of the cases; without it, every combination."),
+    optional(S::Study, "design", Kind::Table(S::Design), "Design of the cases; by default every combination."),
     optional(S::Study, "histories", Kind::Any, "Numbers of the cases whose histories are kept, from 0."),
     optional(S::Study, "fragility", Tables(&[S::Fragility]), "Fragility curves to fit."),
     optional(S::Study, "ida", Tables(&[S::Ida]), "Curves of demand over intensity."),
     optional(S::Study, "sensitivity", Kind::Table(S::Sensitivity), "Results to rank."),
     optional(S::Study, "selection", Kind::Table(S::Selection), "Code that the records are checked against."),
 
-    required(S::Vary, "path", Kind::Any, "Where the value goes in the model file, or a list of such places."),
-    optional(S::Vary, "name", Text, "Name of the column; the path without it."),
+    required(S::Vary, "path", Kind::Any, "Key of the model file that is set, or a list of keys."),
+    optional(S::Vary, "name", Text, "Name of the column; by default the path."),
     default(S::Vary, "multiply", Flag, "false", "The value multiplies the value of the model."),
     optional(S::Vary, "values", Kind::Any, "A list of values."),
     optional(S::Vary, "range", Kind::Table(S::Range), "Equally spaced values."),
     optional(S::Vary, "distribution", Kind::Table(S::Distribution), "A distribution to draw from."),
-    optional(S::Vary, "files", Text, "Record files whose names fit, such as records/*.at2."),
+    optional(S::Vary, "files", Text, "Record files whose names match, such as records/*.at2."),
 
     required(S::Range, "from", Kind::Any, "First value."),
     required(S::Range, "to", Kind::Any, "Last value."),
@@ -475,7 +475,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     required(S::Distribution, "kind", Choice(DISTRIBUTIONS), "Shape."),
     optional(S::Distribution, "from", Kind::Any, "Least value of a uniform distribution."),
-    optional(S::Distribution, "to", Kind::Any, "Its greatest value."),
+    optional(S::Distribution, "to", Kind::Any, "Greatest value of a uniform distribution."),
     optional(S::Distribution, "mean", Kind::Any, "Mean."),
     optional(S::Distribution, "deviation", Kind::Any, "Standard deviation of a normal distribution."),
     optional(S::Distribution, "cov", Quantity(D::Dimensionless), "Coefficient of variation: standard deviation over mean."),

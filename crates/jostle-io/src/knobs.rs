@@ -1,4 +1,4 @@
-//! Every key of a model file with its value, its unit and its range: what a page can offer for change.
+//! Every key of a model file with its value, unit and range, for pages with input fields.
 
 use serde::Serialize;
 
@@ -14,17 +14,17 @@ use crate::unusual::range_of;
 pub struct Knob {
     /// Path, as [`ModelTree::set`] takes it.
     pub path: String,
-    /// What it belongs to: the name of a building, the neighbours of a gap, or a table of the file.
+    /// Owner of the key: the name of a building, the neighbours of a gap, or a table of the file.
     pub group: String,
     /// Name of the key, with those of inner tables.
     pub name: String,
-    /// One line for people.
+    /// Description, one line.
     pub doc: &'static str,
-    /// What it takes.
+    /// Type of its value.
     pub kind: KnobKind,
     /// Its value as typed into a field, texts without quotes; `None` where the file does not state it.
     pub value: Option<String>,
-    /// What holds where the file does not state it.
+    /// Default value.
     pub default: Option<&'static str>,
     /// Words to choose from.
     pub choices: &'static [&'static str],
@@ -38,7 +38,7 @@ pub struct Knob {
     pub usual: Option<[f64; 2]>,
 }
 
-/// What a key takes.
+/// Type of the value of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum KnobKind {
@@ -55,8 +55,8 @@ pub enum KnobKind {
 }
 
 impl ModelTree {
-    /// Every key that the tables of the file have or could have, in the order of the file. Absent tables that are
-    /// rarely wanted are left out.
+    /// Every key that the tables of the file have or could have, in the order of the file. Rarely used absent
+    /// tables are omitted.
     #[must_use]
     pub fn knobs(&self) -> Vec<Knob> {
         let mut knobs = Vec::new();
@@ -79,7 +79,7 @@ fn table(node: Option<&Node>, sections: &[Section], path: &str, at: At<'_>, into
     let table = match node.map(|node| &node.value) {
         Some(Value::Table(table)) => table,
         None => &empty,
-        // A fault: the reader says so.
+        // A fault that the reader reports.
         Some(_) => return,
     };
     let shear = matches!(table.get("kind").map(|node| &node.value), Some(Value::Text(kind)) if kind == "shear");
@@ -213,8 +213,8 @@ fn typed(node: &Node) -> String {
 }
 
 impl crate::TreeValue {
-    /// The value that a text typed into a field stands for: numbers, `true` and `false`, lists and tables as in a
-    /// TOML file, all else a text, such as `20 mm`.
+    /// The value of a text typed into a field: numbers, `true` and `false`, lists and tables as in a TOML file, all
+    /// else a text, such as `20 mm`.
     #[must_use]
     pub fn typed(text: &str) -> Self {
         let text = text.trim();

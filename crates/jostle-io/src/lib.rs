@@ -1,6 +1,6 @@
-//! Doors of jostle: model files, ground motions, result files.
+//! Reads model files and ground motions; writes result files.
 //!
-//! Parsers take text or bytes and never panic; only [`read_model_file`], [`read_record`] and the writers touch a
+//! Parsers take text or bytes and never panic; only [`read_model_file`], [`read_record`] and the writers open a
 //! path. Everything that leaves this crate is in SI.
 
 mod bounded;

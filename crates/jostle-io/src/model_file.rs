@@ -1,4 +1,4 @@
-//! Model files: from text to a checked [`jostle::Model`] and the ground motion it asks for.
+//! Model files: from text to a checked [`jostle::Model`] and its ground motion.
 //!
 //! Reading never stops at the first fault. A value that cannot be used is noted and replaced by a harmless one,
 //! so that the rest is still read and checked; the result is thrown away if anything was noted.
@@ -48,9 +48,9 @@ pub struct Input {
     pub motion: Option<MotionSpec>,
     /// Members of frames whose reinforcement the file states, building by building, columns first.
     pub reinforced: Vec<ReinforcedMember>,
-    /// Things the user should know although the file is valid.
+    /// Warnings of a valid file.
     pub warnings: Vec<String>,
-    /// Unusual values that are meant.
+    /// Unusual values that are accepted.
     accepted: Accepted,
     origin: Origin,
 }
@@ -67,8 +67,8 @@ struct Origin {
 pub struct Overrides {
     /// Scale the motion to this peak, > 0 \[m/s²\].
     pub pga: Option<f64>,
-    /// Width of every gap, ≥ 0; where contacts have widths of their own, the least of them, and the others stay as much
-    /// wider \[m\].
+    /// Width of every gap, ≥ 0; if contacts have separate widths, the smallest one; all others shift by the same
+    /// amount \[m\].
     pub gap: Option<f64>,
     /// Another record: a built-in name, or a path from the current folder.
     pub record: Option<String>,
@@ -84,12 +84,12 @@ pub enum OverrideError {
     /// The width is negative.
     #[error("the gap must not be negative, found {0} m")]
     Gap(f64),
-    /// A slip of units.
+    /// A wrong unit.
     #[error("{problem}\n  help: {remedy}")]
     Unusual {
-        /// What is out of all reason.
+        /// The impossible value.
         problem: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: String,
     },
     /// Nothing to widen or narrow.
@@ -103,7 +103,7 @@ pub enum OverrideError {
 /// Reads and checks the model file at a path. A name ending in `.json` is read as JSON, any other as TOML.
 ///
 /// # Errors
-/// Every fault of the file in one go.
+/// All faults of the file at once.
 pub fn read_model_file(path: &Path) -> Result<Input, InputError> {
     let (name, text) = read_text(path)?;
     let base = path.parent().unwrap_or(Path::new(""));
@@ -121,10 +121,10 @@ pub(crate) fn read_text(path: &Path) -> Result<(String, String), InputError> {
     Ok((name, text))
 }
 
-/// Reads and checks the text of a model file. `name` stands in messages; records are looked for from `base`.
+/// Reads and checks the text of a model file. `name` is used in messages; `base` is the folder of records.
 ///
 /// # Errors
-/// Every fault of the text in one go.
+/// All faults of the text at once.
 pub fn read_model_text(
     name: &str,
     text: &str,
@@ -164,7 +164,7 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
 }
 
 impl Input {
-    /// Changes what the command line asks to change.
+    /// Applies the changes of the command line.
     ///
     /// # Errors
     /// [`OverrideError`] if a value is out of range or there is nothing to change; then nothing is changed.
@@ -186,7 +186,7 @@ impl Input {
             self.judge("gap", &GAP, overrides.gap)?,
             self.judge("motion.pga", &PEAK_ACCELERATION, overrides.pga)?,
         ];
-        // What was said of the values that are replaced.
+        // Warnings about the replaced values.
         let other_motion = overrides.pga.is_some() || overrides.record.is_some();
         self.warnings.retain(|known| {
             let field = known.split_once(": ").map_or("", |(field, _)| field);
@@ -208,7 +208,7 @@ impl Input {
         Ok(())
     }
 
-    /// The warning of a value given apart from the file.
+    /// The warning about a value that is not from the file.
     fn judge(
         &self,
         path: &str,
@@ -225,12 +225,12 @@ impl Input {
         }
     }
 
-    /// Whether unusual values of a field are meant.
+    /// Whether unusual values of a field are accepted.
     pub(crate) fn accepts(&self, path: &str) -> bool {
         self.accepted.covers(path)
     }
 
-    /// Adds a warning about a field once, unless unusual values of it are meant.
+    /// Adds a warning about a field once, unless its unusual values are accepted.
     pub(crate) fn warn(&mut self, path: &str, text: &str) {
         let warning = format!("{path}: {text}");
         if !self.accepts(path) && !self.warnings.contains(&warning) {
@@ -244,7 +244,7 @@ impl Input {
         self.motion.as_ref().map_or(&[], MotionSpec::records)
     }
 
-    /// The same with each of several records in turn; itself if there are not several.
+    /// One model for each of several records; the model itself if there are not several.
     #[must_use]
     pub fn each_record(&self) -> Vec<Self> {
         let one = |(index, name): (usize, &String)| {
@@ -435,8 +435,8 @@ fn add_model_faults(reader: &mut Reader<'_>, root: &Node, faults: Vec<ModelFault
     }
 }
 
-/// The place of a field in the file, and its path as the file spells it: one value that stands for a list has
-/// no index there. A field that is absent is shown at the table that lacks it.
+/// The position of a field in the file, and its path as written: a single value for a list has no index. A field
+/// that is absent is shown at the table that lacks it.
 fn locate(root: &Node, path: &str) -> (Span, String) {
     let mut node = root;
     let mut spelt = String::new();
@@ -470,7 +470,7 @@ fn locate(root: &Node, path: &str) -> (Span, String) {
     (node.span.clone(), spelt)
 }
 
-/// What is valid but may not be meant.
+/// Warnings about valid but unusual values.
 fn warnings(model: &Model, root: &Node) -> Vec<String> {
     let mut warnings = Vec::new();
     for (left, pair) in model.buildings.windows(2).enumerate() {

@@ -21,7 +21,7 @@ pub struct ModelTree {
     base: PathBuf,
 }
 
-/// A value to put into a model file.
+/// A value for a model file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TreeValue {
     /// Text, quantities with units included.
@@ -44,7 +44,7 @@ pub enum TreeValue {
 pub struct PathError {
     /// The path as asked for.
     pub path: String,
-    /// What is wrong with it, and what would be right.
+    /// The problem, and a valid alternative.
     pub problem: String,
 }
 
@@ -58,13 +58,13 @@ pub(crate) enum Part {
     Every,
 }
 
-/// What to do with the value at the end of a path.
+/// Operation on the value at the end of a path.
 enum Change<'v> {
     Replace(&'v TreeValue),
     Multiply(f64),
 }
 
-/// Keys that cannot stand beside each other: putting in one takes the others out.
+/// Mutually exclusive keys: setting one removes the others.
 pub(crate) const ALTERNATIVES: [(&str, &[&str]); 4] = [
     ("pga", &["scale", "match"]),
     ("scale", &["pga", "match"]),
@@ -83,7 +83,7 @@ impl ModelTree {
         Self::parse(&name, &text, Format::of_path(path), base)
     }
 
-    /// Parses the text of a model file. `name` stands in messages; records are looked for from `base`.
+    /// Parses the text of a model file. `name` is used in messages; `base` is the folder of records.
     ///
     /// # Errors
     /// Syntax errors.
@@ -108,7 +108,7 @@ impl ModelTree {
     /// A built-in model.
     ///
     /// # Errors
-    /// When there is none of that name.
+    /// If the name is unknown.
     pub fn builtin(name: &str) -> Result<Self, InputError> {
         // Says which names there are.
         builtin::builtin_model(name)?;
@@ -167,7 +167,8 @@ impl ModelTree {
         self.change(path, &Change::Multiply(factor))
     }
 
-    /// The values at a path, in the order of the file: several where the path says `[*]`, none where nothing stands.
+    /// The values at a path, in the order of the file: several if the path contains `[*]`, none if there is no
+    /// value.
     #[must_use]
     pub fn values(&self, path: &str) -> Vec<TreeValue> {
         let mut found = Vec::new();
@@ -203,7 +204,7 @@ impl ModelTree {
     /// Reads and checks the tree.
     ///
     /// # Errors
-    /// Every fault in one go. A value that was put in has no line of its own.
+    /// All faults at once. A value that was set has no line.
     pub fn input(&self) -> Result<Input, InputError> {
         model_file::read_tree(Arc::clone(&self.source), self.root.clone(), &self.base)
     }
@@ -382,7 +383,7 @@ fn multiply(node: &mut Node, factor: f64) -> Result<(), String> {
     Ok(())
 }
 
-/// A number and a unit as they stand in a file; reading it gives back the number to the last bit.
+/// A number and a unit as written in a file; reading it returns the same number to the last bit.
 pub(crate) fn quantity_text(number: f64, unit: &str) -> String {
     let unit = unit.trim();
     if unit.is_empty() {
@@ -414,7 +415,7 @@ impl TreeValue {
         Node { span: 0..0, value }
     }
 
-    /// The value of a node; dates and the like are none.
+    /// The value of a node; `None` for dates and similar values.
     pub(crate) fn of(node: &Node) -> Option<Self> {
         Some(match &node.value {
             Value::Text(text) => Self::Text(text.clone()),

@@ -1,4 +1,4 @@
-//! Which ground motion a model asks for, and how it becomes numbers.
+//! The ground motion of a model: its source and its values.
 
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,7 @@ pub enum MotionSource {
         name: String,
         /// Folder that a relative path starts from.
         base: PathBuf,
-        /// What the file does not say itself.
+        /// Data missing in the file.
         options: RecordOptions,
     },
     /// Several records, two at least, of which a run takes one.
@@ -42,10 +42,10 @@ pub enum MotionSource {
         names: Vec<String>,
         /// Folder that relative paths start from.
         base: PathBuf,
-        /// What the files do not say themselves.
+        /// Data missing in the files.
         options: RecordOptions,
     },
-    /// A motion already at hand, unscaled.
+    /// A motion given as values, unscaled.
     Given(GroundMotion),
     /// `amplitude · sin(2π t / period)`.
     Sine {
@@ -68,7 +68,7 @@ pub enum MotionSource {
 /// A spectral value to scale to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatchSpec {
-    /// What to reach.
+    /// Target value.
     pub to: MatchTo,
     /// Where to reach it.
     pub at: MatchAt,
@@ -76,7 +76,7 @@ pub struct MatchSpec {
     pub damping: f64,
 }
 
-/// What a motion is scaled to.
+/// Target of a scaling.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MatchTo {
     /// A design spectrum.
@@ -103,7 +103,7 @@ pub enum Scaling {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// The model asks for none.
+    /// The model has no motion.
     #[error(
         "the model has no ground motion; add [motion] with a record, such as \"el-centro-1940-ns\""
     )]
@@ -163,7 +163,7 @@ fn printable(name: &str) -> String {
     name.chars().map(spelt).collect()
 }
 
-/// What to do about a Windows path in a TOML string.
+/// Remedy for a Windows path in a TOML string.
 pub(crate) const BACKSLASH: &str = "a backslash inside \"…\" starts an escape; in a path write / instead, or put the path in single quotes: 'C:\\records\\a.at2'";
 
 fn remedy(name: &str, nearest: &[String]) -> String {
@@ -364,14 +364,14 @@ fn find_record(
     ))
 }
 
-/// Whether the extension tells one component of a station from the others: `.NS`, `.EW2`.
+/// Whether the extension distinguishes components of a station: `.NS`, `.EW2`.
 fn names_a_direction(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     let letters = extension.trim_end_matches(['1', '2']).to_ascii_uppercase();
     matches!(&letters[..], "NS" | "EW" | "UD")
 }
 
-/// The built-in record and the file beside `path` whose names come nearest.
+/// The built-in record and the file next to `path` with the most similar names.
 fn similar_names(name: &str, path: &Path) -> Vec<String> {
     let aliases = builtin::BUILTIN_RECORDS
         .iter()

@@ -7,7 +7,7 @@ use crate::unit::{self, Unit, UnitError};
 /// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
-/// What kind of quantity is wanted.
+/// Dimension of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Dimension {
     /// Length \[m\].
@@ -137,7 +137,7 @@ pub enum QuantityError {
     /// The text does not begin with a number.
     #[error("expected {expected} (such as \"{}\"), found \"{found}\"", expected.example())]
     NotANumber {
-        /// What was wanted.
+        /// Expected dimension.
         expected: Dimension,
         /// The text.
         found: String,
@@ -145,7 +145,7 @@ pub enum QuantityError {
     /// The unit belongs to another kind of quantity.
     #[error("expected {expected} (such as \"{}\"), found \"{found}\"{}", expected.example(), hint(*expected, found))]
     WrongDimension {
-        /// What was wanted.
+        /// Expected dimension.
         expected: Dimension,
         /// The text.
         found: String,
@@ -153,7 +153,7 @@ pub enum QuantityError {
     /// A part of the unit has no meaning.
     #[error("unknown unit \"{unit}\" in \"{found}\"{}; expected {expected} (such as \"{}\")", suggestion(nearest), expected.example())]
     UnknownUnit {
-        /// What was wanted.
+        /// Expected dimension.
         expected: Dimension,
         /// The text.
         found: String,
@@ -165,7 +165,7 @@ pub enum QuantityError {
     /// The unit is not spelt like one.
     #[error("cannot read the unit of \"{found}\"; expected {expected} (such as \"{}\")", expected.example())]
     MalformedUnit {
-        /// What was wanted.
+        /// Expected dimension.
         expected: Dimension,
         /// The text.
         found: String,
@@ -181,7 +181,7 @@ pub enum QuantityError {
     /// The value is not finite, or so large that nothing can be computed with it.
     #[error("expected {expected} (such as \"{}\"), found \"{found}\", which is not a usable number", expected.example())]
     NotFinite {
-        /// What was wanted.
+        /// Expected dimension.
         expected: Dimension,
         /// The text.
         found: String,
@@ -194,7 +194,7 @@ fn suggestion(nearest: &Option<String>) -> String {
         .map_or_else(String::new, |unit| format!(" (did you mean \"{unit}\"?)"))
 }
 
-/// Explains the one unit that people read differently.
+/// Explains the one unit with two common meanings.
 fn hint(expected: Dimension, found: &str) -> &'static str {
     if expected.is_mass_like()
         && split_number(found).is_some_and(|(_, unit)| unit.trim().starts_with('g'))
@@ -214,7 +214,7 @@ const LARGEST: f64 = 1e30;
 /// by [`STANDARD_GRAVITY`]. `g` is always the acceleration of gravity, `t` the tonne.
 ///
 /// # Errors
-/// When the text is no number, the unit is unknown or of another dimension, or the value is not finite.
+/// If the text is not a number, the unit is unknown or of another dimension, or the value is not finite.
 pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, QuantityError> {
     let found = || shorten(text);
     let (number, rest) = split_number(text).ok_or_else(|| QuantityError::NotANumber {

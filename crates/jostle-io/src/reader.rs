@@ -18,11 +18,11 @@ pub(crate) struct Reader<'s> {
     more: usize,
     /// Takes the remedies of those.
     dropped: Option<String>,
-    /// What is valid but unusual, with its place.
+    /// Warnings about valid but unusual values, with their positions.
     warnings: Vec<(usize, String)>,
-    /// Which unusual values are meant.
+    /// Unusual values that are accepted.
     pub(crate) accepted: Accepted,
-    /// Keys asked for, to hold the reader against the table of keys.
+    /// Keys that were read, to compare the reader with the table of keys.
     #[cfg(test)]
     pub(crate) asked: std::collections::BTreeSet<(Section, &'static str)>,
 }
@@ -41,7 +41,7 @@ pub(crate) struct View<'n> {
 pub(crate) struct Field<'n> {
     pub(crate) node: &'n Node,
     pub(crate) path: String,
-    /// What the quantities of this field usually are.
+    /// Usual range of this field.
     range: Option<&'static Range>,
 }
 
@@ -259,7 +259,7 @@ impl<'s> Reader<'s> {
         self.judge(field, value).then_some(value)
     }
 
-    /// Whether a value can be meant; warns where it is unusual.
+    /// Whether a value is possible; warns if it is unusual.
     fn judge(&mut self, field: &Field<'_>, value: f64) -> bool {
         let Some(range) = field.range.filter(|_| !self.accepted.covers(&field.path)) else {
             return true;
@@ -277,7 +277,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// Notes something valid that may not be meant.
+    /// Adds a warning about a valid but unusual value.
     pub(crate) fn warn(&mut self, field: &Field<'_>, text: &str) {
         let warning = (field.node.span.start, format!("{}: {text}", field.path));
         let is_meant = self.accepted.covers(&field.path);
@@ -290,7 +290,7 @@ impl<'s> Reader<'s> {
     pub(crate) fn take_warnings(&mut self) -> Vec<String> {
         let mut warnings = std::mem::take(&mut self.warnings);
         warnings.sort_by_key(|(start, _)| *start);
-        // One warning stands for all entries of a list.
+        // One warning covers all entries of a list.
         let stem = |text: &str| {
             let field = text.split_once(": ").map_or("", |(field, _)| field);
             let list = field.strip_suffix(']').and_then(|f| f.rsplit_once('['));
@@ -325,7 +325,7 @@ impl<'s> Reader<'s> {
         None
     }
 
-    /// Reads without a word about faults, because they are noted elsewhere.
+    /// Reads without reporting faults, because they are reported elsewhere.
     pub(crate) fn quietly<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> T {
         let noted = (self.faults.len(), self.more);
         let value = read(self);
@@ -427,7 +427,7 @@ impl<'s> Reader<'s> {
     }
 }
 
-/// What to write instead of an unknown key.
+/// Suggestion for an unknown key.
 fn suggest(key: &str, sections: &'static [Section]) -> String {
     let other_kinds = [(Section::Frame, "frame"), (Section::Shear, "shear")];
     for (section, kind) in other_kinds {
@@ -447,7 +447,7 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
     }
 }
 
-/// An example as it stands in a file.
+/// An example in the syntax of the file.
 fn example(dimension: Dimension) -> String {
     if dimension == Dimension::Dimensionless {
         dimension.example().to_owned()

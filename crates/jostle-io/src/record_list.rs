@@ -17,7 +17,7 @@ pub(crate) fn listed(root: &Node) -> Vec<String> {
         Value::Text(name) => Some(name.clone()),
         _ => None,
     };
-    // What is no name is a fault that the reader of the model tells.
+    // The reader of the model reports anything that is not a name.
     entries
         .iter()
         .map(name)

@@ -23,14 +23,14 @@ pub fn at2_text(name: &str, step: f64, acceleration: &[f64]) -> String {
     text
 }
 
-/// Columns of time and acceleration in m/s², with all digits, under a header that says unit and step.
+/// Columns of time and acceleration in m/s², with all digits, under a header with unit and step.
 #[must_use]
 pub fn csv_text(name: &str, step: f64, acceleration: &[f64]) -> String {
     let name = csv_remark(&one_line(name));
     let mut text =
         format!("# {name}\n# unit = m/s2\n# step = {step} s\ntime_s,acceleration_m_s2\n");
     for (i, value) in acceleration.iter().enumerate() {
-        // Products such as 3 · 0.01 carry rounding that no one wants to read.
+        // Products such as 3 · 0.01 have rounding errors that should not be printed.
         let time = (step * i as f64 * 1e9).round() / 1e9;
         let _ = writeln!(text, "{time},{value}");
     }

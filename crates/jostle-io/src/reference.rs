@@ -162,7 +162,7 @@ unit: `--gap 100mm`, `--pga 0.35g`.
     )
 }
 
-/// What may stand behind a key, in few words.
+/// Short description of the type of a value.
 fn value(key: &Key) -> String {
     let quantity = |dimension: Dimension| match dimension {
         Dimension::Dimensionless => "number".to_owned(),

@@ -8,11 +8,11 @@ use crate::tree::{Format, Node, Table, Value};
 use crate::{ModelTree, PathError, TreeValue};
 
 impl ModelTree {
-    /// The text of the model file with a value put in at a path, or with the key removed (`None`). The path is one of
+    /// The text of the model file with a value set at a path, or with the key removed (`None`). The path is one of
     /// [`ModelTree::set`]; keys that exclude the new one are removed as there.
     ///
     /// The new text always reads as the tree that [`ModelTree::set`] makes. If the file is written in a way that
-    /// cannot be edited in place, the text is written anew, without comments.
+    /// cannot be edited in place, the text is rewritten without comments.
     ///
     /// # Errors
     /// [`PathError`] when the path leads nowhere.
@@ -230,7 +230,7 @@ fn splice(text: &str, range: Range<usize>, with: &str) -> String {
     format!("{}{with}{}", &text[..range.start], &text[range.end..])
 }
 
-/// Whether two trees say the same; the order of keys makes no difference.
+/// Whether two trees are equal; the order of keys does not matter.
 fn same(a: &Node, b: &Node) -> bool {
     match (&a.value, &b.value) {
         (Value::Text(a), Value::Text(b)) => a == b,
@@ -252,7 +252,7 @@ fn same(a: &Node, b: &Node) -> bool {
 }
 
 fn quoted(text: &str) -> String {
-    // The escapes of JSON are those of TOML; TOML also wants this one.
+    // The escapes of JSON are those of TOML; TOML also requires this one.
     serde_json::to_string(text)
         .unwrap_or_default()
         .replace('\u{7f}', "\\u007f")
@@ -290,7 +290,7 @@ pub(crate) fn literal(node: &Node, format: Format) -> String {
             });
             format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
         }
-        // No key of a model file takes one: it is a fault whatever it says.
+        // No key of a model file accepts one: it is always a fault.
         Value::Other(name) => quoted(name),
     }
 }

@@ -1,4 +1,4 @@
-//! A set of motions held against a code, as JSON.
+//! The check of a set of motions by a code, as JSON.
 
 use jostle_motion::{Candidate, MainPeriod, Origin, RuleKind, SelectionCheck};
 use serde_json::{Value, json};

@@ -17,7 +17,7 @@ pub(crate) struct Source {
 /// Longest part of a line kept with a place \[characters\].
 const WIDTH: usize = 120;
 
-/// A place in a file, for people: lines and columns count from 1, columns in characters.
+/// A position in a file: lines and columns count from 1, columns in characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// Line.

@@ -30,7 +30,7 @@ pub struct StudyFile {
     pub title: String,
     /// The model in which something varies.
     pub base: ModelTree,
-    /// What varies, in the order of the file; at least one.
+    /// Varied keys, in the order of the file; at least one.
     pub factors: Vec<Factor>,
     /// How cases are made of it.
     pub design: Design,
@@ -42,7 +42,7 @@ pub struct StudyFile {
     pub idas: Vec<IdaWanted>,
     /// Columns whose sensitivity is wanted; empty leaves the choice to the study.
     pub responses: Vec<String>,
-    /// What its records are held against, if the file says it.
+    /// The code check of its records, if any.
     pub selection: Option<SelectionWanted>,
     /// The folder of the file, from where records are looked for.
     pub folder: PathBuf,
@@ -54,7 +54,7 @@ pub struct StudyFile {
 pub struct Design {
     /// The rule.
     pub kind: DesignKind,
-    /// How distributions are drawn where `kind` does not say it.
+    /// Sampling of distributions if `kind` does not determine it.
     pub sampling: Sampling,
     /// Number of draws, of base samples or of trajectories; `None` where nothing is drawn.
     pub samples: Option<u64>,
@@ -115,7 +115,7 @@ impl StudyFile {
     /// of the file.
     ///
     /// # Errors
-    /// Every fault in one go.
+    /// All faults at once.
     pub fn load(path: &Path, base: Option<ModelTree>) -> Result<Self, InputError> {
         let (name, text) = model_file::read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -125,7 +125,7 @@ impl StudyFile {
     /// Reads the text of a study file. `name` stands in messages; paths start from `folder`.
     ///
     /// # Errors
-    /// Every fault in one go.
+    /// All faults at once.
     pub fn parse(
         name: &str,
         text: &str,
@@ -181,7 +181,7 @@ impl StudyFile {
         }
     }
 
-    /// Shows the faults that come from what a factor puts in at that factor, the others where they are.
+    /// Shows faults caused by a value of a factor at that factor, and the others at their own positions.
     #[must_use]
     pub fn relocate(&self, factors: &[usize], error: InputError) -> InputError {
         let mut moved = error;
@@ -207,7 +207,7 @@ impl StudyFile {
     }
 }
 
-/// Whether a fault at a field may come from a value put in at a path: one is the other or lies below it.
+/// Whether a fault at a field may be caused by a value set at a path: one path equals the other or lies below it.
 fn touches(path: &str, field: &str) -> bool {
     let plain = |text: &str| -> Vec<String> {
         let pieces = text
@@ -243,7 +243,7 @@ fn read_root(
     let factors = match (reader.get(&view, "vary"), &implied) {
         (Some(field), _) => factor::read_all(reader, &field, folder),
         (None, Some(_)) => Some(Vec::new()),
-        // A base model that cannot be read may list records, and says itself what is wrong with it.
+        // A base model that cannot be read may list records; its own error is reported.
         (None, None) if matches!(tree, Some(Err(_))) => Some(Vec::new()),
         (None, None) => {
             reader.missing(
@@ -573,7 +573,7 @@ fn case_numbers(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<u64>> 
         .collect()
 }
 
-/// The keys that reading a study file asks for.
+/// The keys read from a study file.
 #[cfg(test)]
 pub(crate) fn keys_asked(
     source: &Source,

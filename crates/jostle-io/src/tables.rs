@@ -18,7 +18,7 @@ use crate::output::{OutputError, write_atomically};
 
 /// Level of Zstandard.
 const COMPRESSION: i32 = 1;
-/// Rows from which on columns shrink by more than it costs to say how.
+/// Number of rows above which compression saves more than its overhead.
 const WORTH_COMPRESSING: usize = 64;
 
 /// The values of a column of a table.
@@ -55,10 +55,10 @@ impl Values {
 
 /// Writes the time histories: one row per instant.
 ///
-/// Columns are `time_s`, `ground_acceleration_m_s2`, then for every floor such as `J1.floor5`
-/// `….displacement_m`, `….velocity_m_s`, `….total_acceleration_m_s2`, for every contact
-/// `J1-J2.floor5-5.force_n` (or `J1-J2.at8000mm.force_n` between floors), for every link
-/// `J1-J2.link5-5.force_n`, and `energy_input_j` and its kin.
+/// Columns are `time_s`, `ground_acceleration_m_s2`, then for every floor such as `J1.floor5` `….displacement_m`,
+/// `….velocity_m_s`, `….total_acceleration_m_s2`, for every contact `J1-J2.floor5-5.force_n` (or
+/// `J1-J2.at8000mm.force_n` between floors), for every link `J1-J2.link5-5.force_n`, and `energy_input_j`,
+/// `energy_kinetic_j`, ….
 ///
 /// # Errors
 /// [`OutputError`] with path and reason.
@@ -81,7 +81,7 @@ pub fn write_history_parquet(
     write_table(path, summary, columns)
 }
 
-/// Names of recorded quantities in tables, as [`write_history_parquet`] says; no two are equal.
+/// Names of recorded quantities in tables, as described at [`write_history_parquet`]; all are distinct.
 #[must_use]
 pub fn history_names(model: &Model, summary: &Summary, columns: &[Column]) -> Vec<String> {
     let (contacts, links) = (contact_names(summary), link_names(summary));
@@ -440,7 +440,7 @@ fn encode_with(
     } else {
         Compression::ZSTD(ZstdLevel::try_new(COMPRESSION)?)
     };
-    // Numbers seldom repeat: looking each up in a dictionary takes as long as all the rest.
+    // Numbers seldom repeat: dictionary encoding takes as long as everything else.
     let mut properties = WriterProperties::builder()
         .set_compression(compression)
         .set_statistics_enabled(EnabledStatistics::Chunk)

@@ -42,7 +42,7 @@ pub struct TargetWords {
     pub factor: Option<String>,
 }
 
-/// What is wrong with the words or the file of a design spectrum.
+/// An error in the parameters or the file of a design spectrum.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TargetError {
@@ -51,7 +51,7 @@ pub enum TargetError {
     Word {
         /// The word's key.
         key: &'static str,
-        /// What is wrong, and what would be right.
+        /// The problem, and a valid alternative.
         problem: String,
     },
     /// A file of points has a fault.

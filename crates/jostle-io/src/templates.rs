@@ -12,7 +12,7 @@ pub const TEMPLATE_NAMES: [&str; 6] = [
     "paper-inelastic",
 ];
 
-/// Text of a template with a title put in, or of a built-in model as it is; `None` if there is none of that name.
+/// Text of a template with a title inserted, or of a built-in model unchanged; `None` if the name is unknown.
 #[must_use]
 pub fn template(name: &str, title: &str) -> Option<String> {
     let text = match name {

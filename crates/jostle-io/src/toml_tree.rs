@@ -7,7 +7,7 @@ use crate::motion_spec::BACKSLASH;
 use crate::source::Span;
 use crate::tree::{Entry, Node, SyntaxError, Table, Value};
 
-/// Parses a whole text; reports every syntax error that the parser can tell apart.
+/// Parses a whole text; reports every syntax error that the parser can distinguish.
 pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     if errors.is_empty() {
@@ -30,7 +30,7 @@ pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
             .map_or(0, |t| t.matches('\n').count())
     };
     faults.dedup_by_key(|fault| line(&fault.span));
-    // A file that is no TOML at all needs no hundred messages.
+    // Limits the number of messages for a file that is not TOML.
     faults.truncate(8);
     Err(faults)
 }

@@ -79,7 +79,7 @@ impl Table {
 }
 
 impl Node {
-    /// What the value is, with its article, for messages.
+    /// Type of the value with its article, for messages.
     pub(crate) fn describe(&self) -> String {
         match &self.value {
             Value::Text(text) => format!("\"{}\"", crate::quantity::shorten(text)),

@@ -259,7 +259,7 @@ impl Scanner {
         Ok((unit, self.exponent()?))
     }
 
-    /// `^2`, `^-1.5`, `^(3/2)`, `**2`, or digits directly behind the name; 1 when there is none.
+    /// `^2`, `^-1.5`, `^(3/2)`, `**2`, or digits directly after the name; 1 when there is none.
     fn exponent(&mut self) -> Result<f64, UnitError> {
         let marked = if self.rest.starts_with("**") {
             self.skip(2);

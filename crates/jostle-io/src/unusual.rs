@@ -1,5 +1,5 @@
-//! Usual ranges of quantities: every reader of models warns outside the usual range, and refuses what can only be a
-//! slip of units. This file has all the numbers.
+//! Usual ranges of quantities: every reader of models warns outside the usual range, and refuses values that only a
+//! wrong unit can explain. This file has all the numbers.
 
 use jostle::results::summary::Summary;
 use jostle::{GroundMotion, LawKind, Model, System};
@@ -15,24 +15,24 @@ use crate::tree::{Node, Value};
 const REMEDY: &str =
     "accept_unusual = true under [analysis], or --accept-unusual, accepts it as it is";
 
-/// What a quantity usually is, and what it can be at all.
+/// Usual and possible range of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Range {
-    /// Where the key stands.
+    /// Section of the key.
     pub(crate) sections: &'static [S],
     pub(crate) key: &'static str,
-    /// What the quantity is, with its article.
+    /// Name of the quantity with its article.
     pub(crate) noun: &'static str,
     pub(crate) dimension: D,
     /// Outside, there is a warning; in SI.
     pub(crate) usual: [f64; 2],
     /// Outside, the value is refused; in SI.
     pub(crate) possible: [f64; 2],
-    /// Units that may have been meant, the likeliest first.
+    /// Units that were probably meant, most likely first.
     units: &'static [&'static str],
 }
 
-/// What a range says of a value.
+/// Result of comparing a value with a range.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Verdict {
     Usual,
@@ -136,7 +136,7 @@ pub(crate) fn range_of(sections: &[S], key: &str) -> Option<&'static Range> {
 }
 
 impl Range {
-    /// Judges a value in SI. Zero says that something is absent and is never unusual; signs are judged elsewhere.
+    /// Compares a value in SI with the range. Zero means absent and is never unusual; signs are checked elsewhere.
     pub(crate) fn judge(&self, value: f64, written: Written) -> Verdict {
         let size = value.abs();
         let within = |[low, high]: [f64; 2]| (low..=high).contains(&size);
@@ -146,7 +146,7 @@ impl Range {
         let found = format!("{} of {}", self.noun, self.show(value));
         let meant = self.meant(written.number);
         if within(self.possible) {
-            // Whoever writes a unit is not far from it.
+            // A value with an explicit unit is probably intended.
             let meant = meant.filter(|_| written.is_bare);
             let meant = meant.map_or_else(String::new, |meant| format!("; is it {meant}?"));
             return Verdict::Unusual(format!(
@@ -254,7 +254,7 @@ impl Written {
         }
     }
 
-    /// As it stands in a file; `value` is the same in SI.
+    /// As written in the file; `value` is the same in SI.
     pub(crate) fn of(node: &Node, value: f64) -> Self {
         match &node.value {
             Value::Text(text) => {
@@ -268,7 +268,7 @@ impl Written {
     }
 }
 
-/// Which unusual values the user means.
+/// Unusual values that the user accepts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) enum Accepted {
     #[default]
@@ -279,7 +279,7 @@ pub(crate) enum Accepted {
 }
 
 impl Accepted {
-    /// Whether unusual values of this field are meant.
+    /// Whether unusual values of this field are accepted.
     pub(crate) fn covers(&self, path: &str) -> bool {
         match self {
             Self::Nothing => false,
@@ -312,7 +312,7 @@ impl Input {
 
     fn unusual_peak(&self, peak: f64) -> Option<String> {
         const PATH: &str = "motion";
-        // A field that says so itself is judged where it is read.
+        // A field with its own unit is checked where it is read.
         let judged = self.warnings.iter().any(|known| known.starts_with(PATH));
         if judged || self.accepts(PATH) || self.accepts("motion.pga") {
             return None;
@@ -337,7 +337,7 @@ impl Input {
     }
 }
 
-/// What is unusual about an assembled model, field by field.
+/// Unusual properties of an assembled model, by field.
 fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
     let mut found = Vec::new();
     let [shortest, longest] = FIRST_PERIOD;
@@ -399,7 +399,7 @@ fn storey_period(first: f64, floors: usize) -> f64 {
     2.0 * angle.sin() * first
 }
 
-/// What is unusual about the results of a run.
+/// Unusual results of a run.
 fn of_results(model: &Model, summary: &Summary) -> Vec<String> {
     let mut found = Vec::new();
     for (index, (gap, law)) in summary.gaps.iter().zip(&model.gaps).enumerate() {

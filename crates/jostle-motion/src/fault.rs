@@ -1,4 +1,4 @@
-//! What can be wrong with what is asked of a ground motion.
+//! Errors in requests about ground motions.
 
 /// Why a motion, a spectrum or a wave cannot be had.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,4 +1,4 @@
-//! Butterworth filters that shift no phase.
+//! Zero-phase Butterworth filters.
 
 use std::f64::consts::PI;
 

@@ -98,7 +98,7 @@ pub fn ductility_spectrum(
     Ok(spectrum)
 }
 
-/// Strength over the elastic one; NaN where there is none.
+/// Strength over the elastic one; NaN if there is none.
 fn strength(
     motion: &Accelerogram,
     oscillator: &Oscillator,

@@ -1,4 +1,4 @@
-//! Ground velocity and displacement, exact for straight lines of acceleration.
+//! Ground velocity and displacement, exact for piecewise linear acceleration.
 //!
 //! ```text
 //! v₁ = v₀ + h (a₀ + a₁)/2        u₁ = u₀ + h v₀ + h² (2 a₀ + a₁)/6

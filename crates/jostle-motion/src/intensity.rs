@@ -1,4 +1,4 @@
-//! Measures of how strong and how long a motion is.
+//! Measures of intensity and duration.
 
 use crate::accelerogram::STANDARD_GRAVITY;
 use crate::fourier::mean_period;

@@ -1,7 +1,7 @@
 //! Many oscillators advanced together.
 //!
-//! Oscillators lie abreast in lanes, so that the compiler uses whatever wide registers there are. No operation is
-//! fused or reordered, so the bits are the same in every register width.
+//! Each oscillator uses one lane, so that the compiler can use registers of any width. No operation is fused or
+//! reordered, so the bits are the same in every register width.
 
 use crate::Accelerogram;
 use crate::oscillator::{Advance, Oscillator};
@@ -14,8 +14,8 @@ pub(crate) const BLOCK: usize = 32;
 /// the ground acceleration by less than one part in 1500.
 const MOST_PARTS: f64 = 10_000.0;
 
-/// Walks all oscillators through the record with at least so many steps per period, and shows each, by its index and
-/// lane. Oscillators as good as rigid are not shown.
+/// Advances all oscillators through the record with at least a given number of steps per period, and passes each,
+/// by its index and lane. Oscillators as good as rigid are not shown.
 pub(crate) fn in_lanes(
     motion: &Accelerogram,
     oscillators: &[Oscillator],

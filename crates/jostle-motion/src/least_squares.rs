@@ -1,5 +1,5 @@
-//! Small dense least squares, in one thread and a fixed order: the bits of a seeded wave must not depend on the
-//! processor, which a library tuned to processors does not promise.
+//! Small dense least squares, in one thread and a fixed order: the bits of a seeded motion must not depend on the
+//! processor, which optimised libraries do not guarantee.
 
 /// Solves a symmetric positive definite system by Cholesky's method; only the lower triangle is read, and
 /// overwritten.

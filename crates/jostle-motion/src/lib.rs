@@ -1,7 +1,7 @@
-//! Ground motions: measures, processing, response and design spectra, artificial waves.
+//! Ground motions: measures, processing, response and design spectra, artificial motions.
 //!
 //! Mathematics only: nothing here opens a file, reads a clock or prints. Everything is in SI and radians, and every
-//! result has the same bits for the same input, whatever registers the processor has.
+//! result has the same bits for the same input on any register width.
 
 mod accelerogram;
 mod fault;

@@ -1,4 +1,4 @@
-//! The exact motion of an elastic oscillator while the ground acceleration is a straight line.
+//! The exact motion of an elastic oscillator for linear ground acceleration.
 //!
 //! With ω the circular frequency, ζ the damping ratio, u the displacement relative to the ground, the state is kept
 //! as

@@ -1,9 +1,10 @@
 //! Peaks of many oscillators at once, between samples too.
 //!
-//! Steps longer than a tenth of the period are cut. One pass of [`crate::lanes`] keeps, for every block of steps,
-//! the state at its beginning and the largest magnitudes at the ends of the cut steps. What can lie between these ends is bounded by h²/8 times the largest second derivative; only blocks whose
-//! largest value comes within this bound of the largest of all are walked again, and there every change of sign of
-//! the derivative is located in the exact solution by Newton's method.
+//! Steps longer than a tenth of the period are divided. One pass of [`crate::lanes`] stores, for every block of
+//! steps, the state at its beginning and the largest magnitudes at the ends of the divided steps. The excess
+//! between these ends is bounded by h²/8 times the largest second derivative; only blocks whose largest value comes
+//! within this bound of the largest of all are walked again, and there every change of sign of the derivative is
+//! located in the exact solution by Newton's method.
 
 use crate::Accelerogram;
 use crate::lanes::{BLOCK, Lanes, Walk, in_lanes};
@@ -64,7 +65,7 @@ pub(crate) fn peaks_at_steps(motion: &Accelerogram, oscillators: &[Oscillator]) 
     peaks
 }
 
-/// What bounds need to know about the ground.
+/// Properties of the ground motion for the bounds.
 struct Ground {
     peak: Extreme,
     /// Largest change in one step \[m/s²\].
@@ -195,7 +196,7 @@ struct Part {
     lane: usize,
     theta: f64,
     z2: f64,
-    /// Magnitudes of [`Part::values`] beside which the extreme of all may lie.
+    /// Magnitudes of [`Part::values`] near which the overall extreme may lie.
     enough: [f64; 2],
 }
 

@@ -29,7 +29,7 @@ impl Accelerogram {
         self.scaled(peak / self.peak())
     }
 
-    /// The part between two times, to the nearest samples; time begins anew \[s\].
+    /// The part between two times, to the nearest samples; time restarts at zero \[s\].
     ///
     /// # Errors
     /// When less than two samples are left.
@@ -73,8 +73,8 @@ impl Accelerogram {
     /// The motion with another step, > 0 \[s\].
     ///
     /// A smaller step reads the straight lines between samples, so a whole fraction of the step gives the same
-    /// motion. A larger step first filters what it could not show: zero-phase Butterworth of order 8 at 0.4 of the new
-    /// sampling frequency.
+    /// motion. A larger step first filters frequencies that it cannot represent: zero-phase Butterworth of order 8
+    /// at 0.4 of the new sampling frequency.
     ///
     /// # Errors
     /// When the step is not positive, longer than half the motion, or so small that the motion becomes too long.
@@ -142,8 +142,8 @@ impl Accelerogram {
         self.with(self.acceleration().iter().enumerate().map(value).collect())
     }
 
-    /// The motion with the smallest smooth change that lets it end at rest where it began: `sin²(πt/D) (c₀ + c₁ t/D)`
-    /// of the acceleration, so that velocity and displacement are zero at the end.
+    /// The motion with the smallest smooth correction that gives zero velocity and displacement at its end:
+    /// `sin²(πt/D) (c₀ + c₁ t/D)` of the acceleration, so that velocity and displacement are zero at the end.
     #[must_use]
     pub fn ending_at_rest(&self) -> Self {
         self.ending_with([0.0, 0.0])
@@ -160,7 +160,7 @@ impl Accelerogram {
                 .map(|i| window(i) * i as f64 / last)
                 .collect(),
         ];
-        // Twice: the second pass takes away what rounding left.
+        // Twice: the second pass removes rounding errors.
         for _ in 0..2 {
             let [v, u] = end_of(self.step(), &values);
             let [[v0, u0], [v1, u1]] = [0, 1].map(|k| end_of(self.step(), &basis[k]));

@@ -1,4 +1,4 @@
-//! Factors that bring a motion to a design spectrum.
+//! Factors that scale a motion to a design spectrum.
 
 use crate::Accelerogram;
 use crate::fault::{MotionFault, within};

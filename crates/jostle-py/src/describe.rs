@@ -1,4 +1,4 @@
-//! What a model amounts to, as a tree of numbers.
+//! Description of a model as a tree of numbers.
 
 use jostle::model::Structure;
 use jostle::{Model, System};

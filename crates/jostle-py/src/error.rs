@@ -7,7 +7,7 @@ use pyo3::exceptions::PyOSError;
 pyo3::import_exception!(jostle._errors, ModelError);
 pyo3::import_exception!(jostle._errors, AnalysisError);
 
-/// What is known of a fault: path, problem, remedy, line, column.
+/// A fault: path, problem, remedy, line, column.
 type FaultParts = (String, String, Option<String>, Option<usize>, Option<usize>);
 
 /// A wrong input, with its faults one by one.

@@ -1,4 +1,4 @@
-//! The histories of a run: rows as they were recorded, until somebody looks at a column.
+//! The histories of a run: rows as recorded, transposed when a column is first accessed.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::IntoPyDict;
 
-/// Histories in one of two shapes, never both for long: rows for reports, or columns that NumPy owns.
+/// Histories in one of two layouts: rows for reports, or columns owned by NumPy.
 pub(crate) struct Histories {
     pub(crate) columns: Vec<Column>,
-    /// Gone once `table` is there.
+    /// `None` after `table` is set.
     rows: Mutex<Option<History>>,
     /// One row per column of the history.
     table: PyOnceLock<Py<PyArray2<f64>>>,
@@ -27,7 +27,7 @@ impl Histories {
         }
     }
 
-    /// The histories as a table that NumPy owns and nobody writes to, one row per recorded quantity.
+    /// The histories as a read-only NumPy table, one row per recorded quantity.
     pub(crate) fn table(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         let table = self.table.get_or_try_init(py, || {
             let values = match &*self.rows() {

@@ -1,6 +1,6 @@
-//! The compiled half of the Python package `jostle`: models, motions and runs, with numbers in SI.
+//! The compiled part of the Python package `jostle`: models, motions and runs, with numbers in SI.
 //!
-//! What Python users meet (units, keywords, drawings, tables) is written in Python, in `python/jostle`.
+//! The user-facing part (units, keywords, drawings, tables) is written in Python, in `python/jostle`.
 
 mod collide;
 mod describe;
@@ -17,7 +17,7 @@ mod table;
 #[global_allocator]
 static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// The compiled half of the package; its contents are used by `jostle` and may change at any time.
+/// The compiled part of the package. It is internal and may change at any time.
 #[pyo3::pymodule]
 mod _jostle {
     #[pymodule_export]

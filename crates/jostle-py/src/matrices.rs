@@ -1,4 +1,4 @@
-//! Mass, damping and stiffness of a building as full matrices, and where its floors and contacts are in them.
+//! Mass, damping and stiffness of a building as full matrices, with the indices of floors and contacts.
 
 use jostle::System;
 use jostle::linear::SparseSymmetric;
@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use crate::error::argument_error;
 
-/// Masses; K, C with one row per degree of freedom; mass that the ground drives; degrees of freedom of the floors.
+/// Masses; K, C with one row per degree of freedom; mass driven by the ground; degrees of freedom of the floors.
 pub(crate) type Matrices<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray2<f64>>,
@@ -25,7 +25,7 @@ pub(crate) fn matrices<'py>(
     let equations = &building.equations;
     if !equations.springs.is_empty() {
         return Err(argument_error(format!(
-            "\"{}\" may yield and has no one stiffness matrix; leave its hinges out",
+            "\"{}\" may yield and has no unique stiffness matrix; remove its hinges",
             building.name
         )));
     }

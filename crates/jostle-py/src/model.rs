@@ -1,4 +1,4 @@
-//! Models: read, checked and assembled once, then only shared.
+//! Models: read, checked and assembled once, then shared.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use crate::motion::Motion;
 pub(crate) struct Model {
     pub(crate) input: Arc<Input>,
     pub(crate) system: Arc<System>,
-    /// Whether the ground motion was named apart from the model.
+    /// Whether the ground motion was given separately from the model.
     other_record: bool,
 }
 
@@ -50,7 +50,7 @@ impl Model {
         let refusal = plan.check_digits(&self.system).err();
         match refusal.map(|refusal| refusal.to_string()) {
             Some(refusal) if !force => {
-                let problem = format!("{refusal}; force=True runs it all the same");
+                let problem = format!("{refusal}; force=True runs it anyway");
                 Err(input_error(&input.fault("analysis.solver", problem)))
             }
             refusal => Ok((motion, plan, refusal)),
@@ -94,7 +94,7 @@ impl Model {
             .map_err(|error| input_error(&error))
     }
 
-    /// The same model with what is given changed; a record by name keeps the scaling of the model.
+    /// The same model with the given changes; a record by name keeps the scaling of the model.
     #[pyo3(signature = (gap=None, pga=None, motion=None, record=None))]
     fn changed(
         &self,
@@ -149,7 +149,7 @@ impl Model {
         self.input.records().to_vec()
     }
 
-    /// The ground motion in numbers; none if the model has none.
+    /// The sampled ground motion; `None` if the model has none.
     fn motion(&self, py: Python<'_>) -> PyResult<Option<Motion>> {
         let Some(spec) = self.input.motion.clone() else {
             return Ok(None);

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use crate::error::argument_error;
 
-/// A ground motion: where it comes from and how it is scaled, and the same in numbers.
+/// A ground motion: its source and scaling, and its values.
 #[pyclass(frozen, module = "jostle._jostle")]
 pub(crate) struct Motion {
     pub(crate) spec: MotionSpec,
@@ -17,7 +17,7 @@ pub(crate) struct Motion {
 }
 
 impl Motion {
-    /// Reads and scales. What was read once is kept, whatever becomes of the file.
+    /// Reads and scales. The values are kept even if the file changes.
     pub(crate) fn of(mut spec: MotionSpec) -> Result<Self, MotionError> {
         let motion = spec.resolve()?;
         if let (MotionSource::Record { .. }, Wave::Sampled { step, acceleration }) =
@@ -148,7 +148,7 @@ impl Motion {
         .map_err(argument_error)
     }
 
-    /// The same motion with what is given changed.
+    /// The same motion with the given changes.
     #[pyo3(signature = (pga=None, factor=None, reverse=false, duration=None))]
     fn changed(
         &self,
@@ -216,7 +216,7 @@ impl Motion {
         self.motion.step().or(of_period).unwrap_or(0.01)
     }
 
-    /// Everything, to make the same motion of it elsewhere.
+    /// The full state, to recreate the motion in another process.
     fn state<'py>(&self, py: Python<'py>) -> State<'py> {
         let spec = &self.spec;
         let (values, numbers) = match &spec.source {

@@ -1,4 +1,4 @@
-//! One analysis, with the interpreter free for others, and what it leaves behind.
+//! One analysis with the GIL released, and its results.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -22,10 +22,10 @@ use crate::histories::Histories;
 use crate::model::Model;
 use crate::table::Table;
 
-/// How often a run looks for Ctrl-C and reports its progress.
+/// Interval at which a run checks for Ctrl-C and reports progress.
 const LOOK_UP: Duration = Duration::from_millis(50);
 
-/// A finished run: its numbers and its histories.
+/// A finished run: summary and histories.
 #[pyclass(frozen, module = "jostle._jostle")]
 pub(crate) struct Run {
     model: Model,
@@ -39,7 +39,7 @@ pub(crate) struct Run {
     warning: Option<String>,
 }
 
-/// Runs a model from rest. `observer` is called with the time reached and the time to reach, a few times a second.
+/// Runs a model from rest. `observer` is called with the current and the final time, a few times per second.
 #[pyfunction]
 #[pyo3(signature = (model, pounding=true, record_interval=None, force=false, observer=None))]
 pub(crate) fn run(
@@ -180,13 +180,13 @@ impl Run {
         }
     }
 
-    /// What was run although it is expected to lose digits, if so.
+    /// The warning if the run is expected to lose digits.
     #[getter]
     fn warning(&self) -> Option<String> {
         self.warning.clone()
     }
 
-    /// Reasons not to trust the numbers.
+    /// Warnings about the results.
     #[getter]
     fn doubts(&self) -> Vec<String> {
         self.summary(None).warnings
@@ -198,7 +198,7 @@ impl Run {
         self.histories.table(py)
     }
 
-    /// What the rows are: kind, index of the building, contact or energy term, and floor.
+    /// Meaning of the rows: kind, index of the building, contact or energy term, and floor.
     #[getter]
     fn rows(&self) -> Vec<(&'static str, usize, usize)> {
         let row = |column: &Column| match *column {
@@ -228,7 +228,7 @@ impl Run {
         jostle_cli::summary_text(&self.summary(without_contact))
     }
 
-    /// What happened, in a sentence or two.
+    /// The verdict in a sentence or two.
     fn verdict(&self) -> String {
         jostle_report::verdict(&self.summary(None))
     }
@@ -239,7 +239,7 @@ impl Run {
         self.page(py, without_contact)
     }
 
-    /// Writes a page to a file, whole or not at all; replaces pages of jostle, and everything else only with `force`.
+    /// Writes a page to a file completely or not at all; replaces pages of jostle, and other files only with `force`.
     #[staticmethod]
     #[pyo3(signature = (path, text, force=false))]
     fn write(py: Python<'_>, path: PathBuf, text: &str, force: bool) -> PyResult<()> {
@@ -248,7 +248,7 @@ impl Run {
             .map_err(|error| output_error(&error))
     }
 
-    /// Raises `FileExistsError` if a folder holds files with the names of results that no run wrote.
+    /// Raises `FileExistsError` if a folder contains files with names of results that jostle did not write.
     #[staticmethod]
     #[pyo3(signature = (folder, force=false))]
     fn check_folder(folder: PathBuf, force: bool) -> PyResult<()> {

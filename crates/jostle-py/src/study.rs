@@ -1,4 +1,4 @@
-//! Studies of many cases, and the smallest gap, with the interpreter free for others.
+//! Studies of many cases, and the smallest gap, with the GIL released.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 use crate::error::{AnalysisError, argument_error, input_error};
 use crate::model::Model;
 
-/// How often a study looks for Ctrl-C and reports its progress.
+/// Interval at which a study checks for Ctrl-C and reports progress.
 const LOOK_UP: Duration = Duration::from_millis(50);
 
 /// A study, checked against its models.
@@ -106,13 +106,13 @@ impl Study {
         self.0.file.design.seed
     }
 
-    /// Numbers of the parts that a folder does not hold: not finished, damaged, or of another study.
+    /// Numbers of the parts missing in a folder: unfinished, damaged, or of another study.
     fn missing(&self, py: Python<'_>, folder: PathBuf) -> Vec<u64> {
         py.detach(|| missing_parts(&self.0, &folder))
     }
 
-    /// Runs what is not finished; returns cases finished, cases computed, cases to finish, failed cases, and whether
-    /// every part of the whole study is there. `remark` is called with what the user should know about the folder.
+    /// Runs the unfinished cases; returns cases finished, cases computed, cases to finish, failed cases, and whether
+    /// every part of the whole study is there. `remark` is called with remarks about the folder.
     #[pyo3(signature = (folder, jobs=None, shard=0, shards=1, observer=None, remark=None))]
     #[allow(
         clippy::too_many_arguments,
@@ -188,7 +188,7 @@ impl Study {
         Ok((finished, computed, cases, done.failed, done.complete))
     }
 
-    /// Writes the report and the tables behind it.
+    /// Writes the report and its tables.
     fn finish(&self, py: Python<'_>, folder: PathBuf) -> PyResult<String> {
         py.detach(|| jostle_study::finish(&self.0, &folder))
             .map_err(|error| study_error(&error))

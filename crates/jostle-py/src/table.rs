@@ -23,9 +23,9 @@ pub(crate) struct Table {
 }
 
 enum Columns {
-    /// Rows of an array that others look at too.
+    /// Rows of a shared array.
     Histories(Py<PyArray2<f64>>),
-    /// Columns of their own.
+    /// Owned columns.
     Own(Vec<Values>),
 }
 

@@ -2,7 +2,7 @@
 
 const colours = (i) => `var(--c${i % 7})`;
 
-/** The contacts with an impact, hardest first. */
+/** The contacts with an impact, largest peak force first. */
 const struckContacts = () => contacts.filter((c) => c.impacts > 0).sort((a, b) => b.peak - a.peak);
 
 /** Name of a side of a gap; null is a wall. */
@@ -30,7 +30,7 @@ function forceChart() {
     time: forces[contact.index].time,
     values: scaled(forces[contact.index].values, 1e-3),
   }));
-  const title = struck.length > shown.length ? `Contact force, ${shown.length} hardest of ${struck.length} contacts` : "Contact force";
+  const title = struck.length > shown.length ? `Contact force, ${shown.length} largest of ${struck.length} contacts` : "Contact force";
   return { title, unit: "kN", series };
 }
 

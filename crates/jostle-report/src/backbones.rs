@@ -1,4 +1,4 @@
-//! Curves of first loading of the hinges of a building, as small pictures that need no script.
+//! Curves of first loading of the hinges of a building, as small plots without scripts.
 
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::model::{Building, Hinges};
@@ -14,7 +14,7 @@ const RIGHT: f64 = 8.0;
 const TOP: f64 = 8.0;
 const BOTTOM: f64 = 30.0;
 
-/// How far past yield the curves are drawn, in deformations of yield \[–\].
+/// End of the drawn curves, in yield deformations \[–\].
 const REACH: f64 = 2.5;
 
 /// A picture for the columns, the beams or the storeys, with the moments in words.

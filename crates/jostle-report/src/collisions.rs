@@ -1,4 +1,4 @@
-//! The page of `jostle collide`: what contact laws make of the collision of two free masses.
+//! The page of `jostle collide`: collisions of two free masses under contact laws.
 
 use jostle::ContactLaw;
 use jostle::contact::{CollisionPoint, FreeCollision};
@@ -7,7 +7,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use crate::format;
 use crate::page::{POLICY, STYLE, theme_button, theme_script};
 
-/// A law and what came of it.
+/// A law and its collision.
 #[derive(Clone, Debug)]
 pub struct CollidedLaw {
     /// As asked for, with its own stiffness.
@@ -21,7 +21,7 @@ pub struct CollidedLaw {
 pub struct Collisions {
     /// Masses \[kg\].
     pub masses: [f64; 2],
-    /// Closing speed at the touch \[m/s\].
+    /// Closing speed at first contact \[m/s\].
     pub speed: f64,
     /// Coefficient of restitution asked for \[–\].
     pub restitution: f64,
@@ -104,10 +104,10 @@ pub fn render_collisions(collisions: &Collisions) -> String {
                     }
                     p.quiet {
                         "Dashed: the elastic law of the same family. Curves come from an adaptive integration of high order, not from the steps of an analysis; "
-                        "the restitution law changes velocities at once and has no curve."
+                        "the restitution law changes velocities instantly and has no curve."
                     }
                 }
-                footer { "Made by jostle. One file, nothing is loaded from elsewhere." }
+                footer { "Made by jostle. One file; nothing is loaded from a network." }
                 (theme_script())
             }
         }

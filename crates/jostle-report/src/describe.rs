@@ -1,4 +1,4 @@
-//! The model, the analysis and the balance of the run in words and small tables.
+//! The model, the analysis and the energy balance of the run as text and small tables.
 
 use jostle::contact::RestitutionIs;
 use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Link, Shear, Solver, Structure};
@@ -160,7 +160,7 @@ fn shear_facts(shear: &Shear, facts: &mut Facts) {
     ));
 }
 
-/// Values from the ground up, equal neighbours said once: "3.2", "1–3: 60, 4: 40".
+/// Values from the ground up, with equal neighbours merged: "3.2", "1–3: 60, 4: 40".
 pub(crate) fn grouped(values: &[f64], text: impl Fn(f64) -> String) -> String {
     let mut groups: Vec<(usize, usize, f64)> = Vec::new();
     for (i, value) in values.iter().enumerate() {
@@ -355,7 +355,7 @@ fn analysis(page: &Page) -> Facts {
             ),
         ),
         (
-            "step in free flight",
+            "step of free vibration",
             format!(
                 "{} ({})",
                 format::milliseconds(work.step_s),
@@ -405,7 +405,7 @@ fn analysis(page: &Page) -> Facts {
         facts.push((
             "yielding",
             format!(
-                "{} rounds for the springs that yield, {} steps halved",
+                "{} iterations for yielding springs, {} steps halved",
                 count(work.outer_iterations),
                 count(work.halved_steps)
             ),

@@ -1,4 +1,4 @@
-//! Histories made small: which instants to keep, and numbers as base64 text.
+//! Thinning of histories: instants to keep, and numbers as base64 text.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -42,7 +42,7 @@ impl Packer {
         }
     }
 
-    /// Values; what is not a number becomes zero.
+    /// Values; NaN becomes zero.
     pub(crate) fn values(&mut self, values: impl Iterator<Item = f64> + Clone) -> Packed {
         match self {
             Self::Text => Packed::values(values),
@@ -77,7 +77,7 @@ impl Packed {
         }
     }
 
-    /// Values, to a part in 32 767 of the greatest one; zero stays zero, what is not a number becomes zero.
+    /// Values, to a part in 32 767 of the greatest one; zero stays zero, NaN becomes zero.
     pub(crate) fn values(values: impl Iterator<Item = f64> + Clone) -> Self {
         let peak = values
             .clone()

@@ -1,4 +1,4 @@
-//! Peaks over the height of the buildings, as small pictures that need no script.
+//! Envelopes of the buildings, as small plots without scripts.
 
 use jostle::history::{Column, History};
 use jostle::model::Model;

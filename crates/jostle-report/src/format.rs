@@ -1,6 +1,6 @@
-//! Numbers as a reader likes them: few digits, sensible prefixes, never "NaN".
+//! Number formats of the pages: few digits, suitable prefixes, never "NaN".
 
-/// Stands where there is no number.
+/// Shown instead of a missing number.
 pub(crate) const NOTHING: &str = "–";
 
 /// `value` with `digits` significant digits.

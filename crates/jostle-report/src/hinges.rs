@@ -1,4 +1,4 @@
-//! What cracks and yields: where it sits, which loops to show, the table in order of yielding.
+//! Cracking and yielding: places, selected loops, the table in order of yielding.
 
 use jostle::hysteresis::{Backbone, Hysteresis, Side};
 use jostle::model::{Building, Hinges, Model};
@@ -14,7 +14,7 @@ const LOOPS: usize = 6;
 const FIRST_ROWS: usize = 20;
 const MOST_ROWS: usize = 400;
 
-/// A spring that can yield, in the order of the springs of its building.
+/// A spring that can yield, in the order of its building's springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     /// Index of the building.
@@ -181,7 +181,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
             }
             @if loops {
                 p.quiet {
-                    "The hinges that went farthest or took most energy. Dashed: the curve of first loading. The dot is the instant of the cursor; the strong line leads to it from the left end of the charts above."
+                    "Hinges with the largest ductility or dissipated energy. Dashed: the curve of first loading. The dot is the instant of the cursor; the strong line leads to it from the left end of the charts above."
                 }
                 div #loops.multiples {}
             }
@@ -192,7 +192,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 
 fn sentence(name: &str, hinges: &HingeSummary, residual: f64) -> String {
     let residual = format!(
-        "The roof ends {} from where it began.",
+        "Residual displacement of the roof: {}.",
         format::millimetres(residual.abs())
     );
     let count = |n: usize| format::fixed(n as f64, 0);
@@ -211,7 +211,7 @@ fn sentence(name: &str, hinges: &HingeSummary, residual: f64) -> String {
             count(hinges.total)
         ),
         (None, cracked) => format!(
-            "{name} cracks at {} of {} places and yields nowhere. {residual}",
+            "{name} cracks at {} of {} places and does not yield. {residual}",
             count(cracked),
             count(hinges.total)
         ),
@@ -239,7 +239,7 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
     let shown = &order[..all.min(MOST_ROWS)];
     html! {
         @if all > MOST_ROWS {
-            p.quiet { "The first " (MOST_ROWS) " of " (all) " in order of yielding; the file of hinges beside this page has all of them." }
+            p.quiet { "The first " (MOST_ROWS) " of " (all) " in order of yielding; hinges.parquet contains all of them." }
         }
         div.scroll {
             table #hinge-table.clipped[shown.len() > FIRST_ROWS] {

@@ -53,14 +53,14 @@ pub struct Page<'a> {
     pub summary: &'a Summary,
     /// Time histories of the run.
     pub history: &'a History,
-    /// Time histories of the same buildings passing through each other: the same columns, on instants of
-    /// their own. `None` when that run was not made.
+    /// Time histories of the same buildings without contact: the same columns at other instants.
+    /// `None` if there was no such run.
     pub without_contact: Option<&'a History>,
     /// Loops of hinges and yielding storeys at the instants of `history`, if there are any.
     pub springs: Option<&'a SpringHistory>,
     /// Reinforced sections that hinges come from, if the model states them.
     pub sections: &'a [ReinforcedSection<'a>],
-    /// What the method comes to on these buildings, to be shown as a section; empty to leave it out.
+    /// Results of `jostle method` for these buildings, shown as a section; empty to omit it.
     pub methods: &'a [MethodSurvey],
 }
 
@@ -80,7 +80,7 @@ pub struct ReinforcedSection<'a> {
 }
 
 impl ReinforcedSection<'_> {
-    /// Takes one more member in.
+    /// Adds a member.
     pub fn add(&mut self, floor: usize, compression: f64) {
         self.floors = [self.floors[0].min(floor), self.floors[1].max(floor)];
         let [low, high] = self.compression;

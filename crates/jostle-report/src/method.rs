@@ -1,4 +1,4 @@
-//! The page of `jostle method`: what the method comes to for every building, and the digits each solver keeps.
+//! The page of `jostle method`: size of the equations for every building, and accuracy of each solver formulation.
 
 use jostle::method::{MethodSurvey, StepAccuracy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -10,7 +10,7 @@ type ErrorOf = fn(&StepAccuracy) -> f64;
 
 /// Errors below this are rounding and drawn at the lower edge \[–\].
 const FINEST: f64 = 1e-16;
-/// From this error on nothing is right \[–\].
+/// Error at which no digit is right \[–\].
 const LOST: f64 = 1.0;
 /// Plot area: left, top, width, height.
 const AREA: [f64; 4] = [64.0, 14.0, 640.0, 300.0];
@@ -33,7 +33,7 @@ pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
                     div {
                         p class="kicker" { "The method on this model" }
                         h1 { (title) }
-                        p { "How large the equations of one step are in each form, and how many digits each form keeps as the step shrinks. Impacts need steps below a millisecond." }
+                        p { "Size of the equations of one step in each form, and the digits that each form keeps as the step decreases. Impacts need steps below a millisecond." }
                     }
                     (theme_button())
                 }
@@ -54,7 +54,7 @@ pub(crate) fn section(surveys: &[MethodSurvey]) -> Markup {
         @if !surveys.is_empty() {
             section #method {
                 h2 { "The method on these buildings" }
-                p { "How large the equations of one step are in each form, and how many digits each form keeps as the step shrinks." }
+                p { "Size of the equations of one step in each form, and the digits that each form keeps as the step decreases." }
                 @for (index, survey) in surveys.iter().enumerate() {
                     details open[index == 0] { summary { (survey.name) } (building(survey)) }
                 }
@@ -67,9 +67,9 @@ pub(crate) fn section(surveys: &[MethodSurvey]) -> Markup {
 fn explanation(surveys: &[MethodSurvey]) -> Markup {
     html! {
         p class="quiet" {
-            "Errors are the largest difference of a displacement from direct stiffness, relative to the largest displacement, for one step under uneven loads. "
-            "Product: the total transfer equation of Zhang et al. (2019). Element by element: Riccati in flexibility form. Riccati: the form in production."
-            @if surveys.iter().any(|survey| survey.yields) { " Hinges have their initial stiffness; only the form in production knows how they yield." }
+            "Errors are the largest difference of a displacement from direct stiffness, relative to the largest displacement, for one step under irregular loads. "
+            "Product: the total transfer equation of Zhang et al. (2019). Element by element: Riccati in flexibility form. Riccati: the form used in runs."
+            @if surveys.iter().any(|survey| survey.yields) { " Hinges have their initial stiffness; only the Riccati form supports yielding." }
         }
     }
 }
@@ -89,7 +89,7 @@ fn building(survey: &MethodSurvey) -> Markup {
                                 td { (survey.product_unknowns.pow(2)) " entries" }
                                 td { (survey.product_unknowns.pow(2)) " and two passes through the elements" }
                             } @else {
-                                td colspan="3" { @if survey.yields { "transfer matrices know no yielding" } @else { "no transfer path through this building" } }
+                                td colspan="3" { @if survey.yields { "transfer matrices do not support yielding" } @else { "no transfer path through this building" } }
                             }
                         }
                         tr {
@@ -101,13 +101,13 @@ fn building(survey: &MethodSurvey) -> Markup {
                         tr {
                             td { "direct stiffness" }
                             td { (survey.degrees_of_freedom) }
-                            td { (survey.stiffness_entries) " entries of K, before factorising" }
+                            td { (survey.stiffness_entries) "  entries of K before factorising" }
                             td { "as its ordering falls out" }
                         }
                     }
                 }
             }
-            figure { (plot(survey)) figcaption class="quiet" { "Relative error of one step. Above the line at 1 nothing is right." } }
+            figure { (plot(survey)) figcaption class="quiet" { "Relative error of one step. Above the line at 1 no digit is right." } }
             div class="scroll" {
                 table {
                     thead { tr {

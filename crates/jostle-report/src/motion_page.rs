@@ -59,14 +59,14 @@ pub fn render_motion(page: &MotionPage) -> Result<String, MotionFault> {
                     button #zoom-all type="button" { "Whole motion" }
                 }
             }
-            p.quiet.screen { "Drag across a chart to zoom, double-click for the whole motion. Velocity and displacement are integrated from rest, without any correction of the baseline." }
+            p.quiet.screen { "Drag across a chart to zoom, double-click for the whole motion. Velocity and displacement are integrated from rest, without baseline correction." }
             div #time-charts {}
         }
         section #response {
             h2 { "Response spectra" }
             (spectrum_controls(true))
             div #spectra {}
-            p.quiet { "Exact for straight lines of ground acceleration between samples; peaks are read at the ends of steps, at least twenty in a period." }
+            p.quiet { "Exact for linear ground acceleration between samples; peaks are read at the ends of steps, at least twenty per period." }
         }
         section #content {
             h2 { "Frequency content" }
@@ -96,7 +96,7 @@ pub(crate) fn frame(title: &str, kicker: &str, body: &Markup, data: &Value) -> S
                     (theme_button())
                 }
                 main { (body) }
-                footer { "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file, nothing is loaded from elsewhere." }
+                footer { "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file; nothing is loaded from a network." }
                 noscript { p.note { "The charts need JavaScript." } }
                 script #page-data type="application/json" { (PreEscaped(data)) }
                 script type="module" { (PreEscaped(SCRIPTS.concat())) }

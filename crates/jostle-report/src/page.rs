@@ -1,4 +1,4 @@
-//! The page around the pictures: head, key figures, sections, controls.
+//! The page: head, key figures, sections, controls.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -22,7 +22,7 @@ pub(crate) const SCRIPTS: [&str; 8] = [
 pub(crate) const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-/// Makes [`theme_button`] work, on pages without other scripts.
+/// Script of [`theme_button`], for pages without other scripts.
 const THEME_SCRIPT: &str = include_str!("../assets/theme.js");
 
 /// The button that switches between light and dark.
@@ -83,7 +83,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), yields))
                         (chart_section(page.without_contact.is_some() && !page.model.gaps.is_empty()))
                     } @else {
-                        p.note { "No time histories were recorded, so there is nothing to play." }
+                        p.note { "No time histories were recorded, so there is no animation." }
                     }
                     @if let Some(hinges) = hinges::section(page) { (hinges) }
                     section #impacts {
@@ -114,7 +114,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     (guide(page))
                 }
                 footer {
-                    "Made by jostle " (page.summary.jostle) ". One file, nothing is loaded from elsewhere."
+                    "Made by jostle " (page.summary.jostle) ". One file; nothing is loaded from a network."
                 }
                 @if recorded {
                     (player(page.summary.gaps.iter().any(|gap| gap.impact_count > 0)))
@@ -284,8 +284,8 @@ pub(crate) fn motion_section(compares: bool, yields: bool) -> Markup {
                 div #hinge-legend.hinge-legend {}
             }
             p.quiet {
-                "To scale; sideways motion and gaps are both drawn exaggerated, so touching looks like touching. "
-                "Columns between floors are drawn smooth, not computed."
+                "To scale; horizontal motion and gaps are exaggerated by the same factor, so contact looks like contact. "
+                "Columns between floors are drawn as smooth curves, not computed."
             }
         }
     }
@@ -311,7 +311,7 @@ pub(crate) fn chart_section(compares: bool) -> Markup {
             }
             div #time-charts {}
             @if compares {
-                p.quiet { "Dashed: the same buildings passing through each other." }
+                p.quiet { "Dashed: the same buildings without contact." }
             }
         }
     }
@@ -368,14 +368,14 @@ fn guide(page: &Page) -> Markup {
             h2 { "How to read this" }
             ul {
                 li { "Displacements are relative to the ground and positive to the right; ground acceleration is positive to the right as well." }
-                li { "Closing is the displacement of the left floor minus that of the right one. The floors touch when it exceeds the gap; what is beyond is the indentation." }
-                li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact begins when the surfaces touch and ends with the last instant of force before they part." }
+                li { "Closing is the displacement of the left floor minus that of the right one. The floors touch when it exceeds the gap; the excess is the indentation." }
+                li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact begins when the surfaces touch and ends with the last instant of force before they separate." }
                 li { "Total acceleration includes the ground. Storey drift is the relative displacement of two floors divided by the height between them." }
-                li { "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic and contact energy add up to it. The imbalance is what is missing, relative to the greatest energy until then." }
+                li { "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic and contact energy add up to it. The imbalance is the difference, relative to the greatest energy until then." }
                 @if page.model.buildings.iter().any(|building| building.may_yield()) {
-                    li { "A place has cracked, or yielded, once its deformation has passed the first, or second, corner of its curve, on either side. Ductility is the greatest rotation of a member end, hinge and bent member together, over that at yield, or the greatest deformation of a storey over that of yield; positive stretches the bottom of a beam and the right face of a column. Dissipated is the work done less what unloading would give back." }
+                    li { "A place has cracked, or yielded, once its deformation has passed the first, or second, corner of its curve, on either side. Ductility is the greatest rotation of a member end, hinge and bent member together, over that at yield, or the greatest deformation of a storey over that of yield; a positive value means tension at the bottom of a beam and on the right side of a column. Dissipated energy is the work minus the energy recoverable by unloading." }
                 }
-                li { "Histories are thinned for this page, least of all during impacts; key figures and tables come from the full run." }
+                li { "Histories are thinned for this page, less during impacts; key figures and tables come from the full run." }
             }
         }
     }

@@ -1,4 +1,4 @@
-//! What the scripts of the page draw: geometry, impacts and thinned histories as one JSON text.
+//! Data of the page's scripts: geometry, impacts and thinned histories as one JSON text.
 
 use jostle::history::{Column, EnergyTerm, History};
 use jostle::model::{Building, Structure};

@@ -30,15 +30,15 @@ pub fn render_sections(title: &str, surveys: &[SectionSurvey]) -> String {
                     div {
                         p class="kicker" { "From reinforcement to hinge" }
                         h1 { (title) }
-                        p { "Where members crack and yield: by formulas, and by bending the section fibre by fibre." }
+                        p { "Cracking and yield of members: by formulas, and by fibre analysis of the section." }
                     }
                     (theme_button())
                 }
                 main {
                     @for survey in surveys { (sheet(survey)) }
                     p class="quiet" {
-                        "Rotations are those of a member end from its chord, in double curvature. Formula: cracking and yield moments of AIJ, secant stiffness at yield after Sugano, 1 % after yield. "
-                        "Fibre: trilinear curve of the same area as moment and curvature, integrated along the member, with the slip of the bars at its end. K = 6EI/L of the gross section."
+                        "Rotations of a member end from its chord, in double curvature. Formula: cracking and yield moments of AIJ, secant stiffness at yield after Sugano, 1 % after yield. "
+                        "Fibre: trilinear curve of the same area as moment and curvature, integrated along the member, with bar slip at its end. K = 6EI/L of the gross section."
                     }
                 }
                 (theme_script())
@@ -61,7 +61,7 @@ fn sheet(survey: &SectionSurvey) -> Markup {
                 (fixed(section.axial_ratio(survey.compression), 2)) " of the concrete; length " (fixed(survey.length, 2)) " m."
             }
             div style="display:flex;flex-wrap:wrap;gap:1rem;align-items:flex-start" {
-                figure style="flex:0 1 15rem" { (drawing(section)) figcaption class="quiet" { "Positive moment stretches the bottom." } }
+                figure style="flex:0 1 15rem" { (drawing(section)) figcaption class="quiet" { "Positive moment: the bottom is in tension." } }
                 @match &survey.analysis {
                     Ok(analysis) => {
                         @for &side in survey.sides() {
@@ -96,7 +96,7 @@ fn side_name(survey: &SectionSurvey, side: Side) -> &'static str {
 
 fn caption(survey: &SectionSurvey, side: Side) -> String {
     format!(
-        "Moment and curvature{}: analysis, and the trilinear curve of equal area (dashed).",
+        "Moment against curvature{}: analysis, and the trilinear curve of equal area (dashed).",
         side_name(survey, side)
     )
 }

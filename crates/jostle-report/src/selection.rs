@@ -1,4 +1,4 @@
-//! Sets of ground motions held against a code: a page of their own, and sections for the page of a study.
+//! Checks of sets of ground motions by a code: a separate page, and sections for the page of a study.
 
 use jostle_motion::{
     Candidate, MainPeriod, MotionFault, Origin, Reading, RuleKind, SelectionCheck, SelectionRule,
@@ -89,7 +89,7 @@ impl Spectra {
 /// The page of a set of motions: one HTML file that opens offline.
 ///
 /// # Errors
-/// When the code says nothing about the damping.
+/// If the code does not define the damping.
 pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
     let found = Spectra::of(page.target, page.damping, page.set, LONGEST)?;
     let periods = digits(&found.periods);
@@ -115,7 +115,7 @@ pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
     });
     let clause = page.check.code.clause();
     let verdict = if page.check.passes() {
-        format!("The set meets what is checked of {clause}.")
+        format!("The set meets the checked rules of {clause}.")
     } else {
         format!("The set does not meet {clause}.")
     };
@@ -141,7 +141,7 @@ pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
 /// `scaling` says how the motions were scaled.
 ///
 /// # Errors
-/// When the code says nothing about the damping.
+/// If the code does not define the damping.
 pub fn selection_sections(
     target: &TargetSpectrum,
     damping: f64,
@@ -177,13 +177,13 @@ pub fn selection_sections(
     Ok(sections)
 }
 
-/// What a reader of the verdicts must know.
+/// Notes on the verdicts.
 fn remarks(structures: &[CheckedStructure]) -> String {
     let checks = structures.iter().map(|structure| &structure.check);
     let estimated = checks.clone().any(|c| c.met(RuleKind::BaseShear).is_some());
     let mut all: Vec<&str> = Vec::new();
     if estimated {
-        all.push("Base shears are estimated from the elastic modes; the clause asks for those of the time histories.");
+        all.push("Base shears are estimated from the elastic modes; the clause requires those of the time histories.");
     }
     for note in checks.flat_map(|check| &check.notes) {
         if !all.contains(note) {
@@ -247,7 +247,7 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
     }
 }
 
-/// What is asked and whether it is met, a column for each structure.
+/// Rules and whether they are met, a column for each structure.
 fn verdicts(structures: &[CheckedStructure]) -> (Vec<String>, Vec<Vec<String>>) {
     let clause = structures
         .first()

@@ -1,4 +1,4 @@
-//! What a building has beyond the plain case: base springs, gravity, shear deformation, joints, reinforcement.
+//! Special features of a building: base springs, gravity, shear deformation, joints, reinforcement.
 
 use jostle::hysteresis::Side;
 use jostle::model::{Base, Building, Joint, Structure};
@@ -8,11 +8,11 @@ use jostle_section::formula::Member;
 use crate::describe::{Facts, grouped};
 use crate::{Page, ReinforcedSection, format};
 
-/// One fact for each thing out of the ordinary.
+/// One entry for each special feature.
 pub(crate) fn facts(building: &Building) -> Facts {
     let mut facts = base(&building.base);
     let gravity = match (building.gravity.preload, building.gravity.p_delta) {
-        (true, true) => Some("starts bent under its weight; P-Delta"),
+        (true, true) => Some("starts from the displacements under self weight; P-Delta"),
         (true, false) => Some("starts bent under its weight"),
         (false, true) => Some("P-Delta of every column"),
         (false, false) => None,
@@ -76,7 +76,7 @@ fn positive(value: f64) -> Option<f64> {
     (value > 0.0).then_some(value)
 }
 
-/// "rotation 2 × 10⁸ N·m/rad, sideways …" of those that give way.
+/// "rotation 2 × 10⁸ N·m/rad, sideways …" of flexible directions.
 fn springs(parts: &[(&str, Option<f64>, &str)]) -> String {
     let known = parts.iter().filter_map(|(name, value, unit)| {
         let value = format::plain((*value)?, 3);

@@ -1,4 +1,4 @@
-//! Impacts one by one, the peaks of every floor, and the joint widths of the codes beside the computed ones.
+//! Tables of impacts, of peaks of every floor, and of gaps required by codes compared with computed ones.
 
 use jostle::Gap;
 use jostle::contact::{LawKind, RestitutionIs};
@@ -44,10 +44,10 @@ pub(crate) fn impacts(page: &Page) -> Markup {
     ];
     html! {
         @if all == 0 {
-            p.quiet { "No floor touched its neighbour." }
+            p.quiet { "No contact between floors." }
         } @else {
             @if all > MOST_ROWS {
-                p.quiet { "The " (MOST_ROWS) " strongest of " (all) " impacts; the file of impacts beside this page has all of them." }
+                p.quiet { "The " (MOST_ROWS) " strongest of " (all) "  impacts; impacts.parquet contains all of them." }
             }
             div.scroll {
                 table #impact-table.sortable.clipped[rows.len() > FIRST_ROWS] data-first=(FIRST_ROWS) {
@@ -109,17 +109,17 @@ fn restitution_note(page: &Page) -> Markup {
     html! {
         div.note {
             p {
-                "Restitution is separation speed ÷ impact speed as it came about. Two free masses would rebound with "
+                "Restitution is separation speed ÷ impact speed, as computed. Two free masses would rebound with "
                 @for (i, gap) in summary.gaps.iter().enumerate() {
                     @if i > 0 { ", " }
                     b { (format::fixed(gap.free_restitution, 3)) }
                     @if summary.gaps.len() > 1 { " (" (gap.between[0]) "–" (gap.between[1]) ")" }
                 }
-                " under this contact law. In a building the storeys and the other contacts push during the impact as well, so the two differ, and the ratio may even exceed one after a soft touch."
+                " under this contact law. In a building the storeys and other contacts also act during the impact, so the two ratios differ. After a light impact the ratio may exceed one."
             }
             @if let Some((gap, law)) = published {
                 p {
-                    "The coefficient put into the published hertz-damp formula is not the rebound of free masses: with e = "
+                    "The coefficient in the published hertz-damp formula is not the rebound of free masses: with e = "
                     (format::plain(law.restitution, 3)) " they rebound with " (format::fixed(gap.free_restitution, 3)) "."
                 }
             }
@@ -234,7 +234,7 @@ struct Width {
     class: &'static str,
 }
 
-/// Joint widths of a gap as bars: the gap, what the run needed, what rules ask for.
+/// Required gaps as bars: the gap of the model, the smallest gap without pounding, the gaps of rules.
 pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
     let of_gap = |summary, gap: &Gap| {
         let envelopes = without.unwrap_or(run);
@@ -280,7 +280,7 @@ pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>
     }
 }
 
-/// Height of the lower of two neighbours; `None` before a wall, for which the codes say nothing.
+/// Height of the lower of two neighbours; `None` beside a wall, for which codes have no rule.
 fn lower_height(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
     let [left, right] = between;
     let buildings = [left?, right?].map(|building| page.model.buildings.get(building));

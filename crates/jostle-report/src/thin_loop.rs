@@ -1,4 +1,4 @@
-//! A loop made small: few rows, every corner kept.
+//! Thinning of a loop: few rows, every corner kept.
 
 /// Rows of a history of (deformation, force) worth keeping, in order.
 ///

@@ -1,4 +1,4 @@
-//! What happened, in one sentence of plain words.
+//! The verdict of a run in one sentence.
 
 use jostle::results::summary::{ContactSummary, GapSummary, ImpactSummary, Summary};
 
@@ -64,7 +64,7 @@ fn alone(summary: &Summary) -> String {
     });
     match roof.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((name, sway)) => format!(
-            "{name} sways up to {} at the roof; it has no neighbour to hit.",
+            "{name} has a peak roof displacement of {}; it has no neighbour.",
             format::millimetres(sway)
         ),
         None => "Nothing was recorded.".into(),
@@ -103,12 +103,12 @@ fn sentence_of(gap: &GapSummary) -> String {
     let start = format!("{} ({first_place})", at(first));
     if hardest == first {
         format!(
-            "{head}, first and hardest at {start}, with {}.",
+            "{head}; the first impact, at {start}, has the peak force, {}.",
             force(hardest)
         )
     } else {
         format!(
-            "{head}, first at {start}, hardest at {} ({hardest_place}), with {}.",
+            "{head}, first at {start}; peak force at {} ({hardest_place}), {}.",
             at(hardest),
             force(hardest)
         )
@@ -118,7 +118,7 @@ fn sentence_of(gap: &GapSummary) -> String {
 fn approach(gap: &GapSummary, head: &str) -> String {
     match closest_approach(gap) {
         Some(distance) => format!(
-            "{head}{} and {} come no closer than {}.",
+            "{head}the smallest distance between {} and {} is {}.",
             gap.between[0],
             gap.between[1],
             format::millimetres(distance)
@@ -127,12 +127,12 @@ fn approach(gap: &GapSummary, head: &str) -> String {
     }
 }
 
-/// Least distance left between the faces of a gap \[m\].
+/// Smallest distance between the two sides of a gap \[m\].
 pub(crate) fn closest_approach(gap: &GapSummary) -> Option<f64> {
     nearest(gap).map(|contact| contact.width_m - contact.closing_peak_m)
 }
 
-/// The contact of a gap that comes nearest to touching, or is pressed most.
+/// The contact of a gap with the smallest distance or the largest indentation.
 pub(crate) fn nearest(gap: &GapSummary) -> Option<&ContactSummary> {
     let known = gap.contacts.iter().filter(|c| c.closing_peak_m.is_finite());
     known.max_by(|a, b| {

@@ -1,4 +1,4 @@
-//! The report as a viewer that shows run after run: what stays on the page, and what a run puts into it.
+//! The report as a viewer of successive runs: the fixed parts of the page, and the parts of a run.
 
 use maud::html;
 
@@ -6,7 +6,7 @@ use crate::envelope::{self, envelopes};
 use crate::page::{self, SCRIPTS, STYLE};
 use crate::{Page, describe, hinges, payload, tables, verdict};
 
-/// What stays on a page while runs come and go.
+/// Parts of the page that do not change with the run.
 #[derive(Clone, Debug)]
 pub struct Viewer {
     /// Style sheet.

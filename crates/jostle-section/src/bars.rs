@@ -1,4 +1,4 @@
-//! Reinforcing bars: how they are written and where they lie.
+//! Reinforcing bars: notation and positions.
 
 /// A bar of the cross-section.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ struct Group {
     diameter: f64,
 }
 
-/// Reinforcement as it is written, before it is laid into a section.
+/// Reinforcement as written, before placement in a section.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reinforcement {
     around: Vec<Group>,
@@ -44,7 +44,7 @@ pub struct Ties {
     pub spacing: f64,
 }
 
-/// What is wrong with a description of bars.
+/// An error in a description of bars.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct BarsError(String);
@@ -63,7 +63,7 @@ impl Reinforcement {
     /// the sides lie evenly between top and bottom, half on either face.
     ///
     /// # Errors
-    /// [`BarsError`] says what is not understood.
+    /// [`BarsError`] with the part that is not understood.
     pub fn parse(text: &str) -> Result<Self, BarsError> {
         let mut read = Self::default();
         for part in text.split(',') {
@@ -81,7 +81,7 @@ impl Reinforcement {
     /// The same in parts, each such as `"4 d25"`.
     ///
     /// # Errors
-    /// [`BarsError`] says what is not understood.
+    /// [`BarsError`] with the part that is not understood.
     pub fn rows(top: &str, bottom: &str, sides: Option<&str>) -> Result<Self, BarsError> {
         Self {
             around: Vec::new(),
@@ -272,7 +272,7 @@ impl Ties {
     /// Reads `"d10 @ 100 mm"` or `"d10 @100"`.
     ///
     /// # Errors
-    /// [`BarsError`] says what is not understood.
+    /// [`BarsError`] with the part that is not understood.
     pub fn parse(text: &str) -> Result<Self, BarsError> {
         let fault = || {
             let shown: String = text.chars().take(40).collect();

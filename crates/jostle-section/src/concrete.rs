@@ -1,6 +1,6 @@
 //! Concrete grades of GB 50010.
 
-/// Which strength of a material is meant.
+/// Strength level of a material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum StrengthLevel {
     /// Exceeded by 95 % of the material; the default, as codes use it to check existing or inelastic structures.

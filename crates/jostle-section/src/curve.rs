@@ -1,4 +1,4 @@
-//! Moment and curvature of a section under constant axial force, with the events on the way.
+//! Moment and curvature of a section under constant axial force, with the events along the curve.
 
 use jostle::hysteresis::Corner;
 
@@ -59,7 +59,7 @@ impl EventKind {
 /// A state on the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
-    /// What happens.
+    /// The event.
     pub kind: EventKind,
     /// Curvature \[1/m\].
     pub curvature: f64,
@@ -205,7 +205,7 @@ impl Bender {
             let Some(mut next) = self.solve(here.curvature + step, here.strain) else {
                 break;
             };
-            // The first event on the way becomes a point of its own.
+            // The first event in the step becomes a separate point.
             let passed = open
                 .iter()
                 .copied()
@@ -279,7 +279,7 @@ impl Bender {
         }
     }
 
-    /// Equilibrium at a curvature, nearest to a strain; `None` if there is none any more.
+    /// Equilibrium at a curvature, nearest to a strain; `None` if there is none.
     fn solve(&self, curvature: f64, near: f64) -> Option<State> {
         let miss = |strain: f64| self.fibres.resultants(strain, curvature).axial - self.axial;
         let reach = 2.0 * curvature * self.fibres.section().depth + 1e-2;

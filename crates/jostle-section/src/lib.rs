@@ -1,9 +1,9 @@
 //! From a reinforced-concrete section to the backbone of a plastic hinge.
 //!
-//! A [`Section`] is a rectangle of [`Concrete`] with [`Reinforcement`]. Two ways lead to the moment–rotation
-//! curve of a member end ([`EndCurve`]): published formulas ([`formula`]), and an analysis of the section fibre by
-//! fibre ([`MomentCurvature`]) with a trilinear curve fitted to it. [`EndCurve::hinge`] takes away what the member
-//! itself bends and leaves the [`jostle::hysteresis::Backbone`] of the hinge.
+//! A [`Section`] is a rectangle of [`Concrete`] with [`Reinforcement`]. Two methods give the moment–rotation curve
+//! of a member end ([`EndCurve`]): published formulas ([`formula`]), and an analysis of the section fibre by fibre
+//! ([`MomentCurvature`]) with a trilinear curve fitted to it. [`EndCurve::hinge`] takes away what the member itself
+//! bends and leaves the [`jostle::hysteresis::Backbone`] of the hinge.
 //!
 //! Everything is in SI. Compression is positive for concrete strains and axial loads; positive moments stretch
 //! the bottom.

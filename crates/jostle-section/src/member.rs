@@ -54,7 +54,7 @@ impl EndCurve {
             }
         };
         let positive = side(section);
-        // Equal to the last bit: some rules ask for it.
+        // Equal to the last bit: some rules require it.
         let negative = if section.is_symmetric() {
             positive
         } else {

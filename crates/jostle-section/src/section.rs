@@ -23,13 +23,13 @@ pub struct Section {
     pub ties: Option<Ties>,
 }
 
-/// What is wrong with a section.
+/// An error in a section.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{field}: {problem}")]
 pub struct SectionFault {
     /// The value concerned: `width`, `depth`, `cover`, `bars`, `concrete` or `steel`.
     pub field: &'static str,
-    /// What is wrong and what would be right.
+    /// The problem and a valid alternative.
     pub problem: String,
 }
 

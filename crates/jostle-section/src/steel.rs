@@ -42,8 +42,8 @@ impl Steel {
         ))
     }
 
-    /// From the yield strength alone \[Pa\]: 200 GPa, 1 % hardening, rupture at 7.5 % (the uniform elongation
-    /// that GB 50010-2010, table 4.2.4, asks of HRB bars).
+    /// From the yield strength alone \[Pa\]: 200 GPa, 1 % hardening, rupture at 7.5 % (the uniform elongation that
+    /// GB 50010-2010, table 4.2.4, requires for HRB bars).
     #[must_use]
     pub fn of_strength(yield_strength: f64) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Everything about one member end, by both ways.
+//! All results for one member end, by both methods.
 
 use jostle::hysteresis::Side;
 
@@ -11,7 +11,7 @@ use crate::section::Section;
 /// A section in a member, with its curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectionSurvey {
-    /// Where it stands, for people.
+    /// Its position, for display.
     pub name: String,
     /// The section.
     pub section: Section,
@@ -72,7 +72,7 @@ impl SectionSurvey {
         self.section.is_symmetric()
     }
 
-    /// The sides worth showing: one if both are alike.
+    /// The sides to show: one if both are equal.
     #[must_use]
     pub fn sides(&self) -> &'static [Side] {
         if self.is_symmetric() {

@@ -15,7 +15,7 @@ use crate::measures::measures;
 use crate::row::{Row, Status};
 use crate::study::Study;
 
-/// What cases that follow each other share: assembled systems, and records that have been read.
+/// Data shared by successive cases: assembled systems and records.
 #[derive(Default)]
 pub struct Workshop {
     /// The last systems, the most recent at the end.
@@ -38,7 +38,7 @@ struct Shapes {
 }
 
 impl Assembled {
-    /// The shapes that modal stepping wants, if it is wanted and possible.
+    /// The shapes for modal stepping, if it is requested and possible.
     fn shapes(&self, plan: &Plan) -> Option<Arc<modal::Reduction>> {
         if plan.solver != Solver::Modal {
             return None;
@@ -89,7 +89,7 @@ impl Workshop {
     /// Reads a case, finds its system and its motion, and plans its steps.
     ///
     /// # Errors
-    /// [`CaseError`], as the reader of model files says it.
+    /// [`CaseError`] with the message of the reader of model files.
     pub fn prepare(&self, study: &Study, case: u64) -> Result<Prepared, CaseError> {
         let tree = study.tree(&study.design.choices(case, &study.file.factors))?;
         self.assemble(tree.input()?)
@@ -98,7 +98,7 @@ impl Workshop {
     /// Assembles a model that has been read, finds its motion, and plans its steps.
     ///
     /// # Errors
-    /// [`CaseError`], as the reader of model files says it.
+    /// [`CaseError`] with the message of the reader of model files.
     pub fn assemble(&self, input: Input) -> Result<Prepared, CaseError> {
         let assembled = self.assembled(&input)?;
         let motion = self.motion(&input)?;
@@ -195,7 +195,7 @@ fn same(a: &Model, b: &Model) -> bool {
     a.buildings == b.buildings && a.gaps == b.gaps && a.links == b.links
 }
 
-/// Whether two models differ in nothing but the widths of their gaps, and in what [`same`] allows.
+/// Whether two models differ only in the widths of their gaps and in the differences that [`same`] allows.
 fn kindred(a: &Model, b: &Model) -> bool {
     let alike = |(a, b): (&Gap, &Gap)| {
         let widths = b.widths.clone();
@@ -215,7 +215,7 @@ fn kindred(a: &Model, b: &Model) -> bool {
 pub struct Ran {
     /// Prepared from.
     pub prepared: Prepared,
-    /// What came out.
+    /// The result.
     pub outcome: Outcome,
     /// In numbers; without wall time, so that it is the same on every machine.
     pub summary: Summary,
@@ -338,7 +338,7 @@ pub(crate) fn row_of(study: &Study, case: u64, ran: &Ran) -> Row {
     let mut homeless: Vec<String> = Vec::new();
     let found = measures(&ran.summary, &ran.prepared.system, &ran.prepared.motion);
     for named in found {
-        // Peaks until a case failed say nothing about the rest.
+        // Peaks up to a failure are not peaks of the whole case.
         let known_anyway = matches!(&named.name[..], "pga_m_s2")
             || named.name.ends_with(".width_m")
             || named.name.ends_with("_t1_m_s2")

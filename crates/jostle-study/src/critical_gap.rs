@@ -1,4 +1,4 @@
-//! The smallest gap without pounding, by bracketing on the response, beside what rules and codes ask for.
+//! The smallest gap without pounding, by bracketing on the response, compared with rules and codes.
 
 use jostle::separation::{
     EN1998_ALIGNED_FLOORS, JointSystem, UBC97_OF_ELASTIC, absolute_sum, ddc_coefficient,
@@ -11,7 +11,7 @@ use jostle::{
 use serde::Serialize;
 use std::ops::ControlFlow;
 
-/// What is asked of a search.
+/// Settings of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapSettings {
     /// Width of the last bracket, > 0 \[m\].
@@ -57,7 +57,7 @@ pub struct CriticalGap {
     pub damping: [f64; 2],
     /// Correlation of the double difference combination; `null` without damping \[–\].
     pub ddc_correlation: Option<f64>,
-    /// What rules ask for, and what they would have led to.
+    /// Gaps required by rules, and the outcomes with them.
     pub rules: Vec<RuleGap>,
 }
 
@@ -66,7 +66,7 @@ pub struct CriticalGap {
 pub struct RuleGap {
     /// Short name.
     pub rule: String,
-    /// Where it stands.
+    /// Its source.
     pub source: String,
     /// Gap \[m\].
     pub gap_m: f64,
@@ -128,9 +128,9 @@ const MOST_RUNS: usize = 200;
 /// Searches every gap of a model under one motion, each by itself while the others are out of reach.
 ///
 /// Buildings that do not touch do not feel the gap, so the greatest closing of a run without contact is the answer
-/// but for rounding: no wider gap is run, because nothing touches there. A run with contact at a narrower one makes
-/// sure that there is an impact, and bisection narrows the bracket to `settings.tolerance`. No width is run twice.
-/// `report` is called often while a run is under way.
+/// except for rounding: no wider gap is run, because there is no contact. A run with contact at a narrower one
+/// makes sure that there is an impact, and bisection narrows the bracket to `settings.tolerance`. No width is run
+/// twice. `report` is called often while a run is under way.
 ///
 /// # Errors
 /// [`GapError`].
@@ -171,7 +171,7 @@ struct Search<'a> {
     report: &'a dyn Fn(&GapProgress),
 }
 
-/// What a width of a gap leads to.
+/// Outcome with a gap width.
 #[derive(Clone, Copy)]
 struct Led {
     impact_count: usize,
@@ -196,7 +196,7 @@ impl OneGap<'_> {
         self.known.len() + 1
     }
 
-    /// What a width leads to; runs it only if that is not known.
+    /// Outcome with a width; runs the model only if it is not known yet.
     fn at(&mut self, width: f64) -> Result<Led, GapError> {
         if width >= self.closing * (1.0 + BEYOND) + LEAST_BEYOND {
             return Ok(Led {
@@ -511,7 +511,7 @@ struct Bracket {
     pounding: Option<f64>,
 }
 
-/// Greatest displacement of a building at a height, either way; between floors by a straight line between theirs.
+/// Greatest displacement of a building at a height, in either direction; between floors by linear interpolation.
 fn peak_at(run: &Tried, building: usize, height: f64) -> f64 {
     let floors = &run.summary.buildings[building].floors;
     let (mut below, mut peak_below) = (0.0, 0.0);
@@ -613,7 +613,7 @@ mod tests {
                 "{rule:?}"
             );
         }
-        // What is taken as known holds: a run just beyond the greatest closing has no impact, nor one at the answer.
+        // Checks the assumptions: runs just above the greatest closing and at the result have no impact.
         let search = Search {
             model: &input.model,
             motion: &motion,

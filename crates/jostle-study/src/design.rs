@@ -283,7 +283,7 @@ fn chosen(factors: &[Factor], point: &[f64]) -> Vec<Choice> {
     factors.iter().zip(point).map(choice).collect()
 }
 
-/// What goes into the model, and its number in SI if it is one.
+/// Value for the model, and its number in SI if it is one.
 pub(crate) fn value_of(factor: &Factor, choice: &Choice) -> (TreeValue, Option<f64>, String) {
     match (&factor.values, choice) {
         (FactorValues::Listed(levels), Choice::Listed(index)) => {

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::row::Row;
 
-/// What a column holds.
+/// Content of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -24,16 +24,16 @@ pub enum Kind {
 pub struct Column {
     /// Name, with its unit at the end.
     pub name: String,
-    /// What it holds.
+    /// Its content.
     pub kind: Kind,
 }
 
-/// The columns of a study after `case`, `status` and `reason`: first what varies, then what comes out.
+/// The columns of a study after `case`, `status` and `reason`: first the inputs, then the results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// Columns of what varies, factor by factor.
     pub inputs: Vec<Column>,
-    /// Columns of what comes out, numbers all of them; the name of the motion stands before them.
+    /// Columns of the results, all numeric; the name of the motion precedes them.
     pub results: Vec<Column>,
     places: HashMap<String, usize>,
 }
@@ -102,7 +102,7 @@ impl Layout {
         }
     }
 
-    /// Where a result stands among the results.
+    /// Index of a result among the results.
     #[must_use]
     pub fn place(&self, name: &str) -> Option<usize> {
         self.places.get(name).copied()

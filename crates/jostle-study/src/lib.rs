@@ -1,5 +1,4 @@
-//! Many cases of one model: what varies, how cases are made of it, how they are run without losing any, and what
-//! they say together.
+//! Many cases of one model: varied keys, design of the cases, a resumable runner, and statistics of the results.
 //!
 //! [`Study::new`] checks a [`jostle_io::StudyFile`]; [`run()`] computes what is not finished yet into a folder, a
 //! partitioned Parquet dataset with one row a case. Every number of a row depends on the study and the number of the

@@ -1,4 +1,4 @@
-//! What a row of a study says about a run: engineering demand parameters by name.
+//! Engineering demand parameters of a run, by name: the results of a row of a study.
 
 use jostle::results::summary::{BuildingSummary, GapSummary};
 use jostle::{GroundMotion, Summary, System, Wave};

@@ -1,4 +1,4 @@
-//! Studies that come with the program: each is written for the model that it varies, around the model's own values.
+//! Ready-made studies: each is written for the model that it varies, around the values of the model.
 
 mod factors;
 
@@ -83,7 +83,7 @@ pub fn ready_made_names() -> Vec<&'static str> {
 /// the study is one of the built-in example under two records.
 ///
 /// # Errors
-/// When there is no study of that name, and when the model is wrong or has no gap.
+/// If the study name is unknown, or the model is wrong or has no gap.
 pub fn ready_made(
     name: &str,
     base: Option<ModelTree>,
@@ -138,7 +138,7 @@ pub fn ready_made(
     Ok((file, notes))
 }
 
-/// What a study would vary in a model.
+/// Keys that a study would vary in a model.
 fn wanted(name: &str, tree: &ModelTree, input: &Input, notes: &mut Vec<String>) -> Vec<Block> {
     let multiples = |from: f64, step: f64, count: u32| -> Vec<f64> {
         (0..count).map(|k| from + step * f64::from(k)).collect()

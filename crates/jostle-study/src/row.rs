@@ -12,7 +12,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// As it stands in the table.
+    /// As in the table.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -65,7 +65,7 @@ impl Row {
         bytes
     }
 
-    /// The row back from its bytes; `None` if they are none.
+    /// The row from its bytes; `None` if they are not a row.
     pub(crate) fn decode(bytes: &[u8]) -> Option<Self> {
         let mut rest = bytes;
         let mut take = |count: usize| -> Option<&[u8]> {

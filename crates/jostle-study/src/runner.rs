@@ -1,4 +1,4 @@
-//! Runs the cases of a study on all cores and loses none of them.
+//! Runs the cases of a study on all cores; finished cases are never lost.
 
 use std::any::Any;
 use std::collections::VecDeque;
@@ -49,7 +49,7 @@ pub struct Progress {
     pub cases: u64,
 }
 
-/// What a run of a study leaves behind besides its files.
+/// Results of a run of a study besides its files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Done {
     /// How far it came.
@@ -90,7 +90,7 @@ pub fn run(
     run_with(study, folder, settings, hooks, &compute)
 }
 
-/// What a run asks and reports while it is under way.
+/// Callbacks of a run for interruption and progress.
 #[derive(Clone, Copy)]
 pub(crate) struct Hooks<'a> {
     pub(crate) stop: &'a (dyn Fn() -> bool + Sync),
@@ -157,7 +157,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What all threads share.
+/// Data shared by all threads.
 struct Work<'a> {
     study: &'a Study,
     folder: &'a Path,
@@ -172,7 +172,7 @@ struct Work<'a> {
     hooks: Hooks<'a>,
 }
 
-/// What is still to be dealt out.
+/// Work not yet distributed.
 struct Queue {
     parts: VecDeque<u64>,
     /// Parts that other processes compute.
@@ -236,7 +236,7 @@ impl Work<'_> {
         lock(&self.error).get_or_insert(error);
     }
 
-    /// The next case to compute; `None` when there is no more to do.
+    /// The next case to compute; `None` if all are done.
     fn next(&self) -> Option<(Arc<Part>, u64)> {
         let mut queue = lock(&self.queue);
         loop {
@@ -290,7 +290,7 @@ impl Work<'_> {
             return Ok(Opened::Finished);
         }
         let (journal, known) = match (self.claim(number)?, &first_look) {
-            // Left behind by a process that was killed between writing the part and removing its journal.
+            // Remains of a process that was killed between writing the part and removing its journal.
             (Claim::Ours(journal, _), Ok(_)) => {
                 remove(journal)?;
                 return Ok(Opened::Finished);
@@ -394,7 +394,7 @@ impl Work<'_> {
             .map_err(|error| unwritable(&path, &error))
     }
 
-    /// Sets aside the file of a part that is not this part, and says why and what becomes of its cases.
+    /// Moves aside the file of a part that is not this part, and reports the reason and the fate of its cases.
     fn clear(&self, number: u64, fault: &PartFault, what_now: &str) -> Result<(), StudyError> {
         let path = part_path(self.folder, self.study.part(number).start);
         let Some(label) = fault.label() else {
@@ -415,7 +415,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Sets aside Parquet files among the parts that are none of this study's: readers of all files would mix them in.
+    /// Moves aside Parquet files that do not belong to this study: readers of all files would include them.
     fn clear_strangers(&self) -> Result<(), StudyError> {
         for path in strangers(self.study, self.folder) {
             let moved = set_aside(self.folder, &path, "no-part");

@@ -1,4 +1,4 @@
-//! One case with everything a single run leaves behind.
+//! One case with all files of a single run.
 
 use std::path::Path;
 

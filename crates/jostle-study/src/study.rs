@@ -22,7 +22,7 @@ pub struct Study {
     pub layout: Layout,
     /// Cases in one part of the table.
     pub part_cases: u64,
-    /// What tells this study from others: file, model, records, version.
+    /// Identity of this study: file, model, records, version.
     pub fingerprint: String,
     /// Hash of the base model.
     pub model_hash: String,
@@ -76,7 +76,7 @@ impl Study {
     /// middle and high.
     ///
     /// # Errors
-    /// [`StudyError`] with every fault in one go.
+    /// [`StudyError`] with all faults at once.
     pub fn new(file: StudyFile) -> Result<Self, StudyError> {
         let design = CaseDesign::of(&file)?;
         let workshop = Workshop::default();
@@ -127,7 +127,7 @@ impl Study {
         usual(&self.file)
     }
 
-    /// Names in the wishes of the file that are no columns.
+    /// Names in the evaluations of the file that are not columns.
     fn check_wishes(&self) -> Result<(), StudyError> {
         let names = self.layout.names();
         let missing = |wanted: &str| -> Result<(), StudyError> {
@@ -201,7 +201,7 @@ impl Study {
     }
 }
 
-/// The model file with the values of a case put in.
+/// The model file with the values of a case.
 fn tree(file: &StudyFile, choices: &[Choice]) -> Result<ModelTree, PathError> {
     let mut tree = file.base.clone();
     for (factor, choice) in file.factors.iter().zip(choices) {
@@ -227,7 +227,7 @@ fn put(tree: &mut ModelTree, factor: &Factor, choice: &Choice) -> Result<(), Pat
     Ok(())
 }
 
-/// What trying the entries of the lists brought to light.
+/// Result of checking the entries of the lists.
 struct Trial {
     results: Vec<Vec<Named>>,
     warnings: Vec<String>,
@@ -333,7 +333,7 @@ fn combine(
             choices[*index] = values[rest % values.len()].clone();
             rest /= values.len();
         }
-        // What cannot be assembled becomes a row with its reason.
+        // A case that cannot be assembled becomes a row with its reason.
         if let Ok((list, _)) = columns(file, workshop, &choices) {
             let same = |known: &Vec<Named>| {
                 known.len() == list.len() && known.iter().zip(&list).all(|(a, b)| a.name == b.name)
@@ -399,7 +399,7 @@ fn columns(
     Ok((list.unwrap_or_default(), warnings))
 }
 
-/// What tells studies apart, and the hash of the base model.
+/// Identity of studies, and the hash of the base model.
 fn hashes(file: &StudyFile, _workshop: &Workshop) -> (String, String) {
     let model = hex(&Sha256::digest(file.base.text().as_bytes()));
     let mut all = Sha256::new();

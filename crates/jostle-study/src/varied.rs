@@ -1,4 +1,4 @@
-//! What a study varies, in words: every key, its range, and what stands in the model.
+//! Description of the varied keys: every key, its range, and its value in the model.
 
 use jostle_io::{DesignKind, Distribution, FactorValues, Level, Shape, TreeValue};
 
@@ -19,12 +19,12 @@ pub struct Varied {
     pub keys: String,
     /// Its values: `10 mm … 30 mm, 5 values`, or `× 0.5 … 1.5 (uniform)`.
     pub range: String,
-    /// What stands there in the base model; empty if nothing does.
+    /// Its value in the base model; empty if absent.
     pub own: String,
 }
 
 impl Varied {
-    /// Keys, values, and what stands in the model, in one line.
+    /// Keys, values, and the value of the model, in one line.
     #[must_use]
     pub fn text(&self) -> String {
         let own = if self.own.is_empty() {
@@ -36,7 +36,7 @@ impl Varied {
     }
 }
 
-/// What a study varies, factor by factor.
+/// The varied keys of a study, by factor.
 #[must_use]
 pub fn varied(study: &Study) -> Vec<Varied> {
     let file = &study.file;

@@ -17,7 +17,7 @@ const DRAWN: u64 = 48;
 const SEED: u64 = 2024;
 /// Longest motion of a drawn model \[s\].
 const LONGEST: f64 = 4.0;
-/// Every law beside others that drawn models seldom have.
+/// Every law, with features that random models seldom have.
 const LAWS: [&str; 12] = [
     r#""law": "linear", "stiffness": 4e8"#,
     r#""law": "kelvin", "stiffness": 4e8, "restitution": 0.6"#,

@@ -143,12 +143,12 @@ fn el_centro(case: &Value) -> Vec<Row> {
     let got = [
         (
             "u5",
-            "greatest roof displacement [in]",
+            "peak roof displacement [in]",
             roof.displacement_max
                 .value
                 .max(-roof.displacement_min.value),
         ),
-        ("Vb", "greatest base shear [kip]", outcome.base_shear[0]),
+        ("Vb", "peak base shear [kip]", outcome.base_shear[0]),
     ];
     let mut rows = Vec::new();
     for (key, what, got) in got {

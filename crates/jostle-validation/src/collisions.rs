@@ -51,18 +51,18 @@ impl Bodies {
     }
 }
 
-/// What came out of a collision.
+/// Results of a collision.
 struct Collision {
-    /// Time counts from the touch.
+    /// Time counts from first contact.
     impact: Impact,
     velocities: [f64; 2],
-    /// Where the force is greatest and where it ends, from the touch \[s\].
+    /// Times of the peak force and of the end of force, from first contact \[s\].
     peak_after: f64,
     lasted: f64,
 }
 
-/// Lets two bodies meet, with so many steps per elastic collision. They start a fraction of a step apart, so
-/// that the touch falls between two steps.
+/// Collides two bodies with a given number of steps per elastic collision. They start a fraction of a step apart,
+/// so that first contact lies between two steps.
 fn collide(law: &ContactLaw, bodies: Bodies, steps_per_impact: f64) -> Collision {
     let [m1, m2] = bodies.masses;
     let speed = bodies.closing_speed();
@@ -110,14 +110,14 @@ fn hertz_closed_forms() -> Vec<Row> {
     let mut rows = vec![
         Row::relative(
             SOURCE,
-            "Hertz, greatest indentation [m]",
+            "Hertz, peak indentation [m]",
             value("delta_max"),
             indentation,
             1e-12,
         ),
         Row::relative(
             SOURCE,
-            "Hertz, greatest force [N]",
+            "Hertz, peak force [N]",
             value("F_max"),
             force,
             1e-12,
@@ -190,7 +190,7 @@ fn restitutions() -> Vec<Row> {
     rows
 }
 
-/// Laws of the table that a precise integration of theirs and ours should agree on.
+/// Laws of the table for which both precise integrations should agree.
 fn precise_collisions() -> Vec<Row> {
     const SOURCE: &str = "theory/oracle_contact";
     let stored = document(include_str!("../data/theory/oracle_contact.json"));
@@ -367,14 +367,14 @@ fn single_collision(
     let mut rows = vec![
         Row::relative(
             source,
-            name("greatest force [N]"),
+            name("peak force [N]"),
             expected("F_max"),
             impact.peak_force,
             tolerance,
         ),
         Row::relative(
             source,
-            name("greatest indentation [m]"),
+            name("peak indentation [m]"),
             expected("delta_max"),
             impact.peak_indentation,
             tolerance,
@@ -408,12 +408,12 @@ fn single_collision(
             10.0 * tolerance,
         ),
     ];
-    // A share of the energy that met.
+    // Relative to the kinetic energy of the approach.
     let met =
         0.5 * effective_mass(bodies.masses[0], bodies.masses[1]) * bodies.closing_speed().powi(2);
     rows.push(Row::absolute(
         source,
-        name("energy lost ÷ energy that met [–]"),
+        name("dissipated energy ÷ kinetic energy of approach [–]"),
         of_variant("dissipated") / met,
         impact.dissipated / met,
         tolerance,
@@ -432,7 +432,7 @@ fn single_collision(
     if let Some(at) = case.pointer("/expected/t_F_max").and_then(Value::as_f64) {
         rows.push(Row::relative(
             source,
-            name("time from touch to greatest force [s]"),
+            name("time from first contact to peak force [s]"),
             at,
             got.peak_after,
             10.0 * tolerance,
@@ -441,7 +441,7 @@ fn single_collision(
     rows
 }
 
-/// Errors with N steps per impact, against those of an independent program that also lands on the touch.
+/// Errors with N steps per impact, against those of an independent program that also ends steps at first contact.
 fn order_of_convergence() -> Vec<Row> {
     const SOURCE: &str = "theory/contact_dt_twomass";
     let stored = document(include_str!("../data/theory/contact_dt_twomass.json"));
@@ -466,7 +466,8 @@ fn order_of_convergence() -> Vec<Row> {
             let quantity = format!(
                 "hertz-damp calibrated to {e}, {steps} steps per impact, error of the restitution [–]"
             );
-            // Theirs is the worst of 13 phases; the touch and the parting lie elsewhere in the steps here.
+            // The reference is the worst of 13 phases; here first contact and separation lie elsewhere in the
+            // steps.
             rows.push(Row::absolute(
                 SOURCE,
                 quantity,

@@ -7,7 +7,7 @@ pub(crate) fn document(text: &str) -> Value {
     serde_json::from_str(text).expect("stored data are valid JSON")
 }
 
-/// What stands at a path such as `/expected/F_max`.
+/// The value at a path such as `/expected/F_max`.
 pub(crate) fn at<'a>(value: &'a Value, path: &str) -> &'a Value {
     value
         .pointer(path)
@@ -21,7 +21,7 @@ pub(crate) fn number(value: &Value, path: &str) -> f64 {
         .unwrap_or_else(|| panic!("{path} is a number"))
 }
 
-/// The list of numbers at a path; what is no number is left out.
+/// The list of numbers at a path; other values are omitted.
 pub(crate) fn numbers(value: &Value, path: &str) -> Vec<f64> {
     list(value, path).iter().filter_map(Value::as_f64).collect()
 }

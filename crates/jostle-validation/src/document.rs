@@ -9,17 +9,17 @@ const ILL_CONDITIONED: &str = "\
 ## What to know before reading the tables
 
 - **Impact sequences are sensitive.** A small change in timing can alter all later impacts, and a grazing impact may or may not happen.
-  Early impacts, peaks, impulses and energies are compared; counts are compared exactly where grazing impacts play no part and
-  up to one impact where they do.
-- **Many frequencies of a frame lie close together**; single mode shapes are therefore not compared, frequencies are.
-- **Two closed forms are met by stepping**, so that their rows show the error of the step, not of the formula; the step
-  stands in the row.
-- **A row marked *known*** does not agree within its tolerance; the reason is given below its table. All of them are one
-  grazing impact of 10 kN next to impacts of 190 kN.
-- **Below some step size accuracy stops improving.** In double precision the step equations carry a relative error of about
-  10⁻¹⁵/(ωh)², so that below some 10 µs rounding outgrows the error of the method for slow structures.
-- **Not compared**: contact laws that OpenSees has otherwise or not at all; the tables of Zhang et al. (2019),
-  whose inputs are not available; structures measured in laboratories.
+  Early impacts, peaks, impulses and energies are compared; the number of impacts must be equal, and
+  may differ by one where grazing impacts occur.
+- **Many frequencies of a frame lie close together**. Frequencies are therefore compared, single mode shapes are not.
+- **Two closed forms are compared with time steps.** Their rows show the error of the step, not of the formula; each row
+  states the step.
+- **A row marked *known*** does not agree within its tolerance; the reason is given below its table. All of them are the
+  same grazing impact of 10 kN, beside impacts of 190 kN.
+- **Below some step size accuracy stops improving.** In double precision the step equations have a relative error of about
+  10⁻¹⁵/(ωh)². Below about 10 µs rounding therefore exceeds the error of the method for slow structures.
+- **Not compared**: contact laws that OpenSees lacks or defines differently; the tables of Zhang et al. (2019), whose
+  inputs are not available; laboratory tests.
 ";
 
 /// The whole page.
@@ -42,19 +42,18 @@ pub fn page(families: &[Family], extent: Extent) -> String {
     };
     let mut page = format!(
         "# Validation\n\n\
-         jostle {version} beside closed forms, independent programs and the literature: {rows} numbers, of which {} agree \
+         jostle {version} compared with closed forms, independent programs and the literature: {rows} numbers, of which {} agree \
          within their tolerance, {missed} miss and {known} differ for a known reason.\n\n\
          This page is written by\n\n\
          ```sh\ncargo run --release -p jostle-validation --{}\n```\n\n\
-         and checked by `cargo test -p jostle-validation`. The expected numbers and their provenance lie in \
-         `crates/jostle-validation/data`; each tolerance is the one stated there.\n\n{ILL_CONDITIONED}",
+         and checked by `cargo test -p jostle-validation`. The expected numbers, their sources and their tolerances are in `crates/jostle-validation/data`.\n\n{ILL_CONDITIONED}",
         rows - missed - known,
         if option.is_empty() { " " } else { option },
         version = env!("CARGO_PKG_VERSION"),
     )
     .replace("jostle-validation -- \n", "jostle-validation\n");
     page += "\n## Random models\n\n\
-        Every promised peak of random models is held to the tolerance against a reference of other means. The figure shows \
+        Every peak of random models that the tolerance covers is compared with an independent reference. The figure shows \
         the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [certify.md](certify.md).\n\n\
         ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n\n## Families\n";
     page += "\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n";

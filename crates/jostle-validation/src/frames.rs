@@ -58,7 +58,7 @@ fn frequencies(name: &str, frame: &Value, building: &BuildingSystem) -> Row {
         })
         .expect("a frame has modes");
     let quantity = format!(
-        "{name}, ω₁…{}, the worst: ω of mode {} [rad/s]",
+        "{name}, ω₁…{}, worst: ω of mode {} [rad/s]",
         expected.len(),
         worst + 1
     );

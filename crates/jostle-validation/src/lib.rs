@@ -1,7 +1,7 @@
 //! jostle against closed forms, other programs and the literature: one [`row::Row`] per number compared.
 //!
-//! Every module is one family of checks over the data stored in `data`, whose READMEs say where the numbers
-//! come from. The tolerances are those stated with the data; none is widened to let a check pass.
+//! Every module is one family of checks over the data stored in `data`, whose READMEs state the sources of the
+//! numbers. The tolerances are those stated with the data; none is widened to make a check pass.
 
 pub mod bits;
 pub mod certify;
@@ -31,7 +31,7 @@ use row::Row;
 /// How much is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// What a test can wait for.
+    /// Checks fast enough for a test.
     Reduced,
     /// Small steps as well.
     Full,
@@ -42,7 +42,7 @@ pub enum Extent {
 pub struct Family {
     /// Heading.
     pub title: &'static str,
-    /// What is compared with what.
+    /// Description of the comparison.
     pub about: &'static str,
     /// The comparisons.
     pub rows: Vec<Row>,
@@ -54,80 +54,79 @@ type Make = fn(Extent) -> Vec<Row>;
 const FAMILIES: [(&str, &str, Make); 13] = [
     (
         "Closed forms",
-        "Statics, frequencies, damping coefficients and single Newmark steps against formulae and against an \
-         independent calculation in double precision.",
+        "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
+         calculation in double precision.",
         |_| closed_forms::rows(),
     ),
     (
         "Frames",
         "Seven frames given node by node: hinges, axially rigid and flexible members, shear deformation, P-Δ. \
-         Expected values come from an independent finite-element program. Steps start from x = v = a = 0 while the \
-         ground already moves.",
+         Expected values come from an independent finite-element program. Steps start from x = v = a = 0 with a ground acceleration that is not zero.",
         |_| frames::rows(),
     ),
     (
         "Modes",
-        "Frequencies and masses, for two frames through model files.",
+        "Frequencies and masses of two frames given as model files.",
         |_| modes::rows(),
     ),
     (
         "Collisions",
-        "Two free masses under every contact law: formulae, and stepping with 200 and 2000 steps per impact. The \
-         faces start a fraction of a step apart, so that the touch lies between two steps.",
+        "Two free masses under every contact law: formulas, and time steps, 200 and 2000 per impact. The masses start \
+         a fraction of a step apart, so first contact lies between two steps.",
         |_| collisions::rows(),
     ),
     (
         "Oscillators",
-        "Motions known exactly: an oscillator against a rigid stop (a free body of 10³⁰ kg), and two oscillators with \
-         linear contact under a sine.",
+        "Motions with exact solutions: an oscillator against a rigid stop (a free body of 10³⁰ kg), and two \
+         oscillators with linear contact under a sine.",
         |_| oscillators::rows(),
     ),
     (
         "Textbook",
-        "A. K. Chopra, Dynamics of Structures: tables of Newmark's method, and the five-storey shear frame, with \
-         its response to El Centro under 5 % damping in all modes (modal stepping).",
+        "A. K. Chopra, Dynamics of Structures: tables of Newmark's method, and the five-storey shear frame with its response to El Centro at 5 % damping in \
+         all modes (modal stepping).",
         |_| chopra::rows(),
     ),
     (
-        "Two frames hitting each other",
+        "Two frames in contact",
         "A five-storey and a ten-storey frame with 23 impacts in 3 s, against an independent program at a step of 20 µs.",
         pounding::rows,
     ),
     (
         "Two towers",
-        "A light, soft tower beside a heavy, stiff block under El Centro, through a model file, with seven contact \
-         laws, against an event-driven integration at a relative tolerance of 10⁻¹². The stored Kelvin results are \
-         those of the law cut at F = 0.",
+        "A light, soft tower beside a heavy, stiff block under El Centro, from a model file, with seven contact laws. \
+         The reference is an event-driven integration at a relative tolerance of 10⁻¹². Its Kelvin results are those \
+         of the law cut at F = 0.",
         towers::rows,
     ),
     (
         "Two shear buildings",
-        "Five beside ten storeys under El Centro at 220 cm/s², through a model file, against the same kind of \
+        "Five beside ten storeys under El Centro at 220 cm/s², from a model file. The reference is the same type of \
          integration.",
         |_| shear_buildings::rows(),
     ),
     (
         "The example after Zhang et al.",
-        "The built-in model: masses, periods, whether gaps close, and OpenSees on the same model with the \
-         same method and steps (Newmark ¼, ½; 2 ms, near contact 0.2 ms; its numbers are given to three or more digits).",
+        "The built-in model: masses, periods, contact or none, and OpenSees on the same model with the same method \
+         and steps (Newmark ¼, ½; 2 ms, near contact 0.2 ms; its results have three or more digits).",
         |_| paper::rows(),
     ),
     (
         "Yielding frames in OpenSees",
-        "Hinges at every member end, and everything else a model can have, through model files with a tolerance of 10⁻⁴, \
-         against OpenSees on the exported scripts in steps of 0.5 ms, near contact 0.05 ms.",
+        "Hinges at every member end and most other features of a model, from model files with a tolerance of 10⁻⁴. \
+         The reference is OpenSees on the exported scripts with steps of 0.5 ms, near contact 0.05 ms.",
         |_| yielding::rows(),
     ),
     (
         "Automatic steps",
-        "The built-in model with steps chosen from a tolerance, against runs of the same program at a uniform step of \
-         10 µs. What the tolerance promises is the peak contact force and the peak displacement.",
+        "The built-in model with automatic steps at several tolerances, against runs of the same program with a \
+         uniform step of 10 µs. The tolerance bounds the peak contact force and the peak displacement.",
         |_| paper::step_rows(),
     ),
     (
         "Random pairs",
-        "Pairs of shear buildings drawn at random, with all laws whose force acts over time, in steps chosen from a \
-         tolerance of 10⁻³, against uniform steps of 25 µs.",
+        "Random pairs of shear buildings, with all laws whose force acts over time and automatic steps at a tolerance \
+         of 10⁻³, against uniform steps of 25 µs.",
         pairs::rows,
     ),
 ];

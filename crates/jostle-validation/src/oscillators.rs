@@ -28,7 +28,7 @@ fn linear(stiffness: f64) -> ForceLaw {
 fn against_a_stop() -> Vec<Row> {
     const SOURCE: &str = "literature/B01_free_vibration_elastic_stop";
     // The relative error of a period is (ωh)²/12, here 1.3·10⁻⁷ in contact; rounding adds about 10⁻¹⁵/(ωh)² in
-    // free flight, here 6·10⁻⁸. The closed forms are good to 10⁻⁹.
+    // free vibration, here 6·10⁻⁸. The closed forms are good to 10⁻⁹.
     const STEP: f64 = 2e-5;
     const TOLERANCE: f64 = 1e-6;
     let case = document(include_str!(
@@ -47,7 +47,7 @@ fn against_a_stop() -> Vec<Row> {
         velocity: vec![input("v0"), 0.0],
         ..State::at_rest(&system, 0.0)
     };
-    // Until shortly after the second touch.
+    // Until shortly after the second contact.
     let outcome = run(
         &system,
         &still(1.2 * expected("period")),
@@ -57,23 +57,27 @@ fn against_a_stop() -> Vec<Row> {
     let (first, second) = (outcome.impacts[0], outcome.impacts[1]);
     let peaks = outcome.floors[0][0];
     let values = [
-        ("first touch [s]", expected("t_first_contact"), first.start),
+        (
+            "first contact [s]",
+            expected("t_first_contact"),
+            first.start,
+        ),
         (
             "impact speed [m/s]",
             expected("v_contact"),
             first.impact_speed,
         ),
         (
-            "greatest displacement [m]",
+            "peak displacement [m]",
             expected("u_max"),
             peaks.displacement_max.value,
         ),
         (
-            "greatest indentation [m]",
+            "peak indentation [m]",
             expected("delta_max"),
             first.peak_indentation,
         ),
-        ("greatest force [N]", expected("F_max"), first.peak_force),
+        ("peak force [N]", expected("F_max"), first.peak_force),
         (
             "duration [s]",
             expected("contact_duration"),
@@ -85,7 +89,7 @@ fn against_a_stop() -> Vec<Row> {
             peaks.displacement_min.value,
         ),
         (
-            "from touch to touch [s]",
+            "from first to second contact [s]",
             expected("period"),
             second.start - first.start,
         ),
@@ -159,14 +163,14 @@ fn under_a_sine() -> Vec<Row> {
         if k < 5 {
             rows.push(Row::relative(
                 SOURCE,
-                impact("greatest force [N]"),
+                impact("peak force [N]"),
                 number(expected, "/F_max"),
                 got.peak_force,
                 1e-3,
             ));
             rows.push(Row::absolute(
                 SOURCE,
-                impact("touch [s]"),
+                impact("start [s]"),
                 number(expected, "/t_start"),
                 got.start,
                 1e-4,

@@ -13,7 +13,7 @@ use crate::Extent;
 use crate::row::Row;
 use crate::structures::uniform;
 
-/// What automatic steps make of one pair, relative to uniform fine ones.
+/// Errors of automatic steps for one pair, relative to uniform fine steps.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// Seed of the pair.
@@ -24,11 +24,11 @@ pub struct Compared {
     pub impacts: usize,
     /// Impacts more or less with automatic ones.
     pub count: i64,
-    /// Relative error of the greatest force of the gap.
+    /// Relative error of the peak force of the gap.
     pub force: f64,
     /// Relative error of the sum of all impulses.
     pub impulse: f64,
-    /// Relative error of the greatest force of the first impact.
+    /// Relative error of the peak force of the first impact.
     pub first_force: f64,
     /// Relative error of the impulse of the first impact.
     pub first_impulse: f64,
@@ -240,7 +240,7 @@ pub fn describe(compared: &[Compared], tolerance: f64) -> String {
     );
     let _ = writeln!(
         text,
-        "{} pairs (seeds {} to {}), tolerance {tolerance:e}: {} touch, with {} impacts; {} runs failed{}.",
+        "{} pairs (seeds {} to {}), tolerance {tolerance:e}: {} with contact, {} impacts; {} runs failed{}.",
         compared.len(),
         seeds.0,
         seeds.1,
@@ -263,12 +263,12 @@ pub fn describe(compared: &[Compared], tolerance: f64) -> String {
     );
     let _ = writeln!(
         text,
-        "| relative error | median | 75 % | 90 % | 95 % | 99 % | greatest (seed) | within the tolerance |\n|---|---|---|---|---|---|---|---|"
+        "| relative error | median | 75 % | 90 % | 95 % | 99 % | largest (seed) | within the tolerance |\n|---|---|---|---|---|---|---|---|"
     );
     let quantities: [(&str, ErrorOf); 4] = [
-        ("greatest force of the gap", |c| c.force),
+        ("peak force of the gap", |c| c.force),
         ("sum of impulses", |c| c.impulse),
-        ("greatest force of the first impact", |c| c.first_force),
+        ("peak force of the first impact", |c| c.first_force),
         ("impulse of the first impact", |c| c.first_impulse),
     ];
     for (name, value) in quantities {
@@ -292,7 +292,7 @@ pub fn describe(compared: &[Compared], tolerance: f64) -> String {
     let close = hit.iter().filter(|c| c.count.abs() <= 1).count();
     let _ = writeln!(
         text,
-        "\nThe number of impacts is the same in {:.1} % of the pairs that touch, and differs by at most one in {:.1} %.",
+        "\nThe number of impacts is the same in {:.1} % of the pairs with contact, and differs by at most one in {:.1} %.",
         100.0 * same as f64 / hit.len().max(1) as f64,
         100.0 * close as f64 / hit.len().max(1) as f64
     );
@@ -321,15 +321,15 @@ pub fn rows(extent: Extent) -> Vec<Row> {
         0.0,
     )];
     let quantities: [(&str, ErrorOf); 3] = [
-        ("greatest force of the first impact", |c| c.first_force),
+        ("peak force of the first impact", |c| c.first_force),
         ("impulse of the first impact", |c| c.first_impulse),
-        ("greatest force of the gap", |c| c.force),
+        ("peak force of the gap", |c| c.force),
     ];
     for (name, value) in quantities {
         let values: Vec<f64> = hit.iter().map(|c| value(c)).collect();
         rows.push(Row::absolute(
             source,
-            format!("seeds 1 to {seeds}: {name}, relative error met by 90 % of the pairs"),
+            format!("seeds 1 to {seeds}: {name}, relative error not exceeded in 90 % of the pairs"),
             0.0,
             quantile(&values, 0.9),
             TOLERANCE,

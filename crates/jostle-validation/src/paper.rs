@@ -12,13 +12,13 @@ use crate::row::Row;
 /// \[m/s²\] and gap \[m\].
 const CASES: [(f64, f64); 3] = [(2.2, 0.1), (0.7, 0.01), (0.35, 0.01)];
 
-/// Step of the reference runs, in free flight and in contact \[s\].
+/// Step of the reference runs, in free vibration and in contact \[s\].
 const REFERENCE_STEP: f64 = 1e-5;
 
 /// The reference runs, as stored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reference {
-    /// What the numbers are and which command makes them.
+    /// Description of the numbers and the command that computes them.
     pub how: String,
     /// Uniform step \[s\].
     pub step_s: f64,
@@ -56,7 +56,7 @@ pub struct ReferenceFloor {
     pub impulse_n_s: f64,
     /// Greatest closing \[m\].
     pub closing_m: f64,
-    /// First touch \[s\].
+    /// First contact \[s\].
     pub first_start_s: Option<f64>,
 }
 
@@ -65,7 +65,7 @@ pub struct ReferenceFloor {
 enum Steps {
     /// Automatic, by a solver.
     Tolerance(f64, Option<Solver>),
-    /// In free flight and in contact \[s\].
+    /// In free vibration and in contact \[s\].
     Fixed(f64, f64),
 }
 
@@ -131,7 +131,7 @@ fn stored_reference() -> Reference {
         .expect("stored data are valid")
 }
 
-/// Ground motion and gap as a reader would say them.
+/// Ground motion and gap as text.
 fn case_name(pga: f64, gap: f64) -> String {
     format!("{:.0} cm/s², gap {:.0} mm", pga * 100.0, gap * 1000.0)
 }
@@ -167,7 +167,7 @@ fn buildings() -> Vec<Row> {
         .enumerate()
     {
         let quantity = format!(
-            "220 cm/s², passing through each other, greatest closing at floor {} [m]",
+            "220 cm/s², without contact, peak closing at floor {} [m]",
             floor + 1
         );
         // Printed to a tenth of a millimetre.
@@ -195,7 +195,7 @@ fn observations() -> Vec<Row> {
     cases
         .map(|(pga, gap, hit)| {
             let (_, outcome) = run(pga, gap, Steps::Tolerance(1e-3, None), Pounding::Included);
-            let quantity = format!("{}: do they hit? (1 yes, 0 no)", case_name(pga, gap));
+            let quantity = format!("{}: contact (1 yes, 0 no)", case_name(pga, gap));
             let got = f64::from(u8::from(!outcome.impacts.is_empty()));
             Row::absolute(
                 "Zhang et al. 2019",
@@ -217,7 +217,7 @@ fn opensees() -> Vec<Row> {
         let (system, outcome) = run(pga, gap, Steps::Fixed(2e-3, 2e-4), Pounding::Included);
         summed_up(pga, gap, &system, &outcome)
     };
-    // Floor, impacts, greatest force [N], first touch [s].
+    // Floor, impacts, peak force [N], first contact [s].
     type Floors<'a> = &'a [(usize, usize, f64, Option<f64>)];
     let cases: [(f64, f64, Floors); 3] = [
         (2.2, 0.1, &[(5, 1, 1_282_850.0, Some(6.148))]),
@@ -248,7 +248,7 @@ fn opensees() -> Vec<Row> {
         let found: usize = got.floors.iter().map(|floor| floor.forces_n.len()).sum();
         rows.push(Row::absolute(
             SOURCE,
-            name("impacts of all floors".into()),
+            name("impacts at all floors".into()),
             total as f64,
             found as f64,
             0.0,
@@ -264,7 +264,7 @@ fn opensees() -> Vec<Row> {
             ));
             rows.push(Row::absolute(
                 SOURCE,
-                name(format!("floor {floor}, greatest force [N]")),
+                name(format!("floor {floor}, peak force [N]")),
                 force,
                 here.peak_force_n,
                 (1e-3 * force).max(HALF_THE_LAST_DIGIT),
@@ -272,7 +272,7 @@ fn opensees() -> Vec<Row> {
             if let (Some(expected), Some(start)) = (touch, here.first_start_s) {
                 rows.push(Row::absolute(
                     SOURCE,
-                    name(format!("floor {floor}, first touch [s]")),
+                    name(format!("floor {floor}, first contact [s]")),
                     expected,
                     start,
                     1e-3,
@@ -286,14 +286,14 @@ fn opensees() -> Vec<Row> {
                 let (right, left) = (got.displacement_max_m[index], got.displacement_min_m[index]);
                 rows.push(Row::relative(
                     SOURCE,
-                    name(format!("{roof} roof, greatest to the right [m]")),
+                    name(format!("{roof} roof, peak to the right [m]")),
                     max,
                     right,
                     1e-3,
                 ));
                 rows.push(Row::relative(
                     SOURCE,
-                    name(format!("{roof} roof, greatest to the left [m]")),
+                    name(format!("{roof} roof, peak to the left [m]")),
                     min,
                     left,
                     1e-3,
@@ -304,13 +304,13 @@ fn opensees() -> Vec<Row> {
     rows
 }
 
-const ILL_CONDITIONED: &str = "a graze: the faces overlap by 0.3 mm while the frames close by 10.3 mm, so that a relative \
-    error of the closing is 1.5 × 10.3/0.3 ≈ 50 times larger in this force. In units of the greatest force of the gap the \
-    error stays below the tolerance";
+const ILL_CONDITIONED: &str = "a grazing impact: the indentation is 0.3 mm and the closing 10.3 mm. A relative error of the closing is \
+    therefore 1.5 × 10.3/0.3 ≈ 50 times larger in this force. Relative to the peak force of the gap the error is \
+    below the tolerance";
 
 /// Why a coarse run may miss an impact.
-const TOUCHES: &str = "some of these impacts push with less than the tolerance times the greatest force: faces that overlap by \
-    micrometres, less than displacements may be off";
+const TOUCHES: &str = "the force of some of these impacts is below the tolerance times the peak force: the indentation is a few \
+    micrometres, less than the error bound of displacements";
 
 fn against_reference(case: &ReferenceCase, tolerance: f64, solver: Solver) -> Vec<Row> {
     const SOURCE: &str = "paper/reference";
@@ -356,7 +356,7 @@ fn against_reference(case: &ReferenceCase, tolerance: f64, solver: Solver) -> Ve
             count(got),
             0.0,
         ));
-        let force = name(format!("floor {}, greatest force [N]", floor + 1));
+        let force = name(format!("floor {}, peak force [N]", floor + 1));
         let row = Row::relative(
             SOURCE,
             force,
@@ -380,9 +380,7 @@ fn against_reference(case: &ReferenceCase, tolerance: f64, solver: Solver) -> Ve
             .enumerate()
             .max_by(|a, b| a.1.total_cmp(&b.1))
             .map_or(0, |(floor, _)| floor);
-        let quantity = name(format!(
-            "greatest displacements to the {what}, the worst floor [m]"
-        ));
+        let quantity = name(format!("peak displacements to the {what}, worst floor [m]"));
         rows.push(Row::relative(
             SOURCE,
             quantity,
@@ -422,7 +420,7 @@ fn summed_up(pga: f64, gap: f64, system: &System, outcome: &Outcome) -> Referenc
     }
 }
 
-/// Makes the reference runs anew; takes minutes.
+/// Repeats the reference runs; takes minutes.
 #[must_use]
 pub fn reference() -> Reference {
     let cases = std::thread::scope(|scope| {

@@ -116,7 +116,7 @@ fn compare(stored: &Value, system: &System, step: f64, tolerance: f64) -> Vec<Ro
         if forces[floor] == 0.0 {
             rows.push(Row::absolute(
                 SOURCE,
-                name(&format!("floor {number}, greatest force [N]")),
+                name(&format!("floor {number}, peak force [N]")),
                 0.0,
                 force,
                 0.0,
@@ -125,7 +125,7 @@ fn compare(stored: &Value, system: &System, step: f64, tolerance: f64) -> Vec<Ro
         }
         rows.push(Row::relative(
             SOURCE,
-            name(&format!("floor {number}, greatest force [N]")),
+            name(&format!("floor {number}, peak force [N]")),
             forces[floor],
             force,
             tolerance,

@@ -1,25 +1,25 @@
 //! One comparison of a number with what it should be.
 
-/// A computed number beside the expected one.
+/// A computed number and the expected one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Where the expected number comes from: a file below `data`, or a formula.
     pub source: String,
-    /// What is compared, with its unit.
+    /// Compared quantity with its unit.
     pub quantity: String,
-    /// What it should be.
+    /// Expected value.
     pub expected: f64,
-    /// What the program gives.
+    /// Computed value.
     pub got: f64,
-    /// How far they are apart, in the measure of the tolerance.
+    /// Difference, in the measure of the tolerance.
     pub error: f64,
-    /// How far they may be apart.
+    /// Admissible difference.
     pub tolerance: Tolerance,
     /// Why the row is not counted when it misses.
     pub known: Option<&'static str>,
 }
 
-/// How far two numbers may be apart.
+/// Admissible difference of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tolerance {
     /// Relative to the expected number, or to the largest of its kind.
@@ -57,7 +57,7 @@ impl Row {
         !self.passed() && self.known.is_some()
     }
 
-    /// The same row, not counted, for a reason that is printed beside it.
+    /// The same row, not counted, for a reason that is printed with it.
     #[must_use]
     pub(crate) fn known_gap(self, reason: &'static str) -> Self {
         Self {

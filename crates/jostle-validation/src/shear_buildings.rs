@@ -35,7 +35,7 @@ pub fn rows() -> Vec<Row> {
     rows.extend(peaks(
         &case,
         "/expected/no_pounding_peaks",
-        "passing through each other",
+        "without contact",
         &apart,
     ));
     rows
@@ -148,7 +148,7 @@ fn impacts(case: &Value, outcome: &Outcome) -> Vec<Row> {
         let (expected, found) = (number(contact, "/n_impacts"), got.len() as f64);
         rows.push(Row::absolute(
             SOURCE,
-            name("number of impacts, up to grazing ones"),
+            name("number of impacts (grazing ones may differ)"),
             expected,
             found,
             1.0,
@@ -162,14 +162,14 @@ fn impacts(case: &Value, outcome: &Outcome) -> Vec<Row> {
             let impact = |what: &str| name(&format!("impact {}, {what}", k + 1));
             rows.push(Row::relative(
                 SOURCE,
-                impact("greatest force [N]"),
+                impact("peak force [N]"),
                 number(expected, "/F_max"),
                 got.peak_force,
                 1e-2,
             ));
             rows.push(Row::absolute(
                 SOURCE,
-                impact("touch [s]"),
+                impact("start [s]"),
                 number(expected, "/t_start"),
                 got.start,
                 1e-4,

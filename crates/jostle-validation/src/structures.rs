@@ -149,7 +149,7 @@ pub(crate) fn sampled(step: f64, steps: usize, acceleration: impl Fn(f64) -> f64
     GroundMotion::sampled("formula", step, values)
 }
 
-/// Steps that are the same in free flight and in contact.
+/// Steps that are the same in free vibration and in contact.
 pub(crate) fn uniform(step: f64) -> Plan {
     Plan {
         step,

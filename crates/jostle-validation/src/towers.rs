@@ -136,7 +136,7 @@ fn without_contact(case: &Value) -> Vec<Row> {
     peaks(
         case,
         "no_pounding",
-        &|what| format!("passing through each other, {what}"),
+        &|what| format!("without contact, {what}"),
         &outcome,
     )
 }
@@ -161,14 +161,14 @@ fn with_contact(case: &Value, key: &str, law: &str, step: f64) -> Vec<Row> {
         let impact = |what: &str| name(&format!("impact {}, {what}", k + 1));
         rows.push(Row::relative(
             SOURCE,
-            impact("greatest force [N]"),
+            impact("peak force [N]"),
             number(expected, "/F_max"),
             got.peak_force,
             1e-2,
         ));
         rows.push(Row::absolute(
             SOURCE,
-            impact("touch [s]"),
+            impact("start [s]"),
             number(expected, "/t_start"),
             got.start,
             1e-4,
@@ -183,7 +183,7 @@ fn with_contact(case: &Value, key: &str, law: &str, step: f64) -> Vec<Row> {
     }
     rows.push(Row::absolute(
         SOURCE,
-        name("number of impacts, up to grazing ones"),
+        name("number of impacts (grazing ones may differ)"),
         number(stored, "/n_impacts"),
         outcome.impacts.len() as f64,
         1.0,

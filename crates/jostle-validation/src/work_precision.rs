@@ -1,4 +1,4 @@
-//! Work against precision: automatic steps beside fixed ones, on random pairs of shear buildings.
+//! Work against precision: automatic and fixed steps on random pairs of shear buildings.
 
 use std::fmt::Write;
 
@@ -10,11 +10,11 @@ use crate::pairs::{self, quantile};
 /// One way of choosing steps, at one setting.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// Tolerance or step, for people.
+    /// Tolerance or step, for display.
     pub name: String,
     /// Mean work of a run: solutions, a factorisation counted as three of them.
     pub work: f64,
-    /// Median and 90 % quantile of the relative error of the greatest force of the gap.
+    /// Median and 90 % quantile of the relative error of the peak force of the gap.
     pub force: [f64; 2],
     /// The same of the sum of impulses.
     pub impulse: [f64; 2],
@@ -23,7 +23,7 @@ pub struct Setting {
 /// One way of choosing steps.
 #[derive(Clone, Debug)]
 pub struct Way {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
     /// Coarse to fine.
     pub settings: Vec<Setting>,
@@ -135,11 +135,11 @@ pub fn page(ways: &[Way]) -> String {
     let mut text = format!(
         "# Work and precision\n\n\
          <!-- Written by `cargo run --release -p jostle-validation -- --work-precision`; do not edit. -->\n\n\
-         Cost of accuracy: automatic steps compared with fixed ones, on random pairs of shear buildings (seeds {} to {}, those \
-         that touch; one to three storeys, all laws whose force acts over time, 4 s of strong shaking). Errors are those \
-         of the greatest force of the gap and of the sum of all impulses, relative to uniform steps of {} µs. Work is the \
-         number of solutions of one building, a factorisation counted as three, mean of a run.\n\n\
-         ![Median error of the greatest contact force against work, for automatic and fixed steps](figures/work-precision.svg)\n\n",
+         Cost of accuracy: automatic and fixed steps on random pairs of shear buildings. Seeds {} to {}, pairs in contact only; \
+         one to three storeys, all laws whose force acts over time, 4 s of strong shaking. Errors are those of the peak force of \
+         the gap and of the sum of all impulses, relative to uniform steps of {} µs. Work is the mean number of solutions of one \
+         building per run; a factorisation counts as three.\n\n\
+         ![Median error of the peak contact force against work, for automatic and fixed steps](figures/work-precision.svg)\n\n",
         SEEDS.start(),
         SEEDS.end(),
         REFERENCE * 1e6
@@ -283,7 +283,7 @@ pub fn figure(ways: &[Way]) -> String {
     }
     let _ = writeln!(
         svg,
-        "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">work: solutions of one building</text><text x=\"{}\" y=\"14\">error of the greatest force: median; dashed, 90 % of the pairs</text>\n</svg>",
+        "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">work: solutions of one building</text><text x=\"{}\" y=\"14\">error of the peak force: median; dashed, 90 % of the pairs</text>\n</svg>",
         left + width,
         top + height + 42.0,
         left

@@ -73,10 +73,7 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
                 .collect();
             rows.push(Row::worst_of(
                 &source,
-                format!(
-                    "{}, greatest displacements to the {side} [m]",
-                    building.name
-                ),
+                format!("{}, peak displacements to the {side} [m]", building.name),
                 &wanted,
                 &got,
                 tolerance,
@@ -100,7 +97,7 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
         if wanted > 0.0 {
             rows.push(Row::relative(
                 &source,
-                format!("floor {floor}, greatest force [N]"),
+                format!("floor {floor}, peak force [N]"),
                 number(expected, "/peak_force_n"),
                 impacts().fold(0.0, |peak, impact| peak.max(impact.peak_force)),
                 tolerance,

@@ -20,7 +20,7 @@ fn main() {
         let building = &System::assemble(&row(1, storeys))
             .expect("a valid model")
             .buildings[0];
-        let couplings = RiccatiSweep::new(building).couplings();
+        let couplings = RiccatiSweep::new(building).entries_of_l();
         println!(
             "{storeys} storeys: {} degrees of freedom, {couplings} couplings",
             building.equations.len()
@@ -115,7 +115,7 @@ fn solve(bencher: Bencher, storeys: usize) {
         .collect();
     let mut x = load.clone();
     bencher
-        .counter(ItemsCount::new(2 * sweep.couplings()))
+        .counter(ItemsCount::new(2 * sweep.entries_of_l()))
         .bench_local(|| {
             x.copy_from_slice(&load);
             sweep.solve(&factor, &mut x);

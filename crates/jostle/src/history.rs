@@ -1,4 +1,4 @@
-//! What a run leaves behind: time histories, impacts, peaks, energies and the work it took.
+//! Results of a run: time histories, impacts, peaks, energies and work.
 
 use crate::hysteresis::{HysteresisMemory, Stage};
 
@@ -52,7 +52,7 @@ pub enum Column {
         /// Contact index.
         contact: usize,
     },
-    /// Compression of a link (index into the links of the system), negative where it pulls \[N\].
+    /// Compression of a link (index into the links of the system), negative in tension \[N\].
     LinkForce {
         /// Link index.
         link: usize,
@@ -68,13 +68,13 @@ pub enum EnergyTerm {
     Input,
     /// Kinetic energy relative to the ground.
     Kinetic,
-    /// Strain energy of members, and what springs that yield would give back.
+    /// Strain energy of members, and recoverable energy of yielding springs.
     Strain,
     /// Dissipated by viscous damping.
     Damped,
     /// Dissipated by springs that yield.
     Hysteretic,
-    /// Taken by contacts: dissipated plus, during an impact, stored.
+    /// Energy of contacts: dissipated plus, during an impact, stored.
     Contact,
 }
 
@@ -100,7 +100,7 @@ impl History {
         }
     }
 
-    /// A history from values already at hand, row after row.
+    /// A history from given values, row after row.
     ///
     /// # Panics
     /// If the number of values is not a multiple of the number of columns.
@@ -151,25 +151,25 @@ impl History {
         &self.values[index * self.columns.len()..(index + 1) * self.columns.len()]
     }
 
-    /// Room for the values of one more instant.
+    /// Appends a row for one more instant and returns it.
     pub(crate) fn push_row(&mut self) -> &mut [f64] {
         let start = self.values.len();
         self.values.resize(start + self.columns.len(), 0.0);
         &mut self.values[start..]
     }
 
-    /// Makes room for `rows` further instants at once.
+    /// Reserves memory for `rows` further instants.
     pub(crate) fn reserve(&mut self, rows: usize) {
         self.values.reserve(rows * self.columns.len());
     }
 }
 
-/// One closed episode of a contact in which it pushed.
+/// One closed episode of a contact with a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Index of the contact in the system.
     pub contact: usize,
-    /// Instant of touch \[s\].
+    /// Instant of first contact \[s\].
     pub start: f64,
     /// Last instant of force before the gap opens again, or the end of the run \[s\].
     pub end: f64,
@@ -179,21 +179,21 @@ pub struct Impact {
     pub peak_force_at: f64,
     /// Greatest indentation \[m\].
     pub peak_indentation: f64,
-    /// Closing rate at touch \[m/s\].
+    /// Closing rate at first contact \[m/s\].
     pub impact_speed: f64,
-    /// Opening rate at the end, zero for an impact that the end of the run cuts off \[m/s\].
+    /// Opening rate at the end, zero for an impact in progress at the end of the run \[m/s\].
     pub separation_speed: f64,
     /// Whether it ended within the run.
     pub finished: bool,
     /// Time integral of the force \[N·s\].
     pub impulse: f64,
-    /// Work taken by the contact \[J\].
+    /// Energy dissipated by the contact \[J\].
     pub dissipated: f64,
 }
 
 impl Impact {
-    /// Separation speed ÷ impact speed \[–\]. Other forces act during an impact of buildings, so that this
-    /// may differ from the restitution of free masses, and even exceed one.
+    /// Separation speed ÷ impact speed \[–\]. Other forces act during an impact of buildings, so this ratio may
+    /// differ from the restitution of free masses and may exceed one.
     #[must_use]
     pub fn realised_restitution(&self) -> f64 {
         self.separation_speed / self.impact_speed
@@ -237,11 +237,11 @@ pub struct Energy {
     pub strain: f64,
     /// Dissipated by viscous damping, that of links included.
     pub damped: f64,
-    /// The share of links in that.
+    /// The part of links.
     pub links: f64,
-    /// Taken by hinges.
+    /// Energy of hinges.
     pub hysteretic: f64,
-    /// Taken by contacts.
+    /// Energy of contacts.
     pub contact: f64,
     /// Greatest |imbalance| met at any recorded instant, relative to the greatest energy until then \[–\].
     pub worst_imbalance: f64,
@@ -254,7 +254,7 @@ impl Energy {
         self.input - (self.kinetic + self.strain + self.damped + self.hysteretic + self.contact)
     }
 
-    /// |residual| / input at this instant \[–\]; zero when nothing was put in.
+    /// |residual| / input at this instant \[–\]; zero without input energy.
     #[must_use]
     pub fn imbalance(&self) -> f64 {
         if self.input == 0.0 {
@@ -272,7 +272,7 @@ pub struct Work {
     pub steps: u64,
     /// Accepted steps with a closed contact.
     pub contact_steps: u64,
-    /// Steps tried and repeated because a contact closed or opened inside them.
+    /// Steps repeated because a contact closed or opened inside them.
     pub repeated_steps: u64,
     /// Factorisations of one building's equations.
     pub factorizations: u64,
@@ -280,35 +280,35 @@ pub struct Work {
     pub solves: u64,
     /// Newton iterations on the contact forces.
     pub iterations: u64,
-    /// Iterations on springs that yield; one per tried step when nothing changes.
+    /// Iterations on springs that yield; one per trial step without branch change.
     pub outer_iterations: u64,
     /// Steps halved because those did not converge.
     pub halved_steps: u64,
     /// Multiply-adds spent on the forces of contacts and links.
     pub coupling_operations: u64,
-    /// Shapes kept by modal stepping.
+    /// Shapes used by modal stepping.
     pub shapes: u64,
     /// Runs repeated by modal stepping with more shapes or finer steps.
     pub repeated_runs: u64,
 }
 
-/// What a link has borne.
+/// Peaks of a link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinkTotals {
-    /// Force of greatest size, positive in compression, and its instant \[N\].
+    /// Force of greatest magnitude, positive in compression, and its instant \[N\].
     pub peak_force: Extreme,
     /// Greatest change of length, either sign \[m\].
     pub peak_shortening: f64,
-    /// Work done on it, what its spring would give back included \[J\].
+    /// Work done on it, recoverable energy of its spring included \[J\].
     pub work: f64,
 }
 
-/// What a spring that yields has borne.
+/// Peaks of a spring that yields.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpringTotals {
     /// Greatest force, either sign \[N·m or N\].
     pub peak_force: f64,
-    /// Work done on it, what it would give back included \[J\].
+    /// Work done on it, recoverable energy included \[J\].
     pub work: f64,
 }
 
@@ -353,7 +353,7 @@ impl SpringHistory {
 pub struct SpringEvent {
     /// Index among the springs of all buildings, from left to right.
     pub spring: usize,
-    /// What it has come to.
+    /// Its new stage.
     pub stage: Stage,
     /// Time \[s\].
     pub time: f64,

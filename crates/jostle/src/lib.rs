@@ -58,20 +58,20 @@
 //! # Ok::<(), jostle::ModelFault>(())
 //! ```
 //!
-//! # A contact law of your own
+//! # A user-defined contact law
 //!
-//! [`contact::ForceLaw`] holds the force laws with their coefficients. A contact can carry any of them, with coefficients that no
-//! published formula gives. Here Hertz's law gets a damping factor fitted to measured rebounds:
+//! [`contact::ForceLaw`] has the force laws with their coefficients. A contact accepts any of them, also with coefficients
+//! that no published formula gives. Here the damping factor of a Hertz law is fitted to measured rebounds:
 //!
 //! ```
 //! use jostle::contact::{ForceLaw, FreeCollision};
 //!
-//! // F = k δ^1.5 (1 + d δ̇/v₀) with d of our own.
+//! // F = k δ^1.5 (1 + d δ̇/v₀) with a user-defined d.
 //! let law = ForceLaw::Hertz { stiffness: 1.2e9, damping: 0.9 };
 //! let collision = FreeCollision::of(&law, 40e3, 60e3, 0.4); // 40 t against 60 t at 0.4 m/s
 //! assert!((0.5..0.7).contains(&collision.realised_restitution()));
 //!
-//! // The force of one instant: indentation 2 mm, closing at 0.1 m/s after a touch at 0.4 m/s.
+//! // The force of one instant: indentation 2 mm, closing at 0.1 m/s after an impact at 0.4 m/s.
 //! let response = law.respond(2e-3, 0.1, 0.4);
 //! let expected = 1.2e9 * 2e-3_f64.powf(1.5) * (1.0 + 0.9 * 0.1 / 0.4);
 //! assert!((response.force / expected - 1.0).abs() < 1e-12);

@@ -1,5 +1,5 @@
-//! What the method comes to for one building: its elements, its unknowns, and the digits every way of solving a
-//! step keeps as the step shrinks.
+//! Survey of one building: its elements, its unknowns, and the accuracy of each solver formulation as the step
+//! decreases.
 
 use crate::linear::NotPositive;
 use crate::model::Integrator;
@@ -27,12 +27,12 @@ pub struct MethodSurvey {
     pub degrees_of_freedom: usize,
     /// Entries of the stiffness matrix on and below the diagonal.
     pub stiffness_entries: usize,
-    /// Couplings that the Riccati recursion keeps; a solution takes two multiply-adds for each.
+    /// Entries of L of the Riccati recursion; a solution takes two multiply-adds for each.
     pub couplings: usize,
     /// Order of the total transfer equation; zero for a building without a transfer path.
     pub product_unknowns: usize,
-    /// Whether something may yield. The Riccati recursion then has its initial stiffness; the transfer matrices know no
-    /// yielding, so that the other two forms say nothing.
+    /// Whether the building may yield. The Riccati recursion then uses the initial stiffness; the other two forms
+    /// do not support yielding and give no result.
     pub yields: bool,
     /// Accuracy of one step, by step size from long to short.
     pub accuracy: Vec<StepAccuracy>,
@@ -49,7 +49,7 @@ pub struct StepAccuracy {
     pub product_digits_expected: f64,
     /// The Riccati recursion element by element, in flexibility form.
     pub elementwise: f64,
-    /// The Riccati recursion in production.
+    /// The Riccati recursion as used in runs.
     pub riccati: f64,
 }
 
@@ -60,7 +60,7 @@ impl MethodSurvey {
     /// Surveys a building with its damping.
     ///
     /// # Errors
-    /// [`NotPositive`] when the building offers no resistance.
+    /// [`NotPositive`] if the building is a mechanism.
     pub fn of(building: &BuildingSystem) -> Result<Self, NotPositive> {
         let equations = &building.equations;
         let stick_model: &StickModel = &building.discretization.stick_model;
@@ -106,7 +106,7 @@ fn accuracy(building: &BuildingSystem, step: f64) -> Result<StepAccuracy, NotPos
     })
 }
 
-/// Forces on all masses, of one size but no pattern: the same for every survey.
+/// Forces on all masses, of equal magnitude and irregular sign, the same for every survey.
 fn uneven_load(building: &BuildingSystem) -> Vec<f64> {
     let masses = building.equations.mass.iter().enumerate();
     masses

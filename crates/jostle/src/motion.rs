@@ -23,14 +23,14 @@ pub struct GroundMotion {
     pub scale: f64,
     /// Length of the analysis \[s\].
     pub duration: f64,
-    /// The wave before scaling.
+    /// The shape before scaling.
     pub wave: Wave,
 }
 
 /// Shape of a ground motion before scaling.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Wave {
-    /// Values at `0, step, 2·step, …`, straight lines between them.
+    /// Values at `0, step, 2·step, …`, linear between them.
     Sampled {
         /// Sampling step, > 0 \[s\].
         step: f64,

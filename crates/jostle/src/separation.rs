@@ -1,9 +1,9 @@
-//! What codes of practice ask of a seismic joint, to stand beside the computed closing.
+//! Widths of seismic joints required by codes, to compare with the computed closing.
 
 /// Width of the seismic joint between concrete frame structures, GB 50011-2010 (2016) §6.1.4 \[m\].
 ///
-/// 100 mm up to a height of 15 m; above that 20 mm more for every further 5, 4, 3 or 2 m at intensity
-/// 6, 7, 8 or 9, read as a straight line: 100 + 20 (H − 15)/(11 − I).
+/// 100 mm up to a height of 15 m; above that 20 mm more for every further 5, 4, 3 or 2 m at intensity 6, 7, 8 or 9,
+/// interpolated linearly: 100 + 20 (H − 15)/(11 − I).
 ///
 /// `height` of the lower building \[m\]; `intensity` 6 to 9, `None` outside.
 #[must_use]
@@ -15,7 +15,7 @@ pub fn gb50011_frame_joint(height: f64, intensity: u32) -> Option<f64> {
     Some(0.1 + per_metre * (height - 15.0).max(0.0))
 }
 
-/// Structural systems that GB 50011-2010 (2016) §6.1.4 and §8.1.4 tell apart.
+/// Structural systems of GB 50011-2010 (2016) §6.1.4 and §8.1.4.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum JointSystem {
     /// Concrete frames.
@@ -73,16 +73,16 @@ pub fn ddc_coefficient(periods: [f64; 2], damping: [f64; 2]) -> f64 {
             + 4.0 * (a * a + b * b) * square)
 }
 
-/// Double difference combination of two peak displacements, √(δ_A² + δ_B² − 2ρ δ_A δ_B): buildings that move alike
-/// need less room (Jeng, Kasai and Maison 1992) \[m\].
+/// Double difference combination of two peak displacements, √(δ_A² + δ_B² − 2ρ δ_A δ_B): buildings with similar
+/// motion need a smaller gap (Jeng, Kasai and Maison 1992) \[m\].
 #[must_use]
 pub fn double_difference(left: f64, right: f64, correlation: f64) -> f64 {
-    // Rounding may leave a little below zero.
+    // Rounding may give a value slightly below zero.
     let square = left * left + right * right - 2.0 * correlation * (left * right).abs();
     square.max(0.0).sqrt()
 }
 
-/// Share of the SRSS that EN 1998-1 §4.4.2.7(3) asks for where the floors of both buildings lie at equal height.
+/// Fraction of the SRSS required by EN 1998-1 §4.4.2.7(3) if the floors of both buildings lie at equal height.
 pub const EN1998_ALIGNED_FLOORS: f64 = 0.7;
 
 /// Maximum inelastic displacement over the elastic one, UBC-97 §1630.9.2: Δ_M = 0.7 R Δ_S, where Δ_S belongs to forces
@@ -93,7 +93,7 @@ pub const UBC97_OF_ELASTIC: f64 = 0.7;
 mod tests {
     use super::*;
 
-    /// Values computed apart from this program, to five digits.
+    /// Values computed independently, to five digits.
     #[test]
     fn ddc_coefficients_are_the_published_form() {
         for (periods, damping, expected) in [
@@ -103,7 +103,7 @@ mod tests {
         ] {
             let rho = ddc_coefficient(periods, damping);
             assert!((rho - expected).abs() < 5e-6, "{periods:?}: {rho}");
-            // Which building is called left makes no difference.
+            // The result does not depend on which building is on the left.
             let [t, u] = periods;
             let [x, y] = damping;
             let other = ddc_coefficient([u, t], [y, x]);

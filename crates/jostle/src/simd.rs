@@ -1,13 +1,13 @@
-//! Sums in eight fixed lanes: the same bits everywhere, and fast where the processor has lanes.
+//! Sums in eight fixed lanes: the same bits on every processor, and fast with wide registers.
 
 use pulp::{Arch, NullaryFnOnce, Simd};
 
 const LANES: usize = 8;
-/// Length of lists from which on wide registers are worth being asked for.
+/// Length of lists above which dispatch to wide registers pays.
 const WORTH_IT: usize = 16;
 
-/// Runs loops over lists of this length, compiled for the widest registers at hand where that pays. Nothing may be fused
-/// or reordered in them: the bits are the same either way.
+/// Runs loops over lists of this length, compiled for the widest available registers if that pays. Operations must
+/// not be fused or reordered in them, so the bits are the same in both cases.
 #[inline]
 pub(crate) fn in_wide_registers<Loops: NullaryFnOnce>(
     length: usize,
@@ -20,7 +20,7 @@ pub(crate) fn in_wide_registers<Loops: NullaryFnOnce>(
     }
 }
 
-/// [`weighted_square`] in the widest registers at hand.
+/// [`weighted_square`] in the widest available registers.
 pub(crate) fn wide_weighted_square(weights: &[f64], x: &[f64]) -> f64 {
     in_wide_registers(x.len(), WeightedSquare { weights, x })
 }
@@ -69,7 +69,7 @@ fn sum(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
     lanes.iter().sum::<f64>() + rest
 }
 
-/// Adds so many times a vector to another.
+/// axpy: `to[k] += factor * of[k]`.
 #[inline(always)]
 pub(crate) fn add(to: &mut [f64], factor: f64, vector: &[f64]) {
     for (value, part) in to.iter_mut().zip(vector) {
@@ -77,7 +77,7 @@ pub(crate) fn add(to: &mut [f64], factor: f64, vector: &[f64]) {
     }
 }
 
-/// Vectors taken at once.
+/// Vectors processed at once.
 const TOGETHER: usize = 4;
 
 /// Products of many vectors with one.
@@ -91,7 +91,7 @@ pub(crate) fn dots<S: Simd>(simd: S, vectors: &[Vec<f64>], with: &[f64], product
     for ([a, b, c, d], products) in fours.iter().zip(of_fours) {
         let [own_a, own_b] = [cut(&a[..whole]), cut(&b[..whole])];
         let [own_c, own_d] = [cut(&c[..whole]), cut(&d[..whole])];
-        // As many registers as lanes need, however wide they are.
+        // As many registers as the lanes need at any width.
         let mut sums = [[simd.splat_f64s(0.0); LANES]; TOGETHER];
         let used = LANES / S::F64_LANES;
         for first in (0..registers.len()).step_by(used) {
@@ -120,7 +120,7 @@ pub(crate) fn dots<S: Simd>(simd: S, vectors: &[Vec<f64>], with: &[f64], product
     }
 }
 
-/// Takes so many times each of many vectors from one.
+/// Subtracts multiples of many vectors from one.
 #[inline(always)]
 pub(crate) fn subtract_all(vectors: &[Vec<f64>], times: &[f64], from: &mut [f64]) {
     let (fours, rest) = vectors.as_chunks::<TOGETHER>();

@@ -1,4 +1,4 @@
-//! Everything that moves.
+//! State of a run.
 
 use crate::contact::Memory;
 use crate::hysteresis::HysteresisMemory;
@@ -29,18 +29,18 @@ pub struct State {
 pub enum ContactPhase {
     /// The gap is open.
     Open,
-    /// The faces touch.
+    /// The contact is closed.
     Closed(Episode),
 }
 
-/// What has happened since a contact closed.
+/// Record since a contact closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Episode {
-    /// Instant of touch \[s\].
+    /// Instant of first contact \[s\].
     pub since: f64,
-    /// Closing rate at touch, > 0 \[m/s\].
+    /// Closing rate at first contact, > 0 \[m/s\].
     pub impact_speed: f64,
-    /// What the law remembers.
+    /// Memory of the law.
     pub memory: Memory,
     /// Force now \[N\].
     pub force: f64,
@@ -56,7 +56,7 @@ pub struct Episode {
     pub peak_indentation: f64,
     /// Time integral of the force so far \[N·s\].
     pub impulse: f64,
-    /// Work taken so far \[J\].
+    /// Work done so far \[J\].
     pub work: f64,
 }
 
@@ -92,8 +92,8 @@ impl ContactPhase {
 }
 
 impl State {
-    /// All buildings at rest, under their weight where they carry it, and all contacts open, while the ground
-    /// already accelerates.
+    /// All buildings at rest, under self weight if included, and all contacts open, with the ground acceleration at
+    /// that instant.
     #[must_use]
     pub fn at_rest(system: &System, ground_acceleration: f64) -> Self {
         let n = system.len();

@@ -1,4 +1,4 @@
-//! Direct stiffness: the independent second path. Assembled from element matrices and factorised by a general sparse
+//! Direct stiffness, an independent check. Assembled from element matrices and factorised by a general sparse
 //! elimination with its own ordering; it shares no elimination with the Riccati recursion.
 
 use crate::linear::sparse_cholesky::{NoPivot, Pattern, SparseFactor};

@@ -14,14 +14,14 @@ pub(crate) enum MotionCommand {
     Spectrum(SpectrumArgs),
     /// Cut, correct, filter, resample, scale and write a motion as AT2 or CSV
     Convert(ConvertArgs),
-    /// Make an artificial motion
+    /// Generate an artificial motion
     #[command(subcommand)]
     Synth(SynthCommand),
     /// Check a set of motions by the rules of the code [exit code 1 if it does not meet them]
     Select(SelectArgs),
 }
 
-/// A motion and what its file does not say.
+/// A motion, and data that its file does not contain.
 #[derive(Debug, Args)]
 pub(crate) struct RecordArgs {
     /// A built-in name, or a file
@@ -106,7 +106,7 @@ pub(crate) struct SpectrumArgs {
     pub(crate) force: bool,
 }
 
-/// Steps are done in the order of these options.
+/// Steps are applied in the order of these options.
 #[derive(Debug, Args)]
 pub(crate) struct ConvertArgs {
     #[command(flatten)]
@@ -143,7 +143,7 @@ pub(crate) struct ConvertArgs {
     /// Time at rest after the motion
     #[arg(long, value_name = "TIME")]
     pub(crate) pad_after: Option<String>,
-    /// Let velocity and displacement end at zero
+    /// Correct the motion so that velocity and displacement end at zero
     #[arg(long)]
     pub(crate) at_rest: bool,
     /// Multiply by a factor
@@ -162,7 +162,7 @@ pub(crate) struct ConvertArgs {
     pub(crate) force: bool,
 }
 
-/// A design spectrum: a code with its words, or a file.
+/// A design spectrum: a code with its parameters, or a file.
 #[derive(Debug, Args)]
 pub(crate) struct TargetArgs {
     /// gb50011, en1998 or asce7
@@ -206,7 +206,7 @@ pub(crate) struct TargetArgs {
     pub(crate) factor: Option<String>,
 }
 
-/// What every artificial motion needs.
+/// Options of every artificial motion.
 #[derive(Debug, Args)]
 pub(crate) struct WaveArgs {
     /// File to write: .at2 or .csv
@@ -238,7 +238,7 @@ pub(crate) struct SynthSpectrumArgs {
     pub(crate) target: TargetArgs,
     #[command(flatten)]
     pub(crate) wave: WaveArgs,
-    /// Match this record (a built-in name or a file) instead of sines; its step and duration stay
+    /// Match this record (a built-in name or a file) instead of sines; step and duration are kept
     #[arg(long)]
     pub(crate) record: Option<String>,
     /// Seed of the phases
@@ -274,10 +274,10 @@ pub(crate) struct SynthNoiseArgs {
     /// Length of the motion
     #[arg(long, default_value = "30 s", value_name = "TIME")]
     pub(crate) duration: String,
-    /// Frequency of the ground
+    /// Frequency of the ground filter
     #[arg(long, default_value = "2.5 Hz")]
     pub(crate) frequency: String,
-    /// Damping of the ground
+    /// Damping of the ground filter
     #[arg(long, default_value = "0.6")]
     pub(crate) ground_damping: String,
     /// Frequency of the second filter; 0 disables it

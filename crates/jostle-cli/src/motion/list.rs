@@ -1,4 +1,4 @@
-//! `jostle motion list`: what comes with the program.
+//! `jostle motion list`: built-in motions.
 
 use crate::failure::Failure;
 use crate::terminal::{self, BOLD, styled};

@@ -69,7 +69,7 @@ pub(super) fn select(args: &SelectArgs) -> Result<(), Failure> {
     verdict(&check)
 }
 
-/// A set that does not meet its code ends the command as a failed analysis does.
+/// A set that does not meet its code gives the exit code of a failed analysis.
 fn verdict(check: &SelectionCheck) -> Result<(), Failure> {
     if check.passes() {
         return Ok(());

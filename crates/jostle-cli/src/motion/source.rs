@@ -56,7 +56,7 @@ pub(super) fn open(name: &str) -> Result<Named, Failure> {
     })
 }
 
-/// Where model files complete what a record leaves open.
+/// Keys of model files that complete a record.
 const BESIDE: &str = " beside record";
 
 /// A question about a record, with the keys of model files as the options of commands.
@@ -136,7 +136,7 @@ pub(super) fn quantities(
         .collect()
 }
 
-/// A fault of what was asked for.
+/// An error in the request.
 pub(super) fn wrong(fault: MotionFault) -> Failure {
     Failure::Input(fault.to_string())
 }

@@ -64,7 +64,7 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
 /// between the samples as well.
 ///
 /// # Errors
-/// What is wrong with the motion or the numbers.
+/// An error in the motion or the numbers.
 pub fn spectrum_json(
     step: f64,
     acceleration: Vec<f64>,

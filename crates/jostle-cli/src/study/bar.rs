@@ -11,7 +11,7 @@ use crate::terminal;
 /// Studies shorter than this need no progress bar.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// A bar that appears on a terminal if the study takes a while.
+/// A bar that a terminal shows if the study takes some time.
 pub(super) struct Bar {
     bar: ProgressBar,
     started: Instant,
@@ -42,7 +42,7 @@ impl Bar {
                     .set_draw_target(ProgressDrawTarget::stderr_with_hz(4));
             }
         }
-        // What earlier runs finished says nothing about the rate.
+        // Cases of earlier runs do not count for the rate.
         let rate = progress.computed as f64 / self.started.elapsed().as_secs_f64().max(1e-3);
         let left = progress.cases.saturating_sub(progress.finished) as f64;
         self.bar.set_length(progress.cases);

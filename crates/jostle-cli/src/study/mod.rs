@@ -16,15 +16,13 @@ use crate::numbers::{counted_grouped, grouped};
 use crate::run::stop_on_interrupt;
 use crate::terminal;
 
-/// Where results go when nothing else is said.
+/// Default folder of results.
 const RESULTS: &str = "jostle-out";
 
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "The same command goes on where an earlier one stopped, whatever stopped it.\n\
+#[command(after_help = "The same command resumes after any interruption.\n\
                   Ready-made studies: table2, gap-sweep, ida, fragility, sensitivity, tornado;\n  \
-                  jostle study gap-sweep --base model.toml"
-)]
+                  jostle study gap-sweep --base model.toml")]
 pub(crate) struct StudyArgs {
     /// Study file (TOML or JSON), the name of a ready-made study, or a results folder to continue
     study: PathBuf,
@@ -119,7 +117,7 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
     if path.is_dir() {
         if args.base.is_some() {
             return Err(Failure::Input(format!(
-                "--base: {} is a folder of results, which has its base model in its manifest.json; leave --base out",
+                "--base: {} is a folder of results, which has its base model in its manifest.json; omit --base",
                 path.display()
             )));
         }
@@ -242,7 +240,7 @@ fn outcome(study: &Study, done: &Done, out: &Path, wall: f64) -> String {
         ));
     }
     if done.stopped {
-        lines.push("stopped; the same command goes on from here".to_owned());
+        lines.push("stopped; the same command resumes from here".to_owned());
     } else if !done.complete {
         let missing = (0..study.parts())
             .filter(|part| !jostle_study::dataset::part_path(out, study.part(*part).start).exists())

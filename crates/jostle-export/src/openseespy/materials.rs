@@ -13,7 +13,7 @@ pub(super) struct Materials {
 
 /// How far the last straight line of a backbone is drawn, in yield deformations \[–\].
 const FAR: f64 = 1e4;
-/// Gap of faces that touch at rest: OpenSees wants a number below zero \[m\].
+/// Gap of sides that touch at rest: OpenSees needs a number below zero \[m\].
 const NO_GAP: f64 = 1e-12;
 /// A force that elastic-plastic contact never reaches \[N\].
 const NEVER: f64 = 1e30;
@@ -37,7 +37,7 @@ impl Materials {
         }) + 1
     }
 
-    /// A spring with a dashpot beside it.
+    /// A spring with a parallel dashpot.
     pub(super) fn elastic(&mut self, stiffness: f64, dashpot: f64) -> usize {
         let mut arguments = vec![stiffness];
         if dashpot != 0.0 {
@@ -117,15 +117,15 @@ impl Materials {
     /// The law of a contact, strain being u_right − u_left, and what is different about it.
     ///
     /// # Errors
-    /// What to use instead of a law that OpenSees does not have.
+    /// Replacement for a law that OpenSees does not have.
     pub(super) fn contact(
         &mut self,
         contact: &Contact,
     ) -> Result<(usize, Option<&'static str>), &'static str> {
         let gap = -contact.width.max(NO_GAP);
-        const IMPACT_SPEED: &str = "Hertzdamp divides by the closing rate that the first closed step ends with, not by \
-             that at the touch: its damping depends on the step and converges with it. It pulls where damping exceeds \
-             the spring; jostle cuts the force at zero. Its stated tangent has the wrong sign, which small steps forgive.";
+        const IMPACT_SPEED: &str = "Hertzdamp divides by the closing rate at the end of the first closed step, not at first \
+             contact: its damping depends on the step and converges with it. It is in tension where damping exceeds \
+             the spring force; jostle cuts the force at zero. Its tangent has the wrong sign, which is harmless at small steps.";
         Ok(match contact.law {
             ForceLaw::Hertz { stiffness, damping } => (
                 self.add("Hertzdamp", vec![stiffness, damping, gap, 1.5]),

@@ -2,7 +2,7 @@
 //! runs them in two ways.
 //!
 //! F. McKenna, M. H. Scott, G. L. Fenves (2010), J. Comput. Civ. Eng. 24, 95–107; M. Zhu, F. McKenna, M. H. Scott
-//! (2018), SoftwareX 7, 6–11. What had to be found out about the program is told in docs/export.md.
+//! (2018), SoftwareX 7, 6–11. docs/export.md describes the behaviour of the program.
 
 mod materials;
 mod script;

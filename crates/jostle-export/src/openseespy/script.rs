@@ -12,7 +12,7 @@ use super::materials::Materials;
 use super::ties::{COMPONENTS, Ties, is_held_by, is_vertical, stiffnesses};
 use crate::Export;
 
-/// Free-flight step that is to be tried first \[s\]; the record may ask for a shorter one.
+/// Free-vibration step that is tried first \[s\]; the record may require a shorter one.
 const FREE_STEP: f64 = 2e-3;
 /// Parts of it while contacts are closed \[–\].
 const PARTS_IN_CONTACT: usize = 10;
@@ -171,7 +171,7 @@ impl<'a> Script<'a> {
     fn add_nodes(&mut self, index: usize, building: &BuildingSystem, ties: &Ties) {
         for (number, node) in building.discretization.stick_model.nodes.iter().enumerate() {
             let tag = self.tag(index, number);
-            // What does not move needs no mass.
+            // Fixed nodes need no mass.
             let mass = if node.support == Support::Fixed {
                 0.0
             } else {
@@ -313,7 +313,7 @@ impl<'a> Script<'a> {
         Ok(())
     }
 
-    /// What stands side by side: a spring, elastic or not, and a dashpot.
+    /// Parallel elements: a spring, elastic or not, and a dashpot.
     fn spring_materials(
         &mut self,
         stiffness: f64,
@@ -406,7 +406,7 @@ impl<'a> Script<'a> {
                 self.remark(remark);
             }
             if contact.width == 0.0 {
-                self.remark("OpenSees wants a gap: faces that touch at rest are 1e-12 m apart.");
+                self.remark("OpenSees needs a gap: sides that touch at rest are 1e-12 m apart.");
             }
             let tag = self.element();
             let floors = contact.ports.floors();
@@ -470,7 +470,7 @@ impl<'a> Script<'a> {
         )?;
         writeln!(
             out,
-            "#   python FILE                     at its best: long linear steps in free flight, short ones near contact"
+            "#   python FILE                     at its best: long linear steps in free vibration, short ones near contact"
         )?;
         writeln!(
             out,
@@ -623,7 +623,7 @@ impl<'a> Script<'a> {
         }
         writeln!(
             out,
-            "\n# Steps at its best, in free flight and around contact [s]."
+            "\n# Steps at its best, in free vibration and around contact [s]."
         )?;
         writeln!(out, "FREE_STEP = {free:?}")?;
         writeln!(out, "PARTS_IN_CONTACT = {PARTS_IN_CONTACT}")
@@ -671,7 +671,7 @@ fn python_bool(value: bool) -> &'static str {
     if value { "True" } else { "False" }
 }
 
-/// Lines of at most so many characters.
+/// Lines with a maximum length.
 fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {

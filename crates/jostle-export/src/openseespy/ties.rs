@@ -1,8 +1,8 @@
 //! Which displacements are one and the same, and how OpenSees can be told so.
 //!
 //! OpenSees' transformation handler takes one constraint for a node, and none for the node that others follow: it
-//! obeys the first and forgets the rest. So horizontal ties come first, and whatever would need a second constraint is
-//! left to very stiff elements.
+//! applies the first and ignores the rest. So horizontal ties come first, and anything that would need a second
+//! constraint is left to very stiff elements.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ pub(super) struct Ties {
     pub(super) held: Vec<(usize, usize)>,
     /// Node that is followed, node that follows, components.
     pub(super) followed: Vec<(usize, usize, Vec<usize>)>,
-    /// By (node, component): whether a constraint says what it does.
+    /// By (node, component): whether a constraint determines it.
     constrained: Vec<[bool; COMPONENTS]>,
     classes: Vec<usize>,
 }
@@ -112,7 +112,7 @@ impl Ties {
         ties
     }
 
-    /// Whether two displacements are the same because a constraint or a support says so.
+    /// Whether two displacements are equal by a constraint or a support.
     pub(super) fn are_tied(&self, ends: [usize; 2], component: usize) -> bool {
         let [a, b] = ends.map(|node| self.classes[node * COMPONENTS + component]);
         a == b && ends.iter().all(|node| self.constrained[*node][component])
@@ -146,7 +146,7 @@ impl Union {
         at
     }
 
-    /// The lower index stands for both.
+    /// The lower index represents both.
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b);

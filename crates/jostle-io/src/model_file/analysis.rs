@@ -33,7 +33,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
             .choice(&field, SOLVERS, &[])
             .and_then(Solver::from_name);
     }
-    // Unusual values that are accepted include the work that they make.
+    // Accepting unusual values also accepts the work that they cause.
     if reader.accepted.covers("analysis.step") {
         analysis.most_work = f64::INFINITY;
     }
@@ -46,7 +46,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
     analysis
 }
 
-/// Which unusual values are meant; faults are noted where the table is read.
+/// Unusual values that are accepted; faults are noted where the table is read.
 pub(super) fn accepted(reader: &mut Reader<'_>, field: &Field<'_>) -> Accepted {
     let Some(view) = reader.reopen(field, &[Section::Analysis]) else {
         return Accepted::Nothing;

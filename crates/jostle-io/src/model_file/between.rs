@@ -1,4 +1,4 @@
-//! What gaps and links have in common: two neighbours, and points of their faces.
+//! Common parts of gaps and links: two neighbours and pairs of points.
 
 use jostle::model::LEVEL_TOLERANCE;
 use jostle::{Building, FloorPairs, Level};

@@ -20,7 +20,7 @@ const MOST_STOREYS: usize = 200;
 /// Buildings and their reinforced members.
 pub(super) type Buildings = (Vec<Building>, Vec<ReinforcedMember>);
 
-/// Reads the list of buildings; `None` if it is no list.
+/// Reads the list of buildings; `None` if it is not a list.
 pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Buildings> {
     let Some(entries) = field.entries() else {
         let found = field.node.describe();
@@ -44,7 +44,7 @@ pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Bui
         .enumerate()
         .map(|(i, entry)| read(reader, entry, i, &mut members))
         .collect::<Vec<_>>();
-    // A building that is no table leaves the others without their place in the row.
+    // If a building is not a table, the positions of the others in the row are unknown.
     let buildings: Option<Vec<_>> = buildings.into_iter().collect();
     Some((buildings?, members))
 }
@@ -182,8 +182,8 @@ fn is_sound(building: &Building) -> bool {
     alone.check().is_ok()
 }
 
-/// Whether the building is a shear building. Where `kind` is absent or misspelt the other keys tell, so that
-/// one slip is one fault.
+/// Whether the building is a shear building. If `kind` is absent or misspelt, the other keys decide, so that one
+/// mistake gives one fault.
 fn looks_like_shear(field: &Field<'_>) -> bool {
     let Value::Table(table) = &field.node.value else {
         return false;
@@ -199,7 +199,7 @@ fn looks_like_shear(field: &Field<'_>) -> bool {
 
 /// The number of storeys: as stated, or as long as the first of the lists.
 ///
-/// Every list is then held against it where it is read.
+/// Every list is compared with it where it is read.
 pub(super) fn storeys(
     reader: &mut Reader<'_>,
     view: &View<'_>,

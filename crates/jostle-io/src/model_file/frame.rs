@@ -18,7 +18,7 @@ const CONCRETE_DENSITY: f64 = 2500.0;
 /// Poisson's ratio of concrete \[–\] (GB 50010-2010, clause 4.1.8).
 const CONCRETE_POISSON_RATIO: f64 = 0.2;
 
-/// Reads the keys of a frame; after a fault, harmless values stand in.
+/// Reads the keys of a frame; after a fault, harmless values are used.
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
     let count = storeys(
         reader,

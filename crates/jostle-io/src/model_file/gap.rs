@@ -1,4 +1,4 @@
-//! `[[gap]]`: the space between two neighbours, or before a wall, and the law of the contact there.
+//! `[[gap]]`: the gap between two neighbours, or beside a wall, and its contact law.
 
 use jostle::contact::ModifiedKelvin;
 use jostle::{Building, ContactLaw, FloorPairs, Gap, LawKind, RestitutionIs};
@@ -22,7 +22,7 @@ const CONCRETE_RESTITUTION: f64 = 0.65;
 /// Most gaps.
 const MOST_GAPS: usize = 10_000;
 
-/// Reads all gaps. Without buildings, names cannot be told, and only the rest is checked.
+/// Reads all gaps. Without buildings, names are unknown, and only the rest is checked.
 pub(super) fn read_all(
     reader: &mut Reader<'_>,
     field: &Field<'_>,

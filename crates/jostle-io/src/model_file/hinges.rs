@@ -55,8 +55,7 @@ fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule>
     })
 }
 
-/// Hinges of a frame. `members` are its reinforced members; `None` when they could not be had after faults
-/// elsewhere.
+/// Hinges of a frame. `members` are its reinforced members; `None` after faults elsewhere.
 pub(super) fn read_frame(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
@@ -127,8 +126,8 @@ impl Initial {
         times * rigidity / length
     }
 
-    /// Ratios of the hinge from those of the file. With a rigid hinge they are those of hinge and member in
-    /// series: a hinge of K r / (1 − r) beside a member end of K.
+    /// Ratios of the hinge from those of the file. With a rigid hinge they are those of hinge and member in series:
+    /// a hinge of K r / (1 − r) in series with a member end of K.
     fn ratios(self, given: Corners) -> Corners {
         let in_series = |ratio: f64| 6.0 / RIGID_INITIAL * ratio / (1.0 - ratio);
         match self {
@@ -205,7 +204,7 @@ fn read_members(
     Some(rows)
 }
 
-/// Keys of a hinge, with what they could be.
+/// Keys of a hinge, with possible values.
 const NUMBERS: [(&str, Dimension, &str); 4] = [
     ("cracking", Dimension::Moment, "\"120 kN.m\""),
     ("yield", Dimension::Moment, "\"400 kN.m\""),
@@ -462,7 +461,7 @@ fn spring_of(
     Hysteresis::new(rule, backbone).map_err(first)
 }
 
-/// How a spring of a base yields, the same to both sides; `keys` are those of the table and of its initial stiffness.
+/// Yielding of a base spring, equal on both sides; `keys` are those of the table and of its initial stiffness.
 pub(super) fn read_base(
     reader: &mut Reader<'_>,
     base: &View<'_>,
@@ -519,7 +518,7 @@ pub(super) fn read_base(
             post_yield: post_yield?,
         },
     };
-    // A stiffness that is not positive is a fault of its own.
+    // A stiffness that is not positive is a separate fault.
     let stiffness = stiffness.filter(|stiffness| *stiffness > 0.0)?;
     let spring = Backbone::from_forces(stiffness, corners, corners)
         .and_then(|backbone| Hysteresis::new(rule, backbone));

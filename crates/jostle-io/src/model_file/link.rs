@@ -10,7 +10,7 @@ use crate::reader::{Field, Reader};
 /// Most links.
 const MOST_LINKS: usize = 10_000;
 
-/// Reads all links. Without buildings, names cannot be told, and only the rest is checked.
+/// Reads all links. Without buildings, names are unknown, and only the rest is checked.
 pub(super) fn read_all(
     reader: &mut Reader<'_>,
     field: &Field<'_>,

@@ -2,7 +2,8 @@
 
 use jostle::{Building, Model, Structure, UnmatchedFloors, floor_and_height};
 
-/// One warning for every pair of neighbours whose common floors leave out floors that could hit the other.
+/// One warning for every pair of neighbours with floors that `"common"` omits although they lie beside the other
+/// building.
 pub(super) fn warnings(model: &Model) -> Vec<String> {
     let unmatched = model.unmatched_floors();
     unmatched

@@ -40,7 +40,7 @@ pub struct ReinforcedMember {
 /// Sections of the storeys of a building, where they are reinforced.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Reinforced {
-    /// By storey; `None` where there are no bars.
+    /// By storey; `None` without bars.
     pub(super) columns: Vec<Option<(Section, Axial)>>,
     pub(super) beams: Vec<Option<(Section, Axial)>>,
 }

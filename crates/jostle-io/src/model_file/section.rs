@@ -20,7 +20,7 @@ pub(super) struct Material {
     pub(super) modulus: Option<f64>,
     /// Whether the building states a modulus in numbers, which then holds for members of any concrete.
     pub(super) modulus_is_stated: bool,
-    /// Whether a fault was noted where the modulus stands.
+    /// Whether a fault of the modulus was noted.
     pub(super) modulus_is_bad: bool,
     /// Density of columns; beams weigh nothing by themselves \[kg/m³\].
     pub(super) density: f64,
@@ -40,7 +40,7 @@ const STAND_IN: Section = Section {
     line_mass: 1.0,
 };
 
-/// Reads the modulus; also tells whether one stands there that could not be read.
+/// Reads the modulus; also returns whether there is one that could not be read.
 pub(super) fn read_modulus(reader: &mut Reader<'_>, view: &View<'_>) -> (Option<f64>, bool) {
     let modulus = reader.get(view, "elastic_modulus");
     let concrete = reader.get(view, "concrete");

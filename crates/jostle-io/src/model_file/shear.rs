@@ -6,10 +6,10 @@ use super::building::{per_storey, storeys};
 use crate::quantity::Dimension;
 use crate::reader::{Reader, View};
 
-/// Storey height of a shear building that does not say it; only drifts and contacts depend on it \[m\].
+/// Default storey height of a shear building; only drifts and contacts depend on it \[m\].
 pub(super) const DEFAULT_STOREY_HEIGHT: f64 = 3.0;
 
-/// Reads the keys of a shear building; after a fault, harmless values stand in.
+/// Reads the keys of a shear building; after a fault, harmless values are used.
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Shear {
     let count = if is_single_floor(reader, view) {
         Some(1)

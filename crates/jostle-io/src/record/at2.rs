@@ -34,7 +34,7 @@ pub(crate) fn read(bytes: &[u8], options: &RecordOptions) -> Result<Contents, Re
             })?;
             let step = match steps[..] {
                 [step] => Some(step),
-                // The options come before what the file says.
+                // Options take precedence over the file.
                 _ if options.step.is_some() => None,
                 _ => {
                     return Err(RecordError::SeveralSteps {

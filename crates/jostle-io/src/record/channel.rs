@@ -6,12 +6,12 @@ use super::error::RecordError;
 use super::format::RecordFormat;
 use crate::quantity::shorten;
 
-/// Where a channel points.
+/// Direction of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
     /// Horizontal, clockwise from north, 0 to 360 \[degrees\].
     Azimuth(f64),
-    /// Horizontal, but which way is not stated.
+    /// Horizontal, direction not stated.
     Horizontal,
     /// Vertical.
     Vertical,
@@ -100,7 +100,7 @@ pub struct Channel {
     pub number: usize,
     /// Name in the file, such as `360 Deg`, `N-S` or `HNE`; empty when there is none.
     pub name: String,
-    /// Where it points.
+    /// Direction.
     pub direction: Direction,
     /// Unit of the numbers as in the file; `None` when it is stated nowhere.
     pub unit: Option<String>,
@@ -151,7 +151,7 @@ pub(crate) fn list(channels: &[Channel]) -> String {
     }
 }
 
-/// Index of the channel asked for; without a wish, the only channel, or the only horizontal one.
+/// Index of the requested channel; by default the only channel, or the only horizontal one.
 pub(crate) fn choose(
     channels: &[Channel],
     wanted: Option<&str>,

@@ -1,4 +1,4 @@
-//! What every format hands on: channels of raw values, checked against what the header says of them.
+//! Result of reading a format: channels of raw values, checked against the header.
 
 use super::channel::{Channel, Direction};
 use super::error::RecordError;
@@ -13,13 +13,13 @@ use crate::quantity::STANDARD_GRAVITY;
 /// Which numbers a channel has, and what may be said about them from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scale {
-    /// Free text: the options come before what the file says.
+    /// Free text: options take precedence over the file.
     Loose,
-    /// Free text whose reader has put in the options already.
+    /// Free text whose reader has already applied the options.
     Settled,
     /// The format states unit and scale; options may not contradict.
     Stated,
-    /// Counts or unknown: the options must say unit and scale.
+    /// Counts or unknown: the options must state unit and scale.
     Counts,
 }
 
@@ -30,7 +30,7 @@ pub(crate) struct Peak {
     pub(crate) value: f64,
     /// Unit of the last printed digit.
     pub(crate) digit: f64,
-    /// Line of the header, 0 where lines mean nothing.
+    /// Line of the header, 0 for binary formats.
     pub(crate) line: usize,
     /// Time of the peak and its last printed digit \[s\].
     pub(crate) time: Option<(f64, f64)>,
@@ -61,7 +61,7 @@ pub(crate) struct Contents {
 }
 
 impl Contents {
-    /// A file that says nothing but numbers.
+    /// A file that contains only numbers.
     pub(crate) fn new(format: RecordFormat, scale: Scale) -> Self {
         Self {
             format,
@@ -92,7 +92,7 @@ impl Contents {
         for trace in &self.traces {
             let Some(peak) = trace.peak else { continue };
             let found = largest(&trace.values);
-            // Peaks are rounded or cut, and computed from values with digits of their own.
+            // Peaks are rounded or truncated, and computed from values with other digits.
             let allowed = 1.001 * peak.digit + 1e-6 * found;
             let wanted = peak.value.abs();
             if (found - wanted).abs() > allowed {

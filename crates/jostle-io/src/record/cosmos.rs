@@ -57,7 +57,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
     }
 }
 
-/// What a block of values holds.
+/// Quantity of a block of values.
 enum Found {
     Acceleration(Trace, Scale),
     Other(String),
@@ -68,7 +68,7 @@ struct Header {
     integers: Vec<f64>,
     reals: Vec<f64>,
     reals_line: usize,
-    /// What stands for "not stated".
+    /// Value for "not stated".
     unknown: f64,
     comments: Vec<String>,
 }
@@ -248,7 +248,7 @@ impl Header {
         Err(malformed(FORMAT, line.number, problem))
     }
 
-    /// Integer 54 is the azimuth or a code; else the SEED channel code in the comments tells.
+    /// Integer 54 is the azimuth or a code; otherwise the SEED channel code in the comments is used.
     fn direction(&self) -> (String, Direction) {
         let code = self.comments.iter().find_map(|comment| {
             let scnl = comment.split_once("<SCNL>")?.1.split_whitespace().next()?;
@@ -282,7 +282,7 @@ fn next(lines: &mut Lines<'_>) -> Result<(usize, String), RecordError> {
         .ok_or_else(|| malformed(FORMAT, end, "the file ends in its header"))
 }
 
-/// The whole number behind a phrase, or at the start of a line.
+/// The whole number after a phrase, or at the start of a line.
 fn counted(line: usize, text: &str, phrase: &str, expected: &str) -> Result<usize, RecordError> {
     let word = match phrase {
         "" => text.split_whitespace().next(),

@@ -1,8 +1,8 @@
-//! What can be wrong with a record.
+//! Errors of records.
 
 use super::format::RecordFormat;
 
-/// What is wrong with a record. Displays as `:line: problem`, to stand behind the name of the file.
+/// An error of a record. Displays as `:line: problem`, to follow the name of the file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordError {
@@ -28,12 +28,12 @@ pub enum RecordError {
     /// An archive, or an encoding that is not read.
     #[error(": this is {what}; {remedy}")]
     Wrapped {
-        /// What the file is.
+        /// Type of the file.
         what: &'static str,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
-    /// A format asked for that is none.
+    /// An unknown format was requested.
     #[error(
         ": there is no record format \"{found}\"; formats: {}",
         RecordFormat::keys()
@@ -47,9 +47,9 @@ pub enum RecordError {
     Malformed {
         /// Format in which the file was read.
         format: RecordFormat,
-        /// Line, from 1; 0 where lines mean nothing.
+        /// Line, from 1; 0 for binary formats.
         line: usize,
-        /// What is wrong, and what was expected.
+        /// The problem, and what was expected.
         problem: String,
     },
     /// The file ends inside a number.
@@ -66,7 +66,7 @@ pub enum RecordError {
         /// Values found.
         found: usize,
     },
-    /// A value that is no number.
+    /// A value that is not a number.
     #[error(":{line}: \"{found}\" is not a number")]
     NotANumber {
         /// Line, from 1.
@@ -74,26 +74,26 @@ pub enum RecordError {
         /// The text.
         found: String,
     },
-    /// A value beyond any earthquake.
+    /// A value too large for an earthquake.
     #[error(
         "{}: an acceleration of {value} {unit} is beyond any earthquake; is the unit right?",
         place(*.line)
     )]
     TooStrong {
-        /// Line, from 1; 0 where lines mean nothing.
+        /// Line, from 1; 0 for binary formats.
         line: usize,
         /// Value as in the file.
         value: f64,
         /// Unit in use.
         unit: String,
     },
-    /// The header counts other than there are.
+    /// The count of the header differs from the number of values.
     #[error(
         "{}: the header announces {stated} values, the file has {found}; is it complete?",
         place(*.line)
     )]
     Count {
-        /// Line of the header, from 1; 0 where lines mean nothing.
+        /// Line of the header, from 1; 0 for binary formats.
         line: usize,
         /// Announced.
         stated: usize,
@@ -108,7 +108,7 @@ pub enum RecordError {
     Peak {
         /// Format in which the file was read.
         format: RecordFormat,
-        /// Line of the header, from 1; 0 where lines mean nothing.
+        /// Line of the header, from 1; 0 for binary formats.
         line: usize,
         /// Stated, as in the file.
         stated: f64,
@@ -145,13 +145,13 @@ pub enum RecordError {
         /// Steps, at least two \[s\].
         steps: Vec<f64>,
     },
-    /// A unit asked for that is none of acceleration.
+    /// The requested unit is not a unit of acceleration.
     #[error(": unit = \"{found}\" is not an acceleration; say \"g\" or \"cm/s2\", for example")]
     OptionUnit {
         /// The text.
         found: String,
     },
-    /// A unit in the file that is none of acceleration.
+    /// The unit in the file is not a unit of acceleration.
     #[error(
         ":{line}: the unit \"{found}\" is not an acceleration; records of velocity or displacement cannot be used"
     )]
@@ -161,14 +161,14 @@ pub enum RecordError {
         /// The text.
         found: String,
     },
-    /// The file holds something else than accelerations.
+    /// The file contains other quantities than accelerations.
     #[error(": this {format} file holds {found}, and accelerations are needed{remedy}")]
     NotAcceleration {
         /// Format in which the file was read.
         format: RecordFormat,
-        /// What it holds.
+        /// Its quantity.
         found: String,
-        /// Where accelerations are found, or nothing.
+        /// Where to find accelerations, or empty.
         remedy: &'static str,
     },
     /// The unit is stated nowhere.
@@ -176,7 +176,7 @@ pub enum RecordError {
         ": which unit do the accelerations have (largest number: {largest})? Say it with unit = \"g\" or unit = \"cm/s2\" beside record, or in the file's first line as # unit = g"
     )]
     UnitUnknown {
-        /// Largest number of the file, as a help.
+        /// Largest number of the file, for the message.
         largest: f64,
     },
     /// A format without units.
@@ -186,7 +186,7 @@ pub enum RecordError {
     CountsUnknown {
         /// Format in which the file was read.
         format: RecordFormat,
-        /// Largest number of the file, as a help.
+        /// Largest number of the file, for the message.
         largest: f64,
     },
     /// The instrument's zero is not the ground at rest.
@@ -216,12 +216,12 @@ pub enum RecordError {
         format: RecordFormat,
         /// The option.
         key: &'static str,
-        /// What it is about.
+        /// Quantity of the option.
         what: &'static str,
         /// As the file states it.
         stated: String,
     },
-    /// A factor that is no usable number.
+    /// A factor that is not a usable number.
     #[error(": record_scale = {found} is not usable; it must be a number other than zero")]
     OptionScale {
         /// The factor.
@@ -258,7 +258,7 @@ pub enum RecordError {
         /// Time found \[s\].
         found: f64,
     },
-    /// Digitised film: times that are not equally spaced by nature.
+    /// Digitised film: times are not equally spaced.
     #[error(
         ":{line}: the times of this uncorrected record are not equally spaced (steps between {least} s and {greatest} s); use the corrected record (volume 2), or say step = \"{suggested} s\" beside record to have it interpolated linearly"
     )]
@@ -269,7 +269,7 @@ pub enum RecordError {
         least: f64,
         /// Greatest step \[s\].
         greatest: f64,
-        /// A usual step near the mean \[s\].
+        /// A common step near the mean \[s\].
         suggested: f64,
     },
     /// The file's times contradict the stated step.
@@ -309,9 +309,9 @@ pub enum RecordError {
     WhichComponent {
         /// Format in which the file was read.
         format: RecordFormat,
-        /// A choice that would do.
+        /// A possible choice.
         example: String,
-        /// What there is.
+        /// Available channels.
         channels: String,
     },
     /// The component asked for does not exist.
@@ -321,7 +321,7 @@ pub enum RecordError {
         format: RecordFormat,
         /// Component asked for.
         wanted: String,
-        /// What there is.
+        /// Available channels.
         channels: String,
     },
     /// Several channels fit the component asked for.
@@ -333,7 +333,7 @@ pub enum RecordError {
         format: RecordFormat,
         /// Component asked for.
         wanted: String,
-        /// What there is.
+        /// Available channels.
         channels: String,
     },
     /// Lines of different length.
@@ -346,7 +346,7 @@ pub enum RecordError {
         /// Columns of the first line.
         expected: usize,
     },
-    /// Far too many numbers for g.
+    /// Numbers far too large for g.
     #[error(
         ": the largest number is {largest}, surely not g; say the right unit, for example unit = \"cm/s2\""
     )]
@@ -356,7 +356,7 @@ pub enum RecordError {
     },
 }
 
-/// What a folder holds, in words.
+/// Contents of a folder as text.
 fn inside(records: &[String]) -> String {
     match records {
         [] => "there is no record in it".to_owned(),
@@ -374,7 +374,7 @@ fn inside(records: &[String]) -> String {
     }
 }
 
-/// `:12`, or nothing where lines mean nothing.
+/// `:12`, or empty for binary formats.
 fn place(line: usize) -> String {
     if line == 0 {
         String::new()

@@ -108,7 +108,7 @@ fn check_duration(header: &Header, count: usize, step: f64) -> Result<(), Record
     )
 }
 
-/// The key of the peak says its unit, `PGA_CM/S^2`.
+/// The key of the peak contains its unit, `PGA_CM/S^2`.
 fn read_peak(header: &Header, unit: &str, size: f64) -> Result<Option<Peak>, RecordError> {
     let Some((text, line)) = header.find("PGA_CM/S^2") else {
         return Ok(None);

@@ -20,7 +20,7 @@ pub(crate) struct Film {
 const TIME_DIGIT: f64 = 1e-3;
 
 impl Film {
-    /// Reads so many pairs, printed in these columns.
+    /// Reads a number of pairs, printed in these columns.
     pub(crate) fn read(
         lines: &mut Lines<'_>,
         count: usize,
@@ -73,8 +73,8 @@ impl Film {
         })
     }
 
-    /// Step and accelerations: as they are where the times are equally spaced to their last digit, interpolated
-    /// linearly where the options ask for a step.
+    /// Step and accelerations: unchanged if the times are equally spaced to their last digit; interpolated linearly
+    /// if the options give a step.
     pub(crate) fn equally_spaced(
         self,
         options: &RecordOptions,

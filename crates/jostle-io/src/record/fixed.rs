@@ -1,4 +1,4 @@
-//! Numbers in columns of fixed width, which may touch: Fortran formats such as `(8F10.6)`.
+//! Numbers in columns of fixed width without separators: Fortran formats such as `(8F10.6)`.
 
 use super::error::RecordError;
 use super::format::RecordFormat;
@@ -14,7 +14,7 @@ pub(crate) struct Fixed {
     pub(crate) width: usize,
     /// Whether numbers have a decimal point.
     pub(crate) real: bool,
-    /// Blank columns behind a number.
+    /// Blank columns after a number.
     gap: usize,
     /// Reals of this magnitude and above may stand without their point.
     whole_from: f64,
@@ -47,7 +47,7 @@ impl Fixed {
         }
     }
 
-    /// The same, with one blank column behind every number.
+    /// The same, with one blank column after every number.
     pub(crate) const fn blank_behind(self) -> Self {
         Self {
             width: self.width + 1,
@@ -72,7 +72,7 @@ impl Fixed {
         let before = upper[..open].trim_end_matches([' ', '(']);
         let inner = &upper[open + 1..];
         let inner = &inner[..inner.find(')')?];
-        // A scale factor only says where the point is printed.
+        // A scale factor only moves the printed decimal point.
         let inner = inner.split_once('P').map_or(inner, |(_, rest)| rest).trim();
         let letter = inner.find(['F', 'E', 'I', 'G', 'D'])?;
         let repeat = inner[..letter].trim();
@@ -109,7 +109,7 @@ impl Fixed {
     ) -> Result<Block, RecordError> {
         let header = lines.number();
         let mut block = Block {
-            // What a header announces never decides how much memory is taken.
+            // The count of a header never determines the memory used.
             values: Vec::with_capacity(count.min(lines.bytes_left() / self.width + 1)),
             lines: LineMap::default(),
         };
@@ -143,7 +143,7 @@ impl Fixed {
         Ok(block)
     }
 
-    /// Appends the numbers of a line; no number at all when the line is none of numbers.
+    /// Appends the numbers of a line; none if the line does not consist of numbers.
     fn read_line(
         self,
         text: &str,

@@ -1,4 +1,4 @@
-//! The formats of records, and how to tell them apart by what a file contains.
+//! The formats of records, and their recognition from the content of a file.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -125,7 +125,7 @@ impl fmt::Display for RecordFormat {
     }
 }
 
-/// How files begin that are no text.
+/// First bytes of files that are not text.
 #[rustfmt::skip]
 const WRAPPED: &[(&[u8], &str, &str)] = &[
     (b"PK\x03\x04", "a ZIP archive", "unpack it and give one of the records in it"),
@@ -185,7 +185,7 @@ fn check_family(bytes: &[u8]) -> Result<(), RecordError> {
 /// Lines in which these families name themselves.
 const FAMILY_LINES: usize = 14;
 
-/// Volumes of USC look like those of CSMIP, with the number of the line in columns 73 and 74.
+/// USC volumes resemble those of CSMIP, with the number of the line in columns 73 and 74.
 fn is_usc(lines: &[Cow<'_, str>]) -> bool {
     let first = lines.first().map_or("", AsRef::as_ref);
     let start = if find_phrase(first, "of uncorrected accelerogram data of").is_some() {
@@ -203,12 +203,12 @@ fn is_usc(lines: &[Cow<'_, str>]) -> bool {
     !header.is_empty() && header.iter().all(numbered)
 }
 
-/// Lines that can tell a format.
+/// Lines that can identify a format.
 const FIRST_LINES: usize = 64;
 /// Lines of AT2 in which NPTS must stand.
 pub(crate) const AT2_HEADER_LINES: usize = 12;
 
-/// Every format has more than one mark, so that a damaged first line does not change the reading in silence.
+/// Every format has more than one mark, so that a damaged first line does not silently change the format.
 fn detect_text(bytes: &[u8]) -> RecordFormat {
     use RecordFormat as F;
     let mut starred = false;
@@ -234,7 +234,7 @@ fn detect_text(bytes: &[u8]) -> RecordFormat {
         if has("GNS SCIENCE") || has("MM/S/S") {
             return F::GeoNet;
         }
-        // Text lines of SMC that say nothing are a single star.
+        // Empty text lines of SMC are a single star.
         if line.number == 2 && starts("*") {
             starred = true;
         }
@@ -249,7 +249,7 @@ fn detect_text(bytes: &[u8]) -> RecordFormat {
             return F::Csmip;
         }
         npts |= line.number <= AT2_HEADER_LINES && has("NPTS");
-        // A comment or a name of columns may say NPTS; only behind other formats does it decide.
+        // A comment or a column name may contain NPTS, so other formats are tried first.
         if npts && line.number >= AT2_HEADER_LINES {
             return F::At2;
         }

@@ -117,7 +117,7 @@ fn component(lines: &mut Lines<'_>, text: &[String]) -> Result<Trace, RecordErro
     })
 }
 
-/// What the text says of step, number, length and unit is what the numbers of the header say.
+/// Checks step, number, length and unit in the text against the numbers of the header.
 fn check_text(text: &[String], first: usize, step: f64, count: f64) -> Result<(), RecordError> {
     let number = |line: usize, phrase: &str| {
         let value = word_after(&text[line], phrase)?.parse::<f64>().ok()?;

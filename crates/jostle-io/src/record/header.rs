@@ -4,7 +4,7 @@ use super::error::RecordError;
 use super::format::RecordFormat;
 use crate::quantity::shorten;
 
-/// What is wrong with a line of a format.
+/// An error in a line of a format.
 pub(crate) fn malformed(
     format: RecordFormat,
     line: usize,
@@ -113,7 +113,7 @@ pub(crate) fn agree(
     Err(malformed(format, line, problem))
 }
 
-/// The word behind a phrase, whatever its case: `.005` behind `equally spaced at` in a sentence.
+/// The word after a phrase, ignoring case: `.005` after `equally spaced at` in a sentence.
 pub(crate) fn word_after<'t>(text: &'t str, phrase: &str) -> Option<&'t str> {
     let at = find_phrase(text, phrase)?;
     let rest = text
@@ -124,7 +124,7 @@ pub(crate) fn word_after<'t>(text: &'t str, phrase: &str) -> Option<&'t str> {
         .filter(|word| !word.is_empty())
 }
 
-/// End of a phrase of plain letters in a text, whatever its case; blanks in it stand for any number of blanks.
+/// End of a phrase of plain letters in a text, ignoring case; a blank matches any number of blanks.
 pub(crate) fn find_phrase(text: &str, phrase: &str) -> Option<usize> {
     let mut start = 0;
     let words: Vec<_> = phrase.split_whitespace().collect();

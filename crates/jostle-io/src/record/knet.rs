@@ -1,7 +1,7 @@
 //! K-NET and KiK-net ASCII (NIED, Japan): 17 header lines with keys in columns 1 to 18, then counts, 8 on a line.
 //!
-//! Layout: NIED, "Data format of K-NET and KiK-net ASCII". The published peak is that of the record less its
-//! mean, so the mean is taken off here, before the scale factor.
+//! Layout: NIED, "Data format of K-NET and KiK-net ASCII". The published peak is that of the record minus its mean,
+//! so the mean is removed here, before the scale factor.
 
 use super::channel::Direction;
 use super::contents::{Contents, Peak, Scale, Trace, mean, named_unit};
@@ -13,7 +13,7 @@ use super::lines::{Lines, printed};
 
 const FORMAT: RecordFormat = RecordFormat::Knet;
 
-/// The keys that must stand in the first columns, in this order.
+/// The keys required in the first columns, in this order.
 const KEYS: [&str; 17] = [
     "Origin Time",
     "Lat.",
@@ -126,7 +126,7 @@ fn read_header(lines: &mut Lines<'_>) -> Result<Header, RecordError> {
     Ok(header)
 }
 
-/// Counts of eight columns, with a blank behind each.
+/// Counts of eight columns, each followed by a blank.
 fn integers(lines: &mut Lines<'_>, count: usize) -> Result<super::fixed::Block, RecordError> {
     Fixed::integers(8, 8)
         .blank_behind()

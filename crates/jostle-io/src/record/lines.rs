@@ -14,7 +14,7 @@ pub(crate) struct Line<'t> {
 
 /// The lines of a text; old files end lines with `\r` alone or with `\r\r\n`.
 ///
-/// Station names come in many encodings: a line that is no UTF-8 is read as Latin-1.
+/// Station names come in many encodings: a line that is not UTF-8 is read as Latin-1.
 #[derive(Clone)]
 pub(crate) struct Lines<'t> {
     rest: Option<&'t [u8]>,
@@ -86,8 +86,8 @@ impl<'t> Iterator for Lines<'t> {
     }
 }
 
-/// A text without the bytes that old systems put behind it: Ctrl-Z (0x1A) marks the end of a DOS file, NUL fills
-/// its last block. Such bytes anywhere else stay, and are refused.
+/// A text without the bytes that old systems appended: Ctrl-Z (0x1A) marks the end of a DOS file, NUL fills its
+/// last block. Such bytes anywhere else are kept and rejected.
 pub(crate) fn without_fill(bytes: &[u8]) -> &[u8] {
     let is_fill = |byte: &u8| matches!(byte, 0 | 0x1a);
     let text = |byte: &u8| !is_fill(byte) && !byte.is_ascii_whitespace();
@@ -134,7 +134,7 @@ pub(crate) fn simplest(value: f64, uncertainty: f64) -> f64 {
         .unwrap_or(value)
 }
 
-/// On which line a value stands, stored as runs of lines with equally many values.
+/// Line of each value, stored as runs of lines with equally many values.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LineMap {
     /// First value, first line, values per line.
@@ -160,13 +160,13 @@ impl LineMap {
         self.last_line = line;
     }
 
-    /// Makes room for a value in front that stands on no line.
+    /// Inserts a first value without a line.
     pub(crate) fn prepend(&mut self) {
         self.runs.iter_mut().for_each(|(first, ..)| *first += 1);
         self.values += 1;
     }
 
-    /// Line of a value; 0 where lines mean nothing.
+    /// Line of a value; 0 for binary formats.
     pub(crate) fn line_of(&self, value: usize) -> usize {
         let after = self.runs.partition_point(|(first, ..)| *first <= value);
         let run = after.checked_sub(1).and_then(|at| self.runs.get(at));

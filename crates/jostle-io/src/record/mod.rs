@@ -1,7 +1,7 @@
 //! Ground-motion records in files: equally spaced accelerations in SI.
 //!
-//! One file per format turns bytes into [`contents::Contents`]: channels of raw values with what the header says
-//! of them. What all formats share stands there: units, scale, checks, the choice of a channel.
+//! One file per format turns bytes into [`contents::Contents`]: channels of raw values with the data of the header.
+//! The code common to all formats is there: units, scale, checks, the choice of a channel.
 
 mod afad;
 mod at2;
@@ -44,8 +44,8 @@ pub struct Record {
 }
 
 impl Record {
-    /// A record from values at hand, in a unit of acceleration such as `g`, `step` seconds apart. Errors count
-    /// values as lines, from 1.
+    /// A record from given values, in a unit of acceleration such as `g`, `step` seconds apart. Errors count values
+    /// as lines, from 1.
     ///
     /// # Errors
     /// [`RecordError`] as for a file of these values.
@@ -79,7 +79,7 @@ impl Record {
     }
 }
 
-/// What a user adds when a file does not say it itself.
+/// Data that the user adds to a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordOptions {
     /// Unit of the acceleration, such as `g` or `cm/s2`.
@@ -92,14 +92,14 @@ pub struct RecordOptions {
     pub component: Option<String>,
     /// Factor on the numbers of the file before `unit`: the size of one count, 1/sensitivity.
     pub scale: Option<f64>,
-    /// Whether the mean is taken off; `None` leaves it, asks when counts have a large one, and follows the rule
-    /// of formats that have one (K-NET).
+    /// Whether the mean is removed; `None` keeps it, asks if counts have a large one, and follows the rule of
+    /// formats that have one (K-NET).
     pub remove_mean: Option<bool>,
-    /// Format of the file; `None` tells it from the content.
+    /// Format of the file; `None` recognises it from the content.
     pub format: Option<RecordFormat>,
 }
 
-/// What a file says about itself.
+/// Data that a file states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordInfo {
     /// Format in which it was read.
@@ -135,7 +135,7 @@ pub fn read_record(path: &Path, options: &RecordOptions) -> Result<Record, Recor
     parse_record(&read_bytes(path)?, options)
 }
 
-/// Reads a record file together with what it says about itself.
+/// Reads a record file and the data that it states.
 ///
 /// # Errors
 /// As [`read_record`].
@@ -146,7 +146,7 @@ pub fn read_record_and_info(
     parse_record_and_info(&read_bytes(path)?, options)
 }
 
-/// Reads what a record file says about itself, without a choice among its channels.
+/// Reads the data that a record file states, without choosing a channel.
 ///
 /// # Errors
 /// [`RecordError`] when the file cannot be read in its format.
@@ -156,7 +156,7 @@ pub fn describe_record(path: &Path, options: &RecordOptions) -> Result<RecordInf
 
 /// Reads a record from the bytes of a file.
 ///
-/// Takes memory for eight bytes per value really present, whatever a header announces.
+/// Uses eight bytes per value actually present, regardless of the count in the header.
 ///
 /// # Errors
 /// [`RecordError`] naming the line and what would be right.
@@ -164,7 +164,7 @@ pub fn parse_record(bytes: &[u8], options: &RecordOptions) -> Result<Record, Rec
     parse_record_and_info(bytes, options).map(|(record, _)| record)
 }
 
-/// Reads a record and what the file says about itself from the bytes of a file.
+/// Reads a record and the data that the file states from bytes.
 ///
 /// # Errors
 /// As [`parse_record`].
@@ -180,7 +180,7 @@ pub fn parse_record_and_info(
     Ok((record, info))
 }
 
-/// Reads what a file says about itself from its bytes, without a choice among its channels.
+/// Reads the data that a file states from its bytes, without choosing a channel.
 ///
 /// # Errors
 /// As [`describe_record`].

@@ -12,9 +12,9 @@ use super::lines::{LineMap, simplest};
 
 const FORMAT: RecordFormat = RecordFormat::Sac;
 const HEADER: usize = 632;
-/// Doubles behind the data in version 7.
+/// Doubles after the data in version 7.
 const FOOTER: usize = 8 * 22;
-/// What stands for "not stated".
+/// Value for "not stated".
 const UNKNOWN: f32 = -12345.0;
 const UNKNOWN_INTEGER: i32 = -12345;
 
@@ -43,7 +43,7 @@ const EVENT: (usize, usize) = (448, 16);
 const COMPONENT: (usize, usize) = (600, 8);
 const NETWORK: (usize, usize) = (608, 8);
 
-/// The version tells the byte order.
+/// The version shows the byte order.
 pub(crate) fn is_sac(bytes: &[u8]) -> bool {
     big_endian(bytes).is_some()
 }
@@ -101,7 +101,7 @@ impl Header<'_> {
     }
 }
 
-/// The decimal number that a 32-bit real stands for: 0.01, not 0.009999999776.
+/// The shortest decimal number of a 32-bit real: 0.01, not 0.009999999776.
 fn shortest(value: f32) -> f64 {
     value
         .to_string()

@@ -4,8 +4,8 @@ use super::RecordOptions;
 use super::error::RecordError;
 use crate::quantity::{Dimension, parse_quantity, shorten};
 
-/// Size of an acceleration unit in the many spellings of record headers: `G`, `CM/SEC/SEC`, `cm/sec**2`,
-/// `m_s2`, `g/10`. `None` when it is no acceleration.
+/// Size of an acceleration unit in the many spellings of record headers: `G`, `CM/SEC/SEC`, `cm/sec**2`, `m_s2`,
+/// `g/10`. `None` if it is not an acceleration.
 pub(crate) fn acceleration_unit(text: &str) -> Option<f64> {
     let plain = text
         .trim()

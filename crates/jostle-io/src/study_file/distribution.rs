@@ -48,7 +48,7 @@ pub enum Shape {
 }
 
 impl Distribution {
-    /// The value to put into the model.
+    /// The value for the model.
     #[must_use]
     pub fn value(&self, number: f64) -> TreeValue {
         if self.unit.is_empty() {

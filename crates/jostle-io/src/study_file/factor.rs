@@ -19,11 +19,11 @@ pub struct Factor {
     pub name: String,
     /// Where its value goes in the model file; at least one path.
     pub paths: Vec<String>,
-    /// Whether the value multiplies what stands there instead of replacing it.
+    /// Whether the value multiplies the value of the model instead of replacing it.
     pub multiplies: bool,
     /// Its values.
     pub values: FactorValues,
-    /// What numbers are, spelt for the end of a column name: `m`, `m_s2`, or nothing.
+    /// Unit of numbers as the end of a column name: `m`, `m_s2`, or empty.
     pub unit: String,
     /// Whether it is the list of records of the base model, and not an entry of the study file.
     pub from_model: bool,
@@ -50,7 +50,7 @@ pub enum FactorValues {
 /// One value of a factor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
-    /// What goes into the model.
+    /// Value for the model.
     pub value: TreeValue,
     /// The same as it was written, for tables.
     pub label: String,
@@ -66,7 +66,7 @@ pub(super) struct Measured {
     pub(super) size: f64,
 }
 
-/// Where the record of a model stands.
+/// Path of the record of a model.
 const RECORD: &str = "motion.record";
 
 /// Most values of a list.
@@ -182,7 +182,7 @@ pub(super) fn of_records(model: &ModelTree) -> Option<Factor> {
     })
 }
 
-/// Records of a study lie beside the study.
+/// Paths of records are relative to the study.
 fn find_record(level: &mut Level, folder: &Path) {
     if let TreeValue::Text(name) = &mut level.value {
         let path = folder.join(name.as_str());
@@ -397,7 +397,7 @@ pub(super) fn measure(
     measured
 }
 
-/// Files of a folder whose names fit a pattern, sorted.
+/// Files of a folder whose names match a pattern, sorted.
 fn files_of(reader: &mut Reader<'_>, field: &Field<'_>, folder: &Path) -> Option<Vec<Level>> {
     let pattern = reader.text(field)?;
     let path = folder.join(&pattern);
@@ -438,7 +438,7 @@ fn files_of(reader: &mut Reader<'_>, field: &Field<'_>, folder: &Path) -> Option
     Some(names.into_iter().map(level).collect())
 }
 
-/// Whether a name fits a pattern in which `*` stands for anything.
+/// Whether a name matches a pattern in which `*` matches any text.
 fn fits(name: &str, pattern: &str) -> bool {
     match pattern.split_once('*') {
         None => name == pattern,

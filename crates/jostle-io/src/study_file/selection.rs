@@ -1,4 +1,4 @@
-//! `[selection]` of a study: the code and the structure for which its records are to serve.
+//! `[selection]` of a study: the code and the structure for which its records are checked.
 
 use std::path::Path;
 
@@ -9,25 +9,25 @@ use crate::model_file::read_spectrum;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
-/// What the records of a study are held against; the rules are those of the code of the spectrum.
+/// The code check of the records of a study; the rules are those of the code of the spectrum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelectionWanted {
     /// Spectrum of the code.
     pub target: TargetSpectrum,
     /// Damping ratio of all spectra \[–\].
     pub damping: f64,
-    /// Records that were made, as they are named in the study or its model; of built-in ones it is known.
+    /// Artificial records, by their names in the study or its model; built-in ones are known.
     pub artificial: Vec<String>,
     /// Main periods of the structure; empty takes those of every building.
     pub periods: Vec<MainPeriod>,
-    /// How the motions are scaled before.
+    /// Scaling before the check.
     pub scaling: SelectionScaling,
 }
 
-/// How motions are scaled before they are held against a code.
+/// Scaling of motions before a code check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SelectionScaling {
-    /// To the peak of the code for time histories; as the model does it where it matches a spectrum.
+    /// To the peak of the code for time histories; or as in the model if it matches a spectrum.
     Code,
     /// To this peak \[m/s²\].
     Peak(f64),

@@ -1,4 +1,4 @@
-//! What a study file wants of the results: fragility curves and curves of demand over intensity.
+//! Evaluations of a study file: fragility curves and curves of demand over intensity.
 
 use crate::keys::{FRAGILITY_METHODS, Section};
 use crate::quantity::{Dimension, split_number};
@@ -36,7 +36,7 @@ pub enum FragilityMethod {
     ModifiedCloud,
 }
 
-/// Curves of demand over intensity, one for each record or whatever else varies.
+/// Curves of demand over intensity, one for each record or other varied key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IdaWanted {
     /// Column with the intensity.

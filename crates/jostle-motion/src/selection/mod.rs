@@ -1,4 +1,4 @@
-//! Choosing accelerograms for time-history analysis: what GB 50011, EN 1998-1 and ASCE 7 ask of a set.
+//! Selection of accelerograms for time-history analysis: the rules of GB 50011, EN 1998-1 and ASCE 7 for a set.
 
 mod rules;
 
@@ -11,7 +11,7 @@ use rules::Numbers;
 /// One accelerogram of a set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
-    /// Name for people.
+    /// Name for display.
     pub name: String,
     /// The motion as it will be used, scaled.
     pub motion: Accelerogram,
@@ -59,7 +59,7 @@ impl SelectionCode {
         }
     }
 
-    /// The clause, for people.
+    /// The clause, for display.
     #[must_use]
     pub fn clause(self) -> &'static str {
         match self {
@@ -69,7 +69,7 @@ impl SelectionCode {
         }
     }
 
-    /// What bounds the mean spectrum, as factors on that of the code with a name \[–\].
+    /// Bounds of the mean spectrum, as factors on that of the code, with a name \[–\].
     #[must_use]
     pub fn bounds(self) -> &'static [(&'static str, f64)] {
         match self {
@@ -79,7 +79,7 @@ impl SelectionCode {
     }
 }
 
-/// What a rule is about.
+/// Subject of a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RuleKind {
     /// Number and origin of the motions.
@@ -99,26 +99,26 @@ pub enum RuleKind {
 /// A rule of a code, and whether a set meets it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelectionRule {
-    /// What it is about.
+    /// Its subject.
     pub kind: RuleKind,
-    /// Where it stands.
+    /// Its source.
     pub clause: &'static str,
-    /// What was found.
+    /// Result.
     pub found: String,
-    /// What is asked.
+    /// Requirement.
     pub asked: &'static str,
     /// Whether it is met.
     pub met: bool,
 }
 
-/// What a code says to a set.
+/// Check of a set by a code.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelectionCheck {
     /// Whose rules these are.
     pub code: SelectionCode,
     /// Every rule that is checked.
     pub rules: Vec<SelectionRule>,
-    /// What a reader of the verdict must know.
+    /// Notes on the verdict.
     pub notes: Vec<&'static str>,
     /// At every main period: code, mean of the set, and their ratio less one \[m/s², m/s², –\].
     pub mean: Vec<[f64; 3]>,
@@ -149,7 +149,7 @@ impl SelectionCheck {
 /// Checks a set of accelerograms against a design spectrum, for the main periods of a structure, by the rules of the
 /// code of that spectrum.
 ///
-/// Base shears here are those of the elastic modes; GB 50011 asks for them from the time histories of the structure
+/// Base shears here are those of the elastic modes; GB 50011 requires those from time histories of the structure
 /// itself, for which these are an estimate.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! How a motion grows and fades.
+//! Envelopes of motions over time.
 
 use crate::fault::{MotionFault, within};
 

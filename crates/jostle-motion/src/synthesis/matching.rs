@@ -1,8 +1,8 @@
-//! Matching a motion to a spectrum in time.
+//! Time-domain matching of a motion to a spectrum.
 //!
-//! Every controlled oscillator i peaks at a time tᵢ with Rᵢ. How its answer then depends on the ground acceleration
-//! of every sample m is known exactly, gᵢₘ: its answer to a hat of acceleration, read backwards from tᵢ. The smallest
-//! change of the motion that brings all these answers to the target,
+//! Every controlled oscillator i has its peak Rᵢ at a time tᵢ. The derivative of the response at tᵢ with respect to
+//! the ground acceleration of sample m is known exactly, gᵢₘ: the response to a hat function of acceleration,
+//! time-reversed from tᵢ. The smallest change of the motion that brings all these answers to the target,
 //!
 //! ```text
 //! Σₘ gᵢₘ δaₘ = ± (S_target(Tᵢ) − |Rᵢ|),   Σₘ (δaₘ/wₘ)² → min
@@ -24,7 +24,7 @@ use crate::peaks::{Extreme, Response, peak_responses};
 use crate::spectrum::spaced_periods;
 use crate::target::TargetSpectrum;
 
-/// What to match.
+/// Target of the matching.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MatchSettings {
     /// First and last period, the first at least four steps \[s\].
@@ -66,17 +66,17 @@ pub struct Matched {
 const SPACING: f64 = 0.01;
 /// Every how many of them one is controlled from the beginning.
 const EVERY: usize = 4;
-/// Most rounds.
+/// Largest number of iterations.
 const ROUNDS: usize = 80;
-/// At this share of the tolerance matching ends, and below it a period needs no control of its own.
+/// Matching ends at this fraction of the tolerance; below it a period needs no separate control.
 const ENOUGH: f64 = 0.5;
 /// Added to the diagonal of one: near neighbours are nearly dependent. More shortens the step (Levenberg 1944).
 const FIRST_CAUTION: f64 = 2e-2;
-/// A change that makes the merit so many times worse is taken back.
+/// A change that makes the merit worse by this factor is undone.
 const HARM: f64 = 30.0;
-/// With so much the steps come to nothing.
+/// Regularisation at which steps become negligible.
 const MOST_CAUTION: f64 = 100.0;
-/// How exactly a peak is met \[–\].
+/// Tolerance of a located peak \[–\].
 const PEAK_TOLERANCE: f64 = 1e-12;
 /// Half the time over which the strength of a motion is taken \[s\].
 const AROUND: f64 = 2.0;
@@ -131,7 +131,7 @@ pub fn match_spectrum(
     target: &TargetSpectrum,
     settings: &MatchSettings,
 ) -> Result<Matched, MotionFault> {
-    // A record has long waves of its own, which may be needed to change little else.
+    // The long periods of a record may change too, so that the rest changes less.
     match_above(seed, target, settings, 0.5 / settings.periods[1])
 }
 
@@ -288,7 +288,7 @@ fn wanted(target: &TargetSpectrum, periods: &[f64], damping: f64) -> Result<Vec<
         .collect()
 }
 
-/// The seed times the factor that lets its spectrum scatter evenly, in logarithms, about the target.
+/// The seed motion times the factor that makes the mean logarithmic difference from the target zero.
 fn first_guess(
     seed: &Accelerogram,
     oscillators: &[Oscillator],

@@ -1,4 +1,4 @@
-//! Velocity pulses of faults nearby.
+//! Near-fault velocity pulses.
 
 use std::f64::consts::{PI, TAU};
 
@@ -35,8 +35,8 @@ pub struct Mavroeidis {
 /// C_n   v = V [sin(ωt + φ) − sin φ],           0 ≤ t ≤ (n + ½ − φ/π) T
 /// ```
 ///
-/// N. Makris (1997), Earthquake Engng Struct. Dyn. 26, 571–591. φ lets the displacement of `C_n` end at zero:
-/// `cos[(2n+1)π − φ] + [(2n+1)π − 2φ] sin φ − cos φ = 0`.
+/// N. Makris (1997), Earthquake Engng Struct. Dyn. 26, 571–591. φ is chosen so that the displacement of `C_n` ends
+/// at zero: `cos[(2n+1)π − φ] + [(2n+1)π − 2φ] sin φ − cos φ = 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Makris {
     /// Forward.
@@ -139,10 +139,10 @@ fn cycloid_phase(n: u32) -> f64 {
 /// A pulse with a peak velocity at its samples, > 0 \[m/s\], and a period, at least ten steps \[s\], after a rest
 /// `before` and with a rest `after` it, ≥ 0 \[s\].
 ///
-/// The amplitude A or V of the formula follows from the peak: V for `A` and `B`, peak/(1 + sin φ) for `C(n)`, A for a
-/// Mavroeidis pulse with ν = 0. Every sample is the mean acceleration over one step around it, so that jumps take one
-/// step and the samples add up to the velocity of the formula. A change below 1 % lets velocity and displacement end
-/// exactly as the formula says.
+/// The amplitude A or V of the formula follows from the peak: V for `A` and `B`, peak/(1 + sin φ) for `C(n)`, A for
+/// a Mavroeidis pulse with ν = 0. Every sample is the mean acceleration over one step around it, so that jumps take
+/// one step and the samples add up to the velocity of the formula. A change below 1 % makes velocity and
+/// displacement end exactly as in the formula.
 ///
 /// # Errors
 /// [`MotionFault`] when a number is out of range.
@@ -162,7 +162,7 @@ pub fn near_fault_pulse(
         period >= 10.0 * step,
     )?;
     let length = shape.length() * period;
-    // Half a step of the last sample lies behind the end of the pulse.
+    // Half a step of the last sample lies after the end of the pulse.
     let n = points(step, (length / step + 0.5).ceil() * step)?;
     let omega = TAU / period;
     let formula = |t: f64| {

@@ -1,5 +1,5 @@
-//! Random numbers that stay: the stream of ChaCha with 8 rounds, started from the seed alone, and transformations
-//! written out here, so that no version of a library changes a wave.
+//! Reproducible random numbers: the stream of ChaCha with 8 rounds, started from the seed, and own transformations,
+//! so that results do not depend on the version of a library.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

@@ -47,7 +47,7 @@ impl Recipe {
         TargetSpectrum::new(TargetKind::Gb50011(self.spectrum))
     }
 
-    /// What is matched: the whole spectrum of the code from 0.05 s on, with 5 % damping.
+    /// Target: the full spectrum of the code from 0.05 s, with 5 % damping.
     #[must_use]
     pub fn matching(&self) -> MatchSettings {
         MatchSettings {

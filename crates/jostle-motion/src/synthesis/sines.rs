@@ -1,11 +1,11 @@
-//! Sines with random phases under an envelope, their amplitudes raised and lowered until the spectrum fits.
+//! Sines with random phases under an envelope, with amplitudes scaled iteratively to the spectrum.
 //!
 //! ```text
 //! a(t) = E(t) Σₖ Aₖ cos(2π fₖ t + φₖ),   Aₖ ← Aₖ S_target(1/fₖ)/S(1/fₖ)
 //! ```
 //!
-//! D. A. Gasparini, E. H. Vanmarcke (1976), Simulated earthquake motions compatible with prescribed response spectra,
-//! MIT R76-4. What is left of the misfit after some rounds is taken away by [`super::match_spectrum`].
+//! D. A. Gasparini, E. H. Vanmarcke (1976), Simulated earthquake motions compatible with prescribed response
+//! spectra, MIT R76-4. [`super::match_spectrum`] removes the misfit that remains after some iterations.
 
 use rustfft::num_complex::Complex64;
 
@@ -19,7 +19,7 @@ use crate::spectrum::spaced_periods;
 use crate::target::TargetSpectrum;
 use crate::{Accelerogram, MotionFault};
 
-/// What a wave of sines shall be.
+/// Parameters of a motion of sines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SineSettings {
     /// Time step, > 0 \[s\].
@@ -28,7 +28,7 @@ pub struct SineSettings {
     pub envelope: Envelope,
     /// Seed of the phases.
     pub seed: u64,
-    /// What to match.
+    /// Target of the matching.
     pub matching: MatchSettings,
 }
 
@@ -153,8 +153,8 @@ fn draw(
     Ok(motion.ending_at_rest())
 }
 
-/// Below this frequency the waves have nothing \[Hz\]: with 4/3 of the longest matched period, displacements stay as
-/// small as the spectrum lets them.
+/// Below this frequency the waves have nothing \[Hz\]: with 4/3 of the longest matched period, displacements stay
+/// as small as the spectrum permits.
 fn corner(matching: &MatchSettings) -> f64 {
     0.75 / matching.periods[1]
 }

@@ -14,8 +14,8 @@ use crate::fourier::inverse;
 /// S = (1 + 4ζ_g²r²)/[(1 − r²)² + 4ζ_g²r²] · s⁴/[(1 − s²)² + 4ζ_f²s²],   r = ω/ω_g,  s = ω/ω_f
 /// ```
 ///
-/// The first factor is that of K. Kanai (1957) and H. Tajimi (1960), the second, which lets displacements end, of
-/// R. W. Clough and J. Penzien (1975).
+/// The first factor is that of K. Kanai (1957) and H. Tajimi (1960), the second, which keeps displacements bounded,
+/// of R. W. Clough and J. Penzien (1975).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundFilter {
     /// Frequency of the ground ω_g/2π, > 0 \[Hz\].
@@ -41,7 +41,7 @@ impl GroundFilter {
     }
 }
 
-/// What a stochastic motion shall be.
+/// Parameters of a stochastic motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StochasticSettings {
     /// Time step, > 0 \[s\].

@@ -1,9 +1,9 @@
-//! Short waves that change a motion without moving its end.
+//! Wavelets that change a motion without changing its final velocity and displacement.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-/// A cosine under one arch of cos², less what would leave velocity or displacement behind.
+/// A cosine under one arch of cos², minus the part that would cause a residual velocity or displacement.
 pub(crate) struct Wavelet {
     /// Samples it covers.
     pub(crate) range: Range<usize>,
@@ -11,8 +11,8 @@ pub(crate) struct Wavelet {
     pub(crate) values: Vec<f64>,
 }
 
-/// Periods from the centre to either end: with one, the lobes beside the centre are half as large, so that trimming
-/// many peaks in turn comes to an end.
+/// Periods from the centre to either end: with one period, the lobes next to the centre are half as large, so that
+/// trimming many peaks one after the other converges.
 const REACH: f64 = 1.0;
 
 impl Wavelet {

@@ -1,4 +1,4 @@
-//! Design spectra: what codes or users ask a motion to reach.
+//! Design spectra of codes or users.
 
 mod asce7;
 mod en1998;
@@ -44,7 +44,7 @@ impl TargetSpectrum {
     /// Pseudo-acceleration at a period and a damping ratio \[m/s²\].
     ///
     /// # Errors
-    /// When the spectrum says nothing about this period or damping ratio.
+    /// If the spectrum is not defined for this period or damping ratio.
     pub fn acceleration(&self, period: f64, damping: f64) -> Result<f64, MotionFault> {
         let [first, last] = self.range();
         let good = (first..=last).contains(&period);

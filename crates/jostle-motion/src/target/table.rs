@@ -39,7 +39,7 @@ impl SpectrumTable {
         })
     }
 
-    /// Name for people.
+    /// Name for display.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name

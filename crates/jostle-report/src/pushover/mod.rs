@@ -50,7 +50,7 @@ pub fn render_pushover(title: &str, pushed: &[PushedBuilding]) -> String {
                     (guide())
                 }
                 footer {
-                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file, nothing is loaded from elsewhere."
+                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file; nothing is loaded from a network."
                 }
                 noscript { p.note { "The deformed shapes need JavaScript." } }
                 script #page-data type="application/json" { (PreEscaped(shapes::payload(pushed, &charts))) }
@@ -73,11 +73,11 @@ fn direction(one: &PushedBuilding, curve: &Pushover) -> String {
     }
 }
 
-/// What a reader wants to know first.
+/// Key figures.
 fn verdict(one: &PushedBuilding) -> String {
     let name = &one.building.name;
     if one.building.equations.springs.is_empty() {
-        return format!("{name} has no hinges: it stays elastic, however far it is pushed.");
+        return format!("{name} has no hinges: it is elastic at any drift.");
     }
     let weakest = one
         .curves
@@ -214,7 +214,7 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
 
 fn pushed_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
     let pattern = match curve.settings.pattern {
-        LoadPattern::FirstMode => "mass times shape of the first lateral mode, uncracked",
+        LoadPattern::FirstMode => "mass times the first lateral mode shape, uncracked",
         LoadPattern::Uniform => "mass",
         LoadPattern::Triangular => "mass times height",
     };
@@ -253,7 +253,7 @@ fn bilinear_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
                     }
                     p.quiet { "Secant through 60 % of the yield strength; equal energy up to the greatest base shear (FEMA 356, 3.3.3.2.4)." }
                 }
-                None => p.quiet { "The curve is too straight for two lines." }
+                None => p.quiet { "The curve is too close to linear for a bilinear discretization." }
             }
         }
     }
@@ -302,11 +302,11 @@ fn guide() -> Markup {
         section #guide {
             h2 { "How to read this" }
             ul {
-                li { "The load keeps its shape and the roof is driven; base shear is the sum of the load. Displacements count from rest and are positive in the direction of the push." }
-                li { "Hinges are straight between their corners, so the curve is straight between events: no step size enters." }
-                li { "The curve falls where P-Delta takes more than hinges gain. It ends at the wanted drift, where no resistance is left, or where a part gives way although the roof is held." }
-                li { "A hinge cracks or yields when it first passes that point of its backbone, whichever the side. A corner is met by a hinge that loads again." }
-                li { "A pushover shows strength and the order of yielding under one load. It knows nothing of higher modes, of cycles, or of neighbours that strike." }
+                li { "The load pattern is constant and the roof displacement is prescribed; base shear is the sum of the load. Displacements are relative to the state at rest and positive in the direction of the load." }
+                li { "Hinges are linear between their corners, so the curve is linear between events and independent of any step size." }
+                li { "The curve falls where P-Delta exceeds the hardening of hinges. It ends at the target drift, where no resistance is left, or where a part fails although the roof is restrained." }
+                li { "A hinge cracks or yields when it first passes that point of its backbone on either side. A hinge that reloads passes a corner." }
+                li { "A pushover shows strength and the order of yielding under one load. It does not include higher modes, cycles or impacts." }
             }
         }
     }

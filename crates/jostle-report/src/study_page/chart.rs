@@ -1,4 +1,4 @@
-//! Lines over an axis, with bands, dots and level lines.
+//! Line charts with bands, dots and horizontal lines.
 
 use maud::{Markup, html};
 

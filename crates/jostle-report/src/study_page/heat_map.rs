@@ -1,4 +1,4 @@
-//! A quantity over two others, as coloured cells.
+//! Heat map: a quantity over two others.
 
 use maud::{Markup, html};
 
@@ -7,7 +7,7 @@ use super::{Axis, number};
 /// A quantity over two others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// What the colour says.
+    /// Quantity shown by colour.
     pub value: Axis,
     /// To the right.
     pub x: Axis,

@@ -104,7 +104,7 @@ pub fn render_study(page: &StudyPage) -> String {
                     @if !page.files.is_empty() { (files(page)) }
                 }
                 footer {
-                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file, nothing is loaded from elsewhere."
+                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file; nothing is loaded from a network."
                 }
                 (theme_script())
             }
@@ -117,7 +117,7 @@ fn maps(page: &StudyPage) -> Markup {
     html! {
         section #maps {
             h2 { "Maps" }
-            p.quiet { "Every cell is one case, or the mean of several; point at it for its number. A frame marks cases whose histories are kept: press to open them." }
+            p.quiet { "Every cell is one case, or the mean of several; move the pointer over it for its number. A frame marks cases with histories: click to open them." }
             @for (heading, maps) in &page.maps {
                 @if !heading.is_empty() { h3 { (heading) } }
                 div.study-maps { @for map in maps { (heat_map::figure(map)) } }
@@ -206,7 +206,7 @@ fn files(page: &StudyPage) -> Markup {
     }
 }
 
-/// A number as short as it can be said.
+/// A number with the fewest digits.
 fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".into();

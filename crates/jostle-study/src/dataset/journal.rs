@@ -1,4 +1,4 @@
-//! Finished cases of a part that is not finished: appended one by one, and read back after a crash.
+//! Finished cases of an unfinished part: appended one by one, and read back after a crash.
 //!
 //! The file of the journal is also the claim to its part. The lock on it belongs to the process: it is gone when the
 //! process is, however it ended.
@@ -25,12 +25,12 @@ pub(crate) struct Journal {
     path: PathBuf,
 }
 
-/// What a journal begins with: another study would not be read by mistake.
+/// Header of a journal: prevents reading that of another study.
 const HEAD: usize = 64;
 
 impl Journal {
     /// Claims a part for the study with this fingerprint of 64 characters. `keep` gets the journal of another study
-    /// before it is written anew.
+    /// before it is rewritten.
     pub(crate) fn claim(
         path: &Path,
         fingerprint: &str,
@@ -161,7 +161,7 @@ mod tests {
             let expected = length.saturating_sub(HEAD) / record;
             let expected: Vec<Row> = (0..expected as u64).map(row).collect();
             assert_eq!(rows, expected, "cut after {length} bytes");
-            // And it goes on from there.
+            // And it continues from there.
             journal
                 .append(&row(9))
                 .unwrap_or_else(|error| panic!("{error}"));

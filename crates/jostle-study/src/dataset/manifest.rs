@@ -1,4 +1,4 @@
-//! What a folder of results is about.
+//! The manifest of a folder of results.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::study::{Study, StudyError};
 
-/// `manifest.json`: enough to know what the tables are and to go on with them.
+/// `manifest.json`: all data needed to interpret and continue the tables.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Manifest {
     /// Version of this format.
@@ -16,7 +16,7 @@ pub(crate) struct Manifest {
     /// Version of jostle that computes.
     jostle: String,
     title: String,
-    /// What tells this study from others.
+    /// Identity of this study.
     study_sha256: String,
     /// Of the base model.
     model_sha256: String,
@@ -25,7 +25,7 @@ pub(crate) struct Manifest {
     cases: u64,
     /// Cases of a part; part k begins with case k times this.
     part_cases: u64,
-    /// What varies.
+    /// Varied keys.
     factors: Value,
     /// Columns of the table.
     columns: Vec<String>,

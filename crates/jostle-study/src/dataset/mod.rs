@@ -1,4 +1,4 @@
-//! The folder of a study: a manifest, parts of the table, and journals of parts under way.
+//! The folder of a study: a manifest, parts of the table, and journals of unfinished parts.
 
 mod journal;
 mod manifest;

@@ -1,4 +1,4 @@
-//! A part of the table as a file: sealed when it is written, verified before its numbers are used.
+//! A part of the table as a file: written with a checksum, verified before use.
 //!
 //! The seal is the SHA-256 of all bytes of the file, in which its own 64 digits count as zeros. It is the last of the
 //! notes in the footer of the Parquet file, so that a part carries it wherever it is copied, and any other reader
@@ -46,7 +46,7 @@ pub(crate) enum PartFault {
         "belongs to another study (its fingerprint begins with {found}, that of this study with {own})"
     )]
     OtherStudy {
-        /// First digits of what the file says.
+        /// First digits of the fingerprint in the file.
         found: String,
         /// First digits of this study.
         own: String,
@@ -159,7 +159,7 @@ fn check(study: &Study, part: u64, bytes: Bytes) -> Result<Bytes, PartFault> {
     Ok(bytes)
 }
 
-/// What a file says about itself.
+/// Metadata of a file.
 struct Contents {
     study: Option<String>,
     cases: Vec<Option<f64>>,
@@ -181,7 +181,7 @@ fn contents(bytes: &Bytes) -> Result<Contents, ParquetError> {
     })
 }
 
-/// Puts the seal in place of the zeros that hold its place; `None` if there are none.
+/// Replaces the placeholder zeros by the seal; `None` if there are none.
 fn seal(bytes: &mut [u8]) -> Option<()> {
     let at = find_seal(bytes)?;
     let digits = digits(bytes, at);
@@ -191,7 +191,7 @@ fn seal(bytes: &mut [u8]) -> Option<()> {
     Some(())
 }
 
-/// Where the digits of the seal begin: behind the last occurrence of its key.
+/// Start of the digits of the seal: after the last occurrence of its key.
 fn find_seal(bytes: &[u8]) -> Option<usize> {
     let mark = [SEAL.as_bytes(), &BETWEEN].concat();
     let at = bytes.windows(mark.len()).rposition(|here| here == mark)?;

@@ -114,7 +114,7 @@ pub(super) fn read_rows(
     Ok(())
 }
 
-/// Puts absent values where the definition levels say so.
+/// Inserts absent values according to the definition levels.
 fn spread(
     rows: usize,
     most: i16,

@@ -1,4 +1,5 @@
-//! Files that are no part of a study, moved out of the way of readers of `cases/*.parquet`: nothing is deleted.
+//! Files that are not part of a study are moved aside, so that readers of `cases/*.parquet` do not include them;
+//! nothing is deleted.
 
 use std::collections::HashSet;
 use std::ffi::OsString;
@@ -22,7 +23,7 @@ pub(crate) fn set_aside(folder: &Path, path: &Path, label: &str) -> io::Result<O
     }
 }
 
-/// Keeps the bytes of a file that is about to be written anew, and returns where they are.
+/// Copies a file that is about to be rewritten, and returns the path of the copy.
 pub(crate) fn keep_copy(
     folder: &Path,
     path: &Path,

@@ -1,15 +1,15 @@
-//! The factors of ready-made studies, from the values that stand in a model or hold where nothing stands.
+//! The factors of ready-made studies, from the values or the defaults of a model.
 
 use jostle::{Gap, Structure};
 use jostle_io::{Input, ModelTree, Scaling, TreeValue};
 
 /// Buildings beyond which all of them vary together.
 const MOST_BUILDINGS: usize = 4;
-/// Restitution varies by this share of its own value, unless that would exceed 1 \[–\].
+/// Restitution varies by this fraction of its value, unless that would exceed 1 \[–\].
 const RESTITUTION_SPREAD: f64 = 0.2;
-/// Less is not worth a factor \[–\].
+/// Smallest range of a factor \[–\].
 const LEAST_SPREAD: f64 = 0.02;
-/// Damping ratio where nothing stands \[–\].
+/// Default damping ratio \[–\].
 const USUAL_DAMPING: f64 = 0.05;
 
 /// A `[[vary]]` of a study file.
@@ -32,7 +32,7 @@ pub(super) enum Spread {
     Normal(f64),
 }
 
-/// The value that holds where nothing stands, and its unit; `None` where the file has one to multiply.
+/// The default value and its unit; `None` if the file has a value to multiply.
 type Usual = Option<(f64, &'static str)>;
 
 /// Where a value goes.
@@ -51,7 +51,7 @@ impl Block {
         }
     }
 
-    /// As it stands in a study file.
+    /// As in a study file.
     pub(super) fn text(&self) -> String {
         let paths: Vec<String> = self.paths.iter().map(|path| quoted(path)).collect();
         let paths = match &paths[..] {
@@ -124,7 +124,7 @@ fn rounded(number: f64) -> f64 {
     format!("{number:.12e}").parse().unwrap_or(number)
 }
 
-/// One block for the places where a value stands, and one for each usual value of the others.
+/// One block for the places with a value, and one for each default value of the others.
 fn around(name: &str, places: Vec<Place>, spread: Spread) -> Vec<Block> {
     let mut groups: Vec<(Usual, Vec<String>)> = Vec::new();
     for place in places {

@@ -9,9 +9,9 @@ use crate::study::StudyError;
 
 /// Groups of curves at most.
 const MOST_GROUPS: usize = 8;
-/// Lines of one chart at most that can still be told apart.
+/// Largest number of distinguishable lines in one chart.
 const MOST_LINES: usize = 14;
-/// Curves of one chart at most; more say nothing.
+/// Largest number of curves in one chart.
 const MOST_CURVES: usize = 200;
 /// Curves from which on fractiles are drawn.
 const ENOUGH: usize = 5;
@@ -248,7 +248,7 @@ fn fractiles(curves: &[(String, Vec<[f64; 2]>)]) -> Vec<(f64, Vec<[f64; 2]>)> {
         .flat_map(|(_, c)| c.iter().map(|p| p[0]))
         .collect();
     places.sort_by(f64::total_cmp);
-    // Scaled peaks agree but for rounding.
+    // Scaled peaks agree except for rounding.
     places.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * b.abs());
     let mut at_places: Vec<(f64, Vec<f64>)> = Vec::new();
     for place in places {

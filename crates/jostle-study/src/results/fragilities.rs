@@ -19,7 +19,7 @@ const POINTS: usize = 60;
 struct Fitted {
     name: String,
     curve: Result<Curve, FitError>,
-    /// What a cloud was fitted by.
+    /// Method of a cloud fit.
     parts: Option<ModifiedCloud>,
     band: Option<Band>,
     cases: usize,
@@ -139,7 +139,7 @@ impl Results<'_> {
     }
 }
 
-/// What the cloud methods fit; of the plain one there is only the line.
+/// Results of the cloud methods; the plain method has only the line.
 fn cloud_parts(method: FragilityMethod, data: &[(f64, f64)]) -> Option<ModifiedCloud> {
     match method {
         FragilityMethod::MultipleStripe => None,
@@ -152,7 +152,7 @@ fn cloud_parts(method: FragilityMethod, data: &[(f64, f64)]) -> Option<ModifiedC
     }
 }
 
-/// What the plain cloud leaves out, in a sentence; `None` if it is nothing.
+/// Cases that the plain cloud omits, in a sentence; `None` if there are none.
 fn left_out(wanted: &FragilityWanted, fitted: &[Fitted]) -> Option<String> {
     let zeros: usize = fitted.iter().map(|one| one.zeros).sum();
     let cases: usize = fitted.iter().map(|one| one.cases).sum();

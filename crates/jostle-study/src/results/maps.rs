@@ -4,7 +4,7 @@ use jostle_report::{Cell, HeatMap};
 
 use super::{Results, words};
 
-/// What maps show, and what a cell without a value means.
+/// Quantities of heat maps, and the meaning of a cell without a value.
 const SHOWN: [(&str, &str); 3] = [
     ("peak_force_n", "no result"),
     ("impact_count", "no result"),

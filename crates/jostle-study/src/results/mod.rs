@@ -1,4 +1,4 @@
-//! What is made of a finished study: a page, and the tables behind its figures.
+//! Output of a finished study: a page, and the tables of its figures.
 
 mod curves;
 mod fragilities;
@@ -50,8 +50,8 @@ struct Results<'a> {
     said: Vec<String>,
 }
 
-/// Writes `report.html`, the tables behind its figures and, unless there are very many cases, `cases.csv`. Returns
-/// what was written, in words.
+/// Writes `report.html`, the tables of its figures and, unless there are very many cases, `cases.csv`. Returns what
+/// was written, in words.
 ///
 /// # Errors
 /// [`StudyError`] when a part is absent or a file cannot be written.
@@ -237,7 +237,7 @@ impl Results<'_> {
     }
 }
 
-/// The cases with a report of their own.
+/// The cases with their own report.
 fn kept(folder: &Path) -> BTreeSet<u64> {
     let entries = std::fs::read_dir(folder.join("runs"));
     let number = |entry: std::fs::DirEntry| {

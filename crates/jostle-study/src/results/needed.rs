@@ -1,4 +1,4 @@
-//! The gap that is needed at every intensity, beside the rules.
+//! The required gap at every intensity, compared with the rules.
 
 use jostle::Structure;
 use jostle::separation::{ddc_coefficient, double_difference, gb50011_frame_joint, srss};
@@ -77,7 +77,7 @@ impl Results<'_> {
         let (right, up) = self.plane()?;
         let is_width = |path: &String| path.ends_with(".width");
         let factor = &self.study.file.factors[right];
-        // Multiples of widths are no widths.
+        // Multiples of widths are not widths.
         if factor.multiplies || !factor.paths.iter().any(is_width) {
             return None;
         }

@@ -26,7 +26,7 @@ struct Named {
 }
 
 impl Study {
-    /// What the records are held against: what the file says, or else the spectrum to which the model matches several
+    /// The code check of the records: that of the file, or else the spectrum to which the model matches several
     /// records.
     fn selection(&self) -> Option<SelectionWanted> {
         if let Some(wanted) = &self.file.selection {
@@ -94,7 +94,7 @@ impl Study {
         records
     }
 
-    /// Names under `artificial` that are no records of the study.
+    /// Names under `artificial` that are not records of the study.
     pub(crate) fn check_selection(&self) -> Result<(), StudyError> {
         let Some(wanted) = &self.file.selection else {
             return Ok(());
@@ -123,7 +123,7 @@ impl Study {
 }
 
 impl Results<'_> {
-    /// The sections about the choice of records, if a code is known, and the tables behind them.
+    /// The sections about the selection of records, if a code is known, and their tables.
     pub(super) fn selection(&mut self) -> Result<Vec<Section>, StudyError> {
         let Some(wanted) = self.study.selection() else {
             return Ok(Vec::new());
@@ -267,7 +267,7 @@ impl Results<'_> {
 /// The set, the structures it was checked for, and what the page shows.
 type Checked = (Vec<Candidate>, Vec<CheckedStructure>, Vec<Section>);
 
-/// How a record is scaled before it is held against the code.
+/// Scaling of a record before the code check.
 #[derive(Clone, Copy)]
 enum Peak {
     To(f64),
@@ -342,7 +342,7 @@ fn structures_of(
         return Ok(vec![(String::new(), wanted.periods.clone())]);
     }
     let usual = || study.tree(&study.usual_choices()).ok()?.input().ok();
-    // What the model leaves open, only the values of the study fill.
+    // Keys missing in the model are set only by the values of the study.
     let input = study.file.base.input().ok().or_else(usual);
     let input = input.ok_or("the base model cannot be read")?;
     let system = System::assemble(&input.model).map_err(|f| input.faults(f).to_string())?;

@@ -1,11 +1,11 @@
-//! Columns in words and in the units that people read.
+//! Columns as text and in display units.
 
 use std::path::Path;
 
 use jostle_io::DesignKind;
 use jostle_report::Axis;
 
-/// Endings of column names: the size of the unit that people read, and its name.
+/// Endings of column names: the size of the display unit, and its name.
 const UNITS: [(&str, f64, &str); 8] = [
     ("_m_s2", 100.0, "cm/s²"),
     ("_n_s", 1e-3, "kN·s"),

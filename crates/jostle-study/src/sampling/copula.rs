@@ -53,7 +53,7 @@ impl Copula {
         }
         let scores: Vec<f64> = point.iter().map(|u| normal_quantile(*u)).collect();
         for (u, row) in point.iter_mut().zip(&self.factor) {
-            // What is not correlated keeps its bits.
+            // Uncorrelated factors keep their bits.
             if row[..row.len() - 1].iter().any(|x| *x != 0.0) {
                 let z: f64 = row.iter().zip(&scores).map(|(a, b)| a * b).sum();
                 *u = normal_cdf(z).clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0);

@@ -1,4 +1,5 @@
-//! Numbers between 0 and 1, each a function of the seed and its place alone, and what distributions make of them.
+//! Numbers between 0 and 1, each a function of the seed and its index only, and their transformation by
+//! distributions.
 
 mod copula;
 mod joe_kuo;

@@ -1,4 +1,4 @@
-//! Random numbers that stay: ChaCha with 8 rounds, one stream for every purpose and number.
+//! Reproducible random numbers: ChaCha with 8 rounds, one stream for every purpose and number.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

@@ -1,4 +1,4 @@
-//! Regression of outcomes that happen or do not on the logarithm of an intensity.
+//! Regression of binary outcomes on the logarithm of an intensity.
 
 use super::fragility::FitError;
 use crate::sampling::{normal_cdf, normal_quantile};

@@ -61,7 +61,7 @@ pub enum FitError {
         "{what}: none up to {below:.6} and all from {above:.6} on, so that there is no scatter for a logistic regression; the chance of it turns from 0 to 1 in between"
     )]
     NoOverlap {
-        /// What happens or not.
+        /// The event.
         what: &'static str,
         /// Greatest intensity without it.
         below: f64,

@@ -1,4 +1,4 @@
-//! What many cases say together.
+//! Statistics of many cases.
 
 mod binary;
 mod cloud;

@@ -22,7 +22,7 @@ impl Logistic {
     }
 }
 
-/// What is fitted to a cloud with zeros and collapses.
+/// A fit to a cloud with zeros and collapses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModifiedCloud {
     /// Probability of a demand greater than zero without collapse; `None` if every case has one.

@@ -27,7 +27,7 @@ const BOOTSTRAP: u64 = 7;
 /// STᵢ = mean((f_A − f_ABᵢ)²) / 2V                                                            (ST6)
 /// ```
 /// with V the variance of all f_A and f_B (Saltelli et al. 2010, table 2, estimators b and f; the latter is Jansen
-/// 1999). The mean of all f_A and f_B is taken off first, which changes nothing but the scatter. Base samples with an
+/// 1999). The mean of all f_A and f_B is subtracted first, which only reduces the scatter. Base samples with an
 /// absent response are left out. `None` when fewer than two are complete or nothing varies.
 #[must_use]
 pub fn sobol_indices(
@@ -96,7 +96,7 @@ pub struct ElementaryEffects {
     pub mean_absolute: f64,
     /// Standard deviation: interactions and curvature.
     pub deviation: f64,
-    /// Trajectories that say something about it.
+    /// Trajectories with information about it.
     pub count: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Every fault of a model, in one go.
+//! Collects all faults of a model at once.
 
 mod neighbours;
 
@@ -215,7 +215,7 @@ fn check_base(faults: &mut Faults, path: &str, base: &Base, is_shear: bool) {
     );
 }
 
-/// Hinges are sound by themselves; here they are held against the structure that they belong to.
+/// Hinges are valid by themselves; this function compares them with their structure.
 fn check_hinges(faults: &mut Faults, path: &str, hinges: &Hinges, structure: &Structure) {
     match (hinges, structure) {
         (Hinges::Frame(hinges), Structure::Frame(frame)) => {

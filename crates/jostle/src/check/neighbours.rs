@@ -1,4 +1,4 @@
-//! Faults of what stands between the buildings: gaps and links.
+//! Faults of gaps and links.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub(super) fn check_neighbours(faults: &mut Faults, model: &Model) {
     check_room(faults, model);
 }
 
-/// Points of different gaps and links that nearly coincide on one face.
+/// Points of different gaps and links that nearly coincide on one side of a building.
 fn check_room(faults: &mut Faults, model: &Model) {
     let gaps = each(&model.gaps, "gap")
         .map(|(path, gap)| (path, gap.between, &gap.floors, gap.level_tolerance));
@@ -161,7 +161,7 @@ fn check_link(faults: &mut Faults, path: &str, link: &Link, model: &Model) {
     }
 }
 
-/// What only some laws have.
+/// Parameters of individual laws.
 fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
     match law.kind {
         LawKind::Bilinear(shape) => {

@@ -2,17 +2,17 @@
 
 use super::force_law::{ContactResponse, Memory};
 
-/// What a user may choose of the bilinear law.
+/// User parameters of the bilinear law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BilinearShape {
     /// Yield indentation ÷ greatest design indentation, 0 < a < ½ \[–\].
     pub yield_share: f64,
-    /// Impact speed for which the stiffnesses are computed, > 0; `None`: every impact's own \[m/s\].
+    /// Impact speed for which the stiffnesses are computed, > 0; `None`: that of each impact \[m/s\].
     pub design_speed: Option<f64>,
 }
 
 impl BilinearShape {
-    /// A yield indentation of a tenth; every impact's own speed.
+    /// A yield indentation of a tenth; the speed of each impact.
     pub const USUAL: Self = Self {
         yield_share: 0.1,
         design_speed: None,
@@ -25,9 +25,9 @@ impl BilinearShape {
     }
 }
 
-/// Loading along K₁ up to the yield indentation, then along K₂; unloading along K₁ down to the line K₂ δ, then along
-/// it (Muthukumar & DesRoches; docs/contact.md, B1). The same as a spring K₂ beside an elasto-plastic one of
-/// stiffness K₁ − K₂ that never pulls; the force of the latter is what the law remembers.
+/// Loading along K₁ up to the yield indentation, then along K₂; unloading along K₁ down to the line K₂ δ, then
+/// along it (Muthukumar & DesRoches; docs/contact.md, B1). Equivalent to a spring K₂ in parallel with an
+/// elasto-plastic one of stiffness K₁ − K₂ that is never in tension; the memory holds the force of the latter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bilinear {
     /// K₁ at `reference_speed` \[N/m\].
@@ -36,15 +36,15 @@ pub struct Bilinear {
     pub second_stiffness: f64,
     /// Yield indentation at `reference_speed` \[m\].
     pub yield_indentation: f64,
-    /// The design speed, or 1 m/s when every impact has its own \[m/s\].
+    /// The design speed, or 1 m/s if every impact uses its own speed \[m/s\].
     pub reference_speed: f64,
-    /// Whether the numbers follow the speed of the impact: stiffnesses as v^0.4, indentations as v^0.8.
+    /// Whether the coefficients depend on the impact speed: stiffnesses as v^0.4, indentations as v^0.8.
     pub follows_speed: bool,
-    /// m₁m₂/(m₁ + m₂) for which it was made \[kg\].
+    /// m₁m₂/(m₁ + m₂) of the contact \[kg\].
     effective_mass: f64,
 }
 
-/// Where every impact has its own stiffnesses, slower ones take those of this speed \[m/s\].
+/// If every impact has its own stiffnesses, slower impacts use those of this speed \[m/s\].
 const SLOWEST_DESIGN: f64 = 1e-2;
 
 impl Bilinear {
@@ -83,7 +83,7 @@ impl Bilinear {
         }
     }
 
-    /// By how much the stiffnesses of an impact differ from those at the reference speed: (v/v_ref)^0.4.
+    /// Ratio of the stiffnesses of an impact to those at the reference speed: (v/v_ref)^0.4.
     #[must_use]
     pub(super) fn scale(&self, impact_speed: f64) -> f64 {
         if self.follows_speed {
@@ -118,7 +118,7 @@ impl Bilinear {
         }
     }
 
-    /// What remains of a step that ended at an indentation.
+    /// Memory after a step that ended at an indentation.
     pub(super) fn remember(&self, indentation: f64, memory: &mut Memory) {
         let (slip, _) = self.slip(indentation, memory);
         memory.slip = slip;

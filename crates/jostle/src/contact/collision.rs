@@ -1,4 +1,4 @@
-//! The collision of two free masses, integrated precisely: what a law does, for any time step of a run.
+//! The collision of two free masses, integrated precisely and independent of the time step of a run.
 
 use super::runge_kutta::{Point, integrate, land};
 use super::{ForceLaw, Memory, effective_mass, momentum};
@@ -6,7 +6,7 @@ use super::{ForceLaw, Memory, effective_mass, momentum};
 /// One instant of a collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CollisionPoint {
-    /// Time from the touch \[s\].
+    /// Time since first contact \[s\].
     pub time: f64,
     /// δ \[m\].
     pub indentation: f64,
@@ -16,39 +16,39 @@ pub struct CollisionPoint {
     pub force: f64,
 }
 
-/// What comes out when two free masses meet.
+/// Results of the collision of two free masses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeCollision {
-    /// Closing speed at the touch \[m/s\].
+    /// Closing speed at first contact \[m/s\].
     pub impact_speed: f64,
     /// Opening speed at the end \[m/s\].
     pub separation_speed: f64,
     /// Greatest force; `None` for the momentum law, which has none \[N\].
     pub peak_force: Option<f64>,
-    /// Its instant after the touch \[s\].
+    /// Its time since first contact \[s\].
     pub peak_force_at: f64,
-    /// Least force, negative where the law pulls \[N\].
+    /// Least force, negative in tension \[N\].
     pub least_force: f64,
     /// Greatest indentation \[m\].
     pub peak_indentation: f64,
-    /// From the touch to the last instant of force \[s\].
+    /// From first contact to the last instant of force \[s\].
     pub duration: f64,
     /// Time integral of the force \[N·s\].
     pub impulse: f64,
     /// Kinetic energy lost \[J\].
     pub dissipated: f64,
-    /// The course of the collision; empty for the momentum law.
+    /// History of the collision; empty for the momentum law.
     pub curve: Vec<CollisionPoint>,
 }
 
-/// Points of a curve at least, if the collision takes any time.
+/// Least number of points of a curve, if the duration is not zero.
 const POINTS: usize = 300;
 
 impl FreeCollision {
-    /// Two free masses \[kg\], > 0, meet at a closing speed \[m/s\], > 0, under a law made for them.
+    /// Collides two free masses \[kg\], > 0, at a closing speed \[m/s\], > 0, under a law for these masses.
     ///
-    /// Integrated in dimensionless form by an adaptive Runge–Kutta method of order five with errors of some 1e-14 a
-    /// step; it lands on the turn of the motion, on kinks of the law and on the end of the force.
+    /// Integrated in dimensionless form by an adaptive Runge–Kutta method of order five with errors of about 1e-14
+    /// per step; steps end at the reversal of the motion, at corners of the law and at the end of the force.
     #[must_use]
     pub fn of(law: &ForceLaw, left_mass: f64, right_mass: f64, impact_speed: f64) -> Self {
         let mass = effective_mass(left_mass, right_mass);
@@ -83,7 +83,7 @@ impl FreeCollision {
     }
 }
 
-/// A collision under way. Unknowns are δ/(v₀T) and δ̇/v₀ over t/T, T the elastic duration.
+/// State of a collision. Unknowns are δ/(v₀T) and δ̇/v₀ over t/T, T the elastic duration.
 struct Walk<'a> {
     law: &'a ForceLaw,
     mass: f64,
@@ -144,7 +144,7 @@ impl<'a> Walk<'a> {
         response.by_indentation * y[1] * self.speed + response.by_rate * acceleration
     }
 
-    /// Until the motion turns. Over τ with t = τ⁴, so that δ^¼ is smooth at the touch.
+    /// Up to the reversal. Over τ with t = τ⁴, so that δ^¼ is smooth at first contact.
     fn load(&mut self) {
         let kink = self.law.kink(true, &self.memory) / (self.speed * self.scale);
         for kink in [kink, f64::INFINITY] {
@@ -177,11 +177,11 @@ impl<'a> Walk<'a> {
         }
         self.deepest = self.indentation(self.point.y);
         self.law.remember(self.deepest, 0.0, &mut self.memory);
-        // The turn itself belongs to the restitution.
+        // The reversal itself belongs to the restitution phase.
         self.point.y[1] = self.point.y[1].min(-0.0);
     }
 
-    /// Until the force ends.
+    /// Up to the end of force.
     fn unload(&mut self) {
         let tension = self.law.jumps_at_release();
         let kink = self.law.kink(false, &self.memory) / (self.speed * self.scale);
@@ -247,7 +247,7 @@ impl<'a> Walk<'a> {
 
     fn finish(mut self) -> FreeCollision {
         let rate = self.point.y[1] * self.speed;
-        // Every so manieth point, and the last.
+        // Points at a regular spacing, and the last.
         let stride = (self.curve.len() / POINTS).max(1);
         let last = self.curve.len() - 1;
         let mut index = 0;
@@ -267,7 +267,7 @@ impl<'a> Walk<'a> {
             peak_indentation: self.deepest,
             duration: self.point.time * self.scale,
             impulse: self.mass * (self.speed - rate),
-            // Less than rounding is nothing: elastic laws lose nothing.
+            // Rounding errors count as zero: elastic laws dissipate no energy.
             dissipated: if (1.0 - rate * rate / (self.speed * self.speed)).abs() < 1e-11 {
                 0.0
             } else {

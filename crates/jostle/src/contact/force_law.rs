@@ -1,11 +1,11 @@
-//! A contact law with all its numbers, and what one impact remembers.
+//! A contact law with its coefficients, and the memory of an impact.
 
 use std::f64::consts::PI;
 
 use super::hertz::{HERTZ_DURATION, hertz_indentation};
 use super::{Bilinear, Rubber, approach, hertz, kelvin};
 
-/// A contact law with all its numbers; pure functions of indentation, rate and memory.
+/// A contact law with its coefficients; pure functions of indentation, rate and memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ForceLaw {
     /// F = k δ + c δ̇.
@@ -14,7 +14,7 @@ pub enum ForceLaw {
         stiffness: f64,
         /// c \[N·s/m\].
         damping: f64,
-        /// Keep the pulling force before release.
+        /// Keep the tensile force before release.
         tension: bool,
     },
     /// F = k δ + c δ̇ in approach, k δ in restitution.
@@ -47,13 +47,13 @@ pub enum ForceLaw {
     },
     /// Two stiffnesses and a yield indentation.
     Bilinear(Bilinear),
-    /// Velocities change at once; bodies that stay in touch rest on F = k δ + c δ̇, cut at zero.
+    /// Velocities change instantly; lasting contact uses F = k δ + c δ̇, cut at zero.
     Restitution {
         /// e \[–\].
         restitution: f64,
-        /// k while in touch \[N/m\].
+        /// k of lasting contact \[N/m\].
         stiffness: f64,
-        /// c while in touch \[N·s/m\].
+        /// c of lasting contact \[N·s/m\].
         damping: f64,
     },
     /// Rubber bumper.
@@ -71,28 +71,28 @@ pub struct ContactResponse {
     pub by_rate: f64,
 }
 
-/// What one impact remembers between steps.
+/// Memory of one impact between steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Memory {
-    /// Speed by which laws divide: the closing rate at the touch, or, after a touch slower than 1 mm/s, the greatest
-    /// closing rate since, > 0 \[m/s\].
+    /// Speed by which laws divide: the impact speed, or, if it is below 1 mm/s, the greatest closing rate since
+    /// first contact, > 0 \[m/s\].
     pub speed: f64,
-    /// Whether the touch was that slow.
+    /// Whether the impact speed is below 1 mm/s.
     pub from_rest: bool,
     /// (v/v_ref)^0.4 of the bilinear law, 1 for others \[–\].
     pub scale: f64,
     /// Indentation at the end of the last step \[m\].
     pub indentation: f64,
-    /// Force of the elasto-plastic part of the bilinear law then \[N\].
+    /// Force of the elasto-plastic part of the bilinear law at that instant \[N\].
     pub slip: f64,
 }
 
-/// A touch slower than this starts from rest: no impact speed by which a law could divide \[m/s\].
+/// Impact speed below which contact starts from rest, without an impact speed by which a law can divide \[m/s\].
 const REST: f64 = 1e-3;
-/// Laws that divide by a speed see at least this much \[m/s\].
+/// Lower bound of the speed by which laws divide \[m/s\].
 const SLOWEST: f64 = 1e-9;
 
-/// A force that grows as this power of the indentation, or a higher one, ends without a corner that shows.
+/// A force that grows with this power of the indentation, or a higher one, ends without a noticeable corner.
 const SMOOTH_ONSET: f64 = 1.5;
 
 impl ForceLaw {
@@ -111,16 +111,16 @@ impl ForceLaw {
         }
     }
 
-    /// Force and derivatives at indentation δ \[m\] and rate δ̇ \[m/s\] on the first loading after a touch at
-    /// `impact_speed` v₀ > 0 \[m/s\].
+    /// Force and derivatives at indentation δ \[m\] and rate δ̇ \[m/s\] on first loading at `impact_speed` v₀ > 0
+    /// \[m/s\].
     #[must_use]
     pub fn respond(&self, indentation: f64, rate: f64, impact_speed: f64) -> ContactResponse {
         self.follow(indentation, rate, &self.touch(impact_speed))
     }
 
-    /// Force and derivatives at indentation δ \[m\] and rate δ̇ \[m/s\], reached in one step from what `memory`
-    /// holds. Zero for δ ≤ 0, except for the pulling Kelvin law, which holds on until its contact is released. The
-    /// force never falls when indentation or rate grow.
+    /// Force and derivatives at indentation δ \[m\] and rate δ̇ \[m/s\], reached in one step from `memory`. Zero
+    /// for δ ≤ 0, except for the Kelvin law with tension, which acts until its contact is released. The force never
+    /// decreases with indentation or rate.
     #[must_use]
     #[inline]
     pub fn follow(&self, indentation: f64, rate: f64, memory: &Memory) -> ContactResponse {
@@ -152,7 +152,7 @@ impl ForceLaw {
         }
     }
 
-    /// After a step to indentation δ at rate δ̇: what the impact remembers of it.
+    /// Memory after a step to indentation δ at rate δ̇.
     #[inline]
     pub fn remember(&self, indentation: f64, rate: f64, memory: &mut Memory) {
         memory.speed = memory.speed_at(rate);
@@ -161,7 +161,7 @@ impl ForceLaw {
         }
     }
 
-    /// Force at the instant of touch, before any indentation, at the closing rate `rate` ≥ 0 \[N\].
+    /// Force at first contact, before any indentation, at the closing rate `rate` ≥ 0 \[N\].
     #[must_use]
     pub fn onset(&self, rate: f64) -> f64 {
         match *self {
@@ -193,8 +193,8 @@ impl ForceLaw {
         }
     }
 
-    /// Whether the slope of the force over time jumps where the motion turns, because a damper or a
-    /// slider ends or begins there.
+    /// Whether the slope of the force over time jumps where the motion reverses, because a dashpot or a slider
+    /// starts or stops acting there.
     #[must_use]
     pub(crate) fn has_corner_at_turn(&self) -> bool {
         matches!(
@@ -206,13 +206,13 @@ impl ForceLaw {
         )
     }
 
-    /// Whether the force starts as a root of the time, steeper than any step can follow.
+    /// Whether the force starts as a root of time, which no step can resolve.
     #[must_use]
     pub(crate) fn starts_steeply(&self) -> bool {
         matches!(self, Self::Jankowski { .. })
     }
 
-    /// The coefficient with which an impact at this closing rate \[m/s\] changes velocities at once; `None` where a
+    /// The coefficient with which an impact at this closing rate \[m/s\] changes velocities instantly; `None` if a
     /// force acts over time.
     #[must_use]
     pub fn rebound(&self, rate: f64) -> Option<f64> {
@@ -224,7 +224,7 @@ impl ForceLaw {
         }
     }
 
-    /// Indentations where the slope of the force jumps, on the way in and on the way out \[m\].
+    /// Indentations where the slope of the force jumps, in approach and in restitution \[m\].
     pub(crate) fn kink(&self, inwards: bool, memory: &Memory) -> f64 {
         match self {
             Self::Bilinear(bilinear) => bilinear.kink(inwards, memory),
@@ -256,8 +256,8 @@ impl ForceLaw {
         }
     }
 
-    /// Greatest force of the elastic collision of free bodies: the size of an impact \[N\]. Of the bilinear law that
-    /// of its second stiffness.
+    /// Greatest force of the elastic collision of free bodies: the scale of an impact \[N\]. For the bilinear law,
+    /// that of its second stiffness.
     #[must_use]
     pub fn elastic_force(&self, effective_mass: f64, impact_speed: f64) -> f64 {
         let linear = |stiffness: f64| impact_speed * (effective_mass * stiffness).sqrt();
@@ -293,7 +293,7 @@ impl ForceLaw {
 }
 
 impl Memory {
-    /// The speed by which a law divides when the rate is this.
+    /// The speed by which a law divides at this rate.
     #[inline]
     fn speed_at(&self, rate: f64) -> f64 {
         if self.from_rest {

@@ -76,8 +76,8 @@ pub fn hertz_damping(e: f64) -> f64 {
         return 0.0;
     }
     let mismatch = |d: f64| ((1.0 + d) / (1.0 - e * d)).ln() - d * (1.0 + e);
-    // d = 0 is a root as well; the wanted one lies between it and the pole 1/e, and the mismatch starts
-    // out as −d²(1 − e²)/2.
+    // d = 0 is a root as well; the required one lies between it and the pole 1/e, and near zero the residual is
+    // −d²(1 − e²)/2.
     bisect(1e-3 * (1.0 - e), (1.0 - 1e-15) / e, mismatch)
 }
 

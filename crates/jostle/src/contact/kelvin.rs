@@ -1,12 +1,13 @@
-//! Spring and dashpot side by side: `linear`, `kelvin`, `kelvin-no-tension`, and what the momentum law rests on.
+//! Spring and dashpot in parallel: `linear`, `kelvin`, `kelvin-no-tension`, and lasting contact of the momentum
+//! law.
 
 use std::f64::consts::PI;
 
 use super::force_law::ContactResponse;
 use super::root::bisect;
 
-/// F = k δ + c δ̇ (Anagnostopoulos 1988; docs/contact.md, K1). With `tension` the force is kept until the contact
-/// is released; without, it is cut at zero.
+/// F = k δ + c δ̇ (Anagnostopoulos 1988; docs/contact.md, K1). With `tension` the force acts until the contact is
+/// released; otherwise it is cut at zero.
 #[inline]
 pub(super) fn respond(
     stiffness: f64,

@@ -7,11 +7,11 @@ use super::{BilinearShape, RubberBumper};
 pub enum LawKind {
     /// F = k δ.
     Linear,
-    /// F = k δ + c δ̇, held until δ = 0, so that it pulls just before release (Anagnostopoulos 1988).
+    /// F = k δ + c δ̇ until δ = 0, so it is in tension just before release (Anagnostopoulos 1988).
     Kelvin,
     /// The same, cut at F = 0.
     KelvinNoTension,
-    /// Linear spring with a damper that does not pull.
+    /// Linear spring with a damper, without tension.
     ModifiedKelvin(ModifiedKelvin),
     /// F = k δ^1.5.
     Hertz,
@@ -23,13 +23,14 @@ pub enum LawKind {
     Jankowski,
     /// Two stiffnesses with a yield indentation (Muthukumar & DesRoches).
     Bilinear(BilinearShape),
-    /// Momentum law: velocities change at once, v⁺ = −e v⁻ (Newton; stereomechanical approach).
+    /// Momentum law: velocities change instantly, v⁺ = −e v⁻ (Newton; stereomechanical approach).
     Restitution,
-    /// Rubber bumper that stiffens and loses energy in restitution (after Polycarpou, Komodromos & Polycarpou 2013).
+    /// Rubber bumper that stiffens and dissipates energy in restitution (after Polycarpou, Komodromos & Polycarpou
+    /// 2013).
     Rubber(RubberBumper),
 }
 
-/// Which damper the modified Kelvin law has.
+/// Damper of the modified Kelvin law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum ModifiedKelvin {
     /// F = k δ (1 + 3/2 (1 − e)/e δ̇/v₀) (Ye, Li & Zhu 2009).
@@ -144,8 +145,8 @@ impl LawKind {
         !matches!(self, Self::Linear | Self::Hertz)
     }
 
-    /// Whether a published formula stands between the coefficient and the damping, so that free masses may
-    /// rebound otherwise than asked.
+    /// Whether a published formula relates the coefficient to the damping, so that the rebound of free masses may
+    /// differ from the coefficient.
     #[must_use]
     pub fn has_published_damping(self) -> bool {
         self.is_dissipative() && !matches!(self, Self::Kelvin | Self::Restitution | Self::Rubber(_))

@@ -1,9 +1,9 @@
 //! Contact laws: the force between two colliding floors as a function of indentation and its rate.
 //!
-//! A law sees numbers only. [`ContactLaw`] is what a user asks for; [`ContactLaw::between`] turns it into a
-//! [`ForceLaw`] once the colliding masses are known. What an impact must remember is a [`Memory`], kept in the
-//! state of a run. Indentation δ = u_left − u_right − gap is positive in contact; the force is positive in
-//! compression and pushes the left building left. `docs/contact.md` lists every law with its source.
+//! A law receives numbers only. [`ContactLaw`] is the user's input; [`ContactLaw::between`] converts it to a
+//! [`ForceLaw`] for given colliding masses. The history of an impact is a [`Memory`] in the state of a run.
+//! Indentation δ = u_left − u_right − gap is positive in contact; the force is positive in compression and pushes
+//! the left building left. `docs/contact.md` lists every law with its source.
 //!
 //! [`FreeCollision`] integrates the collision of two free masses precisely, independent of any time step.
 
@@ -51,20 +51,20 @@ use kelvin::{
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactLaw {
-    /// Which formula.
+    /// The formula.
     pub kind: LawKind,
     /// Contact stiffness, > 0 \[N/m for the linear family, N/m^1.5 for the Hertz family\].
     pub stiffness: f64,
     /// Coefficient of restitution, 0 < e ≤ 1; elastic laws do not use it \[–\].
     pub restitution: f64,
-    /// What the coefficient means.
+    /// Meaning of the coefficient.
     pub restitution_is: RestitutionIs,
 }
 
-/// What a coefficient of restitution stands for.
+/// Meaning of a coefficient of restitution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum RestitutionIs {
-    /// It goes into the published formula; free masses may rebound otherwise.
+    /// It goes into the published formula; the rebound of free masses may differ.
     #[default]
     Input,
     /// The damping is calibrated so that two free masses rebound with exactly this ratio.
@@ -94,8 +94,8 @@ impl RestitutionIs {
 impl ContactLaw {
     /// The law between two bodies of the given masses \[kg\].
     ///
-    /// The damping of the Kelvin family and of Jankowski's law depends on the masses through
-    /// m_e = m₁m₂/(m₁ + m₂): c = 2ζ √(k m_e). Other laws take only a time scale from them.
+    /// The damping of the Kelvin family and of Jankowski's law depends on the masses through m_e = m₁m₂/(m₁ + m₂):
+    /// c = 2ζ √(k m_e). Other laws use them only for a time scale.
     #[must_use]
     pub fn between(&self, left_mass: f64, right_mass: f64) -> ForceLaw {
         let (k, e) = (self.stiffness, self.restitution);
@@ -105,7 +105,7 @@ impl ContactLaw {
         let kelvin = |ratio: f64, tension| ForceLaw::Kelvin {
             stiffness: k,
             damping: ratio * critical,
-            // Without damping there is nothing to pull with.
+            // Without damping there is no tension.
             tension: tension && ratio > 0.0,
         };
         let hertz = |damping| ForceLaw::Hertz {
@@ -159,7 +159,7 @@ impl ContactLaw {
         }
     }
 
-    /// What the law can be calibrated to realise lies above this; zero for published damping \[–\].
+    /// Lower limit of the restitution that calibration can realise; zero for published damping \[–\].
     #[must_use]
     pub fn least_restitution(&self) -> f64 {
         match self.kind {
@@ -170,8 +170,8 @@ impl ContactLaw {
         }
     }
 
-    /// Separation speed ÷ impact speed of two free masses under this law \[–\] (docs/contact.md). The bilinear
-    /// law with a design speed is judged at that speed; with all others it is the same at every speed.
+    /// Separation speed ÷ impact speed of two free masses under this law \[–\] (docs/contact.md). For the bilinear
+    /// law with a design speed the result holds at that speed; for all others it does not depend on the speed.
     #[must_use]
     pub fn free_restitution(&self) -> f64 {
         match self.between(1.0, 1.0) {

@@ -1,7 +1,7 @@
 //! The momentum law: `restitution`.
 
-/// Touches slower than this are no impacts of the momentum law but the beginning of a lasting contact \[m/s\].
-/// Bounces that follow each other would otherwise never end: their speeds fall as eⁿ, and so do the times between.
+/// Impact speed below which lasting contact starts instead of an impact of the momentum law \[m/s\]. Otherwise
+/// rebounds would never end: their speeds decrease as eⁿ, and so do the intervals.
 pub(crate) const REST_SPEED: f64 = 1e-3;
 
 /// Impulse that turns the closing speed v into −e v: (1 + e) v/(gᵀM⁻¹g) \[N·s\] (docs/contact.md, N1).

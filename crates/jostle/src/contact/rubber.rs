@@ -3,7 +3,7 @@
 use super::force_law::ContactResponse;
 use super::root::bisect;
 
-/// What a user says of a bumper.
+/// User parameters of a bumper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RubberBumper {
     /// Thickness, > 0 \[m\].
@@ -20,14 +20,14 @@ impl RubberBumper {
     };
 }
 
-/// Share of the thickness at which rubber has become so stiff that it is continued by its tangent.
+/// Fraction of the thickness beyond which the force follows the tangent.
 const LIMIT_SHARE: f64 = 0.8;
 
 /// F = K δ_u (δ/δ_u)ⁿ up to δ_u = 0.8 of the thickness, beyond along the tangent; in restitution times (1 + d δ̇/v₀)
 /// (after Polycarpou, Komodromos & Polycarpou 2013; docs/contact.md, R1).
 ///
-/// The approach is elastic, so that free masses rebound with e when −e d − ln(1 − e d) = ½ d², whatever the
-/// compression law: the damping is always the one that realises e.
+/// The approach is elastic, so free masses rebound with e if −e d − ln(1 − e d) = ½ d², for any compression law.
+/// The damping always realises e.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rubber {
     /// Secant stiffness at the limit K \[N/m\].
@@ -85,7 +85,7 @@ impl Rubber {
         }
     }
 
-    /// Duration of the elastic collision \[s\]: 2 δ_m/v ∫₀¹ dx/√(1 − xⁿ⁺¹), or that of the tangent where it is
+    /// Duration of the elastic collision \[s\]: 2 δ_m/v ∫₀¹ dx/√(1 − xⁿ⁺¹), or that of the tangent if it is
     /// compressed beyond the limit.
     pub(super) fn elastic_duration(&self, effective_mass: f64, impact_speed: f64) -> f64 {
         let p = self.exponent + 1.0;
@@ -96,7 +96,7 @@ impl Rubber {
             let tangent = self.exponent * self.stiffness;
             return std::f64::consts::PI * (effective_mass / tangent).sqrt();
         }
-        // x = 1 − s² makes the integrand smooth; midpoints suffice for a time scale.
+        // x = 1 − s² makes the integrand smooth; the midpoint rule is accurate enough for a time scale.
         const PARTS: u32 = 24;
         let sum: f64 = (0..PARTS)
             .map(|i| {
@@ -134,7 +134,7 @@ fn rubber_damping(e: f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
     }
-    // Beside the root d = 0 there is one before the pole 1/e; the mismatch starts out as −d²(1 − e²)/2.
+    // Besides d = 0 there is a root before the pole 1/e; near zero the residual is −d²(1 − e²)/2.
     bisect(1e-3 * (1.0 - e), (1.0 - 1e-15) / e, |d| {
         -e * d - (-e * d).ln_1p() - 0.5 * d * d
     })

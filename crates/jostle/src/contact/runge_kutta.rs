@@ -1,4 +1,4 @@
-//! Adaptive Runge–Kutta steps for two unknowns, Dormand & Prince 5(4), that land on events.
+//! Adaptive Runge–Kutta steps for two unknowns, Dormand & Prince 5(4), with event location.
 
 /// Tableau of J. R. Dormand and P. J. Prince (1980), Journal of Computational and Applied Mathematics 6, 19–26.
 const NODES: [f64; 6] = [0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -49,7 +49,7 @@ pub(super) struct Point {
     pub(super) y: [f64; 2],
 }
 
-/// One step of length `h`; the estimate of its error comes along.
+/// One step of length `h`, with its error estimate.
 fn step(point: Point, h: f64, f: &impl Fn(f64, [f64; 2]) -> [f64; 2]) -> (Point, f64) {
     let mut slopes = [[0.0; 2]; 7];
     slopes[0] = f(point.time, point.y);
@@ -75,11 +75,11 @@ fn step(point: Point, h: f64, f: &impl Fn(f64, [f64; 2]) -> [f64; 2]) -> (Point,
 
 /// Error of one step \[of unknowns of order one\].
 const TOLERANCE: f64 = 2e-14;
-/// Steps before giving up; a collision takes some hundreds.
+/// Largest number of steps; a collision takes a few hundred.
 const MOST_STEPS: usize = 200_000;
 
-/// Integrates until `reached` first holds, and lands where it begins to; every step is handed to `visit`. The right
-/// side must be smooth up to there, and may go on beyond in any finite way. `reached` must not hold at the start.
+/// Integrates until `reached` first holds, and ends where it starts to hold; `visit` is called with every step. The
+/// right side must be smooth up to that point and finite beyond it. `reached` must not hold at the start.
 pub(super) fn integrate(
     start: Point,
     first_step: f64,

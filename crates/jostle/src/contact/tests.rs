@@ -18,7 +18,7 @@ fn collide(law: &ContactLaw, speed: f64) -> FreeCollision {
     FreeCollision::of(&numbers, MASSES[0], MASSES[1], speed)
 }
 
-/// The integrator knows nothing of the closed forms by which damping is chosen.
+/// The integrator does not use the closed forms that determine the damping.
 #[test]
 fn calibrated_laws_rebound_as_asked() {
     for kind in LawKind::ALL {
@@ -78,9 +78,9 @@ fn a_bilinear_law_designed_for_one_speed_realises_e_there() {
     };
     let law = law(LawKind::Bilinear(shape), 0.5, RestitutionIs::Realised);
     assert!((collide(&law, 0.8).realised_restitution() - 0.5).abs() < 1e-9);
-    // At others it does not.
+    // At other speeds it does not.
     assert!((collide(&law, 0.2).realised_restitution() - 0.5).abs() > 0.02);
-    // Below the yield indentation nothing is lost.
+    // Below the yield indentation no energy is dissipated.
     assert!((collide(&law, 0.04).realised_restitution() - 1.0).abs() < 1e-9);
 }
 
@@ -148,7 +148,7 @@ fn tangents_match_differences() {
     }
 }
 
-/// What makes the forces of a step unique: they never fall along δ at a fixed rate, nor along the rate.
+/// Condition for unique forces of a step: they never decrease with δ at a fixed rate, nor with the rate.
 #[test]
 fn forces_rise_with_indentation_and_rate() {
     for kind in LawKind::ALL {
@@ -193,7 +193,7 @@ fn only_the_pulling_kelvin_law_pulls() {
     );
 }
 
-/// Bodies pressed together from rest have no impact speed; the damping must not explode with its inverse.
+/// Bodies pressed together from rest have no impact speed; the damping must stay bounded.
 #[test]
 fn a_touch_from_rest_is_damped_as_an_ordinary_one() {
     for kind in [LawKind::HertzDamp, LawKind::Ye] {

@@ -1,4 +1,4 @@
-//! All modes at once from an eigenvalue solver for full matrices, the independent check.
+//! All modes from an eigenvalue solver for full matrices, an independent check.
 
 use super::Mode;
 use super::lateral::Flexibility;
@@ -13,9 +13,8 @@ use crate::transfer::riccati::RiccatiSweep;
 /// `eigen` is given the rows of the lower triangle and returns the eigenvalues with their eigenvectors, in any order,
 /// or `None` if it fails.
 ///
-/// M^½ (K⁻¹)_mm M^½ has the eigenvalues 1/ω² (theory, Eq. M1), so that the lowest modes are the most accurate
-/// ones. Its cost grows with the cube of the number of masses. Within a double frequency the shapes are whatever
-/// the solver returns.
+/// M^½ (K⁻¹)_mm M^½ has the eigenvalues 1/ω² (theory, Eq. M1), so that the lowest modes are the most accurate ones.
+/// Its cost grows with the cube of the number of masses. For a double frequency the shapes are those of the solver.
 ///
 /// # Errors
 /// [`NotPositive`] when the building can move without deforming, or `eigen` fails.

@@ -1,4 +1,4 @@
-//! The modes that horizontal shaking excites, by Lanczos' method.
+//! Modes excited by horizontal ground motion, by Lanczos' method.
 
 use super::{LATERAL_SHARE, Mode, tridiagonal};
 use crate::linear::{NotPositive, StepMatrix};
@@ -9,16 +9,17 @@ use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 
 /// Residual, relative to the eigenvalue, below which a mode counts as found; its frequency is then exact to rounding.
 const CONVERGED: f64 = 1e-11;
-/// Vectors between one look at the eigenvalues and the next.
+/// Number of vectors between evaluations of the eigenvalues.
 const LOOK_EVERY: usize = 4;
 
 /// All lateral modes of a building, longest period first.
 ///
-/// Lanczos' method on M^½ K⁻¹ M^½ from the start M^½ r sees only modes that take part in horizontal motion, the
-/// lower the sooner, and of a double frequency just the shape that carries all of the mass. Its eigenvalues come with
-/// weights, the effective masses once they have converged. Before that they are bounds: by the inequalities of
+/// Lanczos' method on M^½ K⁻¹ M^½ from the start M^½ r contains only modes that take part in horizontal motion. Low
+/// modes converge first, and for a double frequency it finds the shape with all of the mass. Its eigenvalues come
+/// with weights, the effective masses once they have converged. Before that they are bounds: by the inequalities of
 /// Chebyshev, Markov and Stieltjes the modes between two neighbouring eigenvalues, these included, carry no more
-/// mass than the two weights together (theory, Eq. M4). The search ends when no gap is left that could hide 1 %.
+/// mass than the two weights together (theory, Eq. M4). The search ends when no interval can contain a missing mode
+/// with 1 %.
 ///
 /// # Errors
 /// [`NotPositive`] when the building can move without deforming.
@@ -26,7 +27,7 @@ pub fn lateral_modes(building: &AssembledBuilding) -> Result<Vec<Mode>, NotPosit
     lateral_modes_along(building, &RiccatiSweep::new(building))
 }
 
-/// The same by a recursion that is already known.
+/// The same with a given recursion.
 pub(crate) fn lateral_modes_along(
     building: &AssembledBuilding,
     sweep: &RiccatiSweep,
@@ -145,7 +146,7 @@ impl<'a> Flexibility<'a> {
 
 /// Orthonormal vectors in which the flexibility is tridiagonal.
 struct Krylov {
-    /// The vectors, one after the other; the last one is yet to be used.
+    /// The vectors, one after the other; the last one has not been used yet.
     basis: Vec<f64>,
     diagonal: Vec<f64>,
     next: Vec<f64>,
@@ -165,7 +166,7 @@ impl Krylov {
         }
     }
 
-    /// Uses the last vector and finds the next one; true when there is none.
+    /// Uses the last vector and computes the next one; true if there is none.
     fn extend(&mut self, flexibility: &mut Flexibility<'_>) -> bool {
         let n = flexibility.len();
         let used = self.basis.len() / n.max(1);
@@ -179,7 +180,7 @@ impl Krylov {
         let (before, last) = basis.split_at((used - 1) * n);
         let along = dot(last, vector);
         self.diagonal.push(along);
-        // In exact arithmetic these two would be all; rounding brings the others back.
+        // In exact arithmetic two vectors suffice; rounding requires reorthogonalisation against all.
         add(vector, -along, last);
         if let Some((previous, factor)) = before.rchunks_exact(n).next().zip(self.next.last()) {
             add(vector, -factor, previous);

@@ -1,8 +1,8 @@
 //! Natural modes of a building.
 //!
-//! Three ways to the same numbers. [`modes`] slices the spectrum by counting negative pivots of the Riccati
-//! recursion and cannot miss a mode; [`lateral_modes`] goes straight for those that horizontal shaking excites,
-//! and is quick enough for every assembly; [`modes_dense`] hands all of them to an eigenvalue solver for full matrices, as a check.
+//! There are three methods. [`modes`] divides the spectrum by counting negative pivots of the Riccati recursion and
+//! cannot miss a mode. [`lateral_modes`] computes only those excited by horizontal ground motion and is fast enough
+//! for every assembly. [`modes_dense`] uses an eigenvalue solver for full matrices, as a check.
 
 mod dense;
 mod lateral;
@@ -21,7 +21,7 @@ pub(crate) use lateral::lateral_modes_along;
 pub use slicing::modes;
 pub use spectrum::{LogDeterminant, Spectrum, log_determinant, number_of_modes};
 
-/// A mode counts as lateral from this share of the horizontal effective mass on \[–\].
+/// Least share of the horizontal effective mass of a lateral mode \[–\].
 pub const LATERAL_SHARE: f64 = 0.01;
 
 /// One natural mode.
@@ -62,7 +62,7 @@ impl Mode {
             along(&equations.driven_mass),
             along(&equations.vertical_mass),
         );
-        // In the sign in which it sways to the right with the ground.
+        // Sign: positive participation.
         let norm = inner(&equations.mass, &shape, &shape).sqrt();
         let scale = if x < 0.0 { -1.0 / norm } else { 1.0 / norm };
         for value in &mut shape {

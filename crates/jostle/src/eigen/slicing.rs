@@ -1,4 +1,4 @@
-//! Modes by slicing the spectrum: counting isolates them, inverse iteration finds their shapes.
+//! Modes by dividing the spectrum: counting isolates them, inverse iteration finds their shapes.
 
 use super::spectrum::{Spectrum, number_of_modes};
 use super::{Mode, inner, symmetric};
@@ -7,28 +7,28 @@ use crate::simd::add;
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
 
-/// A slice this narrow, relative to ω², is taken as one cluster.
+/// An interval this narrow, relative to ω², counts as one cluster.
 const CLUSTER: f64 = 1e-6;
-/// A slice this narrow cannot be divided further.
+/// An interval this narrow cannot be divided further.
 const NARROWEST: f64 = 4e-14;
-/// A single mode is iterated to once the ends of its slice differ by no more than this ratio.
+/// Inverse iteration for a single mode starts if the ends of its interval differ by no more than this ratio.
 const CLOSE: f64 = 1.25;
-/// Modes within this part of ω² of each other are kept orthogonal explicitly.
+/// Modes within this fraction of ω² of each other are orthogonalised explicitly.
 const NEIGHBOURS: f64 = 1e-2;
 /// Relative change of a shape at which iteration ends.
 const CONVERGED: f64 = 1e-12;
-/// Shapes whose ω² differ by no more than this part are free to turn.
+/// Shapes whose ω² differ by no more than this fraction may be rotated.
 const EQUAL: f64 = 1e-10;
 
 /// The lowest modes of a building, at most `count`, longest period first.
 ///
-/// Counting negative pivots (theory, Eq. M3) tells how many modes lie in a slice of the spectrum. Slices are
-/// divided until each holds a single mode or a cluster that is as good as equal, and inverse iteration in the
-/// slice gives shapes and frequencies. A result outside of its slice is not believed; the slice is divided again.
-/// So every mode is found, multiple ones as often as they occur. The cost of a mode is a few factorisations, each
-/// proportional to the height of the building.
+/// Counting negative pivots (theory, Eq. M3) gives the number of modes in an interval of the spectrum. Intervals
+/// are divided until each holds a single mode or a cluster of practically equal modes, and inverse iteration in the
+/// interval gives shapes and frequencies. A result outside its interval is rejected, and the interval is divided
+/// again. So every mode is found, multiple ones as often as they occur. The cost of a mode is a few factorisations,
+/// each proportional to the height of the building.
 ///
-/// Of equal frequencies the first shape carries all of the horizontal mass.
+/// For equal frequencies the first shape has all of the horizontal mass.
 ///
 /// # Errors
 /// [`NotPositive`] when the building can move without deforming.
@@ -62,7 +62,7 @@ struct Found {
     shape: Vec<f64>,
 }
 
-/// An end of a slice: ω² and the number of modes below it.
+/// An end of an interval: ω² and the number of modes below it.
 type End = (f64, usize);
 
 impl Search<'_> {
@@ -71,7 +71,7 @@ impl Search<'_> {
         if wanted == 0 {
             return;
         }
-        // With all others held, a degree of freedom is no slower than the first mode.
+        // With all others restrained, a degree of freedom has a frequency not below the first mode.
         let equations = &building.equations;
         let mut held: Vec<f64> = equations.stiffness.diagonal.clone();
         for (held, undamped) in held.iter_mut().zip(&equations.undamped.diagonal) {
@@ -123,7 +123,7 @@ impl Search<'_> {
         }
     }
 
-    /// A place between two ends where the count can be trusted.
+    /// A shift between two ends at which the count is reliable.
     fn divide(&mut self, low: End, high: End) -> End {
         let at = |part: f64| {
             if low.0 == 0.0 {
@@ -139,7 +139,8 @@ impl Search<'_> {
         (value, count.clamp(low.1, high.1))
     }
 
-    /// Inverse iteration for the modes of one slice; false if it does not end inside, unless it is the `last` resort.
+    /// Inverse iteration for the modes of one interval; false if it does not end inside, unless it is the `last`
+    /// resort.
     fn iterate(&mut self, low: f64, high: f64, held: usize, last: bool) -> bool {
         let mut shift = 0.5 * (low + high);
         let mut shapes: Vec<Vec<f64>> = (0..held).map(|_| self.random_shape()).collect();
@@ -202,7 +203,7 @@ impl Search<'_> {
         load
     }
 
-    /// Eigenvalues of (K − σM)⁻¹M in the space of the shapes, and shapes and images turned to its eigenvectors.
+    /// Eigenvalues of (K − σM)⁻¹M in the space of the shapes, and shapes and images rotated to its eigenvectors.
     fn rotate(
         &self,
         shapes: &[Vec<f64>],
@@ -216,7 +217,7 @@ impl Search<'_> {
         let lower: Vec<Vec<f64>> = (0..n)
             .map(|i| (0..=i).map(|j| projected(i, j)).collect())
             .collect();
-        // What is not finite stays so, and will not be found inside the slice.
+        // Values that are not finite stay so and are rejected.
         let (values, parts) = symmetric::eigen(&lower);
         let turned = |vectors: &[Vec<f64>]| {
             let turn = |k: usize| {
@@ -260,7 +261,7 @@ impl Search<'_> {
             .sqrt()
     }
 
-    /// The same in every run (xorshift).
+    /// Deterministic pseudo-random numbers (xorshift).
     fn random_shape(&mut self) -> Vec<f64> {
         let draw = |_: &f64| {
             self.random ^= self.random << 13;
@@ -271,8 +272,8 @@ impl Search<'_> {
         self.mass.iter().map(draw).collect()
     }
 
-    /// All modes found, ω² once more from the flexibility: 1/ω² = φᵀM K⁻¹ Mφ is of second order in the error of a
-    /// shape, and K, being positive definite, loses least to rounding.
+    /// All modes found, with ω² recomputed from the flexibility: 1/ω² = φᵀM K⁻¹ Mφ is of second order in the error
+    /// of a shape, and K, being positive definite, loses least to rounding.
     fn polished(mut self) -> Vec<Found> {
         self.spectrum.factorize(0.0);
         for k in 0..self.found.len() {
@@ -284,7 +285,7 @@ impl Search<'_> {
     }
 }
 
-/// Turns shapes of equal frequency so that the first has all of their horizontal participation.
+/// Rotates shapes of equal frequency so that the first has all of their horizontal participation.
 fn turn_equal_ones(found: &mut [Found], driven_mass: &[f64]) {
     for group in found.chunk_by_mut(|a, b| b.value - a.value <= EQUAL * b.value) {
         for k in 1..group.len() {

@@ -1,18 +1,19 @@
-//! How many modes lie below a frequency, and the determinant that vanishes at each of them.
+//! Number of modes below a frequency, and the determinant that vanishes at each of them.
 
 use crate::linear::{NotPositive, StepMatrix};
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
 use crate::transfer::riccati::{Inertia, RiccatiFactor, RiccatiSweep};
 
-/// Elimination may magnify rounding by this much before a shift is moved away from the resonance that does it.
+/// Magnification of rounding in the elimination above which a shift is moved away from the resonance that causes
+/// it.
 const TRUSTED_GROWTH: f64 = 1e4;
 
 /// The Riccati recursion of K − ω²M of one building.
 ///
 /// Its negative pivots are the modes below ω (Sylvester; theory, Eq. M3). This is the count of Wittrick and
-/// Williams with their number of modes with all joints held, J₀, equal to zero: masses sit at nodes only, and the
-/// members between them have none.
+/// Williams with their number of modes with all joints fixed, J₀, equal to zero: masses are at nodes only, and the
+/// members between them are massless.
 #[derive(Clone, Debug)]
 pub struct Spectrum {
     pub(super) sweep: RiccatiSweep,
@@ -37,9 +38,8 @@ impl Spectrum {
 
     /// Number of modes with a circular frequency below this one \[rad/s\].
     ///
-    /// When a part of the path resonates by itself with its end held, a pivot vanishes. Its sign does not matter,
-    /// but what follows loses digits to its size; the count is then taken a little beside, at most 10⁻⁹ times the
-    /// frequency away.
+    /// If a part of the path resonates with its end fixed, a pivot vanishes. Its sign does not matter, but later
+    /// pivots lose digits; the count is then made at a nearby frequency, at most 10⁻⁹ times the frequency away.
     #[must_use]
     pub fn below(&mut self, circular_frequency: f64) -> usize {
         let shift = circular_frequency * circular_frequency;
@@ -51,7 +51,7 @@ impl Spectrum {
         self.count_at_best(shifts).1
     }
 
-    /// The first shift ω² that can be trusted, or else the best of them, and the count there.
+    /// The first reliable shift ω², or else the best of them, and the count there.
     pub(super) fn count_at_best(&mut self, shifts: impl Iterator<Item = f64>) -> (f64, usize) {
         let mut best = (0.0, 0, f64::INFINITY);
         for shift in shifts {
@@ -107,12 +107,12 @@ pub struct LogDeterminant {
 /// that does not vanish it is the determinant of the total transfer equation without loads, whose zeros are the
 /// natural frequencies.
 ///
-/// Beware of looking for modes by its sign:
+/// Searching modes by its sign is unreliable:
 /// - a double frequency does not change it, and a symmetric structure may have many;
-/// - two modes between one sample and the next do not show either, however close the samples;
-/// - its size says little: it spans hundreds of decades, hence the logarithm.
+/// - two modes between neighbouring samples are not visible for any spacing;
+/// - its magnitude spans hundreds of decades, hence the logarithm.
 ///
-/// [`Spectrum::below`] costs the same and has none of these gaps; [`modes`](super::modes) builds on it.
+/// [`Spectrum::below`] costs the same and has none of these problems; [`modes`](super::modes) builds on it.
 ///
 /// # Errors
 /// [`NotPositive`] when the building can move without deforming.

@@ -8,7 +8,8 @@ use crate::simd::{dot, in_wide_registers};
 /// Eigenvalues, rising, and the eigenvector of length one of each, of a symmetric matrix given by its lower triangle row by
 /// row. Householder's reflections (A. S. Householder, 1958, J. ACM 5, 339–342) make it tridiagonal.
 ///
-/// Libraries fuse and reorder as registers allow, and shapes found with them would differ between processors.
+/// Libraries fuse and reorder operations depending on the registers, so their shapes would differ between
+/// processors.
 pub(crate) fn eigen(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
     in_wide_registers(lower.len(), Eigen(lower))
 }
@@ -24,7 +25,7 @@ impl NullaryFnOnce for Eigen<'_> {
     }
 }
 
-/// See [`eigen`]; compiled for the registers at hand.
+/// See [`eigen`]; compiled for the available registers.
 #[inline(always)]
 fn found(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
     let n = lower.len();
@@ -36,7 +37,7 @@ fn found(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
         }
     }
     let mut next = Vec::with_capacity(n);
-    // Each mirror acts on what lies below its row.
+    // Each reflection acts on the rows below its own.
     let mut mirrors: Vec<Vec<f64>> = Vec::with_capacity(n);
     let mut product = vec![0.0; n];
     for k in 0..n.saturating_sub(1) {

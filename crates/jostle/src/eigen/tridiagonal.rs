@@ -3,7 +3,7 @@
 /// Eigenvalues of the matrix with this diagonal and next diagonal, and the given matrix, column after column, times that of
 /// its eigenvectors. Implicit QL iteration with Wilkinson's shift.
 ///
-/// With a unit matrix one gets whole eigenvectors; a single row of it costs one order less.
+/// A unit matrix gives full eigenvectors; a single row of it costs one order less.
 #[inline(always)]
 pub(super) fn eigen(diagonal: &[f64], next: &[f64], columns: &mut [f64]) -> Vec<f64> {
     let n = diagonal.len();
@@ -12,7 +12,7 @@ pub(super) fn eigen(diagonal: &[f64], next: &[f64], columns: &mut [f64]) -> Vec<
     let mut e = next[..n.saturating_sub(1)].to_vec();
     e.push(0.0);
     for low in 0..n {
-        // Converges cubically; the limit only guards against numbers that are not.
+        // Converges cubically; the limit only guards against NaN.
         for _ in 0..100 {
             let negligible =
                 |m: usize| e[m].abs() <= f64::EPSILON * (d[m].abs() + d[m + 1].abs()) * 0.5;
@@ -57,7 +57,7 @@ pub(super) fn eigen(diagonal: &[f64], next: &[f64], columns: &mut [f64]) -> Vec<
     d
 }
 
-/// √(a² + b²), in the simple way where squares neither vanish nor overflow.
+/// √(a² + b²), computed directly if squares neither underflow nor overflow.
 #[inline(always)]
 fn hypotenuse(a: f64, b: f64) -> f64 {
     let square = a * a + b * b;

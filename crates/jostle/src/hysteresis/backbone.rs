@@ -1,4 +1,4 @@
-//! The curve that a spring follows when it is first loaded: straight to cracking, to yield, and beyond.
+//! The curve that a spring follows when it is first loaded: piecewise linear to cracking, to yield, and beyond.
 
 use std::fmt;
 
@@ -16,7 +16,7 @@ impl Side {
     /// Both sides, the positive first.
     pub const BOTH: [Self; 2] = [Self::Positive, Self::Negative];
 
-    /// The side towards which a change points; positive for zero.
+    /// The side of a change; positive for zero.
     #[must_use]
     pub fn of(change: f64) -> Self {
         if change < 0.0 {
@@ -60,13 +60,13 @@ pub struct Corner {
     pub force: f64,
 }
 
-/// One side of a backbone as a user gives it; forces for [`Backbone::from_forces`], deformations for
+/// One side of a backbone as given by the user; forces for [`Backbone::from_forces`], deformations for
 /// [`Backbone::from_deformations`], always as magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corners {
-    /// Where the first straight line ends, > 0; equal to `yielding` for a bilinear curve.
+    /// End of the first straight line, > 0; equal to `yielding` for a bilinear curve.
     pub cracking: f64,
-    /// Where the second one ends, ≥ `cracking`.
+    /// End of the second line, ≥ `cracking`.
     pub yielding: f64,
     /// Stiffness between cracking and yield, as a ratio to the initial one, > 0 and ≤ 1 \[–\].
     pub post_cracking: f64,
@@ -119,14 +119,15 @@ impl BackboneSide {
 
 /// Trilinear or bilinear curve of first loading; the sides may differ, the initial stiffness is common.
 ///
-/// Sound by construction: every number is finite, stiffnesses fall from corner to corner and never below zero.
+/// Valid by construction: every number is finite; stiffnesses decrease from corner to corner and are never
+/// negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Backbone {
     initial: f64,
     sides: [BackboneSide; 2],
 }
 
-/// Which number of a spring is at fault.
+/// The invalid number of a spring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Initial stiffness.
@@ -156,7 +157,7 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// What is wrong with a backbone, or with a rule on it.
+/// An error in a backbone, or in a rule on it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{quantity}: {problem}")]
 pub struct SpringFault {
@@ -164,7 +165,7 @@ pub struct SpringFault {
     pub quantity: Quantity,
     /// The side concerned; `None` when it is not of one side.
     pub side: Option<Side>,
-    /// What is wrong and what would be right.
+    /// The problem and a valid alternative.
     pub problem: String,
 }
 
@@ -172,7 +173,7 @@ impl Backbone {
     /// From an initial stiffness > 0 \[N·m/rad or N/m\] and the forces at the corners \[N·m or N\].
     ///
     /// # Errors
-    /// Everything that is wrong, never empty.
+    /// All errors, never empty.
     pub fn from_forces(
         initial: f64,
         positive: Corners,
@@ -201,7 +202,7 @@ impl Backbone {
     /// From an initial stiffness > 0 \[N·m/rad or N/m\] and the deformations at the corners \[rad or m\].
     ///
     /// # Errors
-    /// Everything that is wrong, never empty.
+    /// All errors, never empty.
     pub fn from_deformations(
         initial: f64,
         positive: Corners,
@@ -227,7 +228,7 @@ impl Backbone {
         Self::finite(initial, [side(positive), side(negative)])
     }
 
-    /// Refuses numbers so far apart that the curve cannot be drawn.
+    /// Rejects numbers whose magnitudes are too far apart for the curve.
     fn finite(initial: f64, sides: [BackboneSide; 2]) -> Result<Self, Vec<SpringFault>> {
         let faults: Vec<_> = Side::BOTH
             .into_iter()
@@ -257,7 +258,7 @@ impl Backbone {
         self.initial
     }
 
-    /// Force of yield, that of the stronger side \[N·m or N\].
+    /// Yield force, that of the stronger side \[N·m or N\].
     #[must_use]
     pub fn yield_force(&self) -> f64 {
         self.sides[0]
@@ -279,7 +280,7 @@ impl Backbone {
         side.sign() * self.side(side).force_at(deformation.abs())
     }
 
-    /// The curve with its sides exchanged: the same spring seen from its other end.
+    /// The curve with exchanged sides: the same spring seen from its other end.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         Self {

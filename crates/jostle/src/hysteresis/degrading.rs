@@ -1,15 +1,15 @@
 //! Degrading trilinear rule, D-Tri (Fukada, 1969; Muto, 1973).
 //!
-//! Between the peaks the spring runs in a bilinear loop: an elastic range as high as the cracking forces of both
-//! sides together, slope β k₁, between two parallel lines of slope β k₂ through the two peaks. Peaks are the
-//! yield points at first and move along the backbone. The factor
+//! Between the peaks the spring follows a bilinear loop: an elastic range with the height of both cracking forces
+//! together and slope β k₁, between two parallel lines of slope β k₂ through the two peaks. Initially the peaks are
+//! the yield points; they move along the backbone. The factor
 //!
 //! ```text
 //! β = [ (Fc⁺ + Fc⁻)/k₁ + (F⁺ + F⁻ − Fc⁺ − Fc⁻)/k₂ ] / (d⁺ + d⁻)
 //! ```
 //!
-//! makes the loop lead from peak to peak; it is 1 until yield and falls afterwards. The lines stay
-//! (Fc⁺ + Fc⁻)(1 − k₂/k₁) apart for all peaks, so the elastic range keeps its height.
+//! makes the loop connect both peaks; it is 1 until yield and decreases afterwards. The distance of the lines is
+//! always (Fc⁺ + Fc⁻)(1 − k₂/k₁), so the height of the elastic range is constant.
 
 use super::backbone::{Backbone, Corner, Side};
 use super::memory::{Branch, HysteresisMemory, Response};
@@ -32,7 +32,7 @@ fn peak(backbone: &Backbone, memory: &HysteresisMemory, side: Side) -> Corner {
     }
 }
 
-/// β: what is left of the stiffnesses, 0 < β ≤ 1 \[–\].
+/// β: reduction factor of the stiffnesses, 0 < β ≤ 1 \[–\].
 pub(super) fn factor(backbone: &Backbone, memory: &HysteresisMemory) -> f64 {
     let [positive, negative] = Side::BOTH.map(|side| peak(backbone, memory, side));
     if Side::BOTH
@@ -47,7 +47,7 @@ pub(super) fn factor(backbone: &Backbone, memory: &HysteresisMemory) -> f64 {
         / (positive.deformation - negative.deformation)
 }
 
-/// Where the elastic line meets the line through the peak of a side.
+/// Intersection of the elastic line and the line through the peak of a side.
 fn corner(backbone: &Backbone, memory: &HysteresisMemory, towards: Side, factor: f64) -> Corner {
     let target = peak(backbone, memory, towards);
     let second = factor * backbone.side(towards).post_cracking;

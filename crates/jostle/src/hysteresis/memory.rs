@@ -1,29 +1,29 @@
-//! What a spring remembers, and what it answers.
+//! State and response of a spring.
 
 use super::backbone::{Corner, Side};
 
-/// Everything a spring remembers between steps; the default is at rest and never loaded.
+/// State of a spring between steps; the default is at rest and never loaded.
 ///
-/// It holds where straight lines begin, not the last increment. A path in one direction therefore leaves the
-/// same bits behind however it is divided, and turning back and forth without reaching a corner leaves no trace.
+/// It stores the starts of straight lines, not the last increment. A path in one direction therefore gives the same
+/// bits for any division into steps, and reversals that reach no corner do not change later behaviour.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct HysteresisMemory {
     pub(super) deformation: f64,
     pub(super) force: f64,
     /// Greatest deformation so far of either side, as magnitudes.
     pub(super) extremes: [f64; 2],
-    /// Deformation of either side at which the backbone is met again, as magnitudes; 0 before cracking.
+    /// Deformation of either side at which the backbone is reached again, as magnitudes; 0 before cracking.
     pub(super) peaks: [f64; 2],
     /// Deformation at which each slider of the parallel model has no force.
     pub(super) offsets: [f64; 2],
-    /// Where the last unloading began.
+    /// Start of the last unloading.
     pub(super) turn: Corner,
-    /// Where the line towards a peak began.
+    /// Start of the line towards a peak.
     pub(super) start: Corner,
     /// Slope of the last unloading.
     pub(super) unloading: f64,
     pub(super) branch: Branch,
-    /// Branch that unloading turned away from.
+    /// Branch before the last unloading.
     pub(super) left: Branch,
     /// Side of the branch.
     pub(super) side: Side,
@@ -48,7 +48,7 @@ impl HysteresisMemory {
         self.extremes[side.index()]
     }
 
-    /// Stands at a point, reached on the way to a side.
+    /// Sets the point reached when moving to a side.
     #[inline]
     pub(super) fn stand_at(&mut self, deformation: f64, force: f64, side: Side) {
         (self.deformation, self.force) = (deformation, force);
@@ -72,26 +72,26 @@ pub(super) enum Branch {
     Virgin,
     /// On the backbone of a side.
     Backbone,
-    /// On a line of unloading (and of loading again, until it is left).
+    /// On an unloading line (also when reloading on it).
     Unloading,
-    /// On the way to the peak of a side.
+    /// Moving towards the peak of a side.
     Reloading,
 }
 
-/// Answer to a trial deformation.
+/// Response to a trial deformation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     /// Force \[N·m or N\].
     pub force: f64,
-    /// Slope of the line ahead in the direction of motion; of unloading where nothing moves \[N·m/rad or N/m\].
+    /// Slope of the line ahead in the direction of motion; the unloading slope without motion \[N·m/rad or N/m\].
     pub tangent: f64,
-    /// Work done on the spring on the way from the committed deformation, exact \[J\].
+    /// Work done on the spring since the committed deformation, exact \[J\].
     pub work: f64,
-    /// What to commit if the trial is taken.
+    /// State to commit if the trial is accepted.
     pub memory: HysteresisMemory,
 }
 
-/// How far a spring has ever been loaded.
+/// Largest loading stage of a spring so far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum Stage {
     /// Never beyond the cracking deformation.

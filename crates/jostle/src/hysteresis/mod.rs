@@ -1,9 +1,9 @@
-//! Restoring forces that remember: trilinear hysteresis of hinges and storeys.
+//! Restoring forces with memory: trilinear hysteresis of hinges and storeys.
 //!
-//! A [`Hysteresis`] is a rule on a [`Backbone`] and never changes. What a hinge remembers is a
-//! [`HysteresisMemory`], one per hinge, a plain value. [`Hysteresis::respond`] goes from the committed memory
-//! straight to a trial deformation, through all corners between, and says force, tangent, work and the memory
-//! to commit if the trial is taken. It is a pure function: a step that is tried again starts from the same memory.
+//! A [`Hysteresis`] is a rule on a [`Backbone`] and never changes. The state of a hinge is a [`HysteresisMemory`],
+//! a plain value. [`Hysteresis::respond`] goes from the committed state to a trial deformation, through all corners
+//! between, and returns force, tangent, work and the state to commit if the trial is accepted. It is a pure
+//! function: a repeated step starts from the same state.
 //!
 //! Deformations and forces are rotation \[rad\] and moment \[N·m\] of a hinge, or displacement \[m\] and force
 //! \[N\] of a storey.

@@ -1,14 +1,14 @@
-//! Rules that aim at peaks: peak-oriented (Clough and Johnston) and Takeda.
+//! Rules oriented to peaks: peak-oriented (Clough and Johnston) and Takeda.
 //!
-//! Both follow the same four branches: virgin → backbone → unloading → reloading towards the peak of the other
-//! side → backbone. They differ in the slope of unloading and in what happens when a side is entered that has
-//! never been loaded: a peak-oriented spring turns towards its cracking point where the force vanishes, a Takeda
-//! spring unloads on until the cracking force of that side and then turns towards its yield point.
+//! Both follow the same four branches: virgin → backbone → unloading → reloading towards the peak of the other side
+//! → backbone. They differ in the slope of unloading and when they enter a side that has never been loaded: a
+//! peak-oriented spring turns towards its cracking point at zero force, a Takeda spring continues unloading to the
+//! cracking force of that side and then turns towards its yield point.
 
 use super::backbone::{Backbone, Corner, Side};
 use super::memory::{Branch, HysteresisMemory, Response};
 
-/// Straight line on which the spring moves on in one direction, with where it ends and what follows.
+/// Straight line on which the spring moves in one direction, with its end and the next branch.
 struct Piece {
     through: Corner,
     slope: f64,
@@ -16,14 +16,14 @@ struct Piece {
     end: Option<(Corner, Next)>,
 }
 
-/// What follows a piece.
+/// The branch after a line.
 #[derive(Clone, Copy)]
 enum Next {
     /// The backbone, from its cracking point on for the first time.
     Crack,
     /// The backbone of the side.
     Backbone,
-    /// The branch that unloading left.
+    /// The branch before unloading.
     Return,
     /// Reloading of the other side, towards a peak.
     Reload { peak: f64 },
@@ -43,7 +43,7 @@ pub(super) fn respond(
     let mut next = *memory;
     turn_back(backbone, exponent, &mut next, towards);
     let (mut here, mut work) = (memory.point(), 0.0);
-    // Every corner leads on, to the backbone at the latest.
+    // Every corner leads to another branch, finally the backbone.
     loop {
         let piece = ahead(backbone, exponent, &next, towards);
         let reached = piece
@@ -68,7 +68,7 @@ pub(super) fn respond(
     }
 }
 
-/// Leaves a branch that leads the other way.
+/// Leaves a branch in the opposite direction.
 fn turn_back(
     backbone: &Backbone,
     exponent: Option<f64>,
@@ -84,7 +84,7 @@ fn turn_back(
     }
 }
 
-/// The piece on which the spring moves towards a side; it is on no branch that leads the other way.
+/// The line on which the spring moves towards a side; it is on no branch in the opposite direction.
 #[inline(always)] // a piece then stays in registers
 fn ahead(
     backbone: &Backbone,
@@ -160,7 +160,7 @@ fn ahead(
     }
 }
 
-/// Changes branch at the end of a piece.
+/// Changes branch at the end of a line.
 fn enter(memory: &mut HysteresisMemory, next: Next, here: Corner, towards: Side) {
     let reached = towards.sign() * here.deformation;
     match next {
@@ -191,13 +191,14 @@ fn aims_at_cracking(backbone: &Backbone, memory: &HysteresisMemory) -> bool {
     memory.unloading == slope_to_opposite_cracking(backbone, memory.side, peak)
 }
 
-/// Slope of unloading: the present one, or the one that turning back would begin.
+/// Unloading slope: the present one, or the one after a reversal.
 ///
 /// Takeda: towards the opposite cracking point before yield; after it the slope from the yield point to there,
-/// times (yield / peak) to the exponent. Two bounds keep the rule sound where its authors did not go. It is never
-/// less than the slope from the peak to that cracking point, which large exponents would undercut. And turning
-/// back before the peak it never reaches zero force beyond the point where elastic unloading from the other peak
-/// would arrive; else, with sides that differ much, loading towards that peak would be stiffer than at first.
+/// times (yield / peak) to the exponent. Two bounds cover cases that the published rule does not. The slope is
+/// never less than that from the peak to that cracking point, which large exponents would undercut. And after a
+/// reversal before the peak the line never reaches zero force beyond the point where elastic unloading from the
+/// other peak would arrive; otherwise, with very different sides, loading towards that peak would be stiffer than
+/// the initial stiffness.
 pub(super) fn unloading_stiffness(
     backbone: &Backbone,
     exponent: Option<f64>,

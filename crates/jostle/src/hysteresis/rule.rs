@@ -4,29 +4,29 @@ use super::backbone::{Backbone, Quantity, Side, SpringFault};
 use super::memory::{HysteresisMemory, Response, Stage};
 use super::{degrading, oriented, sliders};
 
-/// Exponent of Takeda's loss of unloading stiffness after yield \[–\] (Takeda, Sozen and Nielsen, 1970).
+/// Exponent of the unloading stiffness of Takeda's rule after yield \[–\] (Takeda, Sozen and Nielsen, 1970).
 pub const DEFAULT_TAKEDA_EXPONENT: f64 = 0.4;
 
-/// How a spring unloads and loads again.
+/// Unloading and reloading rule of a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HysteresisRule {
-    /// Initial stiffness for ever.
+    /// Always the initial stiffness.
     Elastic,
     /// Kinematic hardening with one corner (Prager's model).
     Bilinear,
     /// Kinematic hardening with two corners: Masing's rule, as sliders in parallel (Iwan, 1966).
     Normal,
-    /// Unloads with the initial stiffness; loads straight to the greatest deformation that side has seen, at
-    /// first its cracking point (Clough and Johnston, 1966, on a trilinear curve).
+    /// Unloads with the initial stiffness; loads straight to the greatest deformation of that side so far,
+    /// initially its cracking point (Clough and Johnston, 1966, on a trilinear curve).
     PeakOriented,
     /// Takeda, Sozen and Nielsen (1970): unloads towards the cracking point of the other side, after yield with
     /// a stiffness that falls with the ductility; inner loops go straight to the peaks.
     Takeda {
-        /// Exponent of that fall, 0…1 \[–\]; [`DEFAULT_TAKEDA_EXPONENT`] is usual.
+        /// Exponent of this decrease, 0…1 \[–\]; [`DEFAULT_TAKEDA_EXPONENT`] is usual.
         exponent: f64,
     },
-    /// Degrading trilinear (Fukada, 1969; Muto, 1973): inside the peaks a bilinear loop whose stiffnesses have
-    /// shrunk by one common factor, so that it leads from peak to peak.
+    /// Degrading trilinear (Fukada, 1969; Muto, 1973): between the peaks a bilinear loop whose stiffnesses are
+    /// reduced by one factor, so that it connects both peaks.
     DegradingTrilinear,
 }
 
@@ -63,7 +63,7 @@ impl HysteresisRule {
     }
 }
 
-/// A rule on a backbone. Never changes; what changes is the [`HysteresisMemory`] it is asked about.
+/// A rule on a backbone. It is immutable; the state is a [`HysteresisMemory`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hysteresis {
     rule: HysteresisRule,
@@ -71,11 +71,11 @@ pub struct Hysteresis {
 }
 
 impl Hysteresis {
-    /// Puts a rule on a backbone.
+    /// Combines a rule and a backbone.
     ///
     /// # Errors
-    /// Everything that does not fit: an exponent out of range, a cracking point for `bilinear` or none for
-    /// `d-tri`, sides with different stiffness ratios where the rule has only one.
+    /// All errors: an exponent out of range, a cracking point for `bilinear` or none for `d-tri`, sides with
+    /// different stiffness ratios where the rule has only one.
     pub fn new(rule: HysteresisRule, backbone: Backbone) -> Result<Self, Vec<SpringFault>> {
         let mut faults = Vec::new();
         let mut refuse = |quantity, side, problem: String| {
@@ -165,10 +165,10 @@ impl Hysteresis {
         }
     }
 
-    /// Force, tangent and work on the straight way from the committed deformation to a trial one.
+    /// Force, tangent and work of a monotonic path from the committed deformation to a trial one.
     ///
-    /// Where nothing moves the committed force is returned with the tangent of unloading: the right one to begin
-    /// a step with, since only the step itself can show that loading goes on.
+    /// Without motion the committed force is returned with the unloading tangent. It is the right one for the start
+    /// of a step, since only the step itself can show that loading continues.
     #[must_use]
     #[inline]
     pub fn respond(&self, memory: &HysteresisMemory, deformation: f64) -> Response {
@@ -202,8 +202,8 @@ impl Hysteresis {
         response
     }
 
-    /// Force \[N·m or N\] and tangent \[N·m/rad or N/m\] of [`Hysteresis::respond`] alone, for trials that may not stand:
-    /// no memory is copied.
+    /// Force \[N·m or N\] and tangent \[N·m/rad or N/m\] of [`Hysteresis::respond`] alone, for trials that may be
+    /// rejected: no state is copied.
     #[inline]
     pub(crate) fn answer(&self, memory: &HysteresisMemory, deformation: f64) -> [f64; 2] {
         match self.rule {
@@ -220,7 +220,7 @@ impl Hysteresis {
         }
     }
 
-    /// Moves the committed point: the memory of [`Hysteresis::respond`], in its place.
+    /// Updates the committed state in place, as [`Hysteresis::respond`] does.
     #[inline]
     pub(crate) fn commit(&self, memory: &mut HysteresisMemory, deformation: f64) {
         match self.rule {
@@ -236,7 +236,7 @@ impl Hysteresis {
         }
     }
 
-    /// Slope on which the spring would turn back from where it is \[N·m/rad or N/m\].
+    /// Slope of the spring after a reversal at the present point \[N·m/rad or N/m\].
     #[must_use]
     pub fn unloading_stiffness(&self, memory: &HysteresisMemory) -> f64 {
         match self.rule {
@@ -250,15 +250,15 @@ impl Hysteresis {
         }
     }
 
-    /// Energy that unloading to zero force would give back, F² / 2k, ≥ 0 \[J\]. The work done on the spring less
-    /// this is what it has dissipated.
+    /// Energy that unloading to zero force would release, F² / 2k, ≥ 0 \[J\]. The work done on the spring minus
+    /// this energy is dissipated.
     #[must_use]
     pub fn recoverable_energy(&self, memory: &HysteresisMemory) -> f64 {
         0.5 * memory.force * memory.force / self.unloading_stiffness(memory)
     }
 
-    /// Deformation at which the straight line ends on which the spring moves on towards a side, turning back
-    /// if it must; infinite when that line never ends \[rad or m\].
+    /// Deformation at the end of the straight line on which the spring moves towards a side, after a reversal if
+    /// necessary; infinite if the line has no end \[rad or m\].
     #[must_use]
     pub fn next_corner(&self, memory: &HysteresisMemory, towards: Side) -> f64 {
         match self.rule {
@@ -284,7 +284,7 @@ impl Hysteresis {
         memory.greatest(side) / self.backbone.side(side).yielding.deformation
     }
 
-    /// How far the spring has ever been loaded, whichever the side. Elastic springs never crack.
+    /// Largest loading stage so far, on either side. Elastic springs never crack.
     #[must_use]
     pub fn stage(&self, memory: &HysteresisMemory) -> Stage {
         if self.rule == HysteresisRule::Elastic {
@@ -319,7 +319,7 @@ mod tests {
     use super::super::backbone::Corners;
     use super::*;
 
-    /// The short ways answer and remember what the long one does, to the bit, sliding and turning.
+    /// The short functions give the same force and state as the long one, bit by bit, when sliding and reversing.
     #[test]
     fn answers_and_commits_are_those_of_whole_responses() {
         let corners = |yielding: f64, post_yield: f64| Corners {
@@ -347,7 +347,7 @@ mod tests {
             let (mut known, mut kept) = (HysteresisMemory::default(), HysteresisMemory::default());
             let mut furthest = 0.0_f64;
             for i in 0..400 {
-                // Every third point is tried only, every seventh stays where it is.
+                // Every third point is only a trial, every seventh does not move.
                 let x = f64::from(i);
                 let at = if i % 7 == 6 {
                     known.deformation()

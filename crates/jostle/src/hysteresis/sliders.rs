@@ -1,23 +1,23 @@
-//! Kinematic hardening as springs in parallel: two of them end in sliders, one goes on for ever (Iwan, 1966).
+//! Kinematic hardening as springs in parallel: two of them are in series with sliders, one is elastic (Iwan, 1966).
 //!
-//! The first slider has stiffness k₁ − k₂ and gives way at the cracking deformation of either side, the second
-//! k₂ − k₃ and the yield deformation; the last spring has k₃. After a reversal each takes twice its deformation
-//! to give way again, which is Masing's rule. A slider is kept as the deformation at which it has no force: that
-//! only changes while it slides.
+//! The first spring has stiffness k₁ − k₂ and slips at the cracking deformation of either side; the second has k₂ −
+//! k₃ and slips at the yield deformation; the last has k₃. After a reversal each needs twice its deformation to
+//! slip again, which is Masing's rule. A slider is stored as the deformation at which it has no force; this changes
+//! only while it slips.
 
 use super::backbone::{Backbone, Side};
 use super::memory::{HysteresisMemory, Response};
 
-/// A spring behind a slider.
+/// A spring in series with a slider.
 struct Slider {
     stiffness: f64,
-    /// Deformation of the spring at which the slider moves, towards either side.
+    /// Deformation of the spring at which the slider slips, for either side.
     reach: [f64; 2],
 }
 
 fn sliders(backbone: &Backbone) -> [Slider; 2] {
     let [positive, negative] = Side::BOTH.map(|side| backbone.side(side));
-    // A bilinear curve has no second slope of its own: the first slider is then without stiffness.
+    // A bilinear curve has no second slope: the first slider then has no stiffness.
     let second = if backbone.is_bilinear() {
         backbone.initial()
     } else {
@@ -42,7 +42,7 @@ pub(super) struct Answer {
     pub(super) offsets: [f64; 2],
 }
 
-/// How far a slider is stretched at most on the way to a side, with the sign of the side, and whether it slides there.
+/// Largest deformation of a slider towards a side, with the sign of the side, and whether it slips there.
 #[inline]
 fn limit_of(slider: &Slider, stretch: f64, side: Side) -> (f64, bool) {
     let limit = side.sign() * slider.reach[side.index()];
@@ -108,7 +108,7 @@ pub(super) fn next_corner(backbone: &Backbone, memory: &HysteresisMemory, toward
         .zip(memory.offsets)
         .filter(|(slider, _)| slider.stiffness > 0.0)
         .map(|(slider, offset)| offset + sign * slider.reach[towards.index()])
-        // What slides already has its corner here, within rounding.
+        // A slider that slips already is at its corner, within rounding.
         .filter(|corner| {
             let here = memory.deformation;
             sign * (corner - here) > 4.0 * f64::EPSILON * (here.abs() + corner.abs())

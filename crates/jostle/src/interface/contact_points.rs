@@ -1,14 +1,14 @@
-//! Which points of two neighbours face each other: floors, and columns between floors.
+//! Pairs of points of two neighbours that can touch: floors, and columns between floors.
 
 use crate::model::{Building, FloorPairs, LEVEL_TOLERANCE, Level, Model, Structure};
 
 /// Heights of the left and of the right point above the base; `None` on a wall \[m\].
 pub(crate) type PointPair = [Option<f64>; 2];
 
-/// A point of a column nearer than this to a floor, or to another point, cannot be hit separately \[m\].
+/// Smallest distance between a point of a column and a floor or another point \[m\].
 const NEAREST: f64 = 0.02;
 
-/// What is wrong with a list of points: the entry, and the problem.
+/// An error in a list of points: the entry, and the problem.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Misfit {
     pub(crate) entry: Option<usize>,
@@ -62,7 +62,7 @@ impl Side<'_> {
         matches!(self.building.structure, Structure::Frame(_))
     }
 
-    /// The point that can be hit at a height: a floor within the tolerance, or the column.
+    /// The contact point at a height: a floor within the tolerance, or the column.
     fn point(&self, height: f64, tolerance: f64) -> Result<f64, String> {
         if let Some(floor) = self.floor_near(height, tolerance) {
             return Ok(floor);
@@ -120,10 +120,10 @@ impl Side<'_> {
     }
 }
 
-/// The pairs of points that `floors` stands for: listed ones in their order, others from the lowest up.
+/// The pairs of points given by `floors`: listed ones in their order, others from the lowest up.
 ///
 /// # Errors
-/// Everything that does not fit the buildings; `None` is a wall.
+/// All points that do not exist on the buildings; `None` is a wall.
 pub(crate) fn point_pairs(
     floors: &FloorPairs,
     between: [Option<&Building>; 2],
@@ -157,7 +157,7 @@ fn common(
         .iter()
         .filter_map(|&height| {
             let other = right.floor_near(height, tolerance)?;
-            // Each is the nearest of the other, so that no floor meets two.
+            // Each is the nearest of the other, so no floor has two partners.
             (left.floor_near(other, tolerance) == Some(height))
                 .then_some([Some(height), Some(other)])
         })
@@ -173,7 +173,7 @@ fn common(
     Ok(pairs)
 }
 
-/// How to bring neighbours without equal floors into contact.
+/// Remedy for neighbours without equal floors.
 fn remedy(left: &Side<'_>, right: &Side<'_>) -> String {
     let slabs = "raise level_tolerance if slabs overlap";
     let name = |side: &Side<'_>| format!("\"{}\"", side.building.name);
@@ -207,7 +207,7 @@ fn remedy(left: &Side<'_>, right: &Side<'_>) -> String {
     }
 }
 
-/// The lowest floor of one side that can hit a column of the other, as it is listed.
+/// The lowest floor of one side that can touch a column of the other, in the syntax of a list.
 fn example(sides: [&Side<'_>; 2], side: usize) -> Option<String> {
     let other = sides[1 - side];
     let can_hit = |height: f64| {
@@ -222,7 +222,7 @@ fn example(sides: [&Side<'_>; 2], side: usize) -> Option<String> {
     ))
 }
 
-/// How a model file lists a floor of the left (0) or right (1) building that hits a column of the other.
+/// Entry of a model file for a floor of the left (0) or right (1) building against a column of the other.
 ///
 /// ```
 /// assert_eq!(jostle::floor_and_height(0, 1, 3.3), r#"[[1, "3.300 m"], …]"#);
@@ -382,8 +382,8 @@ fn at_heights(
     }
 }
 
-/// Floors of two neighbours that stand within the height of the other and meet nothing, because `floors = "common"`
-/// pairs floors at equal height only.
+/// Floors of two neighbours within the height of the other that have no contact, because `floors = "common"` pairs
+/// only floors at equal height.
 ///
 /// ```
 /// use jostle::Structure;
@@ -401,9 +401,9 @@ fn at_heights(
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnmatchedFloors {
-    /// The first gap of these neighbours with common floors, by its place in [`Model::gaps`].
+    /// The first gap of these neighbours with common floors, by its index in [`Model::gaps`].
     pub gap: usize,
-    /// Left and right building, by their places in [`Model::buildings`].
+    /// Left and right building, by their indices in [`Model::buildings`].
     pub between: [usize; 2],
     /// Floors of the left and of the right building without contact, counted from 1.
     pub floors: [Vec<usize>; 2],
@@ -412,8 +412,8 @@ pub struct UnmatchedFloors {
 }
 
 impl Model {
-    /// Floors that could hit the neighbour and are left out by `floors = "common"`, pair by pair; a floor that any
-    /// gap of the pair brings into contact is not among them. Of a model that passes [`Model::check`].
+    /// Floors beside the neighbour that `floors = "common"` omits, pair by pair, except floors with a contact in
+    /// any gap of the pair. The model must pass [`Model::check`].
     #[must_use]
     pub fn unmatched_floors(&self) -> Vec<UnmatchedFloors> {
         let mut found: Vec<UnmatchedFloors> = Vec::new();
@@ -466,7 +466,7 @@ impl Model {
     }
 }
 
-/// Points of one face must coincide or leave room for a piece of column between them.
+/// Points of one side must coincide or have a minimum distance.
 fn check_room(pairs: &[PointPair]) -> Result<(), Vec<Misfit>> {
     for side in 0..2 {
         for (entry, pair) in pairs.iter().enumerate() {
@@ -479,7 +479,7 @@ fn check_room(pairs: &[PointPair]) -> Result<(), Vec<Misfit>> {
     Ok(())
 }
 
-/// What is wrong with a point that is too near to others of its face, which it does not coincide with.
+/// The error of a point too close to another point of its side without coinciding with it.
 pub(crate) fn crowded(height: f64, others: impl Iterator<Item = f64>) -> Option<String> {
     let apart = others.map(|other| (other - height).abs());
     let apart = apart.filter(|apart| *apart > SAME && *apart < NEAREST);
@@ -490,7 +490,7 @@ pub(crate) fn crowded(height: f64, others: impl Iterator<Item = f64>) -> Option<
     ))
 }
 
-/// Points closer than this are one \[m\].
+/// Points closer than this coincide \[m\].
 pub(crate) const SAME: f64 = 1e-6;
 
 /// Whether two heights differ by no more than a tolerance, up to the rounding of sums of storey heights \[m\].

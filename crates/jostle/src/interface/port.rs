@@ -1,8 +1,8 @@
-//! The two points that a contact or a link has: one on either side, on a building or on a rigid wall.
+//! The two points of a contact or a link: one on either side, on a building or on a rigid wall.
 
 use crate::contact::effective_mass;
 
-/// A point of a building that can be pushed sideways.
+/// A point of a building with a horizontal degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Port {
     /// Index of the building.
@@ -31,7 +31,7 @@ impl PortPair {
         left.map_or(0.0, |port| values[port.dof]) - right.map_or(0.0, |port| values[port.dof])
     }
 
-    /// Adds a force that pushes left and right apart to a load on all degrees of freedom \[N\].
+    /// Adds a force that separates the two sides to a load on all degrees of freedom \[N\].
     #[inline]
     pub fn push_apart(&self, force: f64, load: &mut [f64]) {
         for (port, sign) in self.sides() {
@@ -39,7 +39,7 @@ impl PortPair {
         }
     }
 
-    /// The points on buildings, with the direction in which the other side pushes them: −1 left, 1 right.
+    /// The points on buildings, with the direction of the contact force on them: −1 left, 1 right.
     #[inline]
     pub fn sides(&self) -> impl Iterator<Item = (Port, f64)> + use<> {
         let [left, right] = self.0;
@@ -54,7 +54,7 @@ impl PortPair {
         self.0.map(|port| port.map_or(f64::INFINITY, |f| f.mass))
     }
 
-    /// m₁m₂/(m₁ + m₂); before a wall that of the building \[kg\].
+    /// m₁m₂/(m₁ + m₂); beside a wall that of the building \[kg\].
     #[must_use]
     pub fn effective_mass(&self) -> f64 {
         let [left, right] = self.masses();

@@ -1,6 +1,6 @@
-//! Entries put in order by small whole numbers: by counting, in time that grows with their number alone.
+//! Counting sort by small integers, in linear time.
 
-/// The entries in rising order of a key below `keys`; equal ones stay as they were.
+/// The entries in ascending order of a key below `keys`; stable.
 pub(crate) fn in_order<T: Copy>(entries: &[T], keys: usize, key: impl Fn(&T) -> usize) -> Vec<T> {
     let mut next = vec![0; keys + 1];
     for entry in entries {

@@ -1,25 +1,25 @@
-//! Entries of a matrix that lie next to each other along its diagonal: members beside each other make many of them.
-//! Loops over them take a register at a time, always in the same order: the bits do not depend on the processor.
+//! Runs of entries along diagonals of a matrix; adjacent members cause many of them. Loops process one register at
+//! a time, always in the same order, so the bits do not depend on the processor.
 
-/// The entries (`row`, `column`), (`row` + 1, `column` + 1) and so on, a register of them. Those that a matrix does not
-/// have are zero.
+/// The entries (`row`, `column`), (`row` + 1, `column` + 1) and so on, a register of them. Missing entries are
+/// zero.
 #[derive(Clone, Copy, Debug)]
 struct Chunk {
     column: u32,
     row: u32,
 }
 
-/// Entries below the diagonal, run by run, cut into chunks.
+/// Entries below the diagonal, run by run, divided into chunks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DiagonalRuns {
     chunks: Vec<Chunk>,
-    /// Where the values of the chunks are kept; [`NOWHERE`] fills them up.
+    /// Positions of the values of the chunks; [`NOWHERE`] pads them.
     places: Vec<u32>,
     /// Entries (row, column, where the value is kept) too close to the ends of a vector for a chunk.
     loose: Vec<(u32, u32, u32)>,
 }
 
-/// Values taken at once.
+/// Values processed at once.
 const LANES: usize = 8;
 const NOWHERE: u32 = u32::MAX;
 
@@ -37,7 +37,7 @@ impl DiagonalRuns {
             let own = rest.iter().enumerate().take(LANES).take_while(next).count();
             let (own, after) = rest.split_at(own);
             rest = after;
-            // At the end of a vector a chunk begins earlier, with nothing.
+            // At the end of a vector a chunk begins earlier, padded with zeros.
             let early = (row as usize + LANES).saturating_sub(order) as u32;
             if early > column {
                 runs.loose.push((row, column, place));
@@ -66,7 +66,7 @@ impl DiagonalRuns {
         packed.extend(self.loose.iter().map(|&(_, _, place)| value(place)));
     }
 
-    /// Adds values · x, and what their mirror images across the diagonal make of it, to a product.
+    /// Adds A x to a product for the stored triangle and its transpose.
     #[inline(always)]
     pub(crate) fn multiply_add(&self, packed: &[f64], x: &[f64], product: &mut [f64]) {
         let (values, loose) = packed.split_at(self.places.len());
@@ -109,7 +109,7 @@ fn at(first: u32, x: &[f64]) -> [f64; LANES] {
     values
 }
 
-/// Adds values · x to a product from one place on.
+/// Adds values · x to a product from an index on.
 #[inline(always)]
 fn add(to: u32, values: &[f64; LANES], x: &[f64; LANES], product: &mut [f64]) {
     let mut sum = at(to, product);
@@ -143,8 +143,8 @@ mod tests {
         }
     }
 
-    /// Runs of every length, far from the diagonal and next to it, inside a vector and up to its end: what a loop over
-    /// single entries gives, and the same bits in wide registers.
+    /// Runs of every length, far from the diagonal and next to it, inside a vector and up to its end, against a
+    /// loop over single entries, and with the same bits in wide registers.
     #[test]
     fn stretches_do_what_single_entries_do() {
         for apart in [1, 2, 5, 9, 30] {

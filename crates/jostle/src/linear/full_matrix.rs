@@ -138,7 +138,7 @@ mod tests {
         assert_eq!([product[(0, 0)], product[(1, 0)]], [17.0, 39.0]);
     }
 
-    /// A zero on the diagonal, entries of very different size, and the residual of the answer.
+    /// A zero on the diagonal, entries of very different size, and the residual of the solution.
     #[test]
     fn rows_are_swapped_where_pivots_are_small() {
         for n in [1, 2, 3, 9, 30] {

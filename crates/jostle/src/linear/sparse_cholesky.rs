@@ -1,6 +1,6 @@
 //! A general sparse symmetric elimination: minimum degree ordering, then LDLᵀ row by row along the elimination tree.
 //!
-//! It knows nothing of buildings or transfer paths, so that it can check the Riccati recursion.
+//! It does not use buildings or transfer paths, so it can check the Riccati recursion.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ const ROOT: usize = usize::MAX;
 /// Order of elimination and pattern of a symmetric matrix.
 #[derive(Clone, Debug)]
 pub(crate) struct Pattern {
-    /// When each row is eliminated.
+    /// Position of each row in the elimination order.
     place: Vec<usize>,
     /// Upper triangle of the reordered matrix: rows of every column, and where each given entry is added.
     starts: Vec<usize>,
@@ -166,8 +166,9 @@ impl Pattern {
     }
 }
 
-/// Eliminates at each step the row with the fewest neighbours left, which become neighbours of each other
-/// (W. F. Tinney, J. W. Walker, 1967, Proc. IEEE 55, 1801–1809). Returns when each row is eliminated.
+/// Eliminates at each step the row with the fewest neighbours left, which become neighbours of each other (W. F.
+/// Tinney, J. W. Walker, 1967, Proc. IEEE 55, 1801–1809). Returns the position of each row in the elimination
+/// order.
 fn minimum_degree(order: usize, entries: &[(usize, usize)]) -> Vec<usize> {
     let mut neighbours = vec![BTreeSet::new(); order];
     for &(row, column) in entries.iter().filter(|(row, column)| row != column) {
@@ -255,7 +256,7 @@ mod tests {
         }
     }
 
-    /// A chain and a star fill nothing in.
+    /// A chain and a star cause no fill-in.
     #[test]
     fn trees_are_eliminated_without_fill() {
         let chain: Vec<(usize, usize)> = (1..50).map(|k| (k, k - 1)).collect();

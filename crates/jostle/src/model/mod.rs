@@ -1,4 +1,4 @@
-//! What the user describes: buildings from left to right, the gaps and links between them, and how to compute.
+//! Input of an analysis: buildings from left to right, gaps and links between them, and settings.
 //!
 //! Everything here is plain data in SI units. [`Model::check`] reports every fault at once, each with the
 //! path of the field it concerns, so that a reader can point at the line of the file.
@@ -10,7 +10,7 @@ use crate::hysteresis::Hysteresis;
 
 pub use integrator::Integrator;
 
-/// Buildings in a row, what stands between neighbours, and the settings of the analysis.
+/// Buildings in a row, gaps and links between them, and the settings of the analysis.
 ///
 /// [`Model::check`] finds all faults at once:
 ///
@@ -61,11 +61,11 @@ pub struct Building {
     pub structure: Structure,
     /// Viscous damping.
     pub damping: Damping,
-    /// What the columns stand on.
+    /// Base springs and dashpots.
     pub base: Base,
-    /// What its weight does.
+    /// Effects of self weight.
     pub gravity: Gravity,
-    /// Where and how it cracks and yields; `None` stays elastic.
+    /// Springs that crack and yield; `None` is elastic.
     pub hinges: Option<Hinges>,
 }
 
@@ -82,7 +82,7 @@ impl Building {
 /// Springs and dashpots under every column of a frame, or under a shear building as a whole. All rigid is the
 /// default: the building is fixed to the ground.
 ///
-/// The dashpots are all the damping there is here: Rayleigh damping of the building does not act on a base.
+/// These dashpots are the only damping of a base: Rayleigh damping of the building does not act on it.
 ///
 /// ```
 /// use jostle::{Base, Gravity};
@@ -107,16 +107,16 @@ pub struct Base {
     pub horizontal_damping: f64,
     /// Force per vertical velocity, ≥ 0; needs a vertical stiffness \[N·s/m\].
     pub vertical_damping: f64,
-    /// Mass of the footing, ≥ 0; moves only where the base gives way \[kg\].
+    /// Mass of the footing, ≥ 0; moves only in directions with a spring \[kg\].
     pub mass: f64,
-    /// How the rotational spring yields; its initial stiffness is `rotational_stiffness`.
+    /// Hysteresis of the rotational spring; its initial stiffness is `rotational_stiffness`.
     pub rotational_hinge: Option<Hysteresis>,
-    /// How the horizontal spring yields; its initial stiffness is `horizontal_stiffness`.
+    /// Hysteresis of the horizontal spring; its initial stiffness is `horizontal_stiffness`.
     pub horizontal_hinge: Option<Hysteresis>,
 }
 
 impl Base {
-    /// Whether nothing gives way.
+    /// Whether the base is rigid.
     #[must_use]
     pub fn is_fixed(&self) -> bool {
         self.rotational_stiffness.is_none()
@@ -125,16 +125,54 @@ impl Base {
     }
 }
 
-/// What the weight of a building does, besides standing there.
+/// Effects of the weight of a building.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Gravity {
     /// The run starts from the displacements under self weight.
     pub preload: bool,
-    /// The weight above leans on the sway of every column: P-Delta in chord form.
+    /// P-Delta from the weight above, in chord form.
     pub p_delta: bool,
 }
 
-/// Where and how a building cracks and yields.
+/// Springs of a building that crack and yield.
+///
+/// ```
+/// use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+/// use jostle::{
+///     Analysis, Base, Building, Damping, Gravity, Hinges, Model, Shear, Structure, System,
+/// };
+///
+/// // Storeys of 60 MN/m that yield at 20 mm and keep 5 % of their stiffness.
+/// let corners = || Corners::bilinear(0.02, 0.05);
+/// let backbone = Backbone::from_deformations(60e6, corners(), corners())
+///     .map_err(|faults| faults[0].problem.clone())?;
+/// assert!((backbone.force_at(0.03) / 1.23e6 - 1.0).abs() < 1e-12); // 1.2 MN + 5 % of 0.6 MN
+/// let storey = Hysteresis::new(HysteresisRule::Bilinear, backbone)
+///     .map_err(|faults| faults[0].problem.clone())?;
+///
+/// let building = Building {
+///     name: "tower".to_owned(),
+///     structure: Structure::Shear(Shear {
+///         mass: vec![40e3; 2],
+///         stiffness: vec![60e6; 2],
+///         storey_heights: vec![3.0; 2],
+///     }),
+///     damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+///     base: Base::default(),
+///     gravity: Gravity::default(),
+///     hinges: Some(Hinges::Storeys(vec![storey; 2])),
+/// };
+/// let model = Model {
+///     title: "Yielding tower".to_owned(),
+///     buildings: vec![building],
+///     gaps: Vec::new(),
+///     links: Vec::new(),
+///     analysis: Analysis::default(),
+/// };
+/// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;
+/// assert_eq!(system.buildings[0].spring_range().len(), 2);
+/// # Ok::<(), String>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Hinges {
     /// Rotational hinges at the ends of the members of a frame.
@@ -146,18 +184,18 @@ pub enum Hinges {
 
 /// Rotational hinges at both ends of the members of a frame, in rotation \[rad\] and moment \[N·m\].
 ///
-/// The positive side of a beam runs its bottom, that of a column its right face, at either end. Both ends of
-/// a member have the same hinge; what is positive there as a rotation of the node has to be sorted out where the
-/// hinge is put into the frame ([`Hysteresis::mirrored`]).
+/// The positive side means tension at the bottom of a beam and on the right side of a column, at either end. Both
+/// ends of a member have the same hinge; its sign as a rotation of the node is set when the hinge is added to the
+/// frame ([`Hysteresis::mirrored`]).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameHinges {
-    /// Hinges of the columns by storey and column line; empty when columns stay elastic.
+    /// Hinges of the columns by storey and column line; empty if columns are elastic.
     pub columns: Vec<Vec<Hysteresis>>,
-    /// Hinges of the beams by floor and bay; empty when beams stay elastic.
+    /// Hinges of the beams by floor and bay; empty if beams are elastic.
     pub beams: Vec<Vec<Hysteresis>>,
 }
 
-/// How a building resists lateral motion.
+/// Structural type of a building.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Structure {
     /// Plane frame of lumped masses, massless beams and hinges.
@@ -204,13 +242,13 @@ pub struct Frame {
     pub beams: Vec<Section>,
     /// Mass carried by the beams of every floor, self weight included, ≥ 0 \[kg/m\].
     pub beam_mass: Vec<f64>,
-    /// Further mass of every floor, shared equally by its joints, ≥ 0 \[kg\].
+    /// Additional mass of every floor, shared equally by its joints, ≥ 0 \[kg\].
     pub floor_mass: Vec<f64>,
     /// Segments of a column line in one storey, ≥ 1 \[–\]; k segments have k − 1 interior masses.
     pub column_segments: usize,
     /// Segments of the beams of every bay, ≥ 1 \[–\].
     pub beam_segments: Vec<usize>,
-    /// Whether members shorten under axial force.
+    /// Axial flexibility of members.
     pub axial: Axial,
     /// Elastic hinge between beam ends and columns.
     pub joint: Joint,
@@ -232,9 +270,9 @@ pub struct Section {
 /// Axial behaviour of the members of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Axial {
-    /// Columns shorten (`true`) or keep their length (`false`, the default, as in Zhang et al. 2019).
+    /// Columns are axially flexible (`true`) or rigid (`false`, the default, as in Zhang et al. 2019).
     pub columns_flexible: bool,
-    /// Beams shorten (`true`) or carry the whole floor along (`false`, the default).
+    /// Beams are axially flexible (`true`) or rigid, so that a floor moves as one body (`false`, the default).
     pub beams_flexible: bool,
 }
 
@@ -260,8 +298,7 @@ pub struct Shear {
     pub storey_heights: Vec<f64>,
 }
 
-/// The lateral modes that [`Damping::Ratio`] takes where none are named: the first and the third, the first two of
-/// two, or the only one.
+/// The default lateral modes of [`Damping::Ratio`]: the first and the third, the first two of two, or the only one.
 #[must_use]
 pub fn usual_damping_modes(lateral_modes: usize) -> &'static [usize] {
     match lateral_modes {
@@ -271,7 +308,7 @@ pub fn usual_damping_modes(lateral_modes: usize) -> &'static [usize] {
     }
 }
 
-/// Rayleigh damping C = α M + β K, or what defines it.
+/// Rayleigh damping C = α M + β K, or its definition.
 ///
 /// ```
 /// use jostle::Damping;
@@ -286,7 +323,7 @@ pub enum Damping {
     Ratio {
         /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
         ratio: f64,
-        /// Lateral modes that have it; none stands for [`usual_damping_modes`].
+        /// Lateral modes with this ratio; empty means [`usual_damping_modes`].
         modes: Vec<usize>,
     },
     /// The coefficients themselves.
@@ -296,15 +333,15 @@ pub enum Damping {
         /// Stiffness-proportional coefficient, ≥ 0 \[s\].
         beta: f64,
     },
-    /// The same ratio in every mode; needs [`Solver::Modal`], since no other knows all modes.
+    /// The same ratio in every mode; needs [`Solver::Modal`], since no other solver uses all modes.
     AllModes {
         /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
         ratio: f64,
     },
 }
 
-/// The space between two neighbours, or between the building at an end of the row and a rigid wall there. A pair may
-/// have several gaps, such as bumpers at some floors and bare concrete at others.
+/// The gap between two neighbours, or between the building at an end of the row and a rigid wall. A pair may have
+/// several gaps, such as bumpers at some floors and bare concrete at others.
 ///
 /// ```
 /// use jostle::{ContactLaw, FloorPairs, Gap, LawKind, RestitutionIs};
@@ -327,27 +364,27 @@ pub struct Gap {
     /// Indices of the left and of the right building, the one after it; `None` is a rigid wall that moves with the
     /// ground, left of the first or right of the last building.
     pub between: [Option<usize>; 2],
-    /// Widths at rest, ≥ 0: one for all contacts, or one each in the order of `floors`, from the lowest up where
-    /// those are not listed \[m\].
+    /// Widths at rest, ≥ 0: one for all contacts, or one each in the order of `floors`, from the lowest up if those
+    /// are not listed \[m\].
     pub widths: Vec<f64>,
-    /// Where the buildings can touch.
+    /// Contact locations.
     pub floors: FloorPairs,
-    /// Floors no further apart in height than this meet each other, > 0 \[m\].
+    /// Floors whose heights differ by no more than this can touch, > 0 \[m\].
     pub level_tolerance: f64,
     /// Contact law of every contact of this gap.
     pub law: ContactLaw,
-    /// Impacts of one contact that follow each other sooner count as one, ≥ 0 \[s\].
+    /// Impacts of one contact closer in time than this count as one, ≥ 0 \[s\].
     pub minimum_separation: f64,
 }
 
 impl Gap {
-    /// A gap of one width \[m\] between building `left` and the next, wherever floors are at equal height.
+    /// A gap of one width \[m\] between building `left` and the next, with contacts at floors of equal height.
     #[must_use]
     pub fn after(left: usize, width: f64, law: ContactLaw) -> Self {
         Self::between([Some(left), Some(left + 1)], width, law)
     }
 
-    /// A gap of one width \[m\] between two neighbours, or a building and a wall, wherever floors meet.
+    /// A gap of one width \[m\] between two neighbours, or a building and a wall, with contacts at common floors.
     #[must_use]
     pub fn between(between: [Option<usize>; 2], width: f64, law: ContactLaw) -> Self {
         Self {
@@ -366,14 +403,14 @@ impl Gap {
         self.widths.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// Width of the contact at this place of the list \[m\].
+    /// Width of the contact at this index of the list \[m\].
     #[must_use]
     pub fn width_of(&self, contact: usize) -> f64 {
         let only = self.widths.first().copied().unwrap_or(0.0);
         self.widths.get(contact).copied().unwrap_or(only)
     }
 
-    /// Changes the least width \[m\]; wider contacts, such as those of a set-back, stay as much wider.
+    /// Sets the smallest width \[m\]; all others shift by the same amount.
     pub fn set_width(&mut self, width: f64) {
         let least = self.width();
         for own in &mut self.widths {
@@ -382,9 +419,9 @@ impl Gap {
     }
 }
 
-/// Linear springs and dashpots that join floors of two neighbours, or of a building and a rigid wall, and act in both
-/// directions. They are free of force while the buildings are at rest. Rayleigh damping of the buildings does not act
-/// on them.
+/// Linear springs and dashpots that join floors of two neighbours, or of a building and a rigid wall, and act in
+/// both directions. They have no force while the buildings are at rest. Rayleigh damping of the buildings does not
+/// act on them.
 ///
 /// ```
 /// use jostle::{FloorPairs, Link};
@@ -402,9 +439,9 @@ impl Gap {
 pub struct Link {
     /// Left and right building, or a wall, as in [`Gap::between`].
     pub between: [Option<usize>; 2],
-    /// Which points are joined.
+    /// Points that are joined.
     pub floors: FloorPairs,
-    /// Floors no further apart in height than this can be joined, > 0 \[m\].
+    /// Floors whose heights differ by no more than this can be joined, > 0 \[m\].
     pub level_tolerance: f64,
     /// Force per relative displacement of every link, ≥ 0 \[N/m\].
     pub stiffness: f64,
@@ -412,10 +449,10 @@ pub struct Link {
     pub damping: f64,
 }
 
-/// Floors closer in height than this meet, unless a gap or a link says otherwise \[m\].
+/// Default tolerance for equal floor heights \[m\].
 pub const LEVEL_TOLERANCE: f64 = 1e-3;
 
-/// Which points of two neighbours can touch, or are joined.
+/// Points of two neighbours that can touch, or are joined.
 ///
 /// ```
 /// use jostle::{FloorPairs, Level};
@@ -428,7 +465,7 @@ pub const LEVEL_TOLERANCE: f64 = 1e-3;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum FloorPairs {
-    /// Every pair of floors at equal height; all floors before a wall.
+    /// Every pair of floors at equal height; all floors beside a wall.
     Common,
     /// Every floor of either building: against the floor of the other at that height, or against its column.
     All,
@@ -438,7 +475,7 @@ pub enum FloorPairs {
     Heights(Vec<f64>),
 }
 
-/// A point of a face.
+/// A point on a side of a building.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Level {
     /// A floor, counted from 1.
@@ -462,7 +499,7 @@ impl FloorPairs {
     }
 }
 
-/// How to compute.
+/// Settings of the analysis.
 ///
 /// ```
 /// use jostle::{Analysis, Integrator, Solver};
@@ -477,26 +514,26 @@ impl FloorPairs {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// Step in free vibration; `None` chooses it from `tolerance` \[s\].
+    /// Free-vibration step; `None` chooses it from `tolerance` \[s\].
     pub step: Option<f64>,
     /// Step while a contact is closed; `None` chooses it from `tolerance` \[s\].
     pub contact_step: Option<f64>,
     /// Relative tolerance with automatic steps on the greatest contact force of a gap and on peak displacements,
-    /// 1e-6…0.1; weak grazes beside strong impacts may miss it \[–\].
+    /// 1e-6…0.1; light grazing impacts beside strong impacts may exceed it \[–\].
     pub tolerance: f64,
     /// Relative energy imbalance above which a run warns, > 0 \[–\].
     pub energy_tolerance: f64,
-    /// Which equations advance a step; `None` takes [`Solver::Modal`] where it may, with automatic steps, and otherwise
+    /// Solver of the step equations; `None` picks [`Solver::Modal`] if possible with automatic steps, otherwise
     /// [`Solver::Riccati`].
     pub solver: Option<Solver>,
-    /// How a step is integrated.
+    /// Time integration rule.
     pub integrator: Integrator,
-    /// Most work that a run may be expected to need, as [`Plan::expected_work`](crate::Plan::expected_work) counts it;
-    /// infinity for no bound \[–\].
+    /// Largest expected work of a run, as [`Plan::expected_work`](crate::Plan::expected_work) counts it; infinity
+    /// for no bound \[–\].
     pub most_work: f64,
 }
 
-/// Bound on the work of a run unless more is asked for: some hours of computing \[–\].
+/// Default bound on the work of a run: some hours of computing \[–\].
 pub const MOST_WORK: f64 = 5e11;
 
 impl Default for Analysis {
@@ -513,15 +550,15 @@ impl Default for Analysis {
     }
 }
 
-/// Which equations advance a step; all give the same answer as far as their rounding allows.
+/// Solver of the step equations; all give the same result within rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
     /// Riccati transfer recursion along beams, column lines and storeys.
     Riccati,
     /// Direct stiffness, assembled and factorised by a general sparse elimination: the independent check.
     Stiffness,
-    /// Total transfer equation: products of transfer matrices, as published for pounding frames. Loses digits
-    /// at small steps and in tall buildings; ask [`crate::transfer::ProductEquations::check_step`] first.
+    /// Total transfer equation: products of transfer matrices, as published for pounding frames. Loses digits at
+    /// small steps and in tall buildings; call [`crate::transfer::ProductEquations::check_step`] first.
     Product,
     /// Elastic buildings by their modes, exact between the points of a record ([`crate::stepping::modal`]).
     Modal,

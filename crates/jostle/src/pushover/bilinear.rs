@@ -17,13 +17,13 @@ pub struct Bilinear {
     pub ultimate_force: f64,
 }
 
-/// Strengths looked at before the exact one is bisected.
+/// Number of strengths evaluated before bisection.
 const TRIALS: u32 = 1000;
-/// Share of the yield strength through which the first line goes \[–\].
+/// Fraction of the yield strength on the first line \[–\].
 const SECANT_AT: f64 = 0.6;
 
 impl Bilinear {
-    /// Of a curve that rises from zero; `None` where it is straight.
+    /// For a curve that rises from zero; `None` if it is linear.
     #[must_use]
     pub fn of(points: &[PushPoint]) -> Option<Self> {
         let mut peak = 0;
@@ -37,7 +37,7 @@ impl Bilinear {
         if force <= 0.0 {
             return None;
         }
-        // A flat top counts as far as it goes.
+        // A plateau counts up to its end.
         let flat = points[peak..]
             .iter()
             .take_while(|point| (point.base_shear - force).abs() <= 1e-9 * force);
@@ -59,7 +59,8 @@ impl Bilinear {
             let reached = corner(strength);
             0.5 * reached * strength + 0.5 * (end - reached) * (strength + force) - energy
         };
-        // The least strength at which both areas agree: beyond, the secant would leave the steep part of the curve.
+        // The least strength at which both areas agree; above it the secant would leave the steep part of the
+        // curve.
         let trials = (1..=TRIALS).map(|trial| force * f64::from(trial) / f64::from(TRIALS));
         let mut high = trials
             .into_iter()
@@ -103,7 +104,7 @@ impl Bilinear {
     }
 }
 
-/// Where a curve first reaches a force.
+/// Point at which a curve first reaches a force.
 fn first_at(curve: &[[f64; 2]], force: f64) -> f64 {
     for pair in curve.windows(2) {
         let [[d0, f0], [d1, f1]] = [pair[0], pair[1]];

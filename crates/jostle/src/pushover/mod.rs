@@ -1,4 +1,4 @@
-//! Pushing a building sideways until it has gone far enough or can no more.
+//! Pushover of a building to a target drift or loss of strength.
 
 mod bilinear;
 mod pattern;
@@ -10,7 +10,7 @@ use crate::hysteresis::{HysteresisMemory, Side, Stage};
 use crate::statics::{EquilibriumPath, PathError, STANDARD_GRAVITY};
 use crate::system::BuildingSystem;
 
-/// Which way to push.
+/// Direction of the load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum PushDirection {
     /// In positive direction.
@@ -40,12 +40,12 @@ impl PushDirection {
     }
 }
 
-/// How to push.
+/// Settings of a pushover.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PushSettings {
     /// Shape of the load.
     pub pattern: LoadPattern,
-    /// Which way.
+    /// Direction.
     pub direction: PushDirection,
     /// Roof displacement over the height of the roof at which to stop, > 0 \[–\].
     pub drift: f64,
@@ -61,7 +61,7 @@ impl Default for PushSettings {
     }
 }
 
-/// What happened to a spring at a point of the curve.
+/// Event of a spring at a point of the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PushEvent {
     /// Index in [`crate::structure::Equations::springs`].
@@ -77,7 +77,7 @@ pub enum PushEventKind {
     Cracks,
     /// It yields for the first time.
     Yields,
-    /// Another corner, met while loading again.
+    /// Another corner, passed when reloading.
     Turns,
 }
 
@@ -93,9 +93,10 @@ impl PushEventKind {
     }
 }
 
-/// A corner of the capacity curve; between corners it is straight.
+/// A corner of the capacity curve; between corners it is linear.
 ///
-/// Displacements count from rest under gravity. They and the base shear are positive in the direction of the push.
+/// Displacements are relative to the state under gravity. They and the base shear are positive in the direction of
+/// the load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PushPoint {
     /// Roof displacement \[m\].
@@ -106,7 +107,7 @@ pub struct PushPoint {
     pub floors: Vec<f64>,
     /// Drift of every storey from the ground up \[–\].
     pub storey_drifts: Vec<f64>,
-    /// What happened here; at the first point, what gravity had already done.
+    /// Events here; at the first point, those due to gravity.
     pub events: Vec<PushEvent>,
     /// Displacement of every degree of freedom, gravity included, positive to the right and upwards \[m, rad\].
     pub displacement: Vec<f64>,
@@ -115,12 +116,12 @@ pub struct PushPoint {
 /// Why a pushover ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PushEnd {
-    /// The wanted drift was reached.
+    /// The target drift was reached.
     Target,
-    /// P-Delta has used up all resistance: the building stands no further without a push.
+    /// P-Delta exceeds the resistance: the building is unstable without lateral load.
     NoResistance,
-    /// The stiffness ahead is not positive even with the roof held: a mechanism that the roof does not control. The
-    /// storey drifts most.
+    /// The stiffness ahead is not positive even with the roof restrained: a mechanism that the roof does not
+    /// control. The storey with the largest drift.
     Mechanism {
         /// Storey from 1.
         storey: usize,
@@ -148,7 +149,7 @@ impl std::fmt::Display for PushEnd {
 /// Capacity curve of one building.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pushover {
-    /// How it was pushed.
+    /// Settings of the pushover.
     pub settings: PushSettings,
     /// Height of the roof above the base \[m\].
     pub height: f64,
@@ -164,7 +165,7 @@ pub struct Pushover {
 
 impl Pushover {
     /// First point at which a spring cracks or yields; a spring without cracking point cracks when it yields. The
-    /// point of rest when gravity alone does it.
+    /// initial point if gravity alone causes it.
     #[must_use]
     pub fn first(&self, stage: Stage) -> Option<&PushPoint> {
         self.points.iter().find(|point| {
@@ -239,7 +240,7 @@ pub struct PushedBuilding<'a> {
 }
 
 impl PushedBuilding<'_> {
-    /// Where a spring sits, in words.
+    /// Position of a spring as text.
     #[must_use]
     pub fn place(&self, spring: usize) -> String {
         let places = &self.building.discretization.spring_places;
@@ -248,12 +249,13 @@ impl PushedBuilding<'_> {
     }
 }
 
-/// Why a building cannot be pushed at all.
+/// Reason why a pushover is not possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the building has no floor with mass to push, or moves without resistance")]
 pub struct NothingToPush;
 
-/// Pushes a building from rest, under its weight where it carries it, by its roof (theory, Eqs. X1 to X4).
+/// Runs a pushover of a building from rest, under self weight if included, with prescribed roof displacement
+/// (theory, Eqs. X1 to X4).
 ///
 /// # Errors
 /// [`NothingToPush`].
@@ -286,7 +288,7 @@ pub fn pushover(
     })
 }
 
-/// A push under way.
+/// State of a pushover.
 struct Push<'a> {
     building: &'a BuildingSystem,
     sign: f64,
@@ -334,7 +336,7 @@ impl Push<'_> {
                 roof = target;
             }
             let events = self.events_of(&reached.corners, true);
-            // What happens within rounding happens together.
+            // Events within rounding count as simultaneous.
             match self.points.last_mut() {
                 Some(last) if !ends && reached.length <= 1e-12 * target => {
                     last.events.extend(events);
@@ -351,7 +353,7 @@ impl Push<'_> {
         }
     }
 
-    /// What the corners of springs mean.
+    /// Meaning of the corners of springs.
     fn events_of(&mut self, corners: &[usize], turns: bool) -> Vec<PushEvent> {
         let mut events = Vec::new();
         for &spring in corners {
@@ -442,7 +444,7 @@ fn mass_above_base(building: &BuildingSystem) -> f64 {
         .sum()
 }
 
-/// Shares of the floors, from the ground up.
+/// Load shares of the floors, from the ground up.
 fn floor_loads(building: &BuildingSystem, forces: &[f64]) -> Vec<f64> {
     let nodes = &building.discretization.stick_model.nodes;
     let mut loads = vec![0.0; building.floors.len()];

@@ -1,4 +1,4 @@
-//! How a horizontal load is spread over the height.
+//! Distribution of a horizontal load over the height.
 
 use crate::model::LEVEL_TOLERANCE;
 use crate::structure::element::X;
@@ -30,8 +30,8 @@ impl LoadPattern {
         }
     }
 
-    /// Horizontal force at every degree of freedom of a building, of sum one \[–\]. It acts at the floors; masses of
-    /// columns between floors count with the floors above and below, the nearer the more.
+    /// Horizontal force at every degree of freedom of a building, of sum one \[–\]. It acts at the floors; masses
+    /// of columns between floors are divided between the floors above and below by the lever rule.
     ///
     /// `None` when there is no first mode or no mass.
     #[must_use]
@@ -67,7 +67,7 @@ impl LoadPattern {
     }
 }
 
-/// Mass of every node, that of nodes between floors moved to the nodes above and below on the same line \[kg\].
+/// Mass of every node, those between floors moved to the nodes above and below on the same line \[kg\].
 fn floor_masses(building: &BuildingSystem) -> Vec<f64> {
     let nodes = &building.discretization.stick_model.nodes;
     let levels: Vec<f64> = std::iter::once(0.0)

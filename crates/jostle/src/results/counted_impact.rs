@@ -1,22 +1,22 @@
-//! How impacts are counted: bounces that follow each other closely, and impacts at several places at once
-//! (docs/contact.md, "What counts as an impact").
+//! Counting of impacts: successive short impacts, and simultaneous impacts at several contacts (docs/contact.md,
+//! "What counts as an impact").
 
 use crate::history::Impact;
 
-/// An impact as counted: one closed episode, or several that follow each other too closely to count twice.
+/// A counted impact: one closed episode, or several in close succession.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountedImpact {
-    /// Start of the first and end of the last episode, greatest force and indentation of all, impulses and
-    /// dissipated energies added, impact speed of the first and separation speed of the last.
+    /// Start of the first and end of the last episode, peak force and indentation of all, sums of impulses and
+    /// dissipated energies, impact speed of the first and separation speed of the last.
     pub impact: Impact,
-    /// Closed episodes taken together.
+    /// Number of merged closed episodes.
     pub touches: usize,
     /// Greatest number of contacts of the same gap in impact at one instant of this one, itself included.
     pub simultaneous: usize,
 }
 
-/// Counts the impacts of one contact, given in order of time. Episodes less than `minimum_separation` apart, from the
-/// end of the force to the next touch, are one impact \[s\].
+/// Counts the impacts of one contact, given in order of time. Episodes less than `minimum_separation` apart, from
+/// the end of the force to the next first contact, count as one impact \[s\].
 #[must_use]
 pub fn counted<'a>(
     impacts: impl IntoIterator<Item = &'a Impact>,
@@ -51,7 +51,7 @@ fn join(first: &mut Impact, next: &Impact) {
     first.dissipated += next.dissipated;
 }
 
-/// Poundings of a gap: spans of time in which at least one of its contacts is in impact.
+/// Poundings of a gap: intervals in which at least one of its contacts is in impact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Poundings {
     /// All of them.
@@ -62,8 +62,8 @@ pub struct Poundings {
     pub most_at_once: usize,
 }
 
-/// Recognises what happens at several contacts of one gap at once, and tells every impact. Impacts that end at the
-/// instant at which another begins share that instant.
+/// Finds simultaneous impacts at several contacts of one gap, and sets their number in every impact. Impacts that
+/// end at the instant at which another begins share that instant.
 pub fn find_simultaneous(contacts: &mut [Vec<CountedImpact>]) -> Poundings {
     // (instant, 0 starts or 1 ends, contact, impact): starts come before ends.
     let mut edges: Vec<(f64, u8, usize, usize)> = Vec::new();
@@ -149,7 +149,7 @@ mod tests {
             counted(&[impact(2, 1.15, 1.3), impact(2, 3.0, 3.0)], 0.0),
         ];
         let poundings = find_simultaneous(&mut contacts);
-        // 1.0…1.3 in a chain of two at a time, 2.0…2.1 alone, two blows at 3.0.
+        // 1.0…1.3 in a chain of two at a time, 2.0…2.1 alone, two impacts at 3.0.
         assert_eq!(
             poundings,
             Poundings {

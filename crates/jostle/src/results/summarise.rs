@@ -1,4 +1,4 @@
-//! From the outcome of a run to the numbers of `summary.json`.
+//! Computes the numbers of `summary.json` from the outcome of a run.
 
 use crate::contact::{LawKind, RestitutionIs};
 use crate::history::{FloorPeaks, Impact};
@@ -17,7 +17,7 @@ use crate::structure::SpringPlace;
 use crate::structure::{ductility, end_stiffnesses};
 use crate::system::{BuildingSystem, System};
 
-/// What a summary is made of.
+/// Input of a summary.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -54,24 +54,24 @@ use crate::system::{BuildingSystem, System};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a> {
-    /// What was asked for.
+    /// The model.
     pub model: &'a Model,
-    /// Assembled.
+    /// The assembled system.
     pub system: &'a System,
     /// Ground motion.
     pub motion: &'a GroundMotion,
     /// Steps.
     pub plan: &'a Plan,
-    /// What came out.
+    /// The outcome.
     pub outcome: &'a Outcome,
-    /// The same buildings passing through each other, if that run was made.
+    /// The same buildings without contact, if that run exists.
     pub without_contact: Option<&'a Outcome>,
     /// Wall time of the stepping \[s\].
     pub wall: f64,
 }
 
 impl Summary {
-    /// Sums up a run.
+    /// Summarises a run.
     #[must_use]
     pub fn of(run: &Run) -> Self {
         let Run {
@@ -201,8 +201,8 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
     summary
 }
 
-/// What every spring of a building that can yield has borne, in the order of
-/// [`Discretization::spring_places`](crate::structure::Discretization::spring_places).
+/// Peaks of every spring of a building that can yield, in the order of
+/// [`Discretization::spring_places`](crate::stick model::Discretization::spring_places).
 #[must_use]
 pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSummary> {
     let springs = building.equations.springs.iter().enumerate();
@@ -227,7 +227,7 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
             deformation_min: memory.greatest(Side::Negative),
             ductility: Side::BOTH
                 .map(|side| {
-                    // A base has only itself, not the member above.
+                    // A base has no member end in series.
                     let member = behind.get(index).copied().flatten();
                     let member =
                         member.filter(|_| !matches!(place, Some(SpringPlace::Base { .. })));
@@ -452,19 +452,19 @@ fn work_summary(run: &Run) -> WorkSummary {
     }
 }
 
-/// Reasons not to trust the numbers.
+/// Warnings about the results.
 fn warnings(run: &Run) -> Vec<String> {
     let tolerance = run.model.analysis.energy_tolerance;
     let energy = &run.outcome.energy;
     let worst = energy.worst_imbalance;
     let mut warnings = Vec::new();
-    // An integrator that dissipates takes energy on its own account: see the notes.
+    // A dissipative integrator removes energy: see the notes.
     if worst > tolerance && !run.plan.integrator.dissipates() {
         warnings.push(format!(
             "the energies do not balance: {worst:.1e} of the energy is unaccounted for (tolerance {tolerance:.1e}); do not trust this run"
         ));
     }
-    // The trapezoidal rule may gain energy in impacts of few steps; the balance cannot see it.
+    // The trapezoidal rule may gain energy in impacts of few steps; the balance does not reveal it.
     let given = -energy.contact / energy.input.abs().max(f64::MIN_POSITIVE);
     if given > MOST_GIVEN {
         warnings.push(format!(
@@ -482,7 +482,7 @@ fn warnings(run: &Run) -> Vec<String> {
     warnings
 }
 
-/// What a run says of its own accuracy.
+/// Estimated accuracy of a run.
 fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = String> + use<> {
     let Accuracy {
         tolerance,
@@ -503,10 +503,10 @@ fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = 
     missed.into_iter().chain(sensitive)
 }
 
-/// Energy that contacts may give, relative to the input, by the error of the steps.
+/// Energy that contacts may release by step errors, relative to the input.
 const MOST_GIVEN: f64 = 0.01;
 
-/// Things worth knowing about the numbers.
+/// Notes on the results.
 fn notes(run: &Run) -> Vec<String> {
     let mut notes = Vec::new();
     for law in run.model.gaps.iter().map(|gap| &gap.law) {

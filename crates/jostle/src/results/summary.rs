@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// Everything a reader wants to know about a run without its histories.
+/// Results of a run without histories.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct Summary {
     /// Title of the model.
@@ -19,15 +19,15 @@ pub struct Summary {
     pub links: Vec<LinkSummary>,
     /// Energies at the end.
     pub energy: EnergySummary,
-    /// Whether reported peaks hold the tolerance.
+    /// Whether the errors of reported peaks are within the tolerance.
     pub promise: PromiseSummary,
     /// Work done.
     pub work: WorkSummary,
-    /// Whether the run reached the end of the motion, and why not.
+    /// Reason if the run did not reach the end of the motion.
     pub ended_early: Option<String>,
-    /// Reasons not to trust the numbers.
+    /// Warnings about the results.
     pub warnings: Vec<String>,
-    /// Things worth knowing about the numbers.
+    /// Notes on the results.
     pub notes: Vec<String>,
 }
 
@@ -65,7 +65,7 @@ pub struct BuildingSummary {
     pub floors: Vec<FloorSummary>,
     /// Greatest elastic base shear, either sign \[N\].
     pub base_shear_peak_n: f64,
-    /// The same of the run without contact, if it was made.
+    /// The same of the run without contact, if it exists.
     pub without_contact: Option<BuildingWithoutContact>,
     /// Roof displacement at the end \[m\].
     pub residual_roof_displacement_m: f64,
@@ -73,10 +73,10 @@ pub struct BuildingSummary {
     pub hinges: HingeSummary,
 }
 
-/// How many hinges, or storeys of a shear building, left the elastic range, and how far.
+/// Numbers of hinges, or storeys of a shear building, beyond the elastic range, and their peaks.
 #[derive(Clone, Debug, Default, Serialize, PartialEq)]
 pub struct HingeSummary {
-    /// All there are.
+    /// Total number.
     pub total: usize,
     /// Cracked or beyond.
     pub cracked: usize,
@@ -95,16 +95,16 @@ pub struct HingeSummary {
 /// One hinge, or one storey of a shear building.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct SpringSummary {
-    /// Where it is, in words.
+    /// Position as text.
     pub place: String,
     /// Number among the springs of the building that can yield, from 0.
     pub index: usize,
-    /// When it cracked; 0 where the weight alone does it \[s\].
+    /// Time of cracking; 0 if self weight alone causes it \[s\].
     pub cracked_s: Option<f64>,
-    /// When it yielded; 0 where the weight alone does it \[s\].
+    /// Time of yielding; 0 if self weight alone causes it \[s\].
     pub yielded_s: Option<f64>,
-    /// Greatest deformation of the positive side (bottom of a beam, right face of a column stretched), ≥ 0
-    /// \[rad; m for storeys\].
+    /// Greatest deformation of the positive side (tension at the bottom of a beam, on the right side of a column),
+    /// ≥ 0 \[rad; m for storeys\].
     pub deformation_max: f64,
     /// Greatest deformation of the negative side, ≥ 0 \[rad; m for storeys\].
     pub deformation_min: f64,
@@ -142,11 +142,11 @@ pub struct FloorSummary {
     pub overturning_moment_peak_n_m: f64,
     /// Drift ratio of the storey below at the end, positive to the right \[–\].
     pub residual_drift: f64,
-    /// The same peaks of the run without contact, if it was made.
+    /// The same peaks of the run without contact, if it exists.
     pub without_contact: Option<FloorWithoutContact>,
 }
 
-/// Peaks of one floor where buildings pass through each other; meanings as in [`FloorSummary`].
+/// Peaks of one floor without contact; meanings as in [`FloorSummary`].
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 #[allow(missing_docs, reason = "the names of FloorSummary")]
 pub struct FloorWithoutContact {
@@ -160,7 +160,7 @@ pub struct FloorWithoutContact {
     pub overturning_moment_peak_n_m: f64,
 }
 
-/// Peaks of one building where buildings pass through each other.
+/// Peaks of one building without contact.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 pub struct BuildingWithoutContact {
     /// Greatest elastic base shear, either sign \[N\].
@@ -174,7 +174,7 @@ pub struct GapSummary {
     pub between: [String; 2],
     /// Width at rest, the least of its contacts \[m\].
     pub width_m: f64,
-    /// Least distance that remained, negative where faces were indented \[m\].
+    /// Smallest distance, negative if there was indentation \[m\].
     pub clearance_m: f64,
     /// Contact law.
     pub law: String,
@@ -186,7 +186,7 @@ pub struct GapSummary {
     pub impact_count: usize,
     /// Impacts of one contact that follow each other sooner count as one \[s\].
     pub minimum_separation_s: f64,
-    /// Spans of time in which at least one contact is in impact.
+    /// Intervals in which at least one contact is in impact.
     pub pounding_count: usize,
     /// Those of them in which two or more contacts were in impact at the same instant.
     pub multiple_pounding_count: usize,
@@ -237,7 +237,7 @@ pub struct LinkSummary {
     pub damping_n_s_m: f64,
     /// Greatest force of any of them, either sign \[N\].
     pub peak_force_n: f64,
-    /// Energy that their dashpots took \[J\].
+    /// Energy dissipated in their dashpots \[J\].
     pub dissipated_j: f64,
     /// One by one, from the lowest up.
     pub floors: Vec<LinkFloorSummary>,
@@ -250,20 +250,20 @@ pub struct LinkFloorSummary {
     pub floors: [Option<usize>; 2],
     /// Height above the base \[m\].
     pub height_m: f64,
-    /// Force of greatest size, positive in compression \[N\].
+    /// Force of greatest magnitude, positive in compression \[N\].
     pub peak_force_n: f64,
     /// Its instant \[s\].
     pub peak_force_at_s: f64,
     /// Greatest change of length, either sign \[m\].
     pub peak_stroke_m: f64,
-    /// Energy that its dashpot took \[J\].
+    /// Energy dissipated in its dashpot \[J\].
     pub dissipated_j: f64,
 }
 
 /// One impact.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 pub struct ImpactSummary {
-    /// Instant of touch \[s\].
+    /// Instant of first contact \[s\].
     pub start_s: f64,
     /// Last instant of force \[s\].
     pub end_s: f64,
@@ -273,7 +273,7 @@ pub struct ImpactSummary {
     pub peak_force_at_s: f64,
     /// Greatest indentation \[m\].
     pub peak_indentation_m: f64,
-    /// Closing rate at touch \[m/s\].
+    /// Closing rate at first contact \[m/s\].
     pub impact_speed_m_s: f64,
     /// Opening rate at the end, zero when the run ended first \[m/s\].
     pub separation_speed_m_s: f64,
@@ -281,9 +281,9 @@ pub struct ImpactSummary {
     pub realised_restitution: f64,
     /// Time integral of the force \[N·s\].
     pub impulse_n_s: f64,
-    /// Energy taken by the contact \[J\].
+    /// Energy dissipated by the contact \[J\].
     pub dissipated_j: f64,
-    /// Whether it was over when the run ended.
+    /// Whether it ended before the end of the run.
     pub finished: bool,
     /// Closed episodes counted as this one impact.
     pub touches: usize,
@@ -302,11 +302,11 @@ pub struct EnergySummary {
     pub strain_j: f64,
     /// Dissipated by viscous damping, that of links included.
     pub damped_j: f64,
-    /// The share of links in that.
+    /// The part of links.
     pub links_j: f64,
-    /// Taken by hinges.
+    /// Energy of hinges.
     pub hysteretic_j: f64,
-    /// Taken by contacts.
+    /// Energy of contacts.
     pub contact_j: f64,
     /// |input − sum of the others| / input at the end \[–\].
     pub imbalance: f64,
@@ -318,12 +318,13 @@ pub struct EnergySummary {
 /// tolerance.
 #[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
 pub struct PromiseSummary {
-    /// What peaks may be off \[–\].
+    /// Estimated error of peaks \[–\].
     pub tolerance: f64,
     /// Whether the estimate stays within the tolerance; `null` where there is none, as for buildings that yield.
     pub met: Option<bool>,
-    /// Estimated error of the least accurate peak of a building, contact forces and impulses not included: of shapes left out and of values between steps in modal stepping, of
-    /// frequencies moved by the steps otherwise; `null` where it is not estimated \[–\].
+    /// Estimated error of the least accurate peak of a building, contact forces and impulses not included: from
+    /// omitted shapes and values between steps in modal stepping, of from frequency errors of the steps otherwise;
+    /// `null` where it is not estimated \[–\].
     pub residual: Option<f64>,
     /// Instant from which results depend on contacts made or missed within the tolerance; `null` if none do \[s\].
     pub sensitive_from_s: Option<f64>,
@@ -357,13 +358,13 @@ impl PromiseSummary {
 /// Work done, and the time it took.
 #[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
 pub struct WorkSummary {
-    /// Which equations advanced the steps, as a model file spells it.
+    /// Solver, as spelt in model files.
     pub solver: &'static str,
     /// Accepted steps.
     pub steps: u64,
     /// Accepted steps with a closed contact.
     pub contact_steps: u64,
-    /// Steps tried and repeated at an event.
+    /// Steps repeated at an event.
     pub repeated_steps: u64,
     /// Factorisations.
     pub factorizations: u64,
@@ -371,19 +372,19 @@ pub struct WorkSummary {
     pub solves: u64,
     /// Newton iterations.
     pub iterations: u64,
-    /// Iterations on springs that yield, one for every step tried with them.
+    /// Iterations on springs that yield, one per trial step.
     pub outer_iterations: u64,
     /// Steps halved because those did not converge.
     pub halved_steps: u64,
     /// Multiply-adds spent on the forces of contacts and links.
     pub coupling_operations: u64,
-    /// Shapes kept by modal stepping; 0 for other solvers.
+    /// Shapes used by modal stepping; 0 for other solvers.
     pub shapes: u64,
-    /// Runs repeated by modal stepping with more shapes or finer steps, to keep the tolerance.
+    /// Runs repeated by modal stepping with more shapes or finer steps, to meet the tolerance.
     pub repeated_runs: u64,
-    /// Regular step of free vibration \[s\].
+    /// Regular free-vibration step \[s\].
     pub step_s: f64,
-    /// Smallest regular step in contact; `null` when nothing touched \[s\].
+    /// Smallest regular step in contact; `null` without contact \[s\].
     pub contact_step_s: Option<f64>,
     /// Wall time of the stepping \[s\].
     pub wall_s: f64,

@@ -1,4 +1,4 @@
-//! From corner to corner: how a building gives way as one load grows or one displacement is driven.
+//! Equilibrium path of a building from corner to corner, under a growing load or a prescribed displacement.
 
 use super::Settled;
 use crate::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Side};
@@ -15,24 +15,24 @@ pub enum PathError {
     /// No consistent choice of loading and unloading springs was found.
     #[error("which hinges load and which unload could not be decided")]
     Undecided,
-    /// There are more corners than a sound model has.
+    /// There are more corners than a plausible model has.
     #[error("the path has more than {0} corners")]
     TooManyCorners(usize),
 }
 
-/// What ended a straight piece of the path.
+/// The end of a linear segment of the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reached {
-    /// Length of the piece, in units of what drives the path.
+    /// Length of the segment, in units of the control variable.
     pub length: f64,
-    /// Springs that came to a corner, in rising order; empty where the piece was long enough.
+    /// Springs that reached a corner, in ascending order; empty if the segment had its full length.
     pub corners: Vec<usize>,
 }
 
 /// Equilibrium path of one building under p = p₀ + λ p₁ (theory, Eq. X1).
 ///
-/// λ grows at rate one, or the displacement of one degree of freedom does, however λ then changes: so a path is followed
-/// over its peak and down, as long as the building stands while that one displacement is held.
+/// Either λ grows at rate one, or the displacement of one degree of freedom does, with any λ. So the path continues
+/// beyond its peak, as long as the building is stable with that displacement restrained.
 #[derive(Clone, Debug)]
 pub struct EquilibriumPath {
     equations: Equations,
@@ -40,13 +40,13 @@ pub struct EquilibriumPath {
     factor: RiccatiFactor,
     /// Slopes in `factor`; empty before the first factorisation.
     tangents: Vec<f64>,
-    /// Displacement that is driven, with the spring that holds it while the equations are solved.
+    /// Prescribed displacement, with the spring that restrains it while the equations are solved.
     driven: Option<(usize, f64)>,
     pattern: Vec<f64>,
     displacement: Vec<f64>,
     memories: Vec<HysteresisMemory>,
     load: f64,
-    /// Slope of every spring on its way to either side.
+    /// Slope of every spring for either direction.
     ahead: Vec<[f64; 2]>,
     sides: Vec<Side>,
     rates: Vec<f64>,
@@ -55,11 +55,11 @@ pub struct EquilibriumPath {
     corners: usize,
 }
 
-/// Rates below this share of the greatest one have no direction.
+/// Rates below this fraction of the greatest one count as zero.
 const STILL: f64 = 1e-11;
-/// Corners this close to each other, as a share of the deformation at yield, are reached together.
+/// Corners closer than this fraction of the yield deformation are reached together.
 const TOGETHER: f64 = 1e-12;
-/// Choices of sides in which all wrong ones are turned at once.
+/// Iterations in which all wrong directions are reversed at once.
 const QUICK_CHOICES: usize = 12;
 
 impl EquilibriumPath {
@@ -71,8 +71,8 @@ impl EquilibriumPath {
         Self::new(building, pattern, vec![0.0; n], memories, None)
     }
 
-    /// From the building at rest, one displacement driven; `pattern` is p₁ \[N, N·m\]. The driven displacement grows
-    /// at rate one, or falls at rate one, as p₁ pushes it.
+    /// From the building at rest, with one prescribed displacement; `pattern` is p₁ \[N, N·m\]. The prescribed
+    /// displacement changes at rate one in the direction of p₁.
     #[must_use]
     pub fn driven(
         building: &AssembledBuilding,
@@ -110,7 +110,7 @@ impl EquilibriumPath {
         let count = memories.len();
         let sweep = match driven.and_then(|(dof, hold)| holding_spring(dof, hold)) {
             Some(spring) => {
-                // The spring that holds is the last of the list.
+                // The restraining spring is the last of the list.
                 let mut held = building.clone();
                 held.equations.springs.push(spring);
                 RiccatiSweep::new(&held)
@@ -142,7 +142,7 @@ impl EquilibriumPath {
         self.load
     }
 
-    /// dλ along the piece ahead.
+    /// dλ along the segment ahead.
     #[must_use]
     pub fn load_rate(&self) -> f64 {
         self.load_rate
@@ -154,14 +154,13 @@ impl EquilibriumPath {
         &self.displacement
     }
 
-    /// What every spring remembers.
+    /// State of every spring.
     #[must_use]
     pub fn memories(&self) -> &[HysteresisMemory] {
         &self.memories
     }
 
-    /// Finds how everything moves on from here (theory, Eqs. X2 and X3): every spring on the line of the side it
-    /// moves to.
+    /// Computes the rates from here (theory, Eqs. X2 and X3), with every spring on the line of its direction.
     ///
     /// # Errors
     /// [`PathError::GivesWay`] or [`PathError::Undecided`].
@@ -177,7 +176,7 @@ impl EquilibriumPath {
                 if stiffened {
                     return Err(problem.into());
                 }
-                // Perhaps only this choice is soft: begin again with the stiffest.
+                // Possibly only this choice is unstable: restart with the stiffest.
                 stiffened = true;
                 for (side, ahead) in self.sides.iter_mut().zip(&self.ahead) {
                     *side = if ahead[0] >= ahead[1] {
@@ -205,7 +204,7 @@ impl EquilibriumPath {
                     *side = side.opposite();
                     if ahead[0] != ahead[1] {
                         settled = false;
-                        // One at a time, the first one first, cannot go round in circles (Murty, 1974).
+                        // Reversing one at a time, the one with the lowest index first, cannot cycle (Murty, 1974).
                         if stiffened || choice > QUICK_CHOICES {
                             break;
                         }
@@ -219,7 +218,7 @@ impl EquilibriumPath {
         Err(PathError::Undecided)
     }
 
-    /// Goes on to the next corner, at most by `most` in units of what drives the path. [`EquilibriumPath::find_rates`] comes
+    /// Continues to the next corner, at most by `most` in units of the control variable. Call [`Walk::find_rates`]
     /// first.
     ///
     /// # Errors
@@ -266,7 +265,7 @@ impl EquilibriumPath {
         Ok(Reached { length, corners })
     }
 
-    /// Factorises for the slopes of the present sides, anew only what has changed.
+    /// Factorises for the slopes of the present directions, updating only changed parts.
     fn factorize(&mut self) -> Result<(), NotPositive> {
         let slopes = self.ahead.iter().zip(&self.sides);
         let hold = self.driven.map(|(_, hold)| hold);
@@ -296,7 +295,7 @@ impl EquilibriumPath {
         self.sweep.solve(&self.factor, &mut self.rates);
         self.load_rate = 1.0;
         if let Some((dof, hold)) = self.driven {
-            // K + k e eᵀ is regular where K is not; k e is the load of the spring whose far end is driven.
+            // K + k e eᵀ is regular where K is not; k e is the load of the spring with the prescribed end.
             let sign = self.pattern_sign();
             let mut held = vec![0.0; self.rates.len()];
             held[dof] = sign * hold;
@@ -312,7 +311,7 @@ impl EquilibriumPath {
         }
     }
 
-    /// Direction in which the driven displacement goes.
+    /// Direction of the prescribed displacement.
     fn pattern_sign(&self) -> f64 {
         let sum: f64 = self.pattern.iter().sum();
         if sum < 0.0 { -1.0 } else { 1.0 }
@@ -330,7 +329,7 @@ fn holding_spring(dof: usize, stiffness: f64) -> Option<YieldingSpring> {
     })
 }
 
-/// Slope of the line on which a spring moves to a side.
+/// Slope of the line of a spring in a direction.
 fn slope_ahead(hysteresis: &Hysteresis, memory: &HysteresisMemory, side: Side) -> f64 {
     let here = memory.deformation();
     let corner = hysteresis.next_corner(memory, side);

@@ -1,7 +1,8 @@
-//! Statics of one building: under its weight, and along its equilibrium path.
+//! Nonlinear statics of one building: self weight, and pushover to collapse.
 //!
-//! Springs that yield are straight between corners, so the building is linear from one corner to the next. [`EquilibriumPath`]
-//! goes from corner to corner and lands on each: no step size, no iteration for equilibrium (theory, Eqs. X1 to X4).
+//! Springs that yield are linear between corners, so the building is linear from one corner to the next. [`Walk`]
+//! goes from corner to corner and ends exactly at each: no step size, no equilibrium iteration (theory, Eqs. X1 to
+//! X4).
 
 mod equilibrium_path;
 mod gravity;
@@ -17,11 +18,11 @@ use crate::structure::AssembledBuilding;
 pub struct Settled {
     /// Displacement of every degree of freedom \[m, rad\].
     pub displacement: Vec<f64>,
-    /// What springs that yield remember.
+    /// State of the springs that yield.
     pub springs: Vec<HysteresisMemory>,
 }
 
-/// Lets the weight of a building come on gradually, `gravity` ≥ 0 \[m/s²\]; hinges may crack and yield meanwhile.
+/// Applies the self weight of a building gradually, `gravity` ≥ 0 \[m/s²\]; hinges may crack and yield.
 ///
 /// # Errors
 /// [`PathError`] when the building cannot carry it.

@@ -12,13 +12,13 @@ pub struct Discretization {
     pub stick_model: StickModel,
     /// The lowest node of the first column line, fixed or not.
     pub foot: Option<usize>,
-    /// Node that stands for every floor, from the ground up: the joint of the first column line.
+    /// Reference node of every floor, from the ground up: the joint of the first column line.
     pub floors: Vec<usize>,
-    /// Nodes of the left face from the ground up that can be hit.
+    /// Contact nodes of the left side, from the ground up.
     pub left_face: Vec<usize>,
-    /// Nodes of the right face from the ground up that can be hit.
+    /// Contact nodes of the right side, from the ground up.
     pub right_face: Vec<usize>,
-    /// Where the springs sit that yield, in the order of [`crate::structure::Equations::springs`].
+    /// Positions of the springs that yield, in the order of [`crate::equations::Equations::springs`].
     pub spring_places: Vec<SpringPlace>,
 }
 
@@ -29,9 +29,9 @@ impl Discretization {
         Self::with_points(building, [&[], &[]])
     }
 
-    /// The same with lumped masses at further heights of the left and the right face, so that the columns of a frame
-    /// can be hit there \[m\]: the nearest lumped mass between the floors moves there if it is no further than a
-    /// quarter of a segment away, otherwise another one is put in.
+    /// The same with lumped masses at additional heights of the left and the right side, for contacts with columns
+    /// of a frame \[m\]: the nearest lumped mass between the floors moves there if it is within a quarter of a
+    /// segment; otherwise a mass is added.
     #[must_use]
     pub fn with_points(building: &Building, points: [&[f64]; 2]) -> Self {
         match &building.structure {
@@ -66,8 +66,8 @@ impl StickModel {
         self.nodes.len() - 1
     }
 
-    /// Joins two nodes by a beam cut at these shares of its length; half of each segment's mass goes to either end.
-    /// Returns the new nodes in between.
+    /// Joins two nodes by a beam divided at these fractions of its length; half of each segment's mass goes to
+    /// either end. Returns the new nodes in between.
     fn add_line(
         &mut self,
         from: usize,
@@ -86,7 +86,7 @@ impl StickModel {
         let segments = cuts.len() + 1;
         let starts = std::iter::once(0.0).chain(cuts.iter().copied());
         let half_masses: Vec<f64> = if *cuts == equal_cuts(segments) {
-            // All the same, to the last bit.
+            // All equal to the last bit.
             vec![half_mass / segments as f64; segments]
         } else {
             let ends = cuts.iter().copied().chain([1.0]);
@@ -112,7 +112,7 @@ impl StickModel {
         interior
     }
 
-    /// The node itself, or behind an elastic hinge a new one at the same place.
+    /// The node itself, or a new node at the same position beyond an elastic hinge.
     fn hinged(&mut self, joint: usize, properties: &Joint) -> usize {
         if *properties == Joint::default() {
             return joint;
@@ -132,9 +132,9 @@ impl StickModel {
         end
     }
 
-    /// Puts a hinge that yields between a joint and the end of a member, and returns the node at the member. Positive
-    /// is the rotation that runs the bottom of a beam and the right face of a column: along the member, from
-    /// left to right or upwards, it turns counter-clockwise there.
+    /// Adds a yielding hinge between a joint and the end of a member, and returns the node at the member. Positive:
+    /// tension at the bottom of a beam and on the right side of a column, which is a counter-clockwise rotation
+    /// along the member, from left to right or upwards.
     fn yielding(&mut self, joint: usize, hysteresis: Hysteresis, end: MemberEnd) -> usize {
         let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
         let ends = match end {
@@ -145,8 +145,8 @@ impl StickModel {
         node
     }
 
-    /// The lowest point of a column: a node fixed to the ground, or behind the springs and dashpots of a base a
-    /// new one that carries the mass of the footing.
+    /// The lowest point of a column: a node fixed to the ground, or a new node beyond the springs and dashpots of a
+    /// base, with the mass of the footing.
     fn add_foot(&mut self, x: f64, base: &Base) -> usize {
         let ground = self.add_node(x, 0.0);
         self.nodes[ground].support = Support::Fixed;
@@ -155,7 +155,7 @@ impl StickModel {
         }
         let foot = self.add_node(x, 0.0);
         self.nodes[foot].mass = base.mass;
-        // A spring that slides stands beside the hinge, which then only carries the dashpot.
+        // A yielding horizontal spring is parallel to the hinge, which then has only the dashpot.
         let horizontal = match base.horizontal_hinge {
             Some(hysteresis) => {
                 self.springs.push(Spring {
@@ -168,7 +168,7 @@ impl StickModel {
             None => base.horizontal_stiffness,
         };
         self.hinges.push(Hinge {
-            // As with a column: positive runs its right face, which turns the foot counter-clockwise.
+            // As for a column: positive means tension on its right side, a counter-clockwise rotation of the foot.
             ends: [foot, ground],
             rotational_stiffness: base.rotational_stiffness,
             hysteresis: base.rotational_hinge,
@@ -299,15 +299,15 @@ fn discretize_frame(
     discretization
 }
 
-/// Where a line is cut into equal segments, in shares of its length.
+/// Division points of a line into equal segments, as fractions of its length.
 fn equal_cuts(segments: usize) -> Vec<f64> {
     (1..segments).map(|k| k as f64 / segments as f64).collect()
 }
 
-/// Cuts a line at a share of its length too, by moving an equal cut that is near enough, unless the place is not inside
-/// the line.
+/// Adds a division point at a fraction of the length, by moving a point that is near enough, if the fraction lies
+/// inside the line.
 fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
-    /// Shares closer than this are one.
+    /// Fractions closer than this coincide.
     const SAME: f64 = 1e-6;
     if !(share > SAME && share < 1.0 - SAME) || cuts.iter().any(|c| (c - share).abs() <= SAME) {
         return;

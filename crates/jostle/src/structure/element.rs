@@ -8,17 +8,17 @@ pub(crate) const X: usize = 0;
 pub(crate) const Y: usize = 1;
 pub(crate) const THETA: usize = 2;
 
-/// Which end, and which displacement there.
+/// End, and displacement component there.
 pub(crate) type Place = (usize, usize);
 
-/// Which matrix of a building an entry belongs to.
+/// The matrix of a building that an entry belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
     /// K: stiffness that takes part in stiffness-proportional damping.
     Elastic,
     /// K′: stiffness that does not: P-Delta, and the springs of a base.
     Undamped,
-    /// C′: dashpots of their own.
+    /// C′: separate dashpots.
     Dashpot,
 }
 
@@ -118,7 +118,7 @@ pub(crate) fn of_hinge(hinge: &Hinge) -> ElementStiffness {
     let [i, j] = hinge.ends;
     let mut stiffness = ElementStiffness::default();
     let [horizontal, vertical] = hinge.translational_stiffness;
-    // What yields has a tangent instead, see `Equations::springs`.
+    // Yielding hinges have a tangent instead, see `Equations::springs`.
     let turning = hinge
         .rotational_stiffness
         .filter(|_| hinge.hysteresis.is_none());
@@ -149,7 +149,7 @@ pub(crate) fn of_spring(spring: &Spring) -> ElementStiffness {
     stiffness
 }
 
-/// Where the stiffness of a hinge or a spring belongs.
+/// The matrix for the stiffness of a hinge or a spring.
 pub(crate) fn part_of(proportional_damping: bool) -> Part {
     if proportional_damping {
         Part::Elastic

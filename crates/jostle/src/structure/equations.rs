@@ -13,15 +13,15 @@ use crate::structure::{StickModel, Support};
 pub struct Equations {
     /// Mass of every degree of freedom \[kg, kg·m²\].
     pub mass: Vec<f64>,
-    /// M r: the mass that horizontal ground acceleration acts on \[kg\].
+    /// M r: the mass on which horizontal ground acceleration acts \[kg\].
     pub driven_mass: Vec<f64>,
     /// M r for vertical motion; used for participation only \[kg\].
     pub vertical_mass: Vec<f64>,
-    /// K: stiffness of members and joints, which stiffness-proportional damping goes with.
+    /// K: stiffness of members and joints, which takes part in stiffness-proportional damping.
     pub stiffness: SparseSymmetric,
-    /// K′: stiffness without damping of that kind: P-Delta, and springs under the base.
+    /// K′: stiffness without stiffness-proportional damping: P-Delta, and base springs.
     pub undamped: SparseSymmetric,
-    /// C′: dashpots under the base.
+    /// C′: base dashpots.
     pub dashpots: SparseSymmetric,
     /// Springs that yield: hinges first, then storey springs, each in the order of the stick model. They are not part of
     /// K, and stiffness-proportional damping does not act on them.
@@ -40,7 +40,7 @@ pub struct Equations {
 /// A spring between two displacements that yields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct YieldingSpring {
-    /// The deformation is the first less the second; `None` moves with the ground.
+    /// The deformation is the first minus the second; `None` moves with the ground.
     pub dofs: [Option<usize>; 2],
     /// Rule and backbone.
     pub hysteresis: Hysteresis,
@@ -57,7 +57,7 @@ impl YieldingSpring {
         at(self.dofs[0]) - at(self.dofs[1])
     }
 
-    /// Adds a force that works on the deformation to loads of the building.
+    /// Adds a force conjugate to the deformation to loads of the building.
     #[inline]
     pub(crate) fn push(&self, force: f64, load: &mut [f64]) {
         if let Some(dof) = self.dofs[0] {
@@ -106,7 +106,7 @@ impl Equations {
                 (Some(row), Some(column)) if row >= column => {
                     triplets[part as usize].push((row, column, value));
                 }
-                // What the displacements pull at the supports, seen from the building.
+                // Forces of the supports on the building.
                 (None, Some(column)) if a.1 == X && part != Part::Dashpot => {
                     base_shear.push((column, -value));
                 }
@@ -157,7 +157,7 @@ impl Equations {
         self.mass.len()
     }
 
-    /// Whether nothing can move.
+    /// Whether there are no degrees of freedom.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.mass.is_empty()
@@ -174,13 +174,13 @@ impl Equations {
         self.path.dof(node, X)
     }
 
-    /// Degree of freedom of the vertical displacement of a node; `None` where it cannot rise.
+    /// Degree of freedom of the vertical displacement of a node; `None` if it is restrained.
     #[must_use]
     pub fn vertical(&self, node: usize) -> Option<usize> {
         self.path.dof(node, Y)
     }
 
-    /// Degree of freedom of the rotation of a node; `None` where it cannot turn.
+    /// Degree of freedom of the rotation of a node; `None` if it is restrained.
     #[must_use]
     pub fn rotation(&self, node: usize) -> Option<usize> {
         self.path.dof(node, element::THETA)
@@ -192,7 +192,7 @@ impl Equations {
         self.total_mass
     }
 
-    /// Base shear for a displacement, that of yielding springs left out, positive when the building leans to the
+    /// Base shear for a displacement, without that of yielding springs, positive when the building leans to the
     /// right \[N\].
     #[must_use]
     pub fn base_shear(&self, displacement: &[f64]) -> f64 {

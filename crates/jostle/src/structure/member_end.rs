@@ -1,4 +1,4 @@
-//! Rotation of a member end: what the hinge turns and what the member bends, in double curvature.
+//! Rotation of a member end in double curvature: sum of hinge rotation and member bending.
 
 use crate::hysteresis::{Hysteresis, Side};
 use crate::structure::StickModel;
@@ -18,7 +18,7 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
     let yielding = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
     yielding
         .map(|hinge| {
-            // The end that is no joint has one member only; from there along its segments.
+            // The end that is not a joint has one member only; follow its segments from there.
             let ends = hinge.ends.iter();
             let start = *ends.max().filter(|end| at_node[**end].len() == 1)?;
             let (mut node, mut from, mut length) = (start, at_node[start][0], 0.0);
@@ -44,8 +44,8 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
         .collect()
 }
 
-/// Greatest deformation of a side over that of yield, the elastic member end included; a hinge that is rigid
-/// before it yields has a ductility so too \[–\].
+/// Greatest deformation of a side over that of yield, elastic member end included, so that rigid hinges have a
+/// ductility as well \[–\].
 pub(crate) fn ductility(
     hysteresis: &Hysteresis,
     greatest: f64,
@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn a_rigid_hinge_counts_with_the_bending_of_its_member() {
         let hinge = spring(1e14);
-        // 300 kN·m bend the end by 3 mrad; the hinge then turns by 6.
+        // 300 kN·m bend the end by 3 mrad; the hinge rotates by 6 mrad.
         let ductility = ductility(&hinge, 6e-3, Side::Positive, Some(1e8));
         assert!(
             (ductility - (6e-3 + (300e3 + 1e9 * 6e-3) / 1e8) / 3e-3).abs() < 1e-3,

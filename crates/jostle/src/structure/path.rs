@@ -1,4 +1,4 @@
-//! The transfer path: which displacements a building has, and the order in which the recursion meets them.
+//! The transfer path: displacements of a building in the order of the recursion.
 
 use crate::structure::element::{THETA, X, Y};
 use crate::structure::{StickModel, Support};
@@ -21,7 +21,7 @@ impl Path {
         for (position, &(rank, node)) in node_order(stick_model).iter().enumerate() {
             for component in [X, Y, THETA] {
                 if let Some(root) = ties.root(node, component) {
-                    // Within a rank like goes with like: long runs of equal work.
+                    // Within a rank equal components are adjacent: long runs of equal work.
                     last_met[root] = Some((rank, component, position));
                 }
             }
@@ -62,7 +62,7 @@ struct Ties {
     parent: Vec<usize>,
 }
 
-/// Place of the ground in the forest.
+/// Index of the ground in the forest.
 const GROUND: usize = 0;
 
 impl Ties {
@@ -128,7 +128,7 @@ impl Ties {
 
     fn merge(&mut self, a: usize, b: usize) {
         let (a, b) = (self.find(a), self.find(b));
-        // The smaller place becomes the root, so that the ground always is one.
+        // The smaller index becomes the root, so the ground is always a root.
         self.parent[a.max(b)] = a.min(b);
     }
 
@@ -150,7 +150,7 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
         .members
         .iter()
         .map(|member| (member.ends, member.is_vertical(nodes)));
-    // A hinge belongs to the member whose end it is: the one that has nothing else there.
+    // A hinge belongs to the member at whose end it is: the one with no other element there.
     let mut at_end = vec![[0; 2]; nodes.len()];
     for member in &stick_model.members {
         for end in member.ends {
@@ -176,7 +176,7 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
         count[a] += 1;
         count[b] += 1;
     }
-    // A node inside a beam or a column has two elements, of one direction.
+    // An interior node of a beam or a column has two elements of one direction.
     let stage = |node: usize| match (horizontal[node], vertical[node]) {
         (2, 0) => 0,
         (0, 2) => 1,
@@ -214,8 +214,8 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
                 _ => chains.push(vec![node]),
             }
         }
-        // The longest first: those side by side at one link are so at every link before. Upwards, so that
-        // those on the ground, which have one end less, are next to each other.
+        // Longest first: chains that are parallel at one link are parallel at every link before. Upwards, so that
+        // those on the ground, with one end less, are adjacent.
         chains.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| by_height(&a[0], &b[0])));
         let longest = chains.first().map_or(0, Vec::len);
         for link in 0..longest {

@@ -6,12 +6,12 @@ use crate::structure::Equations;
 use crate::structure::StickModel;
 use crate::structure::element::{self, Part, X};
 
-/// How the forces of storeys follow from displacements, as linear forms.
+/// Storey forces as linear forms of displacements.
 ///
-/// The storey shear is the sum of the horizontal restoring forces (rows x of (K + K′) u, and of springs that yield) of
-/// all nodes above the base of the storey, positive when the building leans to the right. The overturning moment is the
-/// moment of the same forces about the base of the storey. Vertical forces are no part of it. (A. K. Chopra, Dynamics of
-/// Structures, sections 9.4.4 and 13.2.)
+/// The storey shear is the sum of the horizontal restoring forces (rows x of (K + K′) u, and of springs that yield)
+/// of all nodes above the base of the storey, positive when the building leans to the right. The overturning moment
+/// is the moment of the same forces about the base of the storey. Vertical forces are not included. (A. K. Chopra,
+/// Dynamics of Structures, sections 9.4.4 and 13.2.)
 #[derive(Clone, Debug, Default)]
 pub struct StoreyForces {
     storeys: Vec<Storey>,
@@ -22,14 +22,14 @@ pub struct StoreyForces {
 struct Storey {
     /// Height of the storey \[m\].
     height: f64,
-    /// Degree of freedom of the building, and what its displacement adds to the sum of forces \[N/m, N/rad\] and to their
-    /// moment about the base of the storey \[N, N·m/rad\].
+    /// Degree of freedom of the building, and the contribution of its displacement to the sum of forces \[N/m,
+    /// N/rad\] and to their moment about the base of the storey \[N, N·m/rad\].
     of_displacements: Vec<(usize, [f64; 2])>,
-    /// Spring that yields, and what its force adds \[–, m\].
+    /// Spring that yields, and the contribution of its force \[–, m\].
     of_springs: Vec<(usize, [f64; 2])>,
 }
 
-/// What a storey bears.
+/// Forces of a storey.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StoreyForce {
     /// Storey shear \[N\].
@@ -80,7 +80,7 @@ impl StoreyForces {
         found
     }
 
-    /// The storey to which a node belongs, and how high it stands above its base \[m\]; `None` at the ground.
+    /// The storey of a node, and its height above the base of the storey \[m\]; `None` at the ground.
     fn arm(&mut self, tops: &[f64], height: f64) -> Option<(&mut Storey, f64)> {
         if height <= LEVEL_TOLERANCE {
             return None;
@@ -103,8 +103,8 @@ impl StoreyForces {
         self.storeys.is_empty()
     }
 
-    /// Calls `take` with every storey, from the top down, and what it bears, for displacements of the building \[m, rad\]
-    /// and forces of its springs that yield \[N\].
+    /// Calls `take` with every storey, from the top down, and its forces, for displacements of the building \[m,
+    /// rad\] and forces of its springs that yield \[N\].
     pub fn for_each(
         &self,
         displacement: &[f64],
@@ -153,5 +153,5 @@ fn merged(entries: &[(usize, [f64; 2])]) -> Vec<(usize, [f64; 2])> {
     list
 }
 
-/// What is left of stiffnesses that cancel.
+/// Rounding errors of stiffnesses that cancel.
 const ROUNDING: f64 = 1e-13;

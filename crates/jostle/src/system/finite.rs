@@ -1,13 +1,13 @@
-//! Results of assembly that are no usable numbers, with their cause.
+//! Results of assembly that are not finite, with their cause.
 
 use crate::model::{Building, ModelFault, Structure};
 use crate::system::{BuildingSystem, System};
 
-/// Impact speed at which the duration of an impact is judged \[m/s\].
+/// Impact speed at which the duration of an impact is checked \[m/s\].
 const IMPACT_SPEED: f64 = 0.5;
 
-/// The fault of a building whose mass or periods are not finite; usually values of very different
-/// magnitude, which double precision cannot hold beside each other.
+/// The fault of a building whose mass or periods are not finite; usually due to values of very different magnitude
+/// in one building.
 pub(crate) fn of_building(
     index: usize,
     building: &Building,
@@ -35,7 +35,7 @@ pub(crate) fn of_building(
     None
 }
 
-/// The faults of contacts whose impacts last neither a finite nor a positive time.
+/// The faults of contacts whose impact duration is not finite or not positive.
 pub(crate) fn of_contacts(system: &System) -> Vec<ModelFault> {
     let mut faults: Vec<ModelFault> = Vec::new();
     for contact in &system.contacts {
@@ -56,7 +56,7 @@ pub(crate) fn of_contacts(system: &System) -> Vec<ModelFault> {
     faults
 }
 
-/// The stiffest and the most flexible part of a building, and the least and the greatest mass, in words.
+/// The stiffest and the most flexible part of a building, and the least and the greatest mass, as text.
 fn cause(building: &Building) -> String {
     let (stiffnesses, masses) = match &building.structure {
         Structure::Shear(shear) => {

@@ -1,4 +1,5 @@
-//! Batches of chains of displacements: the insides of members, which meet nothing but the joints at their ends.
+//! Chains of displacements processed in parallel lanes: the interiors of members, which couple only to the joints
+//! at their ends.
 
 mod chain;
 mod passes;
@@ -7,30 +8,31 @@ use self::chain::{Chain, Reach};
 use self::passes::ChainPasses;
 use super::packed_factor::Place;
 
-/// Chains taken at once.
+/// Chains processed at once.
 const LANES: usize = 8;
-/// Fewest chains that are worth it.
+/// Smallest number of chains for which this pays.
 const FEWEST: usize = 2;
 
 /// One value for each of the chains of a group.
 pub(super) type Lanes = [f64; LANES];
 
-/// The first columns of a factor. Chains next to each other that are alike are a group: both passes walk along a group
-/// with a lane for every chain. Ends that only the last links meet are further links; what is passed on to the near ones is
-/// summed up on the way.
+/// The first columns of a factor. Equal adjacent chains form a group: both substitutions process a group with a
+/// lane per chain. Ends that couple only to the last links are additional links; contributions to the near ends are
+/// summed in registers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BatchedChains {
     groups: Vec<Group>,
-    /// First of the columns that a group has at every link, group by group.
+    /// First column of a group at every link, group by group.
     firsts: Vec<u32>,
-    /// Rows beyond the chains: the far ends of a group, then the near ones; the first again where chains are missing.
+    /// Rows outside the chains: the far ends of a group, then the near ones; the first is repeated if chains are
+    /// missing.
     ends: Vec<[u32; LANES]>,
     places: Vec<Place>,
     columns: usize,
     least_length: usize,
 }
 
-/// Chains of so many columns and far ends, walked along together.
+/// Chains with a given number of columns and far ends, processed together.
 #[derive(Clone, Copy, Debug)]
 struct Group {
     reach: Reach,
@@ -42,7 +44,7 @@ struct Group {
 impl BatchedChains {
     /// Of a pattern: starts of its columns, rows of its entries, the row that each column is eliminated into.
     pub(super) fn of(starts: &[usize], rows: &[u32], parent: &[u32]) -> Self {
-        // Where paths meet there is a joint.
+        // Paths meet at joints.
         let mut met = vec![0; parent.len()];
         for (column, next) in parent.iter().enumerate() {
             met[*next as usize] += usize::from(*next as usize != column);
@@ -101,12 +103,12 @@ impl BatchedChains {
         }
     }
 
-    /// Columns that are taken here; all others come behind them.
+    /// Number of columns in chains; all others follow them.
     pub(super) fn columns(&self) -> usize {
         self.columns
     }
 
-    /// Links of all groups, for each of which the passes keep a register.
+    /// Number of links of all groups; the substitutions use one register for each.
     pub(super) fn links(&self) -> usize {
         self.groups.iter().map(Group::links).sum()
     }
@@ -118,24 +120,23 @@ impl BatchedChains {
         reaches.map(|reach| (reach.band, reach.near))
     }
 
-    /// What a vector must have, if only behind its own values, to be taken a register at a time.
+    /// Minimum length of a vector, padding included, for register-wide access.
     pub(super) fn least_length(&self) -> usize {
         self.least_length
     }
 
-    /// What the passes take, a register for every link of a group.
+    /// Positions of factor entries in the order of the substitutions, a register per link of a group.
     pub(super) fn places(&self) -> &[Place] {
         &self.places
     }
 
-    /// Every column passes its load on, the ends theirs to the joints. What columns then hold, divided by their pivots,
-    /// is left in `held`.
+    /// Forward substitution. The results of the columns, divided by their pivots, remain in `held`.
     #[inline(always)]
     pub(super) fn pass_on(&self, laid: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
         self.walk::<true>(laid, load, scratch);
     }
 
-    /// Every column, last first, gathers from what is ahead of it.
+    /// Back substitution.
     #[inline(always)]
     pub(super) fn gather(&self, laid: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
         self.walk::<false>(laid, load, scratch);
@@ -151,7 +152,7 @@ impl BatchedChains {
         };
         for group in &self.groups {
             let own = rest.take(group);
-            // One for each of the reaches that chains are looked for.
+            // One for each coupling distance.
             match (group.reach.band, group.reach.near) {
                 (1, 2) => own.walk::<1, 2, FORWARD>(load),
                 (1, 4) => own.walk::<1, 4, FORWARD>(load),
@@ -169,7 +170,7 @@ impl Group {
     }
 }
 
-/// What belongs to the groups not yet taken.
+/// Remaining data of the groups not yet processed.
 struct Parts<'a> {
     firsts: &'a [u32],
     ends: &'a [[u32; LANES]],

@@ -2,7 +2,7 @@
 
 use super::Transfer;
 
-/// The way in which a member is traversed.
+/// Direction in which a member is traversed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Heading {
     /// A column from its foot.
@@ -22,16 +22,16 @@ pub struct BeamSegment {
     pub length: f64,
     /// EI > 0 \[N·m²\].
     pub flexural_rigidity: f64,
-    /// EA \[N\]; `None` keeps the length.
+    /// EA \[N\]; `None` is axially rigid.
     pub axial_rigidity: Option<f64>,
     /// GA_s \[N\]; `None` neglects shear deformation.
     pub shear_rigidity: Option<f64>,
-    /// P, known axial compression; zero for plain theory of first order \[N\].
+    /// P, known axial compression; zero for first-order theory \[N\].
     pub compression: f64,
 }
 
 impl BeamSegment {
-    /// Bends only: keeps its length, rigid in shear, without compression.
+    /// Bending only: axially rigid, rigid in shear, without compression.
     #[must_use]
     pub fn bending(length: f64, flexural_rigidity: f64) -> Self {
         Self {
@@ -43,8 +43,8 @@ impl BeamSegment {
         }
     }
 
-    /// The segment with every elastic stiffness multiplied by κ (theory, Eq. D2): what κ K of the step equations
-    /// asks for. The compression stays, for damping does not act on P-Delta.
+    /// The segment with every elastic stiffness multiplied by κ (theory, Eq. D2): as required by κ K of the step
+    /// equations. The compression is not multiplied, because damping does not act on P-Delta.
     #[must_use]
     pub fn stiffened(&self, factor: f64) -> Self {
         Self {
@@ -64,11 +64,11 @@ impl BeamSegment {
     /// w_O = w_I + δ,   θ_O = θ_I − l/(EI) m_I ∓ σ l²/(2EI) q_e,   m_O = m_I ± σ l q_e,   q_O = q_I   (T3, T4)
     /// v_O = v_I − l/(EA) p_I,   p_O = p_I
     /// ```
-    /// The upper signs are those of columns (w = x, q = qx, v = y, p = qy), the lower ones those of beams
-    /// (w = y, q = qy, v = x, p = qx); σ = +1 upwards and to the right, −1 downwards and to the left. The
-    /// compression P works on the chord (Eq. K1); without it q_e = q_I.
+    /// The upper signs are those of columns (w = x, q = qx, v = y, p = qy), the lower ones those of beams (w = y, q
+    /// = qy, v = x, p = qx); σ = +1 upwards and to the right, −1 downwards and to the left. The compression P acts
+    /// on the chord (Eq. K1); without it q_e = q_I.
     ///
-    /// A Timoshenko cantilever sags by F l³/(3EI) + F l/(GA_s), a rod shortens by N l/(EA):
+    /// A Timoshenko cantilever deflects by F l³/(3EI) + F l/(GA_s), a rod shortens by N l/(EA):
     ///
     /// ```
     /// use jostle::transfer::{BeamSegment, Heading, StateVector};
@@ -117,13 +117,13 @@ impl BeamSegment {
         transfer
     }
 
-    /// Transfer of a member with stiffness-proportional damping: every stiffness κ times itself, and the ends
+    /// Transfer of a member with stiffness-proportional damping: every stiffness multiplied by κ, and the ends
     /// displaced by s D (theory, Eqs. D2 and T3), `shift` holding s D of x, y, θ at the input and the output end.
     ///
     /// ```text
     /// e = U (s D_I, 0) − (s D_O, 0)
     /// ```
-    /// The direction in which the member is rigid carries no such load. P must be zero: it is not damped.
+    /// Rigid directions have no such load. P must be zero: it is not damped.
     ///
     /// ```
     /// use jostle::transfer::{BeamSegment, Heading, StateVector};

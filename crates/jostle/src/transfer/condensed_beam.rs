@@ -10,7 +10,7 @@ const ENDS: usize = 6;
 /// One beam with its hinges and lumped masses, without the masses of its joints.
 #[derive(Clone, Debug)]
 pub(super) struct CondensedBeam {
-    /// Node on the left, node on the right, nodes in between.
+    /// Left node, right node, nodes in between.
     nodes: Vec<usize>,
     /// Per node and component: number of the displacement; the joints have 0 to 5. Rigid connections share it.
     number: Vec<[usize; 3]>,
@@ -25,7 +25,7 @@ pub(super) struct CondensedBeam {
 pub(super) struct BeamFactor {
     /// Forces at the joints per displacement there, x, y, θ left and right.
     pub(super) stiffness: [[f64; ENDS]; ENDS],
-    /// Whether the joints share one x; the stiffness in x is then all at the left one.
+    /// Whether the joints share one x; the stiffness in x then belongs to the left one.
     pub(super) keeps_length: bool,
     /// Cholesky factor of the inside, by rows.
     lower: Vec<f64>,
@@ -45,7 +45,7 @@ impl CondensedBeam {
         let mut root: Vec<usize> = (0..3 * nodes.len()).collect();
         let mut tie = |a: usize, b: usize, component: usize| {
             if let (Some(a), Some(b)) = (place(a, component), place(b, component)) {
-                // The joints have the smallest numbers and so remain.
+                // The joints have the smallest numbers and therefore remain.
                 let (kept, gone) = (root[a].min(root[b]), root[a].max(root[b]));
                 root.iter_mut()
                     .filter(|root| **root == gone)
@@ -121,7 +121,7 @@ impl CondensedBeam {
         }
     }
 
-    /// Eliminates the inside; `None` where it can move without resistance.
+    /// Eliminates the interior; `None` if it is a mechanism.
     pub(super) fn condense(&self, matrix: &StepMatrix) -> Option<BeamFactor> {
         let (n, all) = (self.inside, ENDS + self.inside);
         let mut full = vec![0.0; all * all];
@@ -171,7 +171,7 @@ impl CondensedBeam {
         Some(factor)
     }
 
-    /// Loads of the nodes between the joints: those on the inside, and all of them condensed onto the joints.
+    /// Loads of the nodes between the joints: those of the interior, and all of them condensed onto the joints.
     pub(super) fn loads(
         &self,
         factor: &BeamFactor,

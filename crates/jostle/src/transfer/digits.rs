@@ -1,13 +1,13 @@
-//! How many digits a product of transfer matrices leaves.
+//! Digits that remain in a product of transfer matrices.
 
 use super::layout::{Layout, Link};
 use super::{Heading, StateVector};
 use crate::linear::StepMatrix;
 use crate::structure::AssembledBuilding;
 
-/// Digits that a step should keep.
+/// Required digits of a step.
 pub(super) const DIGITS_WANTED: f64 = 6.0;
-/// Digits that are right before anything has grown.
+/// Digits without growth.
 const DIGITS: f64 = 15.7;
 /// Digits lost per decade of growth up a column line.
 const PER_COLUMN_DECADE: f64 = 1.2;
@@ -16,18 +16,18 @@ const PER_SPRING_DECADE: f64 = 0.95;
 /// Digits lost per decade of growth along a beam.
 const PER_BEAM_DECADE: f64 = 0.4;
 
-/// Decimal digits of the largest displacement that the total transfer equation will about get right in one step
-/// with this matrix; negative when even the order of magnitude is lost, zero for what is no frame.
+/// Decimal digits of the largest displacement that the total transfer equation is expected to get right in one step
+/// with this matrix; negative if even the order of magnitude is lost, zero for a building that is not a frame.
 ///
 /// In the product the forces at the head of a line are differences of solutions that have grown along it (theory,
-/// Eq. R0). How far they grow is found by passing forces of one newton and one newton metre up the line:
+/// Eq. R0). The growth is computed by passing forces of one newton and one newton metre up the line:
 ///
 /// ```text
 /// digits = 15.7 − 1.2 c − 0.4 b,   c, b: decades of growth up the worst column line and along the worst beam
 /// ```
-/// For shear buildings 0.95 takes the place of 1.2. The numbers are fitted to frames of 5 to 20 storeys and steps of
-/// 20 ms to 0.1 ms, damped and undamped, with errors from 10⁻¹⁴ to 10²; there the error is foretold within one and a
-/// half decades.
+/// For shear buildings 0.95 replaces 1.2. The numbers are fitted to frames of 5 to 20 storeys and steps of 20 ms to
+/// 0.1 ms, damped and undamped, with errors from 10⁻¹⁴ to 10². There the predicted error is within one and a half
+/// decades.
 ///
 /// ```
 /// use jostle::structure::Discretization;

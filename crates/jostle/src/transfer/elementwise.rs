@@ -1,14 +1,14 @@
-//! The Riccati transfer matrix method as it was written: **a** = S **b** + **ε**, element by element from the
-//! base up (G. C. Horner, W. D. Pilkey 1978, J. Mech. Design 100).
+//! The Riccati transfer matrix method as published: **a** = S **b** + **ε**, element by element from the base up
+//! (G. C. Horner, W. D. Pilkey 1978, J. Mech. Design 100).
 //!
 //! The cut goes through all column lines: **a** and **b** hold the displacements and forces of each of them. An
 //! element of one line changes the rows of that line (theory, Eq. R2). At a floor the beams branch off. They are
-//! condensed beforehand, in stiffness form, onto the joints at their ends: from the product of their transfer
-//! matrices the loss of digits would return. An axially rigid beam ties two joints; its axial force is a further
+//! condensed beforehand, in stiffness form, onto the joints at their ends, because a product of their transfer
+//! matrices would lose digits again. An axially rigid beam ties two joints; its axial force is an additional
 //! unknown of the floor.
 //!
-//! Slower than [`crate::RiccatiSweep`] and kept as its check: S is a flexibility, so the two eliminate in
-//! opposite senses and share nothing but the elements.
+//! Slower than [`crate::RiccatiSweep`] and used as its check: S is a flexibility, so the two eliminate in opposite
+//! senses and share only the elements.
 
 use super::condensed_beam::{BeamFactor, CondensedBeam};
 use super::layout::{Layout, Link, NotAFrame};
@@ -18,10 +18,10 @@ use crate::linear::{NotPositive, StepMatrix};
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
 
-/// Place of the force that belongs to the displacements x, y, θ, among m, qx, qy.
+/// Index of the force conjugate to the displacements x, y, θ, among m, qx, qy.
 const FORCE: [usize; 3] = [1, 2, 0];
 
-/// Heights nearer than this are one floor \[m\].
+/// Heights closer than this belong to one floor \[m\].
 const SAME_LEVEL: f64 = 1e-6;
 
 /// The recursion in flexibility form through one building.
@@ -44,7 +44,7 @@ enum Pass {
     Floor { beams: Vec<usize> },
 }
 
-/// What is kept of every pass.
+/// Data stored for every move of the cut.
 #[derive(Clone, Debug, Default)]
 pub struct ElementwiseFactor {
     passes: Vec<Kept>,
@@ -104,7 +104,7 @@ impl StepEquations for ElementwiseRiccati {
         }
     }
 
-    /// Fails for a building that is no frame, and where a beam can move without resistance.
+    /// Fails for a building that is not a frame, or if a beam is a mechanism.
     fn factorize(
         &self,
         matrix: &StepMatrix,
@@ -149,7 +149,7 @@ impl StepEquations for ElementwiseRiccati {
         Ok(())
     }
 
-    /// Allocates; not meant for speed.
+    /// Allocates memory; not optimised.
     fn solve(&self, factor: &ElementwiseFactor, load: &mut [f64]) {
         let load = &mut load[..self.order];
         let Ok(layout) = &self.layout else {
@@ -166,7 +166,7 @@ impl StepEquations for ElementwiseRiccati {
             .zip(&factor.beams)
             .map(|(beam, condensed)| beam.loads(condensed, nodal))
             .collect();
-        // Up: ε, and what every pass adds to b.
+        // Up: ε, and the contribution of every move to b.
         let size = 3 * layout.columns.len();
         let mut epsilon = vec![0.0; size];
         let mut kept = Vec::with_capacity(factor.passes.len());
@@ -306,7 +306,7 @@ impl KeptElement {
         }
     }
 
-    /// ε behind the element becomes ε ahead of it; returns t.
+    /// Replaces ε behind the element by ε ahead of it; returns t.
     fn lift(&self, epsilon: &mut [f64], [f_x, f_y, f_m]: [f64; 3]) -> Vec<f64> {
         let (own, u) = (3 * self.column, &self.element.matrix);
         let behind: [f64; 3] = std::array::from_fn(|k| epsilon[own + k]);
@@ -325,7 +325,7 @@ impl KeptElement {
         t.to_vec()
     }
 
-    /// b ahead of the element becomes b behind it.
+    /// Replaces b ahead of the element by b behind it.
     fn lower(&self, b: &mut [f64], t: &[f64]) {
         let (own, u) = (3 * self.column, &self.element.matrix);
         // S_jo b_o
@@ -385,7 +385,7 @@ impl KeptFloor {
         }
         for (index, &(beam, scale)) in ties.iter().enumerate() {
             let bay = layout.beams[beam].bay;
-            // λ is what the joint on the left exerts on the beam.
+            // λ is the force of the left joint on the beam.
             matrix[(3 * bay + FORCE[0], size + index)] = -1.0;
             matrix[(3 * bay + 3 + FORCE[0], size + index)] = 1.0;
             for k in 0..size {
@@ -413,7 +413,7 @@ impl KeptFloor {
         }
     }
 
-    /// ε below the floor becomes ε above it; returns x₀, the part of b that loads cause.
+    /// Replaces ε below the floor by ε above it; returns x₀, the part of b due to loads.
     fn lift(
         &self,
         layout: &Layout,
@@ -446,7 +446,7 @@ impl KeptFloor {
         right
     }
 
-    /// b above the floor becomes b below it.
+    /// Replaces b above the floor by b below it.
     fn lower(&self, b: &mut [f64], constant: &[f64]) {
         let size = b.len();
         let mut right = b.to_vec();

@@ -50,8 +50,8 @@ impl PlanarHinge {
         }
     }
 
-    /// Transfer of a hinge that is not linear, near a known point of its curve: `moment` m_r at the relative
-    /// rotation `rotation` δ_r = θ_I − θ_O, with the tangent k_t ≠ 0.
+    /// Transfer of a nonlinear hinge near a known point of its curve: `moment` m_r at the relative rotation
+    /// `rotation` δ_r = θ_I − θ_O, with the tangent k_t ≠ 0.
     ///
     /// ```text
     /// m = m_r + k_t (δ − δ_r)   ⇒   θ_O = θ_I − m/k_t + (m_r/k_t − δ_r)

@@ -1,12 +1,11 @@
-//! Displacements that couple to nothing but their next neighbours: the joints of a frame, floor by floor.
+//! Displacements that couple only to their next neighbours: the joints of a frame, floor by floor.
 
 use super::packed_factor::Place;
 
-/// Widths that loops are compiled for: what they need stays in registers.
+/// Widths for which loops are compiled, so that their data stay in registers.
 const WIDTHS: [usize; 4] = [4, 6, 8, 12];
 
-/// The last columns of a factor, each with its entries in the rows that come next; those that a matrix does not have are
-/// zero.
+/// The last columns of a factor as a band; missing entries are zero.
 #[derive(Clone, Debug)]
 pub(super) struct Band {
     width: usize,
@@ -15,7 +14,8 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// Of a pattern from a column on: starts of its columns, rows of its entries. None where they reach too far.
+    /// Builds the band of a pattern from a column on: starts of its columns, rows of its entries. `None` if
+    /// couplings reach too far.
     pub(super) fn of(first: usize, starts: &[usize], rows: &[u32]) -> Option<Self> {
         let order = starts.len() - 1;
         let own = || (first..order).flat_map(|c| (starts[c]..starts[c + 1]).map(move |p| (c, p)));
@@ -34,12 +34,12 @@ impl Band {
         })
     }
 
-    /// What the passes take, as many entries for every column.
+    /// Positions of factor entries in the order of the substitutions, with a fixed number per column.
     pub(super) fn places(&self) -> &[Place] {
         &self.places
     }
 
-    /// Every column passes its load on, and is then divided by its pivot.
+    /// Forward substitution and division by the pivots.
     #[inline(always)]
     pub(super) fn pass_on(&self, laid: &[f64], inverse_pivots: &[f64], load: &mut [f64]) {
         let (inverse_pivots, load) = (&inverse_pivots[self.first..], &mut load[self.first..]);
@@ -51,7 +51,7 @@ impl Band {
         }
     }
 
-    /// Every column, last first, gathers from the rows ahead of it.
+    /// Back substitution.
     #[inline(always)]
     pub(super) fn gather(&self, laid: &[f64], load: &mut [f64]) {
         let load = &mut load[self.first..];
@@ -66,7 +66,7 @@ impl Band {
 
 #[inline(always)]
 fn pass_on<const WIDTH: usize>(laid: &[f64], inverse_pivots: &[f64], load: &mut [f64]) {
-    // The column whose turn it is, and those after it.
+    // The current column and the following ones.
     let mut ahead = [0.0; WIDTH];
     for (own, value) in ahead.iter_mut().zip(&*load) {
         *own = *value;
@@ -88,7 +88,7 @@ fn gather<const WIDTH: usize>(laid: &[f64], load: &mut [f64]) {
     let mut ahead = [0.0; WIDTH];
     for (lower, value) in laid.as_chunks::<WIDTH>().0.iter().zip(load).rev() {
         let mut sum = *value;
-        // The nearest, which has only just been found, last.
+        // The nearest row last, because its value has just been computed.
         for entry in (0..WIDTH).rev() {
             sum -= lower[entry] * ahead[entry];
         }

@@ -1,4 +1,4 @@
-//! Column lines and beams, found in the geometry of a stick model.
+//! Column lines and beams, derived from the geometry of a stick model.
 
 use super::{BeamSegment, Heading, LumpedMass, PlanarHinge, Transfer};
 use crate::linear::StepMatrix;
@@ -7,10 +7,10 @@ use crate::structure::Equations;
 use crate::structure::element::{self, THETA, X, Y};
 use crate::structure::{StickModel, Support};
 
-/// Two heights or places nearer than this are the same \[m\].
+/// Two heights or positions closer than this coincide \[m\].
 const SAME: f64 = 1e-6;
 
-/// A stick model that no chain of transfer matrices runs through.
+/// A stick model without a transfer path.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotAFrame {
@@ -22,7 +22,7 @@ pub enum NotAFrame {
         "it has hinges or storeys that yield; this form of the method is for elastic buildings"
     )]
     Yields,
-    /// A node stands where no column line or beam passes.
+    /// A node is on no column line and no beam.
     #[error("node {node} lies on no column line and on no beam")]
     LooseNode {
         /// Index of the node.
@@ -31,7 +31,7 @@ pub enum NotAFrame {
     /// An element belongs to no column line and to no beam.
     #[error("{element} belongs to no column line and to no beam between neighbouring column lines")]
     LooseElement {
-        /// Which: "member 3", "hinge 0", "spring 1".
+        /// Name: "member 3", "hinge 0", "spring 1".
         element: String,
     },
     /// A column line branches upwards.
@@ -48,7 +48,7 @@ pub enum NotAFrame {
         /// Right end.
         to: usize,
     },
-    /// A node that is held above its base, other than the floors of a shear building.
+    /// A node with a support above the base, other than the floors of a shear building.
     #[error("node {node} is guided, which only floors of a shear building may be")]
     Guided {
         /// Index of the node.
@@ -62,7 +62,7 @@ pub enum NotAFrame {
     },
 }
 
-/// An element of a line and the way in which it is traversed.
+/// An element of a line and its direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Link {
     Member(usize),
@@ -70,7 +70,7 @@ pub(super) enum Link {
     Spring(usize),
 }
 
-/// A column line: nodes from the base up, and the link below each of them but the first.
+/// A column line: nodes from the base up, and the link below each of them except the first.
 #[derive(Clone, Debug)]
 pub(super) struct ColumnLine {
     pub(super) nodes: Vec<usize>,
@@ -83,23 +83,23 @@ pub(super) struct ColumnLine {
 pub(super) struct BeamLine {
     /// Index of the column line on the left.
     pub(super) bay: usize,
-    /// Places of the joints in the column lines on the left and on the right.
+    /// Indices of the joints in the column lines on the left and on the right.
     pub(super) joints: [usize; 2],
     pub(super) nodes: Vec<usize>,
     pub(super) links: Vec<Link>,
 }
 
-/// What a stick model is made of, from the point of view of transfer.
+/// Column lines and beams of a stick model.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     /// From left to right.
     pub(super) columns: Vec<ColumnLine>,
     /// Bay by bay, from the lowest up.
     pub(super) beams: Vec<BeamLine>,
-    /// Per column line and place: the beam that ends there and the one that begins there.
+    /// Per column line and index: the beam that ends there and the one that begins there.
     pub(super) meeting: Vec<Vec<[Option<usize>; 2]>>,
-    /// Per node and component: the degree of freedom whose load the node carries and whose displacement it
-    /// tells. A displacement that several nodes share belongs to the first of them.
+    /// Per node and component: the degree of freedom of which the node has the load and the displacement. A shared
+    /// displacement belongs to the first of its nodes.
     pub(super) carried: Vec<[Option<usize>; 3]>,
     pub(super) stick_model: StickModel,
 }
@@ -165,7 +165,7 @@ impl Layout {
                 }
                 .transfer()
             }
-            // Floors of a shear building neither rise nor turn: a hinge that gives way sideways only.
+            // Floors of a shear building move only horizontally: a hinge that is flexible in x only.
             Link::Spring(index) => {
                 let spring = &self.stick_model.springs[index];
                 let weight = element::part_of(spring.proportional_damping).weight(matrix);
@@ -267,7 +267,7 @@ fn carried(equations: &Equations, nodes: usize) -> Vec<[Option<usize>; 3]> {
         .collect()
 }
 
-/// From every fixed node up as far as it goes.
+/// From every fixed node up to the top.
 fn column_lines(
     stick_model: &StickModel,
     around: &[Vec<(Link, usize)>],
@@ -288,7 +288,7 @@ fn column_lines(
         };
         let mut at = base;
         loop {
-            // Springs of a base lead from the ground to a foot at the same place.
+            // Base springs connect the ground to a foot at the same position.
             let on_ground = nodes[at].support == Support::Fixed;
             let mut up = around[at].iter().filter(|(link, to)| {
                 let above = nodes[*to].y > nodes[at].y + SAME;
@@ -343,7 +343,7 @@ fn beam_lines(
                     path.push(next);
                     at = next;
                 }
-                // Beams that end at the column line on the left are found from there.
+                // Beams that end at this column line are found from the left one.
                 if nodes[at].x < nodes[from].x - SAME {
                     continue;
                 }
@@ -355,7 +355,7 @@ fn beam_lines(
                 }
                 let end = place[at].filter(|(right, _)| *right == column + 1);
                 let known = |beam: &BeamLine| beam.bay == column && beam.nodes[0] == from;
-                // Beams that run side by side are left over, and so is what leads nowhere.
+                // Parallel beams and dead ends remain.
                 if let Some((_, end)) = end.filter(|_| !beams.iter().any(known)) {
                     beams.push(BeamLine {
                         bay: column,

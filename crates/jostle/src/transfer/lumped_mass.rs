@@ -2,8 +2,8 @@
 
 use super::{StateVector, Transfer};
 
-/// A mass without extent. Within a time step its acceleration is affine in its displacement, so that it has a
-/// transfer matrix.
+/// A point mass. Within a time step its acceleration is affine in its displacement, so that it has a transfer
+/// matrix.
 ///
 /// ```text
 /// qx_O = qx_I − M g x_I + f_x,   qy_O = qy_I − M g y_I + f_y,   m_O = m_I − J g θ_I + f_m            (T1)
@@ -19,11 +19,12 @@ pub struct LumpedMass {
 }
 
 impl LumpedMass {
-    /// Transfer with the coefficient g = A + αC of the step \[1/s²\] and all known forces f_x, f_y \[N\] and
-    /// f_m \[N·m\], those that (T1) takes from the history included. With g = 0 the mass is a loaded point; with
-    /// g = −ω² it swings.
+    /// Transfer with the coefficient g = A + αC of the step \[1/s²\] and all known forces f_x, f_y \[N\] and f_m
+    /// \[N·m\], those that (T1) takes from the history included. With g = 0 the mass is a loaded point; with g =
+    /// −ω² it vibrates harmonically.
     ///
-    /// A mass on a column resonates at ω² = 3 EI/(l³ M): the base moves it without an outer force.
+    /// A mass on a column resonates at ω² = 3 EI/(l³ M): base and mass are in equilibrium without an external
+    /// force.
     ///
     /// ```
     /// use jostle::transfer::{BeamSegment, Heading, LumpedMass, StateVector};
@@ -84,7 +85,7 @@ pub fn two_in_one_out(mass: &Transfer, below: StateVector, left_beam: StateVecto
     mass.apply(below) + left_beam.forces_only()
 }
 
-/// How far the displacements of two ends are apart, H z₁ − H z₂; zero where they meet in one joint (theory, Eq. T2).
+/// Difference of the displacements of two ends, H z₁ − H z₂; zero at a common joint (theory, Eq. T2).
 #[must_use]
 pub fn apart(first: StateVector, second: StateVector) -> [f64; 3] {
     (first - second).displacements()

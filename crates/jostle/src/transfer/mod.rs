@@ -1,5 +1,5 @@
-//! Elements as transfer matrices, the path from the free ends of a frame to its base, and
-//! the ways to solve a step along it.
+//! Transfer matrices of elements, the path from the free ends of a frame to its base, and solvers of a step along
+//! it.
 //!
 //! ```text
 //!   y,qy ↑   θ,m ↺                 roof  ●──∿──○──○──∿──●       ● joint   ○ lumped mass
@@ -14,13 +14,13 @@
 //! ```
 
 //!
-//! *Elements*: [`LumpedMass`], [`BeamSegment`] and [`PlanarHinge`] make a [`Transfer`], which takes the
+//! *Elements*: [`LumpedMass`], [`BeamSegment`] and [`PlanarHinge`] give a [`Transfer`], which maps the
 //! [`StateVector`] of one cut to the next (theory, Eqs. T1 to T5).
 //!
-//! *Solvers*, all for K̂ y = r with K̂ = κ K + g M of one building: [`crate::RiccatiSweep`], the one that runs
-//! use; [`ElementwiseRiccati`], the same recursion as Horner and Pilkey wrote it, element by element;
-//! [`ProductEquations`], the total transfer equation as published for pounding frames, whose digits
-//! [`digits_left`] counts.
+//! *Solvers*, all for K̂ y = r with K̂ = κ K + g M of one building: [`crate::RiccatiSweep`], used in runs;
+//! [`ElementwiseRiccati`], the same recursion element by element, as published by Horner and Pilkey;
+//! [`ProductEquations`], the total transfer equation as published for pounding frames; [`digits_left`] estimates
+//! its accuracy.
 
 mod batched_chains;
 mod beam;

@@ -1,6 +1,6 @@
-//! The numbers of a factor in the order in which the passes take them.
+//! The entries of a factor in the order of the substitutions.
 
-/// What stands in a place.
+/// Content of a position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
     /// An entry of L, by its number.
@@ -11,13 +11,13 @@ pub(super) enum Place {
     One,
 }
 
-/// Which place every number of a factor has. Elimination puts each number there as it finds it: after a hinge has
-/// changed only those that changed with it are moved.
+/// Position of every entry of a factor. Elimination stores each entry there when it is computed; after a hinge has
+/// changed, only changed entries are written.
 #[derive(Clone, Debug)]
 pub(super) struct PackedFactor {
     lower: Vec<u32>,
     inverse_pivots: Vec<u32>,
-    /// All places before anything is found.
+    /// All positions before elimination.
     blank: Vec<f64>,
 }
 

@@ -1,14 +1,14 @@
-//! The total transfer equation: a frame solved by nothing but products of transfer matrices.
+//! The total transfer equation: a frame solved only by products of transfer matrices.
 //!
 //! This is how the method was published for pounding frames (Zhang et al. 2019, doi:10.1155/2019/5706015; the
-//! equations are rebuilt here, see docs/theory.md, section 6). All column lines but the last are traversed
-//! upwards from their bases, all beams from left to right, the last column line downwards from its head.
-//! Unknown are the base forces of the lines traversed upwards and the states at the left ends of the beams:
-//! (n − 1)(6m + 3) numbers for n column lines and m floors. Every beam end gives three equations, H z = H v,
-//! every head three more, **b** = 0, and the last base another three, **a** = 0.
+//! equations are derived again, see docs/theory.md, section 6). All column lines but the last are traversed upwards
+//! from their bases, all beams from left to right, the last column line downwards from its top. The unknowns are
+//! the base forces of the lines traversed upwards and the states at the left ends of the beams: (n − 1)(6m + 3)
+//! numbers for n column lines and m floors. Every beam end gives three equations, H z = H v, every top three more,
+//! **b** = 0, and the last base another three, **a** = 0.
 //!
-//! Right on paper, it loses digits with every segment (Eq. R0), the faster the smaller the step: see
-//! [`digits_left`]. It is here for comparison with the literature, and to show why the Riccati form is needed.
+//! Exact in theory, it loses digits with every segment (Eq. R0), and more at smaller steps: see [`digits_left`]. It
+//! serves for comparison with the literature, and shows why the Riccati form is needed.
 
 use super::digits::{DIGITS_WANTED, digits_left};
 use super::layout::{Layout, NotAFrame};
@@ -23,7 +23,7 @@ use crate::structure::{StepEquations, solve_once};
 /// The total transfer equation of one building, K̂ y = r with K̂ = κ K + g M solved by products of transfer
 /// matrices.
 ///
-/// Ask [`ProductEquations::check`] before stepping with it.
+/// Call [`ProductEquations::check`] before using it.
 #[derive(Clone, Debug)]
 pub struct ProductEquations {
     layout: Result<Layout, NotAFrame>,
@@ -33,15 +33,15 @@ pub struct ProductEquations {
 /// Transfer matrices and the factorised total matrix for one step size.
 #[derive(Clone, Debug, Default)]
 pub struct ProductFactor {
-    /// Per column line and place from the first above the base: the link below, and the lumped mass.
+    /// Per column line and index from the first above the base: the link below, and the lumped mass.
     columns: Vec<Vec<[Transfer; 2]>>,
     /// Per beam and link: the link, and the lumped mass at its right end.
     beams: Vec<Vec<[Transfer; 2]>>,
-    /// U_all; `None` where it has overflowed.
+    /// U_all; `None` if it has overflowed.
     total: Option<PivotedLu>,
 }
 
-/// Why the total transfer equation should not be used for a building and a step.
+/// Reason why the total transfer equation should not be used for a building and a step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProductRefusal {
@@ -50,14 +50,14 @@ pub enum ProductRefusal {
         "the product of transfer matrices needs a plane frame or a shear building: {0}; use solver = \"riccati\" or \"stiffness\""
     )]
     NotAFrame(#[from] NotAFrame),
-    /// Rounding would drown the answer.
+    /// Rounding errors would exceed the result.
     #[error(
         "the product of transfer matrices would keep about {digits_left:.0} of 16 digits of \"{building}\" in this step, and {wanted:.0} are needed; use solver = \"riccati\", which loses none, or longer steps, fewer segments or fewer storeys"
     )]
     DigitsLost {
         /// Name of the building.
         building: String,
-        /// Digits expected to be right, negative when even the order of magnitude is lost \[–\].
+        /// Digits expected to be right, negative if even the order of magnitude is lost \[–\].
         digits_left: f64,
         /// Digits needed \[–\].
         wanted: f64,
@@ -65,7 +65,7 @@ pub enum ProductRefusal {
 }
 
 impl ProductEquations {
-    /// Whether a building can be stepped by products of transfer matrices with this matrix.
+    /// Whether products of transfer matrices are accurate enough for a building and this matrix.
     ///
     /// # Errors
     /// The building is no frame, or too few digits would be left.
@@ -106,10 +106,10 @@ impl ProductEquations {
 }
 
 /// Largest difference between the product and the Riccati recursion, relative to the largest displacement: the
-/// digits really lost, for one load. Infinite where the product overflows.
+/// actual loss of digits, for one load. Infinite if the product overflows.
 ///
 /// # Errors
-/// [`NotPositive`] when the building offers no resistance.
+/// [`NotPositive`] if the building is a mechanism.
 pub fn measured_loss(
     building: &AssembledBuilding,
     matrix: &StepMatrix,
@@ -146,8 +146,8 @@ impl StepEquations for ProductEquations {
         }
     }
 
-    /// Fails, and cannot do otherwise, for a building that [`ProductEquations::check`] refuses as no frame. A
-    /// matrix that is not positive definite is not noticed.
+    /// Fails for a building that [`ProductEquations::check`] rejects because it is not a frame. A matrix that is
+    /// not positive definite is not detected.
     fn factorize(
         &self,
         matrix: &StepMatrix,
@@ -183,7 +183,7 @@ impl StepEquations for ProductEquations {
                     .collect(),
             );
         }
-        // A column of U_all is what a unit of one unknown leaves over at the joints, heads and bases.
+        // A column of U_all is the residual at joints, tops and bases due to a unit of one unknown.
         let n = unknowns(layout);
         let mut total = FullMatrix::zeros(n, n);
         let mut unit = vec![0.0; n];
@@ -199,7 +199,7 @@ impl StepEquations for ProductEquations {
         Ok(())
     }
 
-    /// Allocates; not meant for speed. All displacements become NaN where the products have overflowed.
+    /// Allocates memory; not optimised. All displacements are NaN if the products have overflowed.
     fn solve(&self, factor: &ProductFactor, load: &mut [f64]) {
         let load = &mut load[..self.order];
         let (Ok(layout), Some(total)) = (&self.layout, &factor.total) else {
@@ -220,11 +220,11 @@ impl StepEquations for ProductEquations {
     }
 }
 
-/// One pass along all beams and column lines.
+/// One propagation along all beams and column lines.
 struct Passage {
     /// Displacements of every node.
     displacements: Vec<[f64; 3]>,
-    /// What the equations at joints, heads and the last base leave over.
+    /// Residuals of the equations at joints, tops and the last base.
     left_over: Vec<f64>,
 }
 
@@ -271,7 +271,7 @@ impl Passage {
             let right_end = |place: usize| meeting[place][0].map(|beam: usize| beam_ends[beam][1]);
             let left_end = |place: usize| meeting[place][1].map(|beam: usize| beam_ends[beam][0]);
             if is_last(layout, column) {
-                // Downwards; the beam at the head is what leads in.
+                // Downwards; the beam at the top continues into the line.
                 let head = line.nodes.len() - 1;
                 let mut v = right_end(head).unwrap_or(nothing);
                 for place in (1..=head).rev() {

@@ -8,8 +8,8 @@ use std::ops::{Add, Sub};
 /// ```text
 /// z = [x, y, θ, m, qx, qy]ᵀ                                                                          (S1)
 /// ```
-/// The forces are what the input side exerts on the output side: a column traversed upwards is compressed when
-/// qy > 0, a beam traversed to the right when qx > 0.
+/// The forces are those of the input side on the output side: a column traversed upwards is compressed when qy > 0,
+/// a beam traversed to the right when qx > 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StateVector {
     /// Displacement to the right \[m\].

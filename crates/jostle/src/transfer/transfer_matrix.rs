@@ -2,7 +2,8 @@
 
 use super::StateVector;
 
-/// What an element does to the state of a cut: z_O = U z_I + e, rows and columns in the order x, y, θ, m, qx, qy.
+/// Transfer of the state of a cut through an element: z_O = U z_I + e, rows and columns in the order x, y, θ, m,
+/// qx, qy.
 ///
 /// A cantilever column of one segment under a force at its tip. Base forces follow from the free tip; the tip
 /// deflects by F l³/(3 EI).
@@ -26,7 +27,7 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// The element that changes nothing.
+    /// The identity.
     #[must_use]
     pub fn identity() -> Self {
         let mut matrix = [[0.0; 6]; 6];

@@ -1,4 +1,4 @@
-//! What columns of text say about themselves: comments, and the row of names.
+//! Metadata of columns of text: comments, and the row of names.
 
 use super::cells;
 use crate::quantity::{Dimension, STANDARD_GRAVITY, parse_quantity, shorten};
@@ -6,7 +6,7 @@ use crate::record::RecordOptions;
 use crate::record::error::RecordError;
 use crate::record::units::{acceleration_unit, option_unit};
 
-/// What comments and the header row say.
+/// Data of comments and the header row.
 #[derive(Default)]
 pub(super) struct Header {
     pub(super) unit: Option<(String, f64)>,
@@ -27,7 +27,7 @@ pub(super) struct Header {
     pub(super) points: Option<(usize, usize)>,
 }
 
-/// `unit = g`, `step = 0.02 s` (or `dt`), `gravity = 9.81 m/s2`; other comments say nothing.
+/// `unit = g`, `step = 0.02 s` (or `dt`), `gravity = 9.81 m/s2`; other comments are ignored.
 pub(super) fn read_comment(
     header: &mut Header,
     line: usize,
@@ -74,7 +74,7 @@ fn read_unit(line: usize, text: &str) -> Result<(String, f64), RecordError> {
 
 /// `time_s,acceleration_g`, `time (s), acc (g)`, `t a`.
 ///
-/// With a component asked for, the column whose name begins so holds the acceleration.
+/// If a component is requested, the column whose name begins so holds the acceleration.
 pub(super) fn read_column_names(
     header: &mut Header,
     line: usize,

@@ -1,8 +1,8 @@
 //! Records as one or more columns of text: CSV, tabs or spaces, with or without times.
 //!
-//! Unit and step come from comments (`# unit = g`, `# step = 0.02 s`, `# gravity = 9.81 m/s2`), from the header
-//! row (`time_s,acceleration_g` or `time (s), acc (g)`), from the times, or from the options. What is stated
-//! nowhere is asked for, never guessed.
+//! Unit and step come from comments (`# unit = g`, `# step = 0.02 s`, `# gravity = 9.81 m/s2`), from the header row
+//! (`time_s,acceleration_g` or `time (s), acc (g)`), from the times, or from the options. Missing data are asked
+//! for, never guessed.
 
 mod header;
 mod times;
@@ -20,7 +20,7 @@ use times::Times;
 /// Lines without numbers accepted before the data.
 const MOST_HEADER_ROWS: usize = 50;
 
-/// The numbers of the file, and how they are laid out.
+/// The numbers of the file, and their layout.
 struct Table {
     columns: usize,
     /// Column of the accelerations.

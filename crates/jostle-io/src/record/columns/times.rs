@@ -7,7 +7,7 @@ use crate::record::lines::{LineMap, last_digit, number, simplest};
 /// begin + i·step has two roundings \[–\].
 const SINGLE: f64 = 2.0 * f32::EPSILON as f64;
 
-/// Printed times: equally spaced, but for the rounding of their last digit.
+/// Printed times: equally spaced except for the rounding of their last digit.
 #[derive(Default)]
 pub(crate) struct Times {
     lines: LineMap,
@@ -21,7 +21,7 @@ pub(crate) struct Times {
 }
 
 impl Times {
-    /// Room for so many times, printed in a unit of so many seconds.
+    /// Capacity for a number of times, printed in a unit of given seconds.
     pub(crate) fn with_capacity(count: usize, unit: f64) -> Self {
         Self {
             values: Vec::with_capacity(count),
@@ -64,7 +64,7 @@ impl Times {
         }
         let intervals = (count - 1) as f64;
         let step = (last - self.first) / intervals;
-        // Times rounded too coarsely to tell a rounded step from a lost line must be exact.
+        // If rounding is too coarse to distinguish a rounded step from a lost line, times must be exact.
         let fine = |rounding: f64| {
             if rounding <= 0.13 * step {
                 rounding
@@ -83,8 +83,8 @@ impl Times {
         Ok(simplest(step, (ends / intervals).max(1e-12 * step)))
     }
 
-    /// What rounding may have changed between the ends \[s\], if every time is a whole number of steps after the
-    /// first, but for its own `rounding` and that of the ends.
+    /// Possible effect of rounding between the ends \[s\], if every time is a whole number of steps after the
+    /// first, except for its `rounding` and that of the ends.
     fn equal_steps(&self, step: f64, rounding: &dyn Fn(usize) -> f64) -> Result<f64, RecordError> {
         let ends = rounding(self.values.len() - 1) + rounding(0);
         for (i, time) in self.values.iter().enumerate() {

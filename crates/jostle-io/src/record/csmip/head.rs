@@ -1,4 +1,4 @@
-//! What stands above the values of a CSMIP channel.
+//! The header of a CSMIP channel.
 
 use super::FORMAT;
 use crate::quantity::shorten;
@@ -54,7 +54,7 @@ impl Head {
                 "the file ends in its lines of text",
             ));
         }
-        // Header numbers are not used but for the peak; some files print stars.
+        // Header numbers are used only for the peak; some files print stars.
         Fixed::integers(16, 5).read(lines, 100, FORMAT)?;
         let reals = Fixed::reals(8, 10).read(lines, reals, FORMAT)?.values;
         Ok(Self {
@@ -177,7 +177,7 @@ impl BlockHeader {
         let (Some(count), Some(step)) = (count, step.filter(|step: &f64| *step > 0.0)) else {
             return Err(expected());
         };
-        // Old files say (UNITS: …) and print eight numbers on a line; all others name their format.
+        // Old files state (UNITS: …) and print eight numbers on a line; all others name their format.
         let old = find_phrase(&text, "(units:").is_some();
         let fixed = Fixed::parse(&text).or_else(|| old.then(|| eight_on(lines, count)));
         let fixed = fixed.ok_or_else(|| {

@@ -36,9 +36,9 @@ pub(super) enum Encoding {
 pub(super) struct Block<'b> {
     /// Network, station, location and channel, with points between.
     pub(super) source: String,
-    /// Nanoseconds since an epoch of its own.
+    /// Nanoseconds since an arbitrary epoch.
     pub(super) start: i128,
-    /// Date of the first value, for people.
+    /// Date of the first value, for messages.
     pub(super) date: String,
     pub(super) rate: f64,
     pub(super) count: usize,
@@ -52,7 +52,7 @@ pub(super) struct Block<'b> {
 }
 
 impl Block<'_> {
-    /// What all records of a channel share; without checksums, this is what shows a damaged header.
+    /// Data that all records of a channel share; without checksums a difference reveals a damaged header.
     pub(super) fn layout(&self) -> Layout {
         Layout {
             encoding: self.encoding,
@@ -63,7 +63,7 @@ impl Block<'_> {
     }
 }
 
-/// How the records of a channel are laid out.
+/// Layout of the records of a channel.
 #[derive(PartialEq)]
 pub(super) struct Layout {
     pub(super) encoding: Encoding,
@@ -136,7 +136,7 @@ fn word(bytes: &[u8]) -> String {
 /// A record of version 2: 48 bytes, blockettes, data.
 pub(super) fn version_2(bytes: &[u8]) -> Result<Block<'_>, String> {
     let year = u16::from_be_bytes([bytes[20], bytes[21]]);
-    // Headers have either byte order; the year tells.
+    // Headers have either byte order; the year shows which.
     let big_header = (1900..=2200).contains(&year);
     let short = |at: usize| -> Result<u16, String> {
         let pair: [u8; 2] = bytes
@@ -161,7 +161,7 @@ pub(super) fn version_2(bytes: &[u8]) -> Result<Block<'_>, String> {
         (false, true) => -multiplier / factor,
         (false, false) => 1.0 / (factor * multiplier),
     };
-    // Unless it has been put in already, the correction of the clock is due.
+    // Apply the clock correction unless it has been applied already.
     if bytes[36] & 2 == 0 {
         let correction: [u8; 4] = [bytes[40], bytes[41], bytes[42], bytes[43]];
         let correction = if big_header {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Checksum of bytes, with those in a hole taken as zero: a checksum stands in its own record.
+/// Checksum of bytes; a range is taken as zero, because the record contains its own checksum.
 pub(crate) fn crc32c(bytes: &[u8], hole: Range<usize>) -> u32 {
     let mut remainder = u32::MAX;
     for (at, byte) in bytes.iter().enumerate() {

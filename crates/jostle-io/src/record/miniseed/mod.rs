@@ -1,8 +1,8 @@
 //! miniSEED 2 and 3: records of one channel each, in any order of channels.
 //!
 //! Sources: SEED reference manual 2.4 (FDSN, IRIS, USGS, 2012), chapter 8; miniSEED 3 specification (FDSN, 2023).
-//! Own code, because a reader of files of others must withstand damaged headers: chains of blockettes that turn
-//! in circles, lengths beyond the file, counts beyond the data.
+//! Own code, because it must withstand damaged headers: circular chains of blockettes, lengths beyond the file,
+//! counts beyond the data.
 
 mod block;
 mod crc32c;

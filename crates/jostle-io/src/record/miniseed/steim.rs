@@ -2,7 +2,7 @@
 //!
 //! Source: SEED reference manual 2.4 (FDSN, IRIS, USGS, 2012), appendix B.
 
-/// Words of a frame, the first of which says what the others hold.
+/// Words of a frame; the first one describes the others.
 const WORDS: usize = 16;
 const FRAME: usize = 4 * WORDS;
 

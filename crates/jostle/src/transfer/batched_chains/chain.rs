@@ -1,11 +1,11 @@
-//! A chain of columns: its entries of L, and the rows beyond the chains that it meets.
+//! A chain of columns: its entries of L, and the rows outside the chains that it couples to.
 
 use crate::linear::counting_sort::in_order;
 use crate::transfer::packed_factor::Place;
 
-/// How far links of a chain couple, and how many of its ends meet links from the beginning: loops are compiled for each of
-/// these, so that what they need stays in registers. Bending couples two displacements of a node and of its neighbour; change of
-/// length, and members with a single mass, fewer.
+/// Coupling distance of links of a chain, and number of ends that couple to links from the beginning. Loops are
+/// compiled for each case, so that their data stay in registers. Bending couples two displacements of a node and of
+/// its neighbour; axial deformation, and members with a single mass, fewer.
 const REACHES: [Reach; 4] = [
     Reach::new(1, 2),
     Reach::new(1, 4),
@@ -24,27 +24,27 @@ impl Reach {
         Self { band, near }
     }
 
-    /// Registers laid out for a link: its inverse pivot, entries of L to the links behind it and to the near ends.
+    /// Registers of a link: its inverse pivot, entries of L to the links behind it and to the near ends.
     pub(super) fn block(self) -> usize {
         1 + self.band + self.near
     }
 }
 
-/// A chain alone.
+/// A single chain.
 pub(super) struct Chain {
     pub(super) reach: Reach,
-    /// Its columns, rising.
+    /// Its columns, ascending.
     pub(super) columns: Vec<u32>,
-    /// Rows beyond the chains that only its last columns meet.
+    /// Rows outside the chains that couple only to its last columns.
     pub(super) far: Vec<u32>,
-    /// Those that earlier columns meet; as many as loops are compiled for.
+    /// Rows that couple to earlier columns, up to the number for which loops are compiled.
     pub(super) near: Vec<u32>,
-    /// What the passes take, link by link.
+    /// Positions of factor entries in the order of the substitutions, link by link.
     pub(super) places: Vec<Place>,
 }
 
 impl Chain {
-    /// All chains of the columns of a pattern, in the order of their last columns; none where one reaches too far.
+    /// All chains of a pattern, in the order of their last columns; none if couplings reach too far.
     pub(super) fn all(starts: &[usize], rows: &[u32], parent: &[u32]) -> Option<Vec<Self>> {
         let columns = starts.len() - 1;
         // A chain is known by its last column.
@@ -57,7 +57,7 @@ impl Chain {
         }
         let listed: Vec<(usize, u32)> = last.into_iter().zip(0..).collect();
         let by_chain = in_order(&listed, columns, |entry| entry.0);
-        // Which link of its chain a column is.
+        // Index of a column in its chain.
         let mut link = vec![0; columns];
         let chains = by_chain.chunk_by(|a, b| a.0 == b.0).map(|own| {
             for (place, (_, column)) in own.iter().enumerate() {
@@ -84,9 +84,9 @@ impl Chain {
         chains.collect()
     }
 
-    /// A chain of columns with such entries of L, if it reaches no farther.
+    /// A chain with this coupling distance, if it couples no farther.
     fn within(reach: Reach, columns: &[u32], met: &[Met]) -> Option<Self> {
-        // Those met first are near as long as there is room.
+        // The first ones are near ends up to the available number.
         let (mut far, mut near) = (Vec::new(), Vec::new());
         for Met { from, to, .. } in met {
             let Err(row) = *to else { continue };
@@ -124,7 +124,7 @@ impl Chain {
             };
             places[own] = Place::Lower(*place);
         }
-        // Near ends that are missing are given nothing, and read what is never used.
+        // Missing near ends receive zeros, and their values are not used.
         let spare = near.first().or(far.first()).or(columns.last());
         let spare = spare.copied().unwrap_or(0);
         near.resize(reach.near, spare);
@@ -137,7 +137,7 @@ impl Chain {
         })
     }
 
-    /// Whether all its columns stand so many places behind those of another that is like it.
+    /// Whether all its columns have a constant offset to those of an equal chain.
     pub(super) fn is_beside(&self, other: &Self, places: usize) -> bool {
         let alike = self.reach == other.reach
             && self.columns.len() == other.columns.len()
@@ -147,7 +147,7 @@ impl Chain {
     }
 }
 
-/// A coupling of a link: to another link, or to a row beyond the chains.
+/// A coupling of a link to another link, or to a row outside the chains.
 struct Met {
     from: usize,
     to: Result<usize, u32>,

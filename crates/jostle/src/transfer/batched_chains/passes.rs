@@ -1,4 +1,4 @@
-//! Both passes along one group of chains.
+//! Forward and back substitution along one group of chains.
 
 use super::{LANES, Lanes};
 
@@ -67,11 +67,12 @@ impl ChainPasses<'_> {
     }
 }
 
-/// What a pass uses.
+/// Registers of a substitution.
 struct AtHand<const BAND: usize, const NEAR: usize> {
-    /// Of the links behind, nearest last: on the way forward what they hold, on the way back what they have been given so far.
+    /// Values of the links behind, nearest last: results in forward substitution, partial sums in back
+    /// substitution.
     behind: [Lanes; BAND],
-    /// Of the near ends: what they have been given so far, and on the way back what is found there.
+    /// Values of the near ends: partial sums in forward substitution, solutions in back substitution.
     near: [Lanes; NEAR],
 }
 
@@ -83,7 +84,7 @@ impl<const BAND: usize, const NEAR: usize> AtHand<BAND, NEAR> {
         }
     }
 
-    /// Takes the load of the next link and returns what it holds, divided by its pivot.
+    /// Processes the load of the next link and returns its value divided by the pivot.
     #[inline(always)]
     fn pass_on(&mut self, block: &[Lanes], load: Lanes) -> Lanes {
         let mut sum = load;
@@ -103,7 +104,7 @@ impl<const BAND: usize, const NEAR: usize> AtHand<BAND, NEAR> {
         sum
     }
 
-    /// Takes what the next link holds and returns what is found there.
+    /// Processes the value of the next link and returns its solution.
     #[inline(always)]
     fn gather(&mut self, block: &[Lanes], scratch: Lanes) -> Lanes {
         let mut sum = scratch;
@@ -123,7 +124,7 @@ impl<const BAND: usize, const NEAR: usize> AtHand<BAND, NEAR> {
     }
 }
 
-/// A register of a list from a place on.
+/// A register of a list from an index on.
 #[inline(always)]
 fn at(list: &[f64], first: u32) -> Lanes {
     let mut values = [0.0; LANES];
@@ -132,7 +133,7 @@ fn at(list: &[f64], first: u32) -> Lanes {
     values
 }
 
-/// Puts as many values as there are chains into a list, from a place on.
+/// Writes one value per chain to a list, from an index on.
 #[inline(always)]
 fn put(list: &mut [f64], first: u32, values: &Lanes, chains: usize) {
     let first = first as usize;
@@ -150,7 +151,7 @@ fn put(list: &mut [f64], first: u32, values: &Lanes, chains: usize) {
     }
 }
 
-/// Adds as many values as there are chains to a list.
+/// Adds one value per chain to a list.
 #[inline(always)]
 fn add(list: &mut [f64], rows: &[u32; LANES], values: &Lanes, chains: usize) {
     for (row, value) in rows.iter().zip(values).take(chains) {

@@ -1,4 +1,4 @@
-//! The recursion of K + s²M for several rates s at once: a lane each.
+//! The recursion of K + s²M for several rates s at once, one lane each.
 
 use pulp::NullaryFnOnce;
 
@@ -6,13 +6,13 @@ use super::{RiccatiFactor, RiccatiSweep};
 use crate::linear::{NotPositive, StepMatrix};
 use crate::simd::in_wide_registers;
 
-/// Rates taken at once.
+/// Rates processed at once.
 pub(crate) const RATES: usize = 8;
 
 /// One value for every rate.
 pub(crate) type PerRate = [f64; RATES];
 
-/// Couplings and pivots of K + s²M for [`RATES`] rates.
+/// Entries of L and pivots of K + s²M for [`RATES`] rates.
 #[derive(Clone, Debug)]
 pub(crate) struct RateFactors {
     lower: Vec<PerRate>,
@@ -20,7 +20,7 @@ pub(crate) struct RateFactors {
 }
 
 impl RateFactors {
-    /// The factor of a single one of the rates, in all lanes: for that many loads at once.
+    /// The factor of a single rate in all lanes, for several loads at once.
     pub(crate) fn only(&self, rate: usize) -> Self {
         let of = |list: &[PerRate]| list.iter().map(|values| [values[rate]; RATES]).collect();
         Self {
@@ -34,7 +34,7 @@ impl RiccatiSweep {
     /// Factorises K + s²M at all rates s ≥ 0 \[1/s\]; springs that yield have their initial stiffness.
     ///
     /// # Errors
-    /// [`NotPositive`] when one of them is not positive definite.
+    /// [`NotPositive`] if one of them is not positive definite.
     pub(crate) fn factorize_at(&self, rates: &PerRate) -> Result<RateFactors, NotPositive> {
         let mut static_matrix = RiccatiFactor::default();
         let tangents = &self.initial_tangents;
@@ -126,7 +126,7 @@ impl NullaryFnOnce for Eliminate<'_> {
     }
 }
 
-/// Both passes over loads.
+/// Both substitutions of loads.
 struct Passes<'a> {
     sweep: &'a RiccatiSweep,
     factors: &'a RateFactors,
@@ -144,7 +144,7 @@ impl NullaryFnOnce for Passes<'_> {
             loads,
         } = self;
         let columns = sweep.starts.windows(2).map(|bounds| bounds[0]..bounds[1]);
-        // A push on one face has nothing to pass on before it.
+        // A force on one side has no effect on earlier rows.
         let pushed = |values: &PerRate| values.iter().any(|value| *value != 0.0);
         let first = loads.iter().position(pushed).unwrap_or(loads.len());
         for (column, entries) in columns.clone().enumerate().skip(first) {
@@ -182,7 +182,7 @@ mod tests {
     use crate::structure::StepEquations;
     use crate::structure::testkit::frame;
 
-    /// Every lane is the recursion of its own rate, also where a single rate is spread over all lanes.
+    /// Every lane is the recursion of its own rate, also if a single rate is copied to all lanes.
     #[test]
     fn lanes_are_rates_of_their_own() {
         let building = frame(true);
