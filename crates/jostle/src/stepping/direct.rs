@@ -12,7 +12,7 @@ use super::kernels::Advance;
 use super::links::Links;
 use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
 use super::plan::Plan;
-use super::recorder::Recorder;
+use super::recorder::{Instant, Recorder};
 use super::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use super::springs::YieldingSprings;
 use super::velocity_jump::{JumpFactor, JumpScratch};
@@ -137,15 +137,14 @@ impl<E: StepEquations> Direct<E> {
 
     /// A row of the history, where one is due.
     fn record(&mut self, run: &RunState<'_>, wanted: bool) {
-        self.recorder.record(
-            run.system,
-            &self.state,
-            &run.phases,
-            &self.links.forces,
-            run.ground[0],
-            wanted,
-            &mut self.audit,
-        );
+        let instant = Instant {
+            state: &self.state,
+            contacts: &run.phases,
+            links: &self.links.forces,
+            ground: run.ground[0],
+        };
+        self.recorder
+            .record(run.system, &instant, wanted, &mut self.audit);
     }
 
     fn factorize(

@@ -22,6 +22,17 @@ pub(crate) struct Recorder {
     before: Vec<(f64, f64)>,
 }
 
+/// What a row of a history is made of.
+#[derive(Clone, Copy)]
+pub(crate) struct Instant<'a> {
+    pub(crate) state: &'a State,
+    pub(crate) contacts: &'a [ContactPhase],
+    /// Forces of links \[N\].
+    pub(crate) links: &'a [f64],
+    /// Ground acceleration \[m/s²\].
+    pub(crate) ground: f64,
+}
+
 /// Columns of a history, in order.
 pub(crate) fn columns(system: &System) -> Vec<Column> {
     let mut columns = vec![Column::Time, Column::GroundAcceleration];
@@ -170,13 +181,16 @@ impl Recorder {
     pub(crate) fn record(
         &mut self,
         system: &System,
-        state: &State,
-        contacts: &[ContactPhase],
-        links: &[f64],
-        ground: f64,
+        instant: &Instant<'_>,
         wanted: bool,
         audit: &mut EnergyAudit,
     ) {
+        let Instant {
+            state,
+            contacts,
+            links,
+            ground,
+        } = *instant;
         let Some(history) = &mut self.history else {
             return;
         };
