@@ -14,7 +14,7 @@ use jostle::{
 };
 
 /// All contact laws.
-pub(crate) const LAWS: [LawKind; 12] = LawKind::ALL;
+pub(crate) const LAWS: [LawKind; LawKind::ALL.len()] = LawKind::ALL;
 
 /// Random numbers that are the same everywhere (splitmix64).
 pub(crate) struct Random(pub(crate) u64);
