@@ -202,7 +202,7 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
 }
 
 /// Peaks of every spring of a building that can yield, in the order of
-/// [`Discretization::spring_places`](crate::stick model::Discretization::spring_places).
+/// [`Discretization::spring_places`](crate::structure::Discretization::spring_places).
 #[must_use]
 pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSummary> {
     let springs = building.equations.springs.iter().enumerate();

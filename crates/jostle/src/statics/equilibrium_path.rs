@@ -218,7 +218,7 @@ impl EquilibriumPath {
         Err(PathError::Undecided)
     }
 
-    /// Continues to the next corner, at most by `most` in units of the control variable. Call [`Walk::find_rates`]
+    /// Continues to the next corner, at most by `most` in units of the control variable. Call [`EquilibriumPath::find_rates`]
     /// first.
     ///
     /// # Errors

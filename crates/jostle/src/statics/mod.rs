@@ -1,6 +1,6 @@
 //! Nonlinear statics of one building: self weight, and pushover to collapse.
 //!
-//! Springs that yield are linear between corners, so the building is linear from one corner to the next. [`Walk`]
+//! Springs that yield are linear between corners, so the building is linear from one corner to the next. [`EquilibriumPath`]
 //! goes from corner to corner and ends exactly at each: no step size, no equilibrium iteration (theory, Eqs. X1 to
 //! X4).
 

@@ -1,6 +1,6 @@
 //! Stepping: from one instant to the next, with every impact found and none counted twice.
 //!
-//! [`simulate`] takes a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved alone;
+//! [`simulate()`] takes a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved alone;
 //! forces between them are found in `coupling`. A step in which a contact closes is repeated so that it ends there.
 
 mod acceleration_parts;

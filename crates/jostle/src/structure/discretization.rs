@@ -18,7 +18,7 @@ pub struct Discretization {
     pub left_face: Vec<usize>,
     /// Contact nodes of the right side, from the ground up.
     pub right_face: Vec<usize>,
-    /// Positions of the springs that yield, in the order of [`crate::equations::Equations::springs`].
+    /// Positions of the springs that yield, in the order of [`crate::structure::Equations::springs`].
     pub spring_places: Vec<SpringPlace>,
 }
 

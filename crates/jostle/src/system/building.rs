@@ -30,7 +30,7 @@ pub struct BuildingSystem {
     /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
     pub modal_damping: Option<f64>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
-    /// [`eigen::modes`] finds those of all kinds.
+    /// [`crate::eigen::modes`] finds those of all kinds.
     pub modes: Vec<Mode>,
     /// The recursion through its equations, shared by all runs.
     pub(crate) sweep: Arc<RiccatiSweep>,

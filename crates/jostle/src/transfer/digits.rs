@@ -32,7 +32,7 @@ const PER_BEAM_DECADE: f64 = 0.4;
 /// ```
 /// use jostle::structure::Discretization;
 /// use jostle::linear::StepMatrix;
-/// use jostle::system::AssembledBuilding;
+/// use jostle::structure::AssembledBuilding;
 /// use jostle::transfer::digits_left;
 /// use jostle::{Building, Damping, Shear, Structure};
 /// let tower = Building {

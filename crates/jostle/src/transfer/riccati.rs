@@ -30,7 +30,8 @@ use crate::structure::StepEquations;
 /// (docs/method.md, section 2):
 ///
 /// ```
-/// use jostle::stepping::{StepEquations, StepMatrix};
+/// use jostle::linear::StepMatrix;
+/// use jostle::structure::StepEquations;
 /// use jostle::{
 ///     Analysis, Base, Building, Damping, Gravity, Model, RiccatiFactor, RiccatiSweep, Shear, Structure, System,
 /// };
@@ -56,7 +57,7 @@ use crate::structure::StepEquations;
 /// };
 /// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;
 ///
-/// let sweep = RiccatiSweep::of(&system.buildings[0]);
+/// let sweep = RiccatiSweep::new(&system.buildings[0]);
 /// let mut factor = RiccatiFactor::default();
 /// let matrix = StepMatrix::new(1.0, 4.0 / 0.02_f64.powi(2)); // K + 4/h² M
 /// sweep.factorize(&matrix, &[], &mut factor).map_err(|error| error.to_string())?;
@@ -66,7 +67,7 @@ use crate::structure::StepEquations;
 /// for (displacement, expected) in floors.into_iter().zip([5720.0, 6200.0, 6240.0]) {
 ///     assert!((displacement / (expected / 1561.0 / 40e3) - 1.0).abs() < 1e-12);
 /// }
-/// assert_eq!(sweep.couplings(), 2);
+/// assert_eq!(sweep.entries_of_l(), 2);
 /// # Ok::<(), String>(())
 /// ```
 #[derive(Clone, Debug)]
