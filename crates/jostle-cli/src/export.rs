@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use jostle_export::{Export, openseespy};
+use jostle_run::{FileKind, may_write};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
-use crate::replace::{Kind, may_write};
 use crate::terminal;
 
 /// Which model, for whom.
@@ -26,7 +26,7 @@ pub(crate) struct ExportArgs {
 }
 
 /// What the head of every script says.
-const SCRIPT: Kind = Kind {
+const SCRIPT: FileKind = FileKind {
     name: "script that jostle exported",
     marks: &[
         "#!/usr/bin/env python3",
@@ -60,7 +60,7 @@ pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
     for remark in &exported.remarks {
         terminal::remark(&format!(
             "{} {remark}",
-            terminal::styled(terminal::LOUD, "difference:")
+            jostle_run::styled(jostle_run::LOUD, "difference:")
         ));
     }
     match &args.output {
