@@ -125,7 +125,7 @@ def collide(
         masses = [in_si(name, value, "mass") for name, value in (("m1", m1), ("m2", m2))]
         return _of_own(law, masses, in_si("speed", speed, "speed"))
     found = _collide(
-        ["--law", law],
+        law,
         m1=m1,
         m2=m2,
         speed=speed,
@@ -155,7 +155,7 @@ def collide_all(
     Laws that cannot realise the restitution are omitted. Arguments as for :func:`collide`.
     """
     return _collide(
-        ["--all"],
+        None,
         m1=m1,
         m2=m2,
         speed=speed,
@@ -165,7 +165,8 @@ def collide_all(
     )
 
 
-def _collide(options: list[str], **given: object) -> list[Collision]:
+def _collide(law: str | None, **given: object) -> list[Collision]:
+    options: dict[str, str] = {}
     for name, value in given.items():
         if value is None:
             continue
@@ -174,10 +175,9 @@ def _collide(options: list[str], **given: object) -> list[Collision]:
             raise TypeError(
                 f"{name}: expected a text with a unit or a number in SI, found {type(value).__name__}"
             )
-        text = value if isinstance(value, str) else repr(plain)
-        options.append(f"--{name.replace('_', '-')}={text}")
+        options[name] = value if isinstance(value, str) else repr(plain)
     try:
-        found = _jostle.collide(options)
+        found = _jostle.collide(law, options)
     except ModelError as error:
         raise ModelError(_as_keyword(str(error))) from None
     return [_collision(json.loads(numbers), curve) for numbers, curve in found]

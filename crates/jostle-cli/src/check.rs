@@ -11,9 +11,10 @@ use jostle::{Building, Model, Plan, RiccatiSweep, Solver, System};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
-use crate::numbers::{counted, grouped, mm};
-use crate::open::Opened;
-use crate::terminal::{self, BOLD, LOUD, styled};
+use crate::terminal;
+use jostle_run::Opened;
+use jostle_run::{BOLD, LOUD, styled};
+use jostle_run::{counted, grouped, mm};
 
 pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
     let opened = args.open()?;

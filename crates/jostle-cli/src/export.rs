@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use jostle_export::{Export, openseespy};
+use jostle_run::{FileKind, may_write};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
-use crate::replace::{Kind, may_write};
 use crate::terminal;
 
 /// Model and target program.
@@ -25,8 +25,8 @@ pub(crate) struct ExportArgs {
     force: bool,
 }
 
-/// First lines of every script.
-const SCRIPT: Kind = Kind {
+/// What the head of every script says.
+const SCRIPT: FileKind = FileKind {
     name: "script that jostle exported",
     marks: &[
         "#!/usr/bin/env python3",
@@ -60,7 +60,7 @@ pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
     for remark in &exported.remarks {
         terminal::remark(&format!(
             "{} {remark}",
-            terminal::styled(terminal::LOUD, "difference:")
+            jostle_run::styled(jostle_run::LOUD, "difference:")
         ));
     }
     match &args.output {

@@ -1,6 +1,7 @@
 //! How a command can fail, and what the shell is told.
 
 use jostle_io::{InputError, OutputError};
+use jostle_run::RunError;
 
 use crate::terminal;
 
@@ -50,5 +51,15 @@ impl From<InputError> for Failure {
 impl From<OutputError> for Failure {
     fn from(error: OutputError) -> Self {
         Self::Analysis(error.to_string())
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Record(problem) => Self::Input(format!("--record: {problem}")),
+            RunError::Output(_) | RunError::Analysis(_) => Self::Analysis(error.to_string()),
+            _ => Self::Input(error.to_string()),
+        }
     }
 }

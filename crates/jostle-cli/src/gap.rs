@@ -10,10 +10,10 @@ use jostle_study::{CriticalGap, GapError, GapProgress, GapSettings, critical_gap
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
-use crate::numbers::{counted, kn, mm};
 use crate::progress::TimeBar;
-use crate::run::stop_on_interrupt;
+use crate::stop::stop_on_interrupt;
 use crate::terminal;
+use jostle_run::{counted, kn, mm};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct GapArgs {
@@ -198,7 +198,7 @@ fn json(title: &str, found: &[CriticalGap], notes: &[String]) -> String {
 }
 
 fn describe(title: &str, found: &[CriticalGap]) -> String {
-    let mut text = format!("{}\n", terminal::styled(terminal::BOLD, title));
+    let mut text = format!("{}\n", jostle_run::styled(jostle_run::BOLD, title));
     for gap in found {
         text += &format!(
             "\n{}  under {}, {:.1} cm/s²\n",
@@ -212,7 +212,7 @@ fn describe(title: &str, found: &[CriticalGap]) -> String {
         };
         text += &format!(
             "  smallest gap without pounding {}  ({bracket}; {}, closest at {:.2} m)\n",
-            terminal::styled(terminal::BOLD, &millimetres(gap.gap_m)),
+            jostle_run::styled(jostle_run::BOLD, &millimetres(gap.gap_m)),
             counted(gap.runs, "run"),
             gap.height_m
         );

@@ -6,10 +6,10 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use jostle_live::{Engine, Server};
+use jostle_run::EXAMPLE;
 
 use crate::failure::Failure;
-use crate::open::EXAMPLE;
-use crate::run::stop_on_interrupt;
+use crate::stop::stop_on_interrupt;
 use crate::terminal;
 
 /// Time without an open page after which the program ends.

@@ -5,16 +5,17 @@ use std::fmt::Write;
 use jostle::System;
 use jostle::method::MethodSurvey;
 use jostle_io::Overrides;
+use jostle_run::{FileKind, open};
 
 use crate::args::MethodArgs;
 use crate::failure::Failure;
-use crate::numbers::{counted, grouped};
-use crate::open::open;
-use crate::replace::{Kind, Target};
-use crate::terminal::{self, BOLD, DIM, styled};
+use crate::replace::Target;
+use crate::terminal;
+use jostle_run::{BOLD, DIM, styled};
+use jostle_run::{counted, grouped};
 
 pub(crate) fn method(args: &MethodArgs) -> Result<(), Failure> {
-    let opened = open(args.model.as_deref(), &Overrides::default())?;
+    let opened = open(args.model.as_deref(), &Overrides::default(), false)?;
     let surveys = survey(&opened.system)?;
     let mut text = String::new();
     for survey in &surveys {
@@ -26,7 +27,7 @@ pub(crate) fn method(args: &MethodArgs) -> Result<(), Failure> {
             Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
         })?;
         let path = out.join("method.html");
-        let target = Target::new(&path, Kind::METHOD, args.force)?;
+        let target = Target::new(&path, FileKind::METHOD, args.force)?;
         let page = jostle_report::render_method(&opened.input.model.title, &surveys);
         target.write(&page)?;
         let _ = writeln!(text, "→ {}", styled(BOLD, &path.display().to_string()));

@@ -2,23 +2,22 @@
 
 use std::fmt::Write;
 
-use jostle::System;
 use jostle::eigen::{self, Mode};
 use jostle::system::BuildingSystem;
 use jostle_io::Overrides;
-use serde_json::{Value, json};
+use jostle_run::{floor_shape, list_modes, modes_json, open};
 
 use crate::args::ModesArgs;
 use crate::failure::Failure;
-use crate::open::open;
-use crate::terminal::{self, BOLD, DIM, styled};
+use crate::terminal;
+use jostle_run::{BOLD, DIM, styled};
 
 pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
-    let opened = open(args.model.as_deref(), &Overrides::default())?;
+    let opened = open(args.model.as_deref(), &Overrides::default(), false)?;
     let count = args.count as usize;
-    let listed = list(&opened.system, count).map_err(Failure::Analysis)?;
+    let listed = list_modes(&opened.system, count)?;
     if args.json {
-        return terminal::print(&format!("{:#}", listed_as_json(&listed, count)));
+        return terminal::print(&format!("{:#}", modes_json(&listed, count)));
     }
     let mut text = String::new();
     for (building, modes) in &listed {
@@ -33,68 +32,6 @@ pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
     terminal::print(&text)
 }
 
-/// The JSON of `jostle modes`: up to `count` modes of every building, from the longest period down.
-///
-/// # Errors
-/// Names the building whose modes were not found, and why.
-pub fn modes_json(system: &System, count: usize) -> Result<Value, String> {
-    Ok(listed_as_json(&list(system, count)?, count))
-}
-
-type Listed<'a> = Vec<(&'a BuildingSystem, Vec<Mode>)>;
-
-fn list(system: &System, count: usize) -> Result<Listed<'_>, String> {
-    let modes = system.buildings.iter().map(|building| {
-        let modes = eigen::modes(building, count)
-            .map_err(|problem| format!("no modes of \"{}\": {problem}", building.name))?;
-        Ok((building, modes))
-    });
-    modes.collect()
-}
-
-fn listed_as_json(listed: &Listed<'_>, count: usize) -> Value {
-    let buildings: Vec<Value> = listed
-        .iter()
-        .map(|(building, modes)| as_json(building, modes, count))
-        .collect();
-    json!({ "buildings": buildings })
-}
-
-fn as_json(building: &BuildingSystem, modes: &[Mode], count: usize) -> Value {
-    let mode = |mode: &Mode| {
-        json!({
-            "period_s": mode.period(),
-            "circular_frequency_rad_s": mode.circular_frequency,
-            "effective_mass_ratio_x": mode.effective_mass_ratio_x,
-            "effective_mass_ratio_y": mode.effective_mass_ratio_y,
-            "lateral": mode.is_lateral(),
-            "floor_shape": shape(mode),
-        })
-    };
-    json!({
-        "name": building.name,
-        "periods_s": building.lateral_modes().take(count).map(Mode::period).collect::<Vec<_>>(),
-        "modes": modes.iter().map(mode).collect::<Vec<_>>(),
-    })
-}
-
-/// Horizontal shape at the floors from the ground up, scaled so that the floor that moves most moves by ±1.
-fn shape(mode: &Mode) -> Vec<f64> {
-    let largest = mode.floors.iter().fold(0.0_f64, |largest, value| {
-        if value.abs() > largest.abs() {
-            *value
-        } else {
-            largest
-        }
-    });
-    let scale = if largest == 0.0 {
-        0.0
-    } else {
-        1.0 / largest.abs()
-    };
-    mode.floors.iter().map(|value| value * scale).collect()
-}
-
 fn describe(text: &mut String, building: &BuildingSystem, modes: &[Mode]) -> std::fmt::Result {
     writeln!(text, "{}", styled(BOLD, &building.name))?;
     writeln!(
@@ -104,7 +41,7 @@ fn describe(text: &mut String, building: &BuildingSystem, modes: &[Mode]) -> std
     )?;
     let (mut lateral, mut carried) = (0, 0.0);
     for (index, mode) in modes.iter().enumerate() {
-        let shape: Vec<String> = shape(mode)
+        let shape: Vec<String> = floor_shape(mode)
             .iter()
             .map(|value| format!("{value:+.2}"))
             .collect();

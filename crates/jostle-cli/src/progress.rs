@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use jostle_run::Stage;
 
 use crate::terminal;
 
@@ -54,5 +55,34 @@ impl TimeBar {
     /// Removes the bar from the terminal.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// A bar for each stage of a run in turn.
+#[derive(Default)]
+pub(crate) struct StageBar(Option<(Stage, TimeBar)>);
+
+impl StageBar {
+    /// Shows the time reached, and the time to reach \[s\].
+    pub(crate) fn show(&mut self, stage: Stage, time: f64, duration: f64) {
+        if self.0.as_ref().is_none_or(|(shown, _)| *shown != stage) {
+            self.finish();
+            let prefix = match stage {
+                Stage::Pounding => "pounding       ",
+                Stage::Sensitivity => "sensitivity    ",
+                Stage::WithoutContact => "without contact",
+            };
+            self.0 = Some((stage, TimeBar::new(prefix)));
+        }
+        if let Some((_, bar)) = &mut self.0 {
+            bar.show(time, duration);
+        }
+    }
+
+    /// Removes the bar from the terminal.
+    pub(crate) fn finish(&mut self) {
+        if let Some((_, bar)) = self.0.take() {
+            bar.finish();
+        }
     }
 }

@@ -6,8 +6,8 @@ use std::path::Path;
 use jostle::hysteresis::Stage;
 use jostle::pushover::{Bilinear, PushEnd, PushEventKind, PushPoint, PushedBuilding, Pushover};
 
-use crate::numbers::{counted, kn, mm};
-use crate::terminal::{BOLD, DIM, LOUD, styled};
+use jostle_run::{BOLD, DIM, LOUD, styled};
+use jostle_run::{counted, kn, mm};
 
 /// Points listed of every curve: the first ones, then the first at which hinges yield.
 const FIRST: usize = 4;

@@ -13,12 +13,14 @@ use serde_json::{Value, json};
 
 use crate::args::SectionArgs;
 use crate::failure::Failure;
-use crate::open::read;
-use crate::replace::{Kind, Target};
-use crate::terminal::{self, BOLD, DIM, styled};
+use crate::replace::Target;
+use crate::terminal;
+use jostle_run::FileKind;
+use jostle_run::read;
+use jostle_run::{BOLD, DIM, styled};
 
 pub(crate) fn section(args: &SectionArgs) -> Result<(), Failure> {
-    let page = Target::of_option(args.html.as_ref(), Kind::SECTIONS, args.force)?;
+    let page = Target::of_option(args.html.as_ref(), FileKind::SECTIONS, args.force)?;
     let (title, surveys) = match &args.model {
         Some(path) => of_model(path)?,
         None => ("Section".to_owned(), vec![of_options(args)?]),

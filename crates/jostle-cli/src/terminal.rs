@@ -4,21 +4,11 @@
 use std::io::{IsTerminal, Write};
 
 use anstyle::{AnsiColor, Style};
+use jostle_run::{LOUD, styled};
 
 use crate::failure::Failure;
 
-/// For headings.
-pub(crate) const BOLD: Style = Style::new().bold();
-/// For what may be overlooked.
-pub(crate) const DIM: Style = Style::new().dimmed();
-/// For what must not be overlooked.
-pub(crate) const LOUD: Style = AnsiColor::Yellow.on_default().bold();
 const ERROR: Style = AnsiColor::Red.on_default().bold();
-
-/// Text in a style; plain when printed to a file or a pipe.
-pub(crate) fn styled(style: Style, text: &str) -> String {
-    format!("{style}{text}{style:#}")
-}
 
 /// Prints a text and a line break to standard output.
 #[allow(
@@ -49,4 +39,11 @@ pub(crate) fn error(text: &str) {
 /// Whether a person watches standard error.
 pub(crate) fn is_watched() -> bool {
     std::io::stderr().is_terminal()
+}
+
+/// Prints warnings to standard error, one line each.
+pub(crate) fn warn_all<'a>(warnings: impl IntoIterator<Item = &'a String>) {
+    for warning in warnings {
+        warn(warning);
+    }
 }

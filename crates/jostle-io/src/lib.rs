@@ -47,7 +47,7 @@ pub use model_file::{
 };
 pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
-pub use output::{OutputError, summary_json, write_atomically, write_summary_json};
+pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
 pub use pushover::{pushover_csv, pushover_json};
 pub use quantity::{Dimension, QuantityError, STANDARD_GRAVITY, parse_quantity};
 pub use record::{

@@ -44,7 +44,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
         let mut file = builder.tempfile_in(folder)?;
         file.write_all(bytes)?;
         file.as_file().sync_all()?;
-        put_in_place(file, path)
+        persist(file.into_temp_path(), path)
     };
     write().map_err(|error| OutputError::Io {
         path: path.to_owned(),
@@ -56,16 +56,28 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 /// open, which is over in a moment.
 const TRIES: (u32, u64) = if cfg!(windows) { (10, 50) } else { (1, 0) };
 
-fn put_in_place(mut file: tempfile::NamedTempFile, path: &Path) -> std::io::Result<()> {
+/// Moves a finished file to its place on the same file system, where it replaces an earlier one.
+///
+/// # Errors
+/// [`OutputError::Io`] with the place and the reason; the file is then gone.
+pub fn put_in_place(file: &Path, path: &Path) -> Result<(), OutputError> {
+    let moved = tempfile::TempPath::try_from_path(file).and_then(|file| persist(file, path));
+    moved.map_err(|error| OutputError::Io {
+        path: path.to_owned(),
+        error,
+    })
+}
+
+fn persist(mut file: tempfile::TempPath, path: &Path) -> std::io::Result<()> {
     let mut left = TRIES.0;
     loop {
         left -= 1;
         match file.persist(path) {
-            Ok(_) => return Ok(()),
+            Ok(()) => return Ok(()),
             Err(failed)
                 if left > 0 && failed.error.kind() == std::io::ErrorKind::PermissionDenied =>
             {
-                file = failed.file;
+                file = failed.path;
                 std::thread::sleep(std::time::Duration::from_millis(TRIES.1));
             }
             Err(failed) => return Err(failed.error),

@@ -1,5 +1,6 @@
 //! Results over the range of one key, on all cores, coarse to fine.
 
+use std::ops::ControlFlow;
 use std::sync::mpsc::Sender;
 use std::sync::{Mutex, PoisonError};
 
@@ -118,8 +119,15 @@ fn one(
         record_interval: None,
         ..Settings::default()
     };
-    let ran = prepared.run(settings, stop)?;
-    (ran.outcome.end == jostle::RunEnd::Completed).then(|| measures(&ran.summary))
+    let outcome = prepared.step(settings, |_| {
+        if stop() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    (outcome.end == jostle::RunEnd::Completed)
+        .then(|| measures(&prepared.summary(&outcome, None, 0.0)))
 }
 
 /// A value as the model file takes it.

@@ -8,8 +8,8 @@ use std::time::Instant;
 use jostle::stepping::Progress;
 use jostle::{GroundMotion, Model, Outcome, Pounding, RunEnd, Settings, Summary};
 use jostle_io::{Format, InputError, ModelTree, TreeValue};
-use jostle_report::Page;
-use jostle_study::{CaseError, Prepared, Workshop};
+use jostle_run::{Prepared, Results};
+use jostle_study::{CaseError, Workshop};
 use serde::Serialize;
 
 use crate::message::{Fault, Run, fault, faults};
@@ -195,12 +195,7 @@ impl Engine {
         if several > 1 {
             tree.keep_record(record.min(several - 1));
         }
-        let mut prepared = self.workshop.assemble(tree.input()?)?;
-        prepared.input.note_system(&prepared.system);
-        if let Some(warning) = prepared.input.unusual_motion(&prepared.motion) {
-            prepared.input.warnings.push(warning);
-        }
-        Ok(prepared)
+        Ok(self.workshop.assemble(tree.input()?)?)
     }
 
     /// Refuses a file outside the folder of the model that the opened model does not name.
@@ -268,9 +263,8 @@ impl Engine {
                 outcome: Arc::clone(run),
             });
         }
-        let mut summary = prepared.summary(&outcome, without.as_deref());
-        summary.work.wall_s = begun.elapsed().as_secs_f64();
-        prepared.input.add_notes(&mut summary);
+        let wall = begun.elapsed().as_secs_f64();
+        let summary = prepared.summary(&outcome, without.as_deref(), wall);
         Ok(Solved {
             prepared,
             outcome,
@@ -288,10 +282,8 @@ impl Engine {
         watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
     ) -> Result<Vec<u8>, Trouble> {
         let solved = self.solve(self.prepare(tree, record)?, watch)?;
-        let Some(page) = solved.page() else {
-            return Err(Trouble::Stopped);
-        };
-        let frame = jostle_report::frame(&page);
+        let frame = solved.results().with_page(jostle_report::frame);
+        let frame = frame.ok_or(Trouble::Stopped)?;
         let summary = &solved.summary;
         let head = Head {
             op: "frame",
@@ -323,36 +315,24 @@ impl Engine {
         watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
     ) -> Result<String, Trouble> {
         let mut solved = self.solve(self.prepare(tree, record)?, watch)?;
-        let prepared = &solved.prepared;
-        jostle::stepping::find_sensitivity(
-            &prepared.system,
-            &prepared.motion,
-            &prepared.plan,
-            &mut solved.outcome,
-            watch,
-        );
-        let mut summary = prepared.summary(&solved.outcome, solved.without.as_deref());
-        summary.work.wall_s = solved.summary.work.wall_s;
-        prepared.input.add_notes(&mut summary);
-        solved.summary = summary;
-        let page = solved.page().ok_or(Trouble::Stopped)?;
-        Ok(jostle_report::render(&page))
+        let (prepared, wall) = (&solved.prepared, solved.summary.work.wall_s);
+        prepared.find_sensitivity(&mut solved.outcome, watch);
+        solved.summary = prepared.summary(&solved.outcome, solved.without.as_deref(), wall);
+        solved.results().report().ok_or(Trouble::Stopped)
     }
 }
 
 impl Solved {
-    /// What the report shows; `None` without histories.
-    fn page(&self) -> Option<Page<'_>> {
-        Some(Page {
-            model: &self.prepared.input.model,
-            motion: &self.prepared.motion,
+    /// What the report shows.
+    fn results(&self) -> Results<'_> {
+        Results {
+            prepared: &self.prepared,
+            outcome: &self.outcome,
             summary: &self.summary,
-            history: self.outcome.history.as_ref()?,
-            without_contact: self.without.as_ref().and_then(|run| run.history.as_ref()),
-            springs: self.outcome.spring_history.as_ref(),
-            sections: &[],
+            history: self.outcome.history.as_ref(),
+            without_contact: self.without.as_deref().and_then(Results::comparable),
             methods: &[],
-        })
+        }
     }
 }
 

@@ -1,9 +1,12 @@
 //! Two free masses under contact laws.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::prelude::*;
+use std::collections::HashMap;
 
 use jostle::LawKind;
+use jostle_report::CollidedLaw;
+use jostle_run::{CollideOptions, collision_json};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
 use serde_json::json;
 
 use crate::error::argument_error;
@@ -11,23 +14,57 @@ use crate::error::argument_error;
 /// Numbers as JSON, and the curve: time, indentation, rate, force, one row each.
 type Collided<'py> = (String, Bound<'py, PyArray2<f64>>);
 
-/// Collisions for options as on the command line.
+/// Collisions under one law, or under all without one; what is given has the names and values of the command line.
 #[pyfunction]
-pub(crate) fn collide<'py>(py: Python<'py>, options: Vec<String>) -> PyResult<Vec<Collided<'py>>> {
+#[pyo3(signature = (law, given))]
+pub(crate) fn collide<'py>(
+    py: Python<'py>,
+    law: Option<String>,
+    given: HashMap<String, String>,
+) -> PyResult<Vec<Collided<'py>>> {
+    let mut options = CollideOptions {
+        all: law.is_none(),
+        ..CollideOptions::default()
+    };
+    if let Some(law) = law {
+        options.law = law;
+    }
+    for (name, value) in given {
+        put(&mut options, &name, value)?;
+    }
     let found = py
-        .detach(|| jostle_cli::collisions(&options))
-        .map_err(argument_error)?;
-    let as_rows = |(numbers, collision): (serde_json::Value, jostle::contact::FreeCollision)| {
-        let curve = &collision.curve;
+        .detach(|| jostle_run::collide(&options))
+        .map_err(|error| argument_error(error.to_string()))?;
+    let as_rows = |collided: CollidedLaw| {
+        let curve = &collided.collision.curve;
         let mut rows = Vec::with_capacity(4 * curve.len());
         rows.extend(curve.iter().map(|point| point.time));
         rows.extend(curve.iter().map(|point| point.indentation));
         rows.extend(curve.iter().map(|point| point.rate));
         rows.extend(curve.iter().map(|point| point.force));
         let table = PyArray1::from_vec(py, rows).reshape([4, curve.len()])?;
-        Ok((numbers.to_string(), table))
+        Ok((collision_json(&collided).to_string(), table))
     };
-    found.into_iter().map(as_rows).collect()
+    found.laws.into_iter().map(as_rows).collect()
+}
+
+/// Sets one option.
+fn put(options: &mut CollideOptions, name: &str, value: String) -> PyResult<()> {
+    match name {
+        "m1" => options.m1 = value,
+        "m2" => options.m2 = value,
+        "speed" => options.speed = value,
+        "stiffness" => options.stiffness = Some(value),
+        "restitution" => options.restitution = value,
+        "restitution_is" => options.restitution_is = value,
+        "variant" => options.variant = value,
+        "yield_share" => options.yield_share = value,
+        "design_speed" => options.design_speed = Some(value),
+        "thickness" => options.thickness = value,
+        "exponent" => options.exponent = value,
+        other => return Err(argument_error(format!("{other}: there is no such option"))),
+    }
+    Ok(())
 }
 
 /// The contact laws as JSON.

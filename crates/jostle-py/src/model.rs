@@ -1,10 +1,9 @@
 //! Models: read, checked and assembled once, then shared.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
-use jostle::{GroundMotion, Plan, System};
 use jostle_io::{Format, Input, InputError, Overrides};
+use jostle_run::{Opened, Prepared, RunError};
 use pyo3::prelude::*;
 
 use crate::describe::describe;
@@ -16,45 +15,27 @@ use crate::motion::Motion;
 #[pyclass(frozen, module = "jostle._jostle")]
 #[derive(Clone)]
 pub(crate) struct Model {
-    pub(crate) input: Arc<Input>,
-    pub(crate) system: Arc<System>,
-    /// Whether the ground motion was given separately from the model.
-    other_record: bool,
+    pub(crate) opened: Opened,
 }
 
 impl Model {
-    fn assemble(mut input: Input) -> Result<Self, InputError> {
-        let system = System::assemble(&input.model).map_err(|faults| input.faults(faults))?;
-        input.note_system(&system);
-        Ok(Self {
-            input: Arc::new(input),
-            system: Arc::new(system),
-            other_record: false,
-        })
+    fn assemble(input: Input) -> Result<Self, InputError> {
+        let opened = Opened::new(input, "model")?;
+        Ok(Self { opened })
     }
 
-    /// The ground motion and the steps to take through it; `force` steps even where digits are lost, and then
-    /// says so.
-    pub(crate) fn plan(&self, force: bool) -> PyResult<(GroundMotion, Plan, Option<String>)> {
-        let input = &self.input;
-        let motion = input
-            .ground_motion()
-            .map_err(|error| match &error.faults[..] {
-                [fault] if self.other_record => {
-                    argument_error(format!("motion: {}", fault.problem))
-                }
-                _ => input_error(&error),
-            })?;
-        let plan = Plan::choose(&self.system, &motion, &input.model.analysis)
-            .map_err(|faults| input_error(&input.faults(faults)))?;
-        let refusal = plan.check_digits(&self.system).err();
-        match refusal.map(|refusal| refusal.to_string()) {
-            Some(refusal) if !force => {
-                let problem = format!("{refusal}; force=True runs it anyway");
-                Err(input_error(&input.fault("analysis.solver", problem)))
-            }
-            refusal => Ok((motion, plan, refusal)),
+    /// The model with its ground motion and steps; `force` runs it even where digits are expected to be lost.
+    pub(crate) fn prepare(&self, force: bool) -> PyResult<Prepared> {
+        let prepared = self.opened.prepare().map_err(|error| match error {
+            RunError::Record(problem) => argument_error(format!("motion: {problem}")),
+            RunError::Input(error) => input_error(&error),
+            other => argument_error(other.to_string()),
+        })?;
+        if !force {
+            let checked = prepared.check_digits(Some("force=True runs it anyway"));
+            checked.map_err(|error| input_error(&error))?;
         }
+        Ok(prepared)
     }
 }
 
@@ -104,75 +85,70 @@ impl Model {
         motion: Option<&Motion>,
         record: Option<String>,
     ) -> PyResult<Self> {
-        let mut input = Input::clone(&self.input);
+        let mut input = Input::clone(&self.opened.input);
         if let Some(motion) = motion {
             input.motion = Some(motion.spec.clone());
         }
-        let other_record = motion.is_none() && (self.other_record || record.is_some());
+        let other_record = motion.is_none() && (self.opened.other_record || record.is_some());
         input
             .apply(&Overrides { pga, gap, record })
             .map_err(|error| argument_error(error.to_string()))?;
-        if gap.is_some() {
-            let changed = py.detach(|| Self::assemble(input));
-            let changed = changed.map_err(|error| input_error(&error))?;
-            return Ok(Self {
-                other_record,
-                ..changed
-            });
-        }
-        Ok(Self {
-            input: Arc::new(input),
-            system: Arc::clone(&self.system),
-            other_record,
-        })
+        let mut opened = if gap.is_some() {
+            py.detach(|| Opened::new(input, &*self.opened.name))
+                .map_err(|error| input_error(&error))?
+        } else {
+            self.opened.with_input(input)
+        };
+        opened.other_record = other_record;
+        Ok(Self { opened })
     }
 
     #[getter]
     fn title(&self) -> &str {
-        &self.input.model.title
+        &self.opened.input.model.title
     }
 
     /// The text of the model file.
     #[getter]
     fn text(&self) -> &str {
-        self.input.text()
+        self.opened.input.text()
     }
 
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.input.warnings.clone()
+        self.opened.input.warnings.clone()
     }
 
     /// The records that a run may choose from; empty unless there are several.
     #[getter]
     fn records(&self) -> Vec<String> {
-        self.input.records().to_vec()
+        self.opened.input.records().to_vec()
     }
 
     /// The sampled ground motion; `None` if the model has none.
     fn motion(&self, py: Python<'_>) -> PyResult<Option<Motion>> {
-        let Some(spec) = self.input.motion.clone() else {
+        let Some(spec) = self.opened.input.motion.clone() else {
             return Ok(None);
         };
         // The error of the model's own motion shows its line.
         py.detach(|| Motion::of(spec))
             .map(Some)
-            .or_else(|_| self.plan(true).map(|_| None))
+            .or_else(|_| self.prepare(true).map(|_| None))
     }
 
     /// Buildings and gaps as JSON.
     fn describe(&self) -> String {
-        describe(&self.input.model, &self.system).to_string()
+        describe(&self.opened.input.model, &self.opened.system).to_string()
     }
 
     /// Masses, stiffness, damping, driven masses and floors of a building, by its index.
     fn matrices<'py>(&self, py: Python<'py>, building: usize) -> PyResult<Matrices<'py>> {
-        matrices(py, &self.system, building)
+        matrices(py, &self.opened.system, building)
     }
 
     /// Contacts as (gap, left degree of freedom, right one, width), counted through all buildings; none is a wall.
     fn contacts(&self) -> Vec<(usize, Option<usize>, Option<usize>, f64)> {
-        let contacts = self.system.contacts.iter();
+        let contacts = self.opened.system.contacts.iter();
         contacts
             .map(|contact| {
                 let [left, right] = contact.ports.0.map(|face| face.map(|f| f.dof));
@@ -183,7 +159,7 @@ impl Model {
 
     /// Springs and dampers between buildings as (left degree of freedom, right one, stiffness, damping).
     fn links(&self) -> Vec<(Option<usize>, Option<usize>, f64, f64)> {
-        let links = self.system.links.iter();
+        let links = self.opened.system.links.iter();
         links
             .map(|link| {
                 let [left, right] = link.ports.0.map(|face| face.map(|f| f.dof));
@@ -202,18 +178,26 @@ impl Model {
         direction: &str,
         drift: f64,
     ) -> PyResult<String> {
-        let title = &self.input.model.title;
+        let title = &self.opened.input.model.title;
         py.detach(|| {
-            jostle_cli::pushover_json(title, &self.system, building, pattern, direction, drift)
+            jostle_run::pushover_json(
+                title,
+                &self.opened.system,
+                building,
+                pattern,
+                direction,
+                drift,
+            )
         })
-        .map_err(argument_error)
+        .map_err(|error| argument_error(error.to_string()))
     }
 
     /// Natural modes as the JSON of `jostle modes`.
     fn modes(&self, py: Python<'_>, count: usize) -> PyResult<String> {
-        let modes = py.detach(|| jostle_cli::modes_json(&self.system, count));
-        modes
-            .map(|modes| modes.to_string())
-            .map_err(AnalysisError::new_err)
+        let system = &self.opened.system;
+        let listed = py.detach(|| jostle_run::list_modes(system, count));
+        listed
+            .map(|listed| jostle_run::modes_json(&listed, count).to_string())
+            .map_err(|error| AnalysisError::new_err(error.to_string()))
     }
 }

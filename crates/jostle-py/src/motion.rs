@@ -135,7 +135,7 @@ impl Motion {
                     (step, (0..points).map(at).collect())
                 }
             };
-            jostle_cli::spectrum_json(
+            jostle_run::spectrum_json(
                 step,
                 acceleration,
                 &periods,
@@ -145,7 +145,7 @@ impl Motion {
                 between,
             )
         })
-        .map_err(argument_error)
+        .map_err(|error| argument_error(error.to_string()))
     }
 
     /// The same motion with the given changes.

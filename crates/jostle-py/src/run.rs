@@ -4,15 +4,10 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use jostle::stepping::{Progress, find_sensitivity};
-use jostle::{
-    Column, EnergyTerm, GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Summary, simulate,
-};
-use jostle_io::{
-    history_names, impact_columns, summary_json, write_atomically, write_history_parquet,
-    write_impacts_parquet, write_summary_json,
-};
-use jostle_report::Page;
+use jostle::stepping::Progress;
+use jostle::{Column, EnergyTerm, Pounding, RunEnd, Settings, Summary};
+use jostle_io::{history_names, impact_columns, summary_json, write_atomically};
+use jostle_run::{Content, FileKind, Ran, Results, RunError, Stage, earlier_files, may_write};
 use numpy::PyArray2;
 use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
@@ -28,15 +23,10 @@ const LOOK_UP: Duration = Duration::from_millis(50);
 /// A finished run: summary and histories.
 #[pyclass(frozen, module = "jostle._jostle")]
 pub(crate) struct Run {
-    model: Model,
-    motion: GroundMotion,
-    plan: Plan,
-    /// Without its histories.
-    outcome: Outcome,
-    wall: f64,
+    /// The outcome is without its histories.
+    ran: Ran,
     histories: Histories,
     interrupted: bool,
-    warning: Option<String>,
 }
 
 /// Runs a model from rest. `observer` is called with the current and the final time, a few times per second.
@@ -50,8 +40,7 @@ pub(crate) fn run(
     force: bool,
     observer: Option<Py<PyAny>>,
 ) -> PyResult<Run> {
-    let model = model.clone();
-    let (motion, plan, warning) = py.detach(|| model.plan(force))?;
+    let prepared = py.detach(|| model.prepare(force))?;
     let settings = Settings {
         pounding: if pounding {
             Pounding::Included
@@ -61,14 +50,15 @@ pub(crate) fn run(
         record_interval,
     };
     let mut stopped: Option<PyErr> = None;
-    let mut interrupted_later: Option<PyErr> = None;
     let mut looked = Instant::now();
-    let look_up = |progress: Progress| {
+    let mut look_up = |stage: Stage, progress: Progress| {
         if looked.elapsed() < LOOK_UP {
             return ControlFlow::Continue(());
         }
         looked = Instant::now();
-        match Python::attach(|py| heed(py, observer.as_ref(), progress)) {
+        // The time of the run for sensitivity would begin at zero again.
+        let observer = observer.as_ref().filter(|_| stage != Stage::Sensitivity);
+        match Python::attach(|py| heed(py, observer, progress)) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
                 stopped = Some(error);
@@ -76,39 +66,16 @@ pub(crate) fn run(
             }
         }
     };
-    let (mut outcome, wall) = py.detach(|| {
-        let started = Instant::now();
-        let mut outcome = simulate(&model.system, &motion, &plan, settings, look_up);
-        let wall = started.elapsed().as_secs_f64();
-        find_sensitivity(
-            &model.system,
-            &motion,
-            &plan,
-            &mut outcome,
-            |_| match Python::attach(|py| py.check_signals()) {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(error) => {
-                    interrupted_later = Some(error);
-                    ControlFlow::Break(())
-                }
-            },
-        );
-        (outcome, wall)
-    });
-    let interrupted = match stopped.or(interrupted_later) {
+    let mut ran = py.detach(|| prepared.run(settings, &mut look_up));
+    let interrupted = match stopped {
         Some(error) if error.is_instance_of::<PyKeyboardInterrupt>(py) => true,
         Some(error) => return Err(error),
         None => false,
     };
     Ok(Run {
-        histories: Histories::new(outcome.history.take()),
-        model,
-        motion,
-        plan,
-        outcome,
-        wall,
+        histories: Histories::new(ran.outcome.history.take()),
+        ran,
         interrupted,
-        warning,
     })
 }
 
@@ -123,37 +90,39 @@ fn heed(py: Python<'_>, observer: Option<&Py<PyAny>>, progress: Progress) -> PyR
 
 impl Run {
     fn summary(&self, without_contact: Option<&Self>) -> Summary {
-        let twin = without_contact.map(|run| &run.outcome);
-        let mut summary = Summary::of(&jostle::Run {
-            model: &self.model.input.model,
-            system: &self.model.system,
-            motion: &self.motion,
-            plan: &self.plan,
-            outcome: &self.outcome,
-            without_contact: twin.filter(|twin| twin.end == RunEnd::Completed),
-            wall: self.wall,
-        });
-        self.model.input.add_notes(&mut summary);
-        summary
+        let without_contact = without_contact.map(|run| &run.ran.outcome);
+        let Ran {
+            prepared,
+            outcome,
+            wall,
+            ..
+        } = &self.ran;
+        prepared.summary(outcome, without_contact, *wall)
     }
 
-    fn page(&self, py: Python<'_>, without_contact: Option<&Self>) -> PyResult<String> {
+    /// Shows what the files of the run are written from to a function, with the interpreter free for others.
+    fn with_results<T: Send>(
+        &self,
+        py: Python<'_>,
+        without_contact: Option<&Self>,
+        show: impl FnOnce(&Results<'_>) -> T + Send,
+    ) -> PyResult<T> {
         let history = self.histories.history(py)?;
         let without = without_contact
-            .filter(|run| run.outcome.end == RunEnd::Completed && !run.histories.columns.is_empty())
+            .filter(|run| {
+                run.ran.outcome.end == RunEnd::Completed && !run.histories.columns.is_empty()
+            })
             .map(|run| run.histories.history(py))
             .transpose()?;
         let summary = self.summary(without_contact);
         Ok(py.detach(|| {
-            jostle_report::render(&Page {
-                methods: &[],
-                model: &self.model.input.model,
-                motion: &self.motion,
+            show(&Results {
+                prepared: &self.ran.prepared,
+                outcome: &self.ran.outcome,
                 summary: &summary,
-                history: &history,
+                history: Some(&history),
                 without_contact: without.as_ref(),
-                springs: self.outcome.spring_history.as_ref(),
-                sections: &[],
+                methods: &[],
             })
         }))
     }
@@ -168,13 +137,13 @@ impl Run {
 
     #[getter]
     fn completed(&self) -> bool {
-        self.outcome.end == RunEnd::Completed
+        self.ran.outcome.end == RunEnd::Completed
     }
 
     /// Why the analysis failed, if it did.
     #[getter]
     fn failure(&self) -> Option<String> {
-        match &self.outcome.end {
+        match &self.ran.outcome.end {
             RunEnd::Failed(error) => Some(error.to_string()),
             RunEnd::Completed | RunEnd::Stopped => None,
         }
@@ -183,7 +152,7 @@ impl Run {
     /// The warning if the run is expected to lose digits.
     #[getter]
     fn warning(&self) -> Option<String> {
-        self.warning.clone()
+        self.ran.prepared.lost_digits()
     }
 
     /// Warnings about the results.
@@ -225,7 +194,7 @@ impl Run {
     /// The summary as the command line prints it.
     #[pyo3(signature = (without_contact=None))]
     fn text(&self, without_contact: Option<&Self>) -> String {
-        jostle_cli::summary_text(&self.summary(without_contact))
+        jostle_run::summary_text(&self.summary(without_contact))
     }
 
     /// The verdict in a sentence or two.
@@ -236,14 +205,15 @@ impl Run {
     /// The report page.
     #[pyo3(signature = (without_contact=None))]
     fn report(&self, py: Python<'_>, without_contact: Option<&Self>) -> PyResult<String> {
-        self.page(py, without_contact)
+        let report = self.with_results(py, without_contact, |results| results.report())?;
+        Ok(report.unwrap_or_default())
     }
 
     /// Writes a page to a file completely or not at all; replaces pages of jostle, and other files only with `force`.
     #[staticmethod]
     #[pyo3(signature = (path, text, force=false))]
     fn write(py: Python<'_>, path: PathBuf, text: &str, force: bool) -> PyResult<()> {
-        jostle_cli::may_replace_report(&path, force).map_err(must_stay)?;
+        may_write(&path, Some(FileKind::REPORT), force).map_err(must_stay)?;
         py.detach(|| write_atomically(&path, text.as_bytes()))
             .map_err(|error| output_error(&error))
     }
@@ -252,7 +222,7 @@ impl Run {
     #[staticmethod]
     #[pyo3(signature = (folder, force=false))]
     fn check_folder(folder: PathBuf, force: bool) -> PyResult<()> {
-        jostle_cli::may_replace_run(&folder, force).map_err(must_stay)
+        earlier_files(&folder, force).map(drop).map_err(must_stay)
     }
 
     /// Writes summary, tables and report into a folder that exists and was checked.
@@ -264,27 +234,20 @@ impl Run {
         report: bool,
         without_contact: Option<&Self>,
     ) -> PyResult<()> {
-        let page = report.then(|| self.page(py, without_contact)).transpose()?;
-        let history = self.histories.history(py)?;
-        let (summary, model) = (self.summary(without_contact), &self.model.input.model);
-        py.detach(|| {
-            if !history.columns().is_empty() {
-                let path = folder.join("history.parquet");
-                write_history_parquet(&path, model, &summary, &history)?;
-            }
-            write_impacts_parquet(&folder.join("impacts.parquet"), &summary)?;
-            if let Some(page) = page {
-                write_atomically(&folder.join("report.html"), page.as_bytes())?;
-            }
-            write_summary_json(&folder.join("summary.json"), &summary)
-        })
+        let content = Content {
+            tables: true,
+            report,
+        };
+        self.with_results(py, without_contact, |results| {
+            results.write(&folder, content)
+        })?
         .map_err(|error| output_error(&error))
     }
 
     /// The histories as a table, columns as in history.parquet.
     fn history_table(&self, py: Python<'_>) -> PyResult<Table> {
         let names = history_names(
-            &self.model.input.model,
+            &self.ran.prepared.input.model,
             &self.summary(None),
             &self.histories.columns,
         );
@@ -297,8 +260,13 @@ impl Run {
     }
 }
 
-fn must_stay(why: String) -> PyErr {
-    PyFileExistsError::new_err(why.replace("add --force", "pass force=True"))
+fn must_stay(error: RunError) -> PyErr {
+    match error {
+        RunError::Output(error) => output_error(&error),
+        kept => {
+            PyFileExistsError::new_err(kept.to_string().replace("add --force", "pass force=True"))
+        }
+    }
 }
 
 fn energy_name(term: EnergyTerm) -> &'static str {

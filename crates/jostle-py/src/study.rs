@@ -257,7 +257,7 @@ pub(crate) fn critical_gaps(
     if !(tolerance.is_finite() && tolerance >= 1e-9) {
         return Err(argument_error("tolerance: must be at least 1e-9 m"));
     }
-    let (motion, _, _) = model.plan(false)?;
+    let prepared = model.prepare(false)?;
     let settings = GapSettings {
         tolerance,
         system,
@@ -269,7 +269,8 @@ pub(crate) fn critical_gaps(
         std::thread::scope(|scope| {
             let work = scope.spawn(|| {
                 let stop = || halt.load(Ordering::Relaxed);
-                jostle_study::critical_gaps(&model.input.model, &motion, &settings, &stop, &|_| {})
+                let (model, motion) = (&prepared.input.model, &prepared.motion);
+                jostle_study::critical_gaps(model, motion, &settings, &stop, &|_| {})
             });
             while !work.is_finished() {
                 std::thread::sleep(LOOK_UP / 10);
@@ -290,7 +291,7 @@ pub(crate) fn critical_gaps(
     let gaps = found.map_err(|error| match error {
         GapError::Stopped => PyKeyboardInterrupt::new_err(()),
         GapError::Run(_) => AnalysisError::new_err(error.to_string()),
-        _ => input_error(&model.input.fault("gap", error.to_string())),
+        _ => input_error(&prepared.input.fault("gap", error.to_string())),
     })?;
     serde_json::to_string(&gaps).map_err(|error| AnalysisError::new_err(error.to_string()))
 }

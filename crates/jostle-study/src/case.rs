@@ -1,14 +1,10 @@
 //! One case: from the values of its factors to a row.
 
-use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use jostle::stepping::{ContactSteps, Progress, modal};
-use jostle::{
-    Gap, GroundMotion, Model, Outcome, Plan, RunEnd, Settings, Solver, StepError, Summary, System,
-    simulate,
-};
+use jostle::{Gap, GroundMotion, Model, Plan, RunEnd, StepError, System};
 use jostle_io::{Input, InputError, MotionSource, MotionSpec, PathError, Scaling};
+use jostle_run::{Prepared, Ran, SharedShapes};
 
 use crate::design::value_of;
 use crate::measures::measures;
@@ -23,56 +19,18 @@ pub struct Workshop {
     records: Mutex<Vec<(MotionSource, Arc<GroundMotion>)>>,
 }
 
-/// A model, its system, and the shapes for modal stepping once somebody wanted them.
+/// A model, its system, and the shapes for modal stepping.
 #[derive(Clone)]
 struct Assembled {
     model: Arc<Model>,
     system: Arc<System>,
-    shapes: Arc<OnceLock<Option<Shapes>>>,
-}
-
-/// Shapes, and the steps that they were found for.
-struct Shapes {
-    contact_steps: ContactSteps,
-    reduction: Arc<modal::Reduction>,
-}
-
-impl Assembled {
-    /// The shapes for modal stepping, if it is requested and possible.
-    fn shapes(&self, plan: &Plan) -> Option<Arc<modal::Reduction>> {
-        if plan.solver != Solver::Modal {
-            return None;
-        }
-        let found = self.shapes.get_or_init(|| {
-            let reduction = modal::Reduction::of(&self.system, plan).ok()?;
-            Some(Shapes {
-                contact_steps: plan.contact_steps,
-                reduction: Arc::new(reduction),
-            })
-        });
-        let found = found.as_ref()?;
-        (found.contact_steps == plan.contact_steps).then(|| Arc::clone(&found.reduction))
-    }
+    shapes: SharedShapes,
 }
 
 /// Assembled systems that are kept.
 const SYSTEMS: usize = 32;
 /// Records that are kept.
 const RECORDS: usize = 256;
-
-/// A case ready to be stepped.
-pub struct Prepared {
-    /// Its model file, read.
-    pub input: Input,
-    /// Assembled.
-    pub system: Arc<System>,
-    /// Its ground motion.
-    pub motion: GroundMotion,
-    /// Its steps.
-    pub plan: Plan,
-    /// Shapes for modal stepping, where they are known already.
-    pub shapes: Option<Arc<modal::Reduction>>,
-}
 
 /// Why a case cannot be stepped.
 #[derive(Debug, thiserror::Error)]
@@ -98,22 +56,17 @@ impl Workshop {
     /// Assembles a model that has been read, finds its motion, and plans its steps.
     ///
     /// # Errors
-    /// [`CaseError`] with the message of the reader of model files.
-    pub fn assemble(&self, input: Input) -> Result<Prepared, CaseError> {
-        let assembled = self.assembled(&input)?;
+    /// [`CaseError`], as the reader of model files says it.
+    pub fn assemble(&self, mut input: Input) -> Result<Prepared, CaseError> {
+        let Assembled { system, shapes, .. } = self.assembled(&input)?;
+        input.note_system(&system);
         let motion = self.motion(&input)?;
-        let system = assembled.system.as_ref();
-        let plan = Plan::choose(system, &motion, &input.model.analysis)
+        let plan = Plan::choose(&system, &motion, &input.model.analysis)
             .map_err(|faults| input.faults(faults))?;
-        plan.check_digits(system)
-            .map_err(|refusal| input.fault("analysis.solver", refusal.to_string()))?;
-        Ok(Prepared {
-            input,
-            shapes: assembled.shapes(&plan),
-            system: assembled.system,
-            motion,
-            plan,
-        })
+        let shapes = shapes.find(&system, &plan);
+        let prepared = Prepared::new(Arc::new(input), system, motion, plan, shapes);
+        prepared.check_digits(None)?;
+        Ok(prepared)
     }
 
     fn assembled(&self, input: &Input) -> Result<Assembled, InputError> {
@@ -137,7 +90,7 @@ impl Workshop {
         let assembled = Assembled {
             model: Arc::new(input.model.clone()),
             system: Arc::new(assembled.map_err(|faults| input.faults(faults))?),
-            shapes: kin.map_or_else(Arc::default, |kin| kin.shapes),
+            shapes: kin.map_or_else(SharedShapes::default, |kin| kin.shapes),
         };
         let mut systems = self.systems.lock().unwrap_or_else(PoisonError::into_inner);
         if systems.len() >= SYSTEMS {
@@ -211,66 +164,6 @@ fn kindred(a: &Model, b: &Model) -> bool {
         && a.gaps.iter().zip(&b.gaps).all(alike)
 }
 
-/// A case that was run, with its histories if they were asked for.
-pub struct Ran {
-    /// Prepared from.
-    pub prepared: Prepared,
-    /// The result.
-    pub outcome: Outcome,
-    /// In numbers; without wall time, so that it is the same on every machine.
-    pub summary: Summary,
-}
-
-impl Prepared {
-    /// Steps the case; `watch` is told how far it has come, and can stop it.
-    #[must_use]
-    pub fn step(
-        &self,
-        settings: Settings,
-        watch: impl FnMut(Progress) -> ControlFlow<()>,
-    ) -> Outcome {
-        let (system, motion, plan) = (&self.system, &self.motion, &self.plan);
-        match &self.shapes {
-            Some(shapes) => modal::simulate(system, motion, plan, settings, shapes, watch),
-            None => simulate(system, motion, plan, settings, watch),
-        }
-    }
-
-    /// An outcome in numbers; without wall time, so that it is the same on every machine.
-    #[must_use]
-    pub fn summary(&self, outcome: &Outcome, without_contact: Option<&Outcome>) -> Summary {
-        Summary::of(&jostle::Run {
-            model: &self.input.model,
-            system: &self.system,
-            motion: &self.motion,
-            plan: &self.plan,
-            outcome,
-            without_contact,
-            wall: 0.0,
-        })
-    }
-
-    /// Steps the case; `None` when `stop` asked to.
-    pub fn run(self, settings: Settings, stop: &(dyn Fn() -> bool + Sync)) -> Option<Ran> {
-        let outcome = self.step(settings, |_| {
-            if stop() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        if outcome.end == RunEnd::Stopped {
-            return None;
-        }
-        let summary = self.summary(&outcome, None);
-        Some(Ran {
-            prepared: self,
-            outcome,
-            summary,
-        })
-    }
-}
-
 /// The row of a case without results.
 pub(crate) fn blank(study: &Study, case: u64) -> Row {
     let choices = study.design.choices(case, &study.file.factors);
@@ -322,9 +215,10 @@ fn one_line(text: &str) -> String {
 
 /// The row of a case that ran.
 pub(crate) fn row_of(study: &Study, case: u64, ran: &Ran) -> Row {
+    let summary = ran.summary();
     let mut row = blank(study, case);
     if let Some(text) = row.texts.last_mut() {
-        text.clone_from(&ran.summary.motion.name);
+        text.clone_from(&summary.motion.name);
     }
     row.status = match &ran.outcome.end {
         RunEnd::Completed | RunEnd::Stopped => Status::Completed,
@@ -336,7 +230,7 @@ pub(crate) fn row_of(study: &Study, case: u64, ran: &Ran) -> Row {
     }
     let offset = row.numbers.len() - study.layout.results.len();
     let mut homeless: Vec<String> = Vec::new();
-    let found = measures(&ran.summary, &ran.prepared.system, &ran.prepared.motion);
+    let found = measures(&summary, &ran.prepared.system, &ran.prepared.motion);
     for named in found {
         // Peaks up to a failure are not peaks of the whole case.
         let known_anyway = matches!(&named.name[..], "pga_m_s2")
@@ -352,7 +246,7 @@ pub(crate) fn row_of(study: &Study, case: u64, ran: &Ran) -> Row {
         }
     }
     if row.reason.is_empty() {
-        row.reason = ran.summary.warnings.join("; ");
+        row.reason = summary.warnings.join("; ");
     }
     if !homeless.is_empty() {
         let more = format!("without a column: {}", homeless.join(", "));

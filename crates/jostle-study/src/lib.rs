@@ -20,7 +20,7 @@ pub mod statistics;
 mod study;
 mod varied;
 
-pub use case::{CaseError, Prepared, Ran, Workshop};
+pub use case::{CaseError, Workshop};
 pub use critical_gap::{CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps};
 pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};

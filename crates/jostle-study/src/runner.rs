@@ -15,6 +15,7 @@ use crate::dataset::{
     strangers, verify, write_part,
 };
 use crate::row::{Row, Status};
+use crate::single::{run_until, write_run};
 use crate::study::{Study, StudyError};
 
 /// Which part of a study this process computes, and how.
@@ -499,27 +500,26 @@ fn compute(
         Ok(prepared) => prepared,
         Err(error) => return Ok(Some(case::failed(study, number, &error.to_string()))),
     };
-    let modal = prepared.plan.solver == jostle::Solver::Modal;
     let keep = study.file.histories.contains(&number);
-    // Energies are audited where histories are recorded; modal stepping audits every step, and rows cost it steps.
-    let shown = jostle::Settings::default();
-    let settings = jostle::Settings {
-        record_interval: shown.record_interval.filter(|_| !modal),
-        ..shown
-    };
-    let Some(ran) = prepared.run(settings, stop) else {
+    let (settings, shown) = (prepared.settings(false), prepared.settings(true));
+    let Some(ran) = run_until(prepared, settings, stop) else {
         return Ok(None);
     };
-    if keep && modal {
-        let again = workshop.prepare(study, number).ok();
-        let Some(again) = again.and_then(|again| again.run(shown, stop)) else {
-            return Ok(None);
+    let row = case::row_of(study, number, &ran);
+    if keep {
+        // Rows of histories cost modal stepping steps: the row of the study is that of the run without them.
+        let kept = if settings == shown {
+            Some(ran)
+        } else {
+            run_until(ran.prepared, shown, stop)
         };
-        crate::single::write_run(&again, &run_folder(folder, number))?;
-    } else if keep {
-        crate::single::write_run(&ran, &run_folder(folder, number))?;
+        let folder = run_folder(folder, number);
+        let written = kept.map(|kept| write_run(kept, shown, &folder, stop));
+        if !written.transpose()?.unwrap_or_default() {
+            return Ok(None);
+        }
     }
-    Ok(Some(case::row_of(study, number, &ran)))
+    Ok(Some(row))
 }
 
 #[cfg(test)]

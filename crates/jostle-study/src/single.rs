@@ -1,17 +1,15 @@
 //! One case with all files of a single run.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 
-use jostle_io::{
-    write_atomically, write_history_parquet, write_impacts_parquet, write_summary_json,
-};
-use jostle_report::Page;
+use jostle::{RunEnd, Settings};
+use jostle_run::{Content, Prepared, Ran, Stage};
 
-use crate::case::{CaseError, Ran, Workshop};
+use crate::case::{CaseError, Workshop};
 use crate::study::{Study, StudyError};
 
-/// Runs one case with its histories and writes `summary.json`, `history.parquet`, `impacts.parquet` and
-/// `report.html` into a folder. `false` when it was stopped.
+/// Runs one case with its histories and writes the files of `jostle run` into a folder. `false` when it was stopped.
 ///
 /// # Errors
 /// [`StudyError`] when the case is wrong or its files cannot be written.
@@ -26,34 +24,59 @@ pub fn run_case(
         CaseError::Input(error) => StudyError::from(error),
         CaseError::Path(error) => StudyError::Column(error.to_string()),
     })?;
-    match prepared.run(jostle::Settings::default(), stop) {
-        Some(ran) => write_run(&ran, folder).map(|()| true),
+    let settings = prepared.settings(true);
+    match run_until(prepared, settings, stop) {
+        Some(ran) => write_run(ran, settings, folder, stop),
         None => Ok(false),
     }
 }
 
-pub(crate) fn write_run(ran: &Ran, folder: &Path) -> Result<(), StudyError> {
+/// Runs a case; `None` when it was stopped.
+pub(crate) fn run_until(
+    prepared: Prepared,
+    settings: Settings,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Option<Ran> {
+    let mut stopped = false;
+    let mut watch = observer(stop);
+    let mut ran = prepared.run(settings, &mut |stage, progress| {
+        let flow = watch(stage, progress);
+        stopped |= flow.is_break();
+        flow
+    });
+    // So that results are the same on every machine.
+    ran.wall = 0.0;
+    // Without a search for sensitivity to its end, a row would depend on when the study was stopped.
+    (!stopped).then_some(ran)
+}
+
+/// Runs a case without contact as well, for its report, and writes its files. `false` when it was stopped.
+pub(crate) fn write_run(
+    mut ran: Ran,
+    settings: Settings,
+    folder: &Path,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<bool, StudyError> {
+    ran.run_without_contact(settings, &mut observer(stop));
+    let without = ran.without_contact.as_ref();
+    if without.is_some_and(|run| run.end == RunEnd::Stopped) {
+        return Ok(false);
+    }
     std::fs::create_dir_all(folder)
         .map_err(|error| StudyError::Output(format!("{}: {error}", folder.display())))?;
-    let (model, summary) = (&ran.prepared.input.model, &ran.summary);
-    if let Some(history) = &ran.outcome.history {
-        write_history_parquet(&folder.join("history.parquet"), model, summary, history)?;
-        write_impacts_parquet(&folder.join("impacts.parquet"), summary)?;
-        let page = Page {
-            model,
-            motion: &ran.prepared.motion,
-            summary,
-            history,
-            without_contact: None,
-            springs: ran.outcome.spring_history.as_ref(),
-            sections: &[],
-            methods: &[],
-        };
-        write_atomically(
-            &folder.join("report.html"),
-            jostle_report::render(&page).as_bytes(),
-        )?;
+    let summary = ran.summary();
+    ran.results(&summary).write(folder, Content::ALL)?;
+    Ok(true)
+}
+
+fn observer(
+    stop: &(dyn Fn() -> bool + Sync),
+) -> impl FnMut(Stage, jostle::stepping::Progress) -> ControlFlow<()> {
+    move |_, _| {
+        if stop() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     }
-    write_summary_json(&folder.join("summary.json"), summary)?;
-    Ok(())
 }

@@ -1,6 +1,7 @@
 //! A study ready to be run: file, cases, columns.
 
 use std::fmt::Write as _;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use jostle::Settings;
@@ -385,18 +386,16 @@ fn columns(
 ) -> Result<(Vec<Named>, Vec<String>), CaseError> {
     let input = tree(file, choices)?.input()?;
     let mut prepared = workshop.assemble(input)?;
-    prepared.input.note_system(&prepared.system);
-    let mut warnings = prepared.input.warnings.clone();
-    warnings.extend(prepared.input.unusual_motion(&prepared.motion));
+    let warnings = prepared.input.warnings.clone();
     prepared.motion.duration = 0.0;
     let settings = Settings {
         record_interval: None,
         ..Settings::default()
     };
-    let motion = prepared.motion.clone();
-    let ran = prepared.run(settings, &|| false);
-    let list = ran.map(|ran| measures(&ran.summary, &ran.prepared.system, &motion));
-    Ok((list.unwrap_or_default(), warnings))
+    let outcome = prepared.step(settings, |_| ControlFlow::Continue(()));
+    let summary = prepared.summary(&outcome, None, 0.0);
+    let list = measures(&summary, &prepared.system, &prepared.motion);
+    Ok((list, warnings))
 }
 
 /// Identity of studies, and the hash of the base model.

@@ -1,7 +1,8 @@
 //! `jostle motion list`: built-in motions.
 
 use crate::failure::Failure;
-use crate::terminal::{self, BOLD, styled};
+use crate::terminal;
+use jostle_run::{BOLD, styled};
 
 pub(super) fn list() -> Result<(), Failure> {
     let motions = jostle_io::builtin_motions();

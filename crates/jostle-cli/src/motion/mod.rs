@@ -10,7 +10,6 @@ mod spectrum;
 mod synth;
 
 pub(crate) use args::MotionCommand;
-pub use spectrum::spectrum_json;
 
 use crate::failure::Failure;
 

@@ -9,11 +9,13 @@ use jostle_report::{SelectionPage, render_selection};
 use super::args::SelectArgs;
 use super::source::{open, quantities, quantity, wrong};
 use crate::failure::Failure;
-use crate::replace::{Kind, Target};
-use crate::terminal::{self, BOLD, LOUD, styled};
+use crate::replace::Target;
+use crate::terminal;
+use jostle_run::FileKind;
+use jostle_run::{BOLD, LOUD, styled};
 
 pub(super) fn select(args: &SelectArgs) -> Result<(), Failure> {
-    let page = Target::of_option(args.html.as_ref(), Kind::REPORT, args.force)?;
+    let page = Target::of_option(args.html.as_ref(), FileKind::REPORT, args.force)?;
     let target = args.target.open()?;
     let damping = quantity("--damping", &args.damping, Dimension::Dimensionless)?;
     let peak = match &args.pga {

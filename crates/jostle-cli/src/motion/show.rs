@@ -11,11 +11,13 @@ use serde_json::{Value, json};
 use super::args::ShowArgs;
 use super::source::{Named, wrong};
 use crate::failure::Failure;
-use crate::replace::{Kind, Target};
-use crate::terminal::{self, BOLD, DIM, styled};
+use crate::replace::Target;
+use crate::terminal;
+use jostle_run::FileKind;
+use jostle_run::{BOLD, DIM, styled};
 
 pub(super) fn show(args: &ShowArgs) -> Result<(), Failure> {
-    let target = Target::of_option(args.html.as_ref(), Kind::REPORT, args.force)?;
+    let target = Target::of_option(args.html.as_ref(), FileKind::REPORT, args.force)?;
     let Named { name, motion } = args.record.open()?;
     let measures = measures(&motion).map_err(wrong)?;
     if let Some(target) = &target {

@@ -11,8 +11,8 @@ use jostle_motion::{Accelerogram, MotionFault, TargetSpectrum};
 
 use super::args::{RecordArgs, TargetArgs};
 use crate::failure::Failure;
-use crate::replace::may_write;
 use crate::terminal;
+use jostle_run::may_write;
 
 /// A motion with its name.
 pub(super) struct Named {

@@ -4,23 +4,20 @@ use std::fmt::Write;
 
 use jostle_io::{Dimension, write_columns_parquet};
 use jostle_motion::{
-    Accelerogram, DuctilitySpectrum, Reading, ResponseSpectrum, ductility_spectrum,
-    response_spectrum, spaced_periods,
+    Reading, ResponseSpectrum, ductility_spectrum, response_spectrum, spaced_periods,
 };
-use serde_json::{Value, json};
+use jostle_run::{FileKind, Inelastic, spectra_json};
 
 use super::args::{PeaksAt, SpectrumArgs};
 use super::source::{quantities, quantity, wrong};
 use crate::failure::Failure;
-use crate::replace::{Kind, Target};
-use crate::terminal::{self, BOLD, styled};
-
-/// An inelastic spectrum and its damping ratio.
-type Inelastic = (f64, DuctilitySpectrum);
+use crate::replace::Target;
+use crate::terminal;
+use jostle_run::{BOLD, styled};
 
 pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
-    let as_csv = Target::of_option(args.csv.as_ref(), Kind::SPECTRA, args.force)?;
-    let as_parquet = Target::of_option(args.parquet.as_ref(), Kind::TABLE, args.force)?;
+    let as_csv = Target::of_option(args.csv.as_ref(), FileKind::SPECTRA, args.force)?;
+    let as_parquet = Target::of_option(args.parquet.as_ref(), FileKind::TABLE, args.force)?;
     let record = args.record.open()?;
     let dampings = quantities("--damping", &args.damping, Dimension::Dimensionless)?;
     let mut periods = quantities("--periods", &args.periods, Dimension::Time)?;
@@ -52,73 +49,12 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
         written.push(target.path.display().to_string());
     }
     if args.json {
-        terminal::print(&format!("{:#}", as_json(&elastic, &inelastic)))
+        terminal::print(&format!("{:#}", spectra_json(&elastic, &inelastic)))
     } else if written.is_empty() {
         terminal::print(&table(&record.name, &elastic, &inelastic))
     } else {
         terminal::print(&format!("{} written", written.join(" and ")))
     }
-}
-
-/// Response spectra of a motion \[m/s²\] with a step \[s\], as the JSON of the command; `between` looks for peaks
-/// between the samples as well.
-///
-/// # Errors
-/// An error in the motion or the numbers.
-pub fn spectrum_json(
-    step: f64,
-    acceleration: Vec<f64>,
-    periods: &[f64],
-    dampings: &[f64],
-    ductilities: &[f64],
-    post_yield: f64,
-    between: bool,
-) -> Result<String, String> {
-    let motion = Accelerogram::new(step, acceleration).map_err(|fault| fault.to_string())?;
-    let reading = if between {
-        Reading::Between
-    } else {
-        Reading::Steps
-    };
-    let elastic = response_spectrum(&motion, periods, dampings, reading)
-        .map_err(|fault| fault.to_string())?;
-    let mut inelastic = Vec::new();
-    for &damping in dampings {
-        for &ductility in ductilities {
-            let found = ductility_spectrum(&motion, periods, ductility, damping, post_yield);
-            inelastic.push((damping, found.map_err(|fault| fault.to_string())?));
-        }
-    }
-    Ok(as_json(&elastic, &inelastic).to_string())
-}
-
-fn as_json(elastic: &ResponseSpectrum, inelastic: &[Inelastic]) -> Value {
-    let curve = |curve: &jostle_motion::SpectrumCurve| {
-        json!({
-            "damping": curve.damping,
-            "displacement_m": curve.displacement,
-            "pseudo_velocity_m_s": curve.pseudo_velocity,
-            "pseudo_acceleration_m_s2": curve.pseudo_acceleration,
-            "total_acceleration_m_s2": curve.total_acceleration,
-        })
-    };
-    let ductile = |(damping, spectrum): &Inelastic| {
-        json!({
-            "damping": damping,
-            "ductility": spectrum.ductility,
-            "yield_acceleration_m_s2": spectrum.yield_acceleration,
-            "reduction": spectrum.reduction,
-            "displacement_m": spectrum.displacement,
-        })
-    };
-    let mut value = json!({
-        "periods_s": elastic.periods,
-        "spectra": elastic.curves.iter().map(curve).collect::<Vec<_>>(),
-    });
-    if !inelastic.is_empty() {
-        value["inelastic"] = inelastic.iter().map(ductile).collect();
-    }
-    value
 }
 
 /// Columns of a table, named with damping in percent, ductility and unit.

@@ -12,9 +12,9 @@ use jostle_study::{
 };
 
 use crate::failure::Failure;
-use crate::numbers::{counted_grouped, grouped};
-use crate::run::stop_on_interrupt;
+use crate::stop::stop_on_interrupt;
 use crate::terminal;
+use jostle_run::{counted_grouped, grouped};
 
 /// Default folder of results.
 const RESULTS: &str = "jostle-out";
@@ -108,7 +108,10 @@ pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
 }
 
 fn warning(text: &str) -> String {
-    format!("{} {text}", terminal::styled(terminal::LOUD, "warning:"))
+    format!(
+        "{} {text}",
+        jostle_run::styled(jostle_run::LOUD, "warning:")
+    )
 }
 
 /// The study, and the folder for its results.
@@ -173,7 +176,7 @@ fn headline(study: &Study) -> String {
     let inputs: Vec<&str> = study.layout.inputs.iter().map(|c| &c.name[..]).collect();
     let mut text = format!(
         "{}: {}{seed}, over {}",
-        terminal::styled(terminal::BOLD, &study.file.title),
+        jostle_run::styled(jostle_run::BOLD, &study.file.title),
         counted_grouped(study.design.cases, "case"),
         inputs.join(", ")
     );

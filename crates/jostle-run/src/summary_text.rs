@@ -10,7 +10,7 @@ use jostle::results::summary::{
 use jostle::separation::gb50011_frame_joint;
 
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
-use crate::terminal::{BOLD, DIM, LOUD, styled};
+use crate::style::{BOLD, DIM, LOUD, styled};
 
 /// Contacts listed at most.
 const LISTED: usize = 10;
@@ -18,11 +18,12 @@ const LISTED: usize = 10;
 /// The summary of a run on one screen, as `jostle run` prints it, without colours.
 #[must_use]
 pub fn summary_text(summary: &Summary) -> String {
-    anstream::adapter::strip_str(&describe(summary, None)).to_string()
+    anstream::adapter::strip_str(&describe_summary(summary, None)).to_string()
 }
 
-/// The summary as text; `result` is the file to open next.
-pub(crate) fn describe(summary: &Summary, result: Option<&Path>) -> String {
+/// The summary of a run on one screen, with styles; `result` is the file to open next.
+#[must_use]
+pub fn describe_summary(summary: &Summary, result: Option<&Path>) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = write_all(&mut text, summary, result);

@@ -1,7 +1,8 @@
 //! Number formats.
 
 /// A whole number with thin spaces between thousands.
-pub(crate) fn grouped(number: u64) -> String {
+#[must_use]
+pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -14,17 +15,20 @@ pub(crate) fn grouped(number: u64) -> String {
 }
 
 /// Metres as millimetres with one decimal.
-pub(crate) fn mm(metres: f64) -> String {
+#[must_use]
+pub fn mm(metres: f64) -> String {
     format!("{:.1}", metres * 1e3)
 }
 
 /// Newtons as kilonewtons with one decimal.
-pub(crate) fn kn(newtons: f64) -> String {
+#[must_use]
+pub fn kn(newtons: f64) -> String {
     format!("{:.1}", newtons * 1e-3)
 }
 
 /// One thing or several.
-pub(crate) fn counted(count: usize, thing: &str) -> String {
+#[must_use]
+pub fn counted(count: usize, thing: &str) -> String {
     if count == 1 {
         format!("1 {thing}")
     } else {
@@ -33,7 +37,8 @@ pub(crate) fn counted(count: usize, thing: &str) -> String {
 }
 
 /// The same for large counts.
-pub(crate) fn counted_grouped(count: u64, thing: &str) -> String {
+#[must_use]
+pub fn counted_grouped(count: u64, thing: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{} {thing}{plural}", grouped(count))
 }

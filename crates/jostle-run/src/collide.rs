@@ -1,0 +1,286 @@
+//! Two free masses under contact laws.
+
+use jostle::contact::{
+    BilinearShape, FreeCollision, ModifiedKelvin, RubberBumper, effective_mass, hertz_indentation,
+};
+use jostle::{ContactLaw, LawKind, RestitutionIs};
+use jostle_io::{Dimension, LAW_NAMES, parse_quantity};
+use jostle_report::{CollidedLaw, Collisions};
+use serde_json::{Value, json};
+
+use crate::error::RunError;
+
+/// Variants of `modified-kelvin`.
+const VARIANTS: [&str; 2] = ["ye", "mahmoud-jankowski"];
+/// What a coefficient of restitution means.
+const MEANINGS: [&str; 2] = ["input", "realised"];
+
+/// Two masses and the contact between them, as written: numbers in SI, or with a unit.
+#[derive(Clone, Debug)]
+pub struct CollideOptions {
+    /// Contact law.
+    pub law: String,
+    /// Every law instead; those that cannot realise the restitution are left out.
+    pub all: bool,
+    /// Mass of the left body, > 0.
+    pub m1: String,
+    /// Mass of the right body, > 0.
+    pub m2: String,
+    /// Closing speed at the beginning of the contact, > 0.
+    pub speed: String,
+    /// Contact stiffness of either family, > 0; `None` is 2e9 N/m^1.5.
+    pub stiffness: Option<String>,
+    /// Coefficient of restitution, above 0 and at most 1.
+    pub restitution: String,
+    /// `input` or `realised`.
+    pub restitution_is: String,
+    /// `ye` or `mahmoud-jankowski`, for `modified-kelvin`.
+    pub variant: String,
+    /// Yield indentation over the greatest design indentation, above 0 and below 0.5, for `bilinear`.
+    pub yield_share: String,
+    /// Speed that the stiffnesses of `bilinear` are computed for; `None` is `speed`.
+    pub design_speed: Option<String>,
+    /// Thickness of the bumper, > 0, for `rubber`.
+    pub thickness: String,
+    /// Exponent of the compression, 1 to 6, for `rubber`.
+    pub exponent: String,
+}
+
+impl Default for CollideOptions {
+    /// Everything but masses and speed, which have no usual value.
+    fn default() -> Self {
+        Self {
+            law: "hertz-damp".into(),
+            all: false,
+            m1: String::new(),
+            m2: String::new(),
+            speed: String::new(),
+            stiffness: None,
+            restitution: "0.65".into(),
+            restitution_is: MEANINGS[0].into(),
+            variant: VARIANTS[0].into(),
+            yield_share: "0.1".into(),
+            design_speed: None,
+            thickness: "50 mm".into(),
+            exponent: "2.65".into(),
+        }
+    }
+}
+
+fn known(option: &str, found: &str, names: &[&str]) -> Result<(), RunError> {
+    if names.contains(&found) {
+        return Ok(());
+    }
+    Err(RunError::Argument(format!(
+        "{option}: expected {}, found \"{found}\"",
+        names.join(", ")
+    )))
+}
+
+/// The collisions that options ask for.
+///
+/// # Errors
+/// [`RunError::Argument`] with the option first.
+pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
+    known("--law", &options.law, &LAW_NAMES)?;
+    known("--variant", &options.variant, &VARIANTS)?;
+    known("--restitution-is", &options.restitution_is, &MEANINGS)?;
+    let positive = |option: &str, text: &str, dimension| {
+        let value = parse_quantity(text, dimension)
+            .map_err(|error| RunError::Argument(format!("{option}: {error}")))?;
+        if value > 0.0 {
+            Ok(value)
+        } else {
+            Err(RunError::Argument(format!(
+                "{option}: must be greater than zero, found {text}"
+            )))
+        }
+    };
+    let masses = [
+        positive("--m1", &options.m1, Dimension::Mass)?,
+        positive("--m2", &options.m2, Dimension::Mass)?,
+    ];
+    let speed = positive("--speed", &options.speed, Dimension::Speed)?;
+    let restitution = positive(
+        "--restitution",
+        &options.restitution,
+        Dimension::Dimensionless,
+    )?;
+    if restitution > 1.0 {
+        return Err(RunError::Argument(format!(
+            "--restitution: must be greater than 0 and at most 1, found {restitution}"
+        )));
+    }
+    let shape = BilinearShape {
+        yield_share: positive(
+            "--yield-share",
+            &options.yield_share,
+            Dimension::Dimensionless,
+        )?,
+        design_speed: options
+            .design_speed
+            .as_ref()
+            .map(|text| positive("--design-speed", text, Dimension::Speed))
+            .transpose()?,
+    };
+    if shape.yield_share >= 0.5 {
+        return Err(RunError::Argument(format!(
+            "--yield-share: must lie between 0 and 0.5, found {}",
+            shape.yield_share
+        )));
+    }
+    let bumper = RubberBumper {
+        thickness: positive("--thickness", &options.thickness, Dimension::Length)?,
+        exponent: positive("--exponent", &options.exponent, Dimension::Dimensionless)?,
+    };
+    if !(1.0..=6.0).contains(&bumper.exponent) {
+        return Err(RunError::Argument(format!(
+            "--exponent: must lie between 1 and 6, found {}",
+            bumper.exponent
+        )));
+    }
+    let kinds = kinds(options, shape, bumper);
+    let energy = effective_mass(masses[0], masses[1]) * speed * speed;
+    let stiffness = Stiffness::read(options, &kinds, energy)?;
+    let restitution_is = if options.restitution_is == "realised" {
+        RestitutionIs::Realised
+    } else {
+        RestitutionIs::Input
+    };
+    let mut laws = Vec::new();
+    for kind in kinds {
+        let law = ContactLaw {
+            kind,
+            stiffness: stiffness.of(kind),
+            restitution,
+            restitution_is,
+        };
+        let least = law.least_restitution();
+        if restitution <= least {
+            if options.all {
+                continue;
+            }
+            return Err(RunError::Argument(format!(
+                "--restitution: {} cannot realise {restitution}; at least {least:.4}",
+                kind.name()
+            )));
+        }
+        let numbers = law.between(masses[0], masses[1]);
+        laws.push(CollidedLaw {
+            law,
+            collision: FreeCollision::of(&numbers, masses[0], masses[1], speed),
+        });
+    }
+    let stiffnesses = format!(
+        "Stiffness {:.4e} N/m^1.5 for the Hertz family, {:.4e} N/m for the others: the same secant at the greatest elastic Hertz indentation.",
+        stiffness.hertz, stiffness.linear
+    );
+    Ok(Collisions {
+        masses,
+        speed,
+        restitution,
+        stiffnesses,
+        laws,
+    })
+}
+
+fn kinds(options: &CollideOptions, shape: BilinearShape, bumper: RubberBumper) -> Vec<LawKind> {
+    let with_parameters = |kind| match kind {
+        LawKind::Bilinear(_) => LawKind::Bilinear(shape),
+        LawKind::Rubber(_) => LawKind::Rubber(bumper),
+        other => other,
+    };
+    let all = LawKind::ALL.into_iter().map(with_parameters);
+    if options.all {
+        return all.collect();
+    }
+    let variant = ModifiedKelvin::MahmoudJankowski;
+    let wanted = |kind: &LawKind| {
+        kind.name() == options.law
+            && match kind {
+                LawKind::ModifiedKelvin(found) => {
+                    (*found == variant) == (options.variant == variant.name())
+                }
+                _ => true,
+            }
+    };
+    all.filter(wanted).collect()
+}
+
+/// The stiffness in the units of both families.
+struct Stiffness {
+    hertz: f64,
+    linear: f64,
+}
+
+impl Stiffness {
+    /// Reads it in either unit; a bare number is in that of the law. The other follows from k_linear = k_Hertz √δ with
+    /// δ = (5 m v²/(4k))^0.4; `energy` is m v².
+    fn read(options: &CollideOptions, kinds: &[LawKind], energy: f64) -> Result<Self, RunError> {
+        let bare_is_hertzian = options.all || kinds.iter().any(|kind| kind.is_hertzian());
+        let (first, second) = if bare_is_hertzian {
+            (Dimension::HertzStiffness, Dimension::Stiffness)
+        } else {
+            (Dimension::Stiffness, Dimension::HertzStiffness)
+        };
+        let text = options.stiffness.as_deref().unwrap_or("2e9 N/m^1.5");
+        let (value, dimension) = match parse_quantity(text, first) {
+            Ok(value) => (value, first),
+            Err(error) => match parse_quantity(text, second) {
+                Ok(value) => (value, second),
+                Err(_) => return Err(RunError::Argument(format!("--stiffness: {error}"))),
+            },
+        };
+        if value <= 0.0 {
+            return Err(RunError::Argument(format!(
+                "--stiffness: must be greater than zero, found {text}"
+            )));
+        }
+        let hertz = if dimension == Dimension::HertzStiffness {
+            value
+        } else {
+            (value / (1.25 * energy).powf(0.2)).powf(1.25)
+        };
+        let linear = if dimension == Dimension::Stiffness {
+            value
+        } else {
+            hertz * hertz_indentation(hertz, energy, 1.0).sqrt()
+        };
+        Ok(Self { hertz, linear })
+    }
+
+    fn of(&self, kind: LawKind) -> f64 {
+        if kind.is_hertzian() {
+            self.hertz
+        } else {
+            self.linear
+        }
+    }
+}
+
+/// The numbers of a collision as the JSON of `jostle collide`.
+#[must_use]
+pub fn collision_json(collided: &CollidedLaw) -> Value {
+    let CollidedLaw { law, collision } = collided;
+    let variant = match law.kind {
+        LawKind::ModifiedKelvin(variant) => Some(variant.name()),
+        _ => None,
+    };
+    json!({
+        "law": law.kind.name(),
+        "variant": variant,
+        "stiffness": law.stiffness,
+        "stiffness_unit": if law.kind.is_hertzian() { "N/m^1.5" } else { "N/m" },
+        "restitution": law.restitution,
+        "impact_speed_m_s": collision.impact_speed,
+        "separation_speed_m_s": collision.separation_speed,
+        "realised_restitution": collision.realised_restitution(),
+        "peak_force_n": collision.peak_force,
+        "peak_force_at_s": collision.peak_force_at,
+        "least_force_n": collision.least_force,
+        "peak_indentation_m": collision.peak_indentation,
+        "duration_s": collision.duration,
+        "impulse_n_s": collision.impulse,
+        "dissipated_j": collision.dissipated,
+    })
+}

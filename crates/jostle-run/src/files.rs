@@ -1,0 +1,172 @@
+//! The files of a run: written beside each other first, then put in place together.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use jostle_io::{
+    OutputError, write_atomically, write_hinges_parquet, write_history_parquet,
+    write_impacts_parquet, write_summary_json,
+};
+
+use crate::error::RunError;
+use crate::replace::{FileKind, may_write};
+use crate::results::Results;
+
+const SUMMARY: &str = "summary.json";
+const HISTORY: &str = "history.parquet";
+const IMPACTS: &str = "impacts.parquet";
+const HINGES: &str = "hinges.parquet";
+const REPORT: &str = "report.html";
+
+/// The files of a run.
+const FILES: [(&str, FileKind); 5] = [
+    (SUMMARY, FileKind::SUMMARY),
+    (HISTORY, FileKind::TABLE),
+    (IMPACTS, FileKind::TABLE),
+    (HINGES, FileKind::TABLE),
+    (REPORT, FileKind::REPORT),
+];
+
+/// Files of an earlier run in a folder, which a run replaces.
+///
+/// # Errors
+/// [`RunError::Kept`] if jostle did not write one of them and `force` is false, [`RunError::Output`] if it cannot be read.
+pub fn earlier_files(folder: &Path, force: bool) -> Result<Vec<&'static str>, RunError> {
+    let mut earlier = Vec::new();
+    for (name, kind) in FILES {
+        if may_write(&folder.join(name), Some(kind), force)? {
+            earlier.push(name);
+        }
+    }
+    Ok(earlier)
+}
+
+/// Which files to write beside `summary.json`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Content {
+    /// `history.parquet`, `impacts.parquet` and, if buildings yield, `hinges.parquet`.
+    pub tables: bool,
+    /// `report.html`.
+    pub report: bool,
+}
+
+impl Content {
+    /// Tables and report.
+    pub const ALL: Self = Self {
+        tables: true,
+        report: true,
+    };
+    /// Tables without a report.
+    pub const TABLES: Self = Self {
+        tables: true,
+        report: false,
+    };
+    /// The report without tables.
+    pub const REPORT: Self = Self {
+        tables: false,
+        report: true,
+    };
+}
+
+impl Results<'_> {
+    /// Writes `summary.json` and the files asked for into a folder that exists. Either all are replaced or, if one of
+    /// them cannot be written, none.
+    ///
+    /// # Errors
+    /// [`OutputError`] with path and reason.
+    pub fn write(&self, folder: &Path, content: Content) -> Result<(), OutputError> {
+        let mut staged = Staged::new(folder)?;
+        if content.tables {
+            self.write_tables(&mut staged)?;
+        }
+        if let Some(report) = content.report.then(|| self.report()).flatten() {
+            staged.add(REPORT, |path| write_atomically(path, report.as_bytes()))?;
+        }
+        staged.add(SUMMARY, |path| write_summary_json(path, self.summary))?;
+        staged.put_in_place()
+    }
+
+    fn write_tables(&self, staged: &mut Staged) -> Result<(), OutputError> {
+        let model = &self.prepared.input.model;
+        let (summary, outcome) = (self.summary, self.outcome);
+        if let Some(history) = self.history.filter(|all| !all.columns().is_empty()) {
+            staged.add(HISTORY, |path| {
+                write_history_parquet(path, model, summary, history)
+            })?;
+        }
+        staged.add(IMPACTS, |path| write_impacts_parquet(path, summary))?;
+        if !outcome.springs.is_empty() {
+            let system = &self.prepared.system;
+            staged.add(HINGES, |path| {
+                write_hinges_parquet(path, system, outcome, summary)
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// Files written to a folder of their own inside the folder that they belong to.
+struct Staged {
+    folder: PathBuf,
+    aside: tempfile::TempDir,
+    names: Vec<&'static str>,
+}
+
+impl Staged {
+    fn new(folder: &Path) -> Result<Self, OutputError> {
+        let mut builder = tempfile::Builder::new();
+        let aside = builder
+            .prefix(".jostle-")
+            .suffix(".part")
+            .tempdir_in(if folder == Path::new("") {
+                Path::new(".")
+            } else {
+                folder
+            })
+            .map_err(unwritable(folder))?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            aside,
+            names: Vec::new(),
+        })
+    }
+
+    /// Writes a file aside; errors name the place where it belongs.
+    fn add(
+        &mut self,
+        name: &'static str,
+        write: impl FnOnce(&Path) -> Result<(), OutputError>,
+    ) -> Result<(), OutputError> {
+        let path = self.folder.join(name);
+        write(&self.aside.path().join(name)).map_err(|error| match error {
+            OutputError::Io { error, .. } => OutputError::Io { path, error },
+            OutputError::Encoding { reason, .. } => OutputError::Encoding { path, reason },
+            other => other,
+        })?;
+        self.names.push(name);
+        Ok(())
+    }
+
+    fn put_in_place(self) -> Result<(), OutputError> {
+        // A folder of such a name would stop the files after the first.
+        for name in &self.names {
+            let path = self.folder.join(name);
+            if path.is_dir() {
+                return Err(unwritable(&path)(io::ErrorKind::IsADirectory.into()));
+            }
+        }
+        for name in &self.names {
+            let path = self.folder.join(name);
+            jostle_io::put_in_place(&self.aside.path().join(name), &path)?;
+        }
+        self.aside.close().map_err(unwritable(&self.folder))
+    }
+}
+
+fn unwritable(path: &Path) -> impl Fn(io::Error) -> OutputError {
+    let path = path.to_owned();
+    move |error| OutputError::Io {
+        path: path.clone(),
+        error,
+    }
+}

@@ -1,0 +1,39 @@
+//! What all faces of jostle have in common: the command line, Python, studies and the live page.
+//!
+//! [`open()`] reads and assembles a model, [`Opened::prepare`] chooses its steps, [`Prepared::run`] makes the run, and
+//! [`Results::write`] writes its files. Progress goes to an observer, which can stop the run. Nothing is printed, and no
+//! terminal is read.
+
+mod collide;
+mod error;
+mod files;
+mod modes;
+mod numbers;
+mod observer;
+mod opened;
+mod prepared;
+mod pushover;
+mod replace;
+mod results;
+mod run;
+mod shapes;
+mod spectra;
+mod style;
+mod summary_text;
+
+pub use collide::{CollideOptions, collide, collision_json};
+pub use error::RunError;
+pub use files::{Content, earlier_files};
+pub use modes::{ListedModes, floor_shape, list_modes, modes_json};
+pub use numbers::{counted, counted_grouped, grouped, kn, mm};
+pub use observer::{Observer, Stage, stopped_by};
+pub use opened::{EXAMPLE, Opened, open, read};
+pub use prepared::Prepared;
+pub use pushover::{checked_drift, chosen_buildings, pushed_buildings, pushover_json};
+pub use replace::{FileKind, may_write};
+pub use results::Results;
+pub use run::Ran;
+pub use shapes::SharedShapes;
+pub use spectra::{Inelastic, spectra_json, spectrum_json};
+pub use style::{BOLD, DIM, LOUD, styled};
+pub use summary_text::{describe_summary, summary_text};

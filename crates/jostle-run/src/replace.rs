@@ -1,0 +1,122 @@
+//! Files that exist where one is to be written: jostle replaces its own, and others only if asked to.
+
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
+
+use jostle_io::OutputError;
+
+use crate::error::RunError;
+
+/// How much of the beginning and of the end of a file is read to see what it is \[bytes\].
+const LOOK: u64 = 8192;
+
+/// A kind of file that jostle writes.
+#[derive(Clone, Copy, Debug)]
+pub struct FileKind {
+    /// What it is, as in "is no summary of jostle".
+    pub name: &'static str,
+    /// All of this stands in its first or last kilobytes.
+    pub marks: &'static [&'static str],
+}
+
+impl FileKind {
+    /// Tables in Parquet.
+    pub const TABLE: Self = Self {
+        name: "table of jostle",
+        marks: &["PAR1", "jostle "],
+    };
+    /// Summaries of runs.
+    pub const SUMMARY: Self = Self {
+        name: "summary of jostle",
+        marks: &["\"title\":", "\"jostle\":", "\"motion\":"],
+    };
+    /// Reports of runs, and pages of collisions and motions.
+    pub const REPORT: Self = Self {
+        name: "report of jostle",
+        marks: &["<html", " – jostle</title>"],
+    };
+    /// Pages of sections.
+    pub const SECTIONS: Self = Self {
+        name: "page of sections that jostle wrote",
+        marks: &["<html", " – sections</title>"],
+    };
+    /// Pages of `jostle method`.
+    pub const METHOD: Self = Self {
+        name: "page of jostle method",
+        marks: &["<html", " – the method</title>"],
+    };
+    /// Pages, curves and numbers of `jostle pushover`.
+    pub const PUSHOVER_PAGE: Self = Self {
+        name: "page of jostle pushover",
+        marks: &["<html", " – pushover</title>"],
+    };
+    /// See [`Self::PUSHOVER_PAGE`].
+    pub const PUSHOVER_CURVES: Self = Self {
+        name: "table of jostle pushover",
+        marks: &["building,direction,point,roof_displacement_m,roof_drift,"],
+    };
+    /// See [`Self::PUSHOVER_PAGE`].
+    pub const PUSHOVER_NUMBERS: Self = Self {
+        name: "result of jostle pushover",
+        marks: &["\"curves\":", "\"jostle\":", "\"title\":"],
+    };
+    /// Curves of `jostle collide`.
+    pub const COLLISION_CURVES: Self = Self {
+        name: "table of jostle collide",
+        marks: &["law,time_s,indentation_m,rate_m_s,force_n\n"],
+    };
+    /// Spectra of `jostle motion spectrum`.
+    pub const SPECTRA: Self = Self {
+        name: "table of jostle motion spectrum",
+        marks: &["period_s,sd_", "pct_m,psv_"],
+    };
+}
+
+/// Whether writing `path` replaces a file that is not empty.
+///
+/// Files of `kind` may be replaced; all others, and everything if no kind is given, only with `force`.
+///
+/// # Errors
+/// [`RunError::Kept`] if the file must stay, [`RunError::Output`] if it cannot be read.
+pub fn may_write(path: &Path, kind: Option<FileKind>, force: bool) -> Result<bool, RunError> {
+    let shown = path.display();
+    let io = |error| {
+        RunError::from(OutputError::Io {
+            path: path.to_owned(),
+            error,
+        })
+    };
+    let ends = match std::fs::metadata(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(false),
+        Err(error) => return Err(io(error)),
+        Ok(found) if found.is_dir() => {
+            return Err(RunError::Kept(format!(
+                "{shown} is a folder; name a file in it"
+            )));
+        }
+        // Devices, such as /dev/null, lose nothing.
+        Ok(found) if !found.is_file() || found.len() == 0 => return Ok(false),
+        Ok(_) if force => return Ok(true),
+        Ok(found) => ends(path, found.len()).map_err(io)?,
+    };
+    match kind {
+        Some(kind) if kind.marks.iter().all(|mark| ends.contains(mark)) => Ok(true),
+        Some(kind) => Err(RunError::Kept(format!(
+            "{shown} exists already and is no {}; choose another name or folder, or add --force to replace it",
+            kind.name
+        ))),
+        None => Err(RunError::Kept(format!(
+            "{shown} exists already; choose another name or folder, or add --force to replace it"
+        ))),
+    }
+}
+
+/// The beginning and the end of a file, as far as they are text.
+fn ends(path: &Path, len: u64) -> std::io::Result<String> {
+    let mut file = std::fs::File::open(path)?;
+    let mut bytes = Vec::new();
+    file.by_ref().take(LOOK).read_to_end(&mut bytes)?;
+    file.seek(SeekFrom::Start(len.saturating_sub(LOOK)))?;
+    file.take(LOOK).read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

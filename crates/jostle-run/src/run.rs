@@ -1,0 +1,78 @@
+//! The runs of a model.
+
+use std::time::Instant;
+
+use jostle::{Outcome, Pounding, Settings, Summary};
+
+use crate::observer::{Observer, Stage};
+use crate::prepared::{Prepared, without_contact};
+use crate::results::Results;
+
+/// A model that was run.
+pub struct Ran {
+    /// What was run.
+    pub prepared: Prepared,
+    /// What came out.
+    pub outcome: Outcome,
+    /// The same without contact, if that was run.
+    pub without_contact: Option<Outcome>,
+    /// Time that the run with contact took \[s\].
+    pub wall: f64,
+}
+
+impl Prepared {
+    /// Runs the model from rest and, with contact, finds out whether its results are sensitive.
+    #[must_use]
+    pub fn run(self, settings: Settings, observer: &mut Observer<'_>) -> Ran {
+        let stage = match settings.pounding {
+            Pounding::Included => Stage::Pounding,
+            Pounding::Excluded => Stage::WithoutContact,
+        };
+        let started = Instant::now();
+        let mut outcome = self.step(settings, |progress| observer(stage, progress));
+        let wall = started.elapsed().as_secs_f64();
+        if stage == Stage::Pounding {
+            self.find_sensitivity(&mut outcome, |progress| {
+                observer(Stage::Sensitivity, progress)
+            });
+        }
+        Ran {
+            prepared: self,
+            outcome,
+            without_contact: None,
+            wall,
+        }
+    }
+}
+
+impl Ran {
+    /// Runs the same without contact, if there is a gap and the run with contact came to its end.
+    pub fn run_without_contact(&mut self, settings: Settings, observer: &mut Observer<'_>) {
+        if self.prepared.compares(&self.outcome) {
+            let settings = without_contact(settings);
+            let watch = |progress| observer(Stage::WithoutContact, progress);
+            self.without_contact = Some(self.prepared.step(settings, watch));
+        }
+    }
+
+    /// The numbers of the run.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        let without = self.without_contact.as_ref();
+        self.prepared.summary(&self.outcome, without, self.wall)
+    }
+
+    /// What the files of the run are written from.
+    #[must_use]
+    pub fn results<'a>(&'a self, summary: &'a Summary) -> Results<'a> {
+        let without = self.without_contact.as_ref();
+        Results {
+            prepared: &self.prepared,
+            outcome: &self.outcome,
+            summary,
+            history: self.outcome.history.as_ref(),
+            without_contact: without.and_then(Results::comparable),
+            methods: &[],
+        }
+    }
+}

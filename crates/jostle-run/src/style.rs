@@ -1,0 +1,16 @@
+//! Styles of words in texts for a terminal; whoever prints a text decides whether they are shown.
+
+use anstyle::{AnsiColor, Style};
+
+/// For headings.
+pub const BOLD: Style = Style::new().bold();
+/// For what may be overlooked.
+pub const DIM: Style = Style::new().dimmed();
+/// For what must not be overlooked.
+pub const LOUD: Style = AnsiColor::Yellow.on_default().bold();
+
+/// Text in a style.
+#[must_use]
+pub fn styled(style: Style, text: &str) -> String {
+    format!("{style}{text}{style:#}")
+}
