@@ -1,4 +1,4 @@
-//! Sudden changes of velocity: what the momentum law does to two buildings (docs/contact.md, N1 and N2).
+//! Sudden changes of velocity under the momentum law (docs/contact.md, N1 and N2).
 
 use super::simulation::Simulation;
 use super::{StepEquations, StepMatrix};
@@ -7,20 +7,20 @@ use crate::faces::Face;
 use crate::history::Impact;
 use crate::system::{BuildingSystem, System};
 
-/// K + K′ + s C + G M with s and G so large that damping says how massless degrees of freedom follow, where it acts on
-/// them, and that massive ones do not give way.
+/// K + K′ + s C + G M with s and G so large that massless degrees of freedom follow damping, where it acts on them,
+/// and massive ones do not move.
 pub(super) struct BlowFactor<E: StepEquations> {
     factor: E::Factor,
     mass_factor: f64,
 }
 
-/// How much larger G M is than the rest.
+/// Ratio of G M to the other terms.
 const HEAVY: f64 = 1e13;
-/// s: what is slower than this does not matter at a sudden change \[1/s\].
+/// s: slower processes have no effect on a sudden change \[1/s\].
 const SUDDEN: f64 = 1e9;
 
 impl<E: StepEquations> BlowFactor<E> {
-    /// `None` when every degree of freedom has mass, or nothing can be said about the others.
+    /// `None` if every degree of freedom has mass, or the motion of the others is undetermined.
     fn of(building: &BuildingSystem, equations: &E) -> Option<Self> {
         let own = &building.equations;
         let mut matrix = StepMatrix {
@@ -47,7 +47,7 @@ impl<E: StepEquations> BlowFactor<E> {
             })
     }
 
-    /// Lets massless degrees of freedom follow a change of the massive ones.
+    /// Changes massless degrees of freedom with the massive ones.
     fn follow(&self, equations: &E, mass: &[f64], change: &mut [f64], load: &mut [f64]) {
         for ((load, mass), change) in load.iter_mut().zip(mass).zip(change.iter()) {
             *load = self.mass_factor * mass * change;
@@ -61,7 +61,7 @@ impl<E: StepEquations> BlowFactor<E> {
     }
 }
 
-/// Room for the changes of one building.
+/// Scratch vector for the changes of one building.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BlowScratch {
     velocity: Vec<f64>,
@@ -89,7 +89,7 @@ impl BlowScratch {
 }
 
 impl<E: StepEquations> Simulation<'_, E> {
-    /// A contact closing at `rate` opens at once with `restitution` times that.
+    /// A contact closing at `rate` opens instantly at `restitution` times that rate.
     pub(super) fn blow(&mut self, index: usize, restitution: f64, rate: f64) {
         let contact = &self.system.contacts[index];
         let mass = contact.effective_mass();
@@ -115,8 +115,8 @@ impl<E: StepEquations> Simulation<'_, E> {
         });
     }
 
-    /// Changes the velocity of one degree of freedom, of the massless ones that hang on it, and the accelerations by
-    /// what the dampers then say: M Δa = −(α M + β K + C′) Δv.
+    /// Changes the velocity of one degree of freedom and of the massless ones that depend on it, and the
+    /// accelerations by the damping forces: M Δa = −(α M + β K + C′) Δv.
     fn push_at_once(&mut self, face: Face, change: f64) {
         let building = face.building;
         let system = &self.system.buildings[building];

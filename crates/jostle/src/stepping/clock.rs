@@ -1,7 +1,7 @@
-//! Where a run stands on its grid of regular steps.
+//! Position of a run on its grid of regular steps.
 
-/// Time as whole free-flight steps plus an offset: regular instants never drift, and steps that ended on an
-/// event find back to the grid.
+/// Time as whole free-vibration steps plus an offset: regular instants do not drift, and steps after an event
+/// return to the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Clock {
     step: f64,
@@ -14,13 +14,13 @@ pub(crate) struct Clock {
 pub(crate) struct Stride {
     /// Its length \[s\].
     pub(crate) length: f64,
-    /// Whether it is exactly one regular step of the asked-for division.
+    /// Whether it is exactly one regular step of the requested division.
     pub(crate) regular: bool,
-    /// Where it ends.
+    /// Its end.
     pub(crate) end: Clock,
 }
 
-/// A remainder shorter than this share of a step is taken together with the next step.
+/// A remainder shorter than this fraction of a step is joined to the next step.
 const SHORTEST: f64 = 0.25;
 
 impl Clock {
@@ -36,7 +36,7 @@ impl Clock {
         self.index as f64 * self.step + self.offset
     }
 
-    /// The step to the next instant of the grid that divides every free-flight step into `division` parts.
+    /// The step to the next instant of the grid that divides every free-vibration step into `division` parts.
     pub(crate) fn stride(&self, division: u32) -> Stride {
         let part = self.step / f64::from(division);
         let passed = (self.offset / part + 1e-9).floor() as u32;
@@ -64,7 +64,7 @@ impl Clock {
         }
     }
 
-    /// Whether this is an instant of the grid that divides every free-flight step into `division` parts.
+    /// Whether this is an instant of the grid that divides every free-vibration step into `division` parts.
     pub(crate) fn is_on_grid(&self, division: u32) -> bool {
         let part = self.step / f64::from(division);
         self.offset == (self.offset / part + 1e-9).floor() * part
@@ -112,7 +112,7 @@ mod tests {
         assert!(!odd.regular);
         assert!((odd.length - 0.0014).abs() < 1e-15, "{odd:?}");
         assert!(odd.end.stride(4).regular);
-        // Too little is left of this part: the stride takes the next one along, past the free-flight grid.
+        // The remainder of this part is too short: the step includes the next one, beyond the free-vibration grid.
         let late = Clock::new(0.01).after(0.0099).stride(4);
         assert!((late.length - 0.0026).abs() < 1e-15, "{late:?}");
         assert_eq!(

@@ -9,9 +9,10 @@ use super::simulation::Simulation;
 use crate::state::Episode;
 use crate::system::Contact;
 
-/// Steps of a half cycle at the present stiffness, relative to those planned, beyond which finer ones gain nothing.
+/// Number of steps per half cycle at the present stiffness, relative to the planned one, above which accuracy stops
+/// improving.
 const MOST_FINER: f64 = 4.0;
-/// How far an estimate must lie below the target before steps are doubled, beyond what doubling multiplies it by.
+/// Margin of an estimate below the target before steps are doubled, in addition to the factor of doubling.
 const SLACK: f64 = 1.5;
 
 impl<E: StepEquations> Simulation<'_, E> {
@@ -21,8 +22,8 @@ impl<E: StepEquations> Simulation<'_, E> {
         faces.closing(&self.state.acceleration)
     }
 
-    /// At a touch: the division that the impact expected of this closing rate needs, in view of the strongest impact of
-    /// the gap so far.
+    /// At first contact: the division for the expected impact at this closing rate, relative to the greatest force
+    /// of the gap so far.
     pub(super) fn choose_division(&mut self, index: usize, rate: f64) {
         let contact = &self.system.contacts[index];
         let expected = contact.law.elastic_force(contact.effective_mass(), rate);
@@ -40,9 +41,9 @@ impl<E: StepEquations> Simulation<'_, E> {
     /// After a step of a closed contact: finer steps where its error endangers the tolerance, coarser ones where the
     /// grid allows and the error is far below.
     ///
-    /// The trapezoidal rule misses h² Δa/12 of a displacement in a step. Over the π/(ωh) steps of half a cycle at the
-    /// present contact stiffness, ω² = F′/m, that is an error of the force of F′ h² |Δa|/12 · π/(ωh), relative to the
-    /// greatest force of the gap.
+    /// The trapezoidal rule has an error of h² Δa/12 in the displacement of a step. Over the π/(ωh) steps of half a
+    /// cycle at the present contact stiffness, ω² = F′/m, this is an error of the force of F′ h² |Δa|/12 · π/(ωh),
+    /// relative to the greatest force of the gap.
     pub(super) fn control_division(&mut self, closed: usize, step: f64, episode: &Episode) {
         let closed = &self.coupling.closed[closed];
         let index = closed.contact;
@@ -70,17 +71,17 @@ impl<E: StepEquations> Simulation<'_, E> {
     }
 }
 
-/// What a step of a closed contact has shown.
+/// Result of a step of a closed contact.
 pub(super) struct Observed {
     /// Its length \[s\].
     pub(super) step: f64,
     /// F′ at its end \[N/m\].
     pub(super) stiffness: f64,
-    /// ∂F/∂δ̇ there; 0 where the error is one of displacements alone, and finer steps for a dashpot gain nothing \[N·s/m\].
+    /// ∂F/∂δ̇ there; 0 if the error is one of displacements only, so that a dashpot needs no finer steps \[N·s/m\].
     pub(super) damping: f64,
     /// Error of the force over half a cycle of such steps, relative to the greatest of the gap \[–\].
     pub(super) error: f64,
-    /// Power of the step with which it grows.
+    /// Its order in the step.
     pub(super) order: i32,
 }
 
@@ -89,7 +90,7 @@ fn half_cycle(contact: &Contact, stiffness: f64) -> f64 {
     PI * (contact.effective_mass() / stiffness).sqrt()
 }
 
-/// The division to go on with.
+/// The next division.
 pub(super) fn next_division(
     plan: &Plan,
     contact: &Contact,
@@ -107,7 +108,7 @@ pub(super) fn next_division(
         error,
         order,
     } = *observed;
-    // An overdamped contact gives way within m/c, which may be much less than half a cycle.
+    // The time scale of an overdamped contact is m/c, which may be much less than half a cycle.
     let quickest = stiffness.max(damping * damping / contact.effective_mass());
     if quickest <= 0.0 || !error.is_finite() {
         return division;

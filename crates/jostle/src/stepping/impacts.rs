@@ -1,4 +1,4 @@
-//! Contacts that close and open: found in tried steps, made to happen, followed to the end.
+//! Contacts that close and open: located in trial steps, applied, and followed to their end.
 
 use super::StepEquations;
 use super::clock::Stride;
@@ -14,34 +14,35 @@ use crate::state::{ContactPhase, Episode};
 pub(super) struct Event {
     pub(super) contact: usize,
     pub(super) crossing: Crossing,
-    /// Share of the step.
+    /// Fraction of the step.
     pub(super) at: f64,
 }
 
-/// Where a step that was to end on an event has ended.
+/// End of a step that should end on an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Landing {
-    /// Where it began: another event happened there first, and time stands still.
+    /// At its start: another event occurred there first, and time does not advance.
     AtStart,
-    /// Later, on the event or as near as it could be found.
+    /// Later, on the event or as close as possible.
     Later,
 }
 
-/// A touch is located when the faces are this close \[m\].
+/// Tolerance of the location of first contact \[m\].
 pub(super) const TOUCH: f64 = 1e-13;
-/// Contacts this close to touching, and closing, close together with another \[m\].
+/// Closing contacts within this distance close together with another one \[m\].
 pub(super) const TOGETHER: f64 = 1e-12;
-/// An event nearer than this share of a step happens at its start.
+/// An event within this fraction of a step occurs at its start.
 pub(super) const AT_ONCE: f64 = 1e-4;
-/// Episodes that reach no deeper are grazes, not impacts: a touch is located to a thousandth of this \[m\].
+/// Episodes that are not deeper are grazing contacts, not impacts: first contact is located to a thousandth of this
+/// \[m\].
 const GRAZE: f64 = 1e-10;
 /// Impact speeds are reported as at least this, so that ratios to them are finite \[m/s\].
 pub(super) const SLOWEST_IMPACT: f64 = 1e-9;
-/// Blows at one instant before bodies in touch are left to push each other.
+/// Largest number of momentum impacts at one instant before lasting contact starts.
 pub(super) const MOST_BLOWS: usize = 10_000;
 
 impl<E: StepEquations> Simulation<'_, E> {
-    /// The first touch, or release with a jump of force, in the tried step.
+    /// The first contact, or release with a jump of force, in the trial step.
     pub(super) fn first_event(&self, step: f64) -> Option<Event> {
         if !self.pounding {
             return None;
@@ -78,22 +79,22 @@ impl<E: StepEquations> Simulation<'_, E> {
         first
     }
 
-    /// Whether a contact would open at the very instant at which it closed. Where bodies rest against each other,
-    /// steps of different length may disagree about which contact closes; it must stay closed for a step.
+    /// Whether a contact would open at the very instant at which it closed. For bodies at rest against each other,
+    /// steps of different length may give different contacts; the contact must stay closed for one step.
     fn undoes_a_touch(&self, event: &Event, step: f64) -> bool {
         matches!(self.state.contacts[event.contact], ContactPhase::Closed(episode)
             if event.crossing == Crossing::Downwards && episode.since == self.state.time)
             && event.at * step <= self.shortest_step(event)
     }
 
-    /// An event nearer than this happens at the start of the step \[s\].
+    /// An event within this time occurs at the start of the step \[s\].
     pub(super) fn shortest_step(&self, event: &Event) -> f64 {
         let contact = &self.system.contacts[event.contact];
         let division = self.plan.division(contact, self.trials[event.contact].rate);
         AT_ONCE * self.plan.step / f64::from(self.division().max(division))
     }
 
-    /// Repeats the step so that it ends on an event, or on an earlier one met on the way.
+    /// Repeats the step so that it ends on an event, or on an earlier one found in the repetition.
     pub(super) fn step_to(
         &mut self,
         mut event: Event,
@@ -108,7 +109,7 @@ impl<E: StepEquations> Simulation<'_, E> {
                 .filter(|other| other.contact != event.contact && other.at < 1.0 - 1e-9)
             {
                 if other.at * length <= self.shortest_step(&other) {
-                    // It happens before anything moves: no step so short could be taken.
+                    // It occurs at the start: the step would be too short.
                     self.read_contacts();
                     self.happen(other);
                     return Ok(Landing::AtStart);
@@ -137,7 +138,7 @@ impl<E: StepEquations> Simulation<'_, E> {
             Crossing::Upwards => indentation >= -TOGETHER && rate > 0.0,
             Crossing::Downwards => indentation <= TOGETHER && rate < 0.0,
         };
-        // The step that was last tried, should the corrections not have come to an end.
+        // The last trial step, if the corrections have not converged.
         let tried = self.factors[0].coefficients.step;
         self.accept(0, self.clock.after(tried))?;
         if reached {
@@ -161,7 +162,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Closes or opens contacts at the present instant, whose indentations and rates stand in `trials`.
+    /// Closes or opens contacts at the present instant, with the indentations and rates in `trials`.
     pub(super) fn happen(&mut self, event: Event) {
         let time = self.state.time;
         if event.crossing == Crossing::Downwards {
@@ -185,7 +186,7 @@ impl<E: StepEquations> Simulation<'_, E> {
             .after_jump(self.system, &self.state, self.ground[0]);
     }
 
-    /// Whether an open contact touches and closes now.
+    /// Whether an open contact closes now.
     fn is_closing(&self, index: usize) -> bool {
         let ContactTrial {
             indentation, rate, ..
@@ -193,8 +194,8 @@ impl<E: StepEquations> Simulation<'_, E> {
         self.state.contacts[index] == ContactPhase::Open && indentation >= -TOGETHER && rate > 0.0
     }
 
-    /// Lets momentum laws act on a contact and on all others that touch and close, one after the other, until none
-    /// closes any more. Whether the given contact was struck.
+    /// Applies momentum laws to a contact and all others that close at this instant, one after the other, until
+    /// none is closing. Returns whether the given contact had an impact.
     fn strike(&mut self, first: usize) -> bool {
         let mut struck = false;
         let mut next = Some(first);
@@ -234,7 +235,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// A contact begins to push.
+    /// The force of a contact starts.
     fn close(&mut self, index: usize) {
         let contact = &self.system.contacts[index];
         let rate = self.trials[index].rate.max(0.0);
@@ -250,14 +251,14 @@ impl<E: StepEquations> Simulation<'_, E> {
         self.state.contacts[index] = ContactPhase::Closed(episode);
     }
 
-    /// A sudden change of a contact force changes the accelerations of the two faces (theory, Eq. H2).
+    /// A sudden change of a contact force changes the accelerations of the two points (theory, Eq. H2).
     fn jump(&mut self, index: usize, change: f64) {
         for (face, sign) in self.system.contacts[index].faces.sides() {
             self.state.acceleration[face.dof] += sign * change / face.mass;
         }
     }
 
-    /// Before the state moves on: what every closed contact does over the step.
+    /// Updates every closed contact over the step, before the state changes.
     pub(super) fn gather_episodes(&mut self, step: f64) {
         for closed in 0..self.coupling.closed.len() {
             let index = self.coupling.closed[closed].contact;
@@ -290,7 +291,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         response.by_indentation * rate + response.by_rate * acceleration
     }
 
-    /// After the state has moved on: peaks of the forces, and contacts that have opened.
+    /// Updates peaks of forces and opened contacts, after the state has changed.
     pub(super) fn finish_episodes(&mut self, step: f64, start: f64) {
         for closed in 0..self.coupling.closed.len() {
             let index = self.coupling.closed[closed].contact;
@@ -317,14 +318,14 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Lists an episode as an impact, if it was one.
+    /// Adds an episode to the impacts, if it counts as one.
     pub(super) fn report_impact(&mut self, contact: usize, episode: &Episode, finished: bool) {
         self.impacts.extend(impact_of(contact, episode, finished));
     }
 }
 
-/// An episode as an impact, if it ever pushed and was more than a graze. One that the end of the run cuts off is not
-/// `finished`.
+/// An episode as an impact, if it had a force and was more than grazing. An impact in progress at the end of the
+/// run is not `finished`.
 pub(super) fn impact_of(contact: usize, episode: &Episode, finished: bool) -> Option<Impact> {
     let pushed = episode.peak_force > 0.0 && episode.end > episode.since;
     (pushed && episode.peak_indentation > GRAZE).then_some(Impact {
@@ -335,7 +336,7 @@ pub(super) fn impact_of(contact: usize, episode: &Episode, finished: bool) -> Op
         peak_force_at: episode.peak_force_at,
         peak_indentation: episode.peak_indentation,
         impact_speed: episode.impact_speed,
-        // Bodies that still approach, or lean on each other, have not separated.
+        // Bodies that still approach or rest against each other have not separated.
         separation_speed: if finished {
             episode.separation_speed.max(0.0)
         } else {

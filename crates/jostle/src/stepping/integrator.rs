@@ -5,10 +5,9 @@ use crate::equations::Equations;
 
 /// Newmark's family, with the shifted equilibrium of the generalised-α method.
 ///
-/// Newmark's (¼, ½) is the default: unconditionally stable, of second order and free of numerical damping. What
-/// dissipates, be it γ > ½, HHT or generalised-α, also takes from the energy with which buildings rebound: near
-/// contact the restitution comes out too small, by the order of one part in the number of steps per impact. The
-/// energy balance holds for (¼, ½) only.
+/// Newmark's (¼, ½) is the default: unconditionally stable, of second order and free of numerical damping.
+/// Dissipative methods (γ > ½, HHT, generalised-α) also remove energy of the rebound: the restitution is too small
+/// by the order of one over the number of steps per impact. The energy balance holds for (¼, ½) only.
 ///
 /// N. M. Newmark (1959), J. Eng. Mech. Div. ASCE 85, 67–94; H. M. Hilber, T. J. R. Hughes, R. L. Taylor (1977),
 /// Earthq. Eng. Struct. Dyn. 5, 283–292; J. Chung, G. M. Hulbert (1993), J. Appl. Mech. 60, 371–375.
@@ -18,9 +17,9 @@ pub struct Integrator {
     pub beta: f64,
     /// γ ≥ ½ \[–\].
     pub gamma: f64,
-    /// α_m < ½: how far before the end of the step inertia is taken \[–\].
+    /// α_m < ½: shift of inertia before the end of the step \[–\].
     pub alpha_m: f64,
-    /// 0 ≤ α_f ≤ ½: how far before the end of the step all other forces are taken \[–\].
+    /// 0 ≤ α_f ≤ ½: shift of all other forces before the end of the step \[–\].
     pub alpha_f: f64,
 }
 
@@ -84,8 +83,8 @@ impl Integrator {
         }
     }
 
-    /// Chung and Hulbert's generalised-α method by its spectral radius at high frequencies, 0 ≤ ρ ≤ 1; 1 keeps all
-    /// energy, 0 removes in one step what the step cannot resolve.
+    /// Chung and Hulbert's generalised-α method by its spectral radius at high frequencies, 0 ≤ ρ ≤ 1; 1 conserves
+    /// energy, 0 removes unresolved frequencies in one step.
     #[must_use]
     pub fn generalized_alpha(spectral_radius: f64) -> Self {
         let rho = spectral_radius;
@@ -99,7 +98,7 @@ impl Integrator {
         }
     }
 
-    /// Whether the integrator itself takes energy from the motion.
+    /// Whether the integrator dissipates energy.
     #[must_use]
     pub fn dissipates(&self) -> bool {
         self.gamma > 0.5 + 1e-12
@@ -128,8 +127,8 @@ impl Integrator {
     }
 }
 
-/// Δv = c Δu + D′ and Δa = a Δu + B′, with D′ = d_v v + d_a a and B′ = b_v v + b_a a. What is out of balance at the
-/// start, R, weighs `unbalanced` in the step and becomes `carried`·R + `left`·M Δa at its end (theory, Eq. N4).
+/// Δv = c Δu + D′ and Δa = a Δu + B′, with D′ = d_v v + d_a a and B′ = b_v v + b_a a. The residual at the start, R,
+/// has the weight `unbalanced` in the step and becomes `carried`·R + `left`·M Δa at its end (theory, Eq. N4).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Coefficients {
     pub(crate) step: f64,
@@ -139,7 +138,7 @@ pub(crate) struct Coefficients {
     pub(crate) b_a: f64,
     pub(crate) d_v: f64,
     pub(crate) d_a: f64,
-    /// Weight of inertia beside all other forces: 1 unless equilibrium is shifted.
+    /// Weight of inertia relative to all other forces: 1 unless equilibrium is shifted.
     inertia: f64,
     pub(crate) unbalanced: f64,
     pub(crate) carried: f64,

@@ -64,7 +64,7 @@ impl Links {
     }
 }
 
-/// The link as a contact that is always closed and may pull.
+/// The link as a contact that is always closed and may be in tension.
 pub(super) fn law_of(link: &LinkElement) -> ForceLaw {
     ForceLaw::Kelvin {
         stiffness: link.stiffness,
@@ -81,7 +81,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// A link at the end of the tried step, as if nothing pushed.
+    /// A link at the end of the trial step, without its force.
     pub(super) fn link_in_step(&self, index: usize, rate_gain: f64) -> Closed {
         let link = &self.system.links[index - self.joints.contacts];
         let trial = &self.trials[index];
@@ -101,8 +101,8 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Forces of the links where no contact is closed: one linear system, factorised once per step size
-    /// (theory, Eq. L2).
+    /// Forces of the links if no contact is closed: one linear system, factorised once per step size (theory, Eq.
+    /// L2).
     pub(super) fn find_link_forces(&mut self, slot: usize) {
         let factors = &mut self.factors[slot];
         let closed = &mut self.coupling.closed;
@@ -134,7 +134,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Before the state moves on: work of the links over the step.
+    /// Adds the work of the links over the step, before the state changes.
     pub(super) fn gather_links(&mut self, step: f64) {
         for index in 0..self.system.links.len() {
             let link = &self.system.links[index];

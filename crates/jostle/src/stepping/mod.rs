@@ -1,7 +1,7 @@
-//! Stepping: from one instant to the next, with every impact found and none counted twice.
+//! Time stepping, with event location of every impact.
 //!
-//! [`simulate`] walks a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved alone;
-//! they meet only in `coupling`. A step in which a contact closes is repeated so that it ends on the touch.
+//! [`simulate`] runs a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved separately;
+//! only `coupling` joins them. A step in which a contact closes is repeated so that it ends at first contact.
 
 mod acceleration_parts;
 mod band;
@@ -41,19 +41,19 @@ pub use step_matrix::StepMatrix;
 
 use crate::system::BuildingSystem;
 
-/// The equations of one step of one building, with the matrix a [`StepMatrix`] asks for, and how to solve them.
+/// The equations of one step of one building, with the matrix given by a [`StepMatrix`], and their solver.
 pub trait StepEquations: Sized {
-    /// What is kept of a factorisation.
+    /// Data of a factorisation.
     type Factor: Default + Clone;
 
-    /// Prepares whatever does not depend on the step size.
+    /// Prepares data that do not depend on the step size.
     fn of(building: &BuildingSystem) -> Self;
 
     /// Factorises a matrix, reusing the memory of `factor`. `tangents` has the present stiffness of every spring
     /// that yields.
     ///
     /// # Errors
-    /// [`NotPositive`] when the matrix is not positive definite.
+    /// [`NotPositive`] if the matrix is not positive definite.
     fn factorize(
         &self,
         matrix: &StepMatrix,
@@ -61,11 +61,11 @@ pub trait StepEquations: Sized {
         factor: &mut Self::Factor,
     ) -> Result<(), NotPositive>;
 
-    /// Factorises anew what the tangents of some springs have changed. `factor` must be one of the same matrix that
-    /// differs in nothing else.
+    /// Updates a factor after changes of the tangents of some springs. `factor` must belong to the same matrix
+    /// apart from these tangents.
     ///
     /// # Errors
-    /// [`NotPositive`]; the factor is then of no use until [`StepEquations::factorize`] succeeds.
+    /// [`NotPositive`]; the factor is then invalid until [`StepEquations::factorize`] succeeds.
     fn update(
         &self,
         matrix: &StepMatrix,
@@ -100,10 +100,10 @@ pub fn solve_once<E: StepEquations>(
     Ok(answer)
 }
 
-/// A step matrix was not positive definite: the building can move without resistance.
+/// A step matrix was not positive definite: the building is a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the step equations are not positive definite at degree of freedom {dof}")]
 pub struct NotPositive {
-    /// Where the pivot vanished.
+    /// Degree of freedom of the pivot.
     pub dof: usize,
 }

@@ -1,4 +1,4 @@
-//! The walk through a ground motion.
+//! Time stepping through a ground motion.
 
 use std::ops::ControlFlow;
 
@@ -51,8 +51,8 @@ pub fn simulate(
     )
 }
 
-/// Runs a system from a given state at time zero. Where that state is not in equilibrium, the missing load
-/// appears within the first step. [`Solver::Modal`] starts from rest only, and refuses every other state.
+/// Runs a system from a given state at time zero. If that state is not in equilibrium, the missing load is applied
+/// in the first step. [`Solver::Modal`] starts from rest only.
 pub fn simulate_from(
     system: &System,
     motion: &GroundMotion,
@@ -64,8 +64,8 @@ pub fn simulate_from(
     step_through(system, motion, plan, settings, state, &mut observer)
 }
 
-/// [`simulate_from`] for any observer. A trait object keeps stepping out of generic code, which every crate that runs a
-/// simulation would compile again, without inlining the functions of this one.
+/// [`simulate_from`] for any observer. A trait object avoids generic code, which every crate that runs a simulation
+/// would compile again without inlining.
 fn step_through(
     system: &System,
     motion: &GroundMotion,
@@ -104,7 +104,7 @@ fn step_through(
     }
 }
 
-/// Runs a system from rest with the steps of the plan, whatever their error.
+/// Runs a system from rest with the steps of the plan, without refinement.
 pub(super) fn simulate_once(
     system: &System,
     motion: &GroundMotion,
@@ -134,18 +134,18 @@ pub(super) struct Simulation<'a, E: StepEquations> {
     pub(super) plan: &'a Plan,
     pub(super) pounding: bool,
     pub(super) equations: Vec<E>,
-    /// The first serves steps off the grid, the others one division of the free-flight step each.
+    /// The first is for steps off the grid, the others for one division of the free-vibration step each.
     pub(super) factors: Vec<StepFactors<E>>,
     pub(super) divisions: Vec<u32>,
     pub(super) state: State,
     pub(super) clock: Clock,
-    /// Ground acceleration now and at the end of the tried step.
+    /// Ground acceleration now and at the end of the trial step.
     pub(super) ground: [f64; 2],
     /// Load that the initial state leaves unbalanced; empty once it has been applied.
     pub(super) unbalanced: Vec<f64>,
-    /// The tried step: first the load, then y, then the displacement over the step.
+    /// The trial step: first the load, then y, then the displacement over the step.
     pub(super) rise: Vec<f64>,
-    /// D′ of one building, for what K′ and C′ make of it.
+    /// D′ of one building, for its products with K′ and C′.
     pub(super) drift: Vec<f64>,
     pub(super) yielding: YieldingSprings,
     pub(super) joints: Joints,
@@ -153,7 +153,7 @@ pub(super) struct Simulation<'a, E: StepEquations> {
     /// Of contacts, then of links.
     pub(super) trials: Vec<ContactTrial>,
     pub(super) contact_division: Vec<u32>,
-    /// Greatest force of every gap so far, measured or expected of an impact under way \[N\].
+    /// Greatest force of every gap so far, computed or expected for the current impact \[N\].
     pub(super) strongest: Vec<f64>,
     pub(super) coupling: ContactEquations,
     /// For sudden changes of velocity, factorised when first needed.
@@ -168,11 +168,11 @@ pub(super) struct Simulation<'a, E: StepEquations> {
 
 /// Steps between calls of the observer.
 const OBSERVED_EVERY: u64 = 256;
-/// How much of a step is tried before it is given up.
+/// Smallest fraction of a step before it fails.
 const SHORTEST_TRIED: f64 = 1e-6;
-/// Events without progress before a run gives up.
+/// Largest number of events without progress.
 const MOST_EVENTS_AT_ONCE: usize = 1000;
-/// Storey drift from which a building that yields or leans has collapsed \[–\].
+/// Storey drift above which a building that yields or has P-Delta has collapsed \[–\].
 const COLLAPSE_DRIFT: f64 = 0.25;
 
 impl<'a, E: StepEquations> Simulation<'a, E> {
@@ -316,7 +316,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         })
     }
 
-    /// Tries the next step; where contact forces or springs that yield do not converge, half of it, and so on.
+    /// Tries the next step; without convergence of contact forces or yielding springs, half of it, and so on.
     fn try_next_stride(&mut self) -> Result<(usize, Stride), StepError> {
         let mut stride = self.next_stride();
         let shortest = stride.length * SHORTEST_TRIED;
@@ -358,7 +358,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         stride
     }
 
-    /// Into how many parts the free-flight step is divided now.
+    /// Present division of the free-vibration step.
     pub(super) fn division(&self) -> u32 {
         let closed = self.state.contacts.iter().zip(&self.contact_division);
         closed
@@ -435,7 +435,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         self.check_collapse()
     }
 
-    /// Elastic buildings may lean as far as they like: their numbers are those of their model.
+    /// Elastic buildings without P-Delta have no drift limit.
     fn check_collapse(&self) -> Result<(), StepError> {
         for (building, floors) in self.system.buildings.iter().zip(&self.recorder.floors) {
             if building.equations.springs.is_empty() {
@@ -457,7 +457,7 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         Ok(())
     }
 
-    /// What will be out of balance at the end of the step (theory, Eq. N4): nothing, unless equilibrium is shifted.
+    /// Residual at the end of the step (theory, Eq. N4): zero unless equilibrium is shifted.
     fn carry_unbalanced(&mut self, slot: usize) {
         if self.plan.integrator.balances_at_ends() {
             self.unbalanced.clear();
@@ -516,7 +516,8 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
     }
 }
 
-/// p − M a − C v − K u less the forces of links; empty when the state is in equilibrium to rounding and will stay so at the ends of steps.
+/// p − M a − C v − K u minus the forces of links; empty if the state is in equilibrium to rounding and will be at
+/// the ends of steps.
 fn unbalanced_load(
     system: &System,
     state: &State,
@@ -564,7 +565,7 @@ fn unbalanced_load(
         link.faces.push_apart(*force, &mut load);
         largest = largest.max(force.abs());
     }
-    // Statics leave rounding behind.
+    // The static solution has rounding errors.
     let rounding = if system
         .buildings
         .iter()

@@ -1,8 +1,8 @@
 //! Springs that yield: the outer iteration of a step (theory, Eqs. Y1 to Y3).
 //!
-//! Every spring is a straight line near its last known point, m = m_r + k_t (δ − δ_r). The step is solved, contacts
+//! Every spring is linear near its last known point, m = m_r + k_t (δ − δ_r). The step is solved, contacts
 //! included, and repeated with the lines at the new deformations until every spring lies on the line it was solved
-//! with. Forces rise with deformation, so that the step has one solution; lines are finite in number, so that it is
+//! with. Forces increase with deformation, so the step has one solution; the number of lines is finite, so it is
 //! reached exactly.
 
 use super::StepEquations;
@@ -13,18 +13,19 @@ use crate::hysteresis::{HysteresisMemory, Stage};
 use crate::state::State;
 use crate::system::{BuildingSystem, System};
 
-/// A spring in the tried step.
+/// A spring in the trial step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SpringTrial {
-    /// Where the line was laid: deformation and force.
+    /// Point of the line: deformation and force.
     deformation: f64,
     force: f64,
     tangent: f64,
-    /// What the committed velocity and acceleration take from the change of deformation (theory, Eq. Y2) \[rad or m\].
+    /// Part of the change of deformation from the committed velocity and acceleration (theory, Eq. Y2) \[rad or
+    /// m\].
     drift: f64,
     /// Force with which the solution before was balanced there.
     balance: f64,
-    /// What the solution made of it: deformation, force on the line, and the answer of the rule.
+    /// Result of the solution: deformation, force on the line, and response of the rule.
     reached: f64,
     on_line: f64,
     answer: f64,
@@ -32,27 +33,27 @@ pub(super) struct SpringTrial {
 }
 
 impl SpringTrial {
-    /// How far the rule is from the line, as a share of the force of yield.
+    /// Difference of the rule from the line, as a fraction of the yield force.
     fn misfit(&self, yield_force: f64) -> f64 {
         (self.answer - self.on_line).abs() / yield_force.max(self.answer.abs())
     }
 
-    /// Whether it is on the line but for rounding.
+    /// Whether it is on the line within rounding.
     fn fits(&self, yield_force: f64) -> bool {
         let apart = (self.answer - self.on_line).abs();
         apart <= FIT * yield_force || apart <= FIT * self.answer.abs()
     }
 }
 
-/// Everything a run keeps about its springs that yield.
+/// Data of a run about its yielding springs.
 #[derive(Clone, Debug, Default)]
 pub(super) struct YieldingSprings {
     pub(super) trials: Vec<SpringTrial>,
-    /// Slopes on which the springs went on after the last step.
+    /// Slopes of the springs after the last step.
     pub(super) tangents: Vec<f64>,
-    /// Those of the lines now tried.
+    /// Slopes of the current trial lines.
     wanted: Vec<f64>,
-    /// Forces with which the last step was balanced; the rules' own differ by rounding.
+    /// Forces with which the last step was balanced; those of the rules differ by rounding.
     balanced: Vec<f64>,
     /// Loads of the step without springs.
     loads: Vec<f64>,
@@ -100,17 +101,17 @@ impl YieldingSprings {
     }
 }
 
-/// Share of the force of yield by which a spring may miss the line it was solved with.
+/// Tolerance of a spring on its line, as a fraction of the yield force.
 const FIT: f64 = 1e-12;
-/// Iterations before the direction of Newton's method is searched for the best point on it.
+/// Number of iterations before a line search.
 const PLAIN_ITERATIONS: usize = 8;
-/// Iterations before the step is given up.
+/// Largest number of iterations.
 const MOST_ITERATIONS: usize = 30;
-/// Bisections of the way.
+/// Bisections of the line search.
 const HALVINGS: usize = 12;
 
 impl<E: StepEquations> Simulation<'_, E> {
-    /// Solves the step whose loads stand in `rise`, springs and contacts together.
+    /// Solves the step with the loads in `rise`, springs and contacts together.
     pub(super) fn find_spring_forces(&mut self, slot: usize) -> Result<(), StepError> {
         self.yielding.loads.copy_from_slice(&self.rise);
         self.lay_first_lines(slot);
@@ -140,7 +141,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         })
     }
 
-    /// Lines through the committed points, with the tangents of the last step: most springs go on as they were.
+    /// Lines through the committed points, with the tangents of the last step, which most springs keep.
     fn lay_first_lines(&mut self, slot: usize) {
         for (trial, memory) in self.yielding.trials.iter_mut().zip(&self.state.springs) {
             trial.deformation = memory.deformation();
@@ -165,7 +166,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Brings the factors of a slot up to the tangents of the present lines.
+    /// Updates the factors of a slot to the tangents of the present lines.
     fn retune(&mut self, slot: usize) -> Result<(), StepError> {
         let tangents = self.yielding.trials.iter().map(|trial| trial.tangent);
         for (place, tangent) in self.yielding.wanted.iter_mut().zip(tangents) {
@@ -205,7 +206,8 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Deformations at the end of the tried step and what the rules answer; whether all springs are on their lines.
+    /// Computes deformations at the end of the trial step and the responses of the rules; returns whether all
+    /// springs are on their lines.
     fn follow_springs(&mut self) -> bool {
         let mut all_fit = true;
         for building in &self.system.buildings {
@@ -230,8 +232,8 @@ impl<E: StepEquations> Simulation<'_, E> {
         all_fit
     }
 
-    /// Goes back from the deformations reached to where the potential of the step is least on the way to them: its
-    /// slope there is Σ Δδ (m(δ) − m̃), m̃ being the forces that balance the rest of the step (theory, Eq. Y3).
+    /// Line search between the old and the new deformations for the minimum of the potential of the step: its slope
+    /// is Σ Δδ (m(δ) − m̃), m̃ being the forces that balance the rest of the step (theory, Eq. Y3).
     fn search_on_the_way(&mut self) {
         let slope = |share: f64, simulation: &Self| -> f64 {
             let springs = simulation
@@ -254,7 +256,7 @@ impl<E: StepEquations> Simulation<'_, E> {
                 })
                 .sum()
         };
-        // Contact forces do not lie on one line over the way: then simply half of it, and back from there.
+        // Contact forces are not linear along the search; then half of the correction is used.
         let contacts = self.in_contact();
         if !contacts && slope(1.0, self) <= 0.0 {
             return;
@@ -281,7 +283,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Takes over what the springs did in the accepted step.
+    /// Commits the springs of the accepted step.
     pub(super) fn commit_springs(&mut self) {
         let springs = self
             .system

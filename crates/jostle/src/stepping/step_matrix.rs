@@ -1,4 +1,4 @@
-//! Which matrix to factorise.
+//! The matrix to factorise.
 
 use crate::element::Part;
 
@@ -6,7 +6,7 @@ use crate::element::Part;
 /// dashpots, masses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepMatrix {
-    /// κ: weight of the stiffness that damping goes with, 1 + β c in a step \[–\].
+    /// κ: weight of the stiffness with stiffness-proportional damping, 1 + β c in a step \[–\].
     pub stiffness: f64,
     /// g: weight of the masses \[1/s²\].
     pub mass: f64,
@@ -15,7 +15,7 @@ pub struct StepMatrix {
 }
 
 impl StepMatrix {
-    /// K + K′: what resists a load at rest.
+    /// K + K′: the static stiffness.
     pub const STATIC: Self = Self {
         stiffness: 1.0,
         mass: 0.0,

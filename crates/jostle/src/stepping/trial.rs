@@ -1,4 +1,4 @@
-//! A step tried but not yet taken.
+//! A trial step.
 
 use super::StepEquations;
 use super::clock::Clock;
@@ -10,7 +10,7 @@ use super::simulation::Simulation;
 use crate::lanes;
 use crate::state::ContactPhase;
 
-/// What a tried step would do at a contact.
+/// Result of a trial step at a contact.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContactTrial {
     pub(super) indentation: f64,
@@ -31,7 +31,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Lets the closed contacts and the links push on the solution without them that stands in `rise`.
+    /// Adds the forces of closed contacts and links to the solution without them in `rise`.
     pub(super) fn solve_contacts(&mut self, slot: usize) -> Result<(), StepError> {
         self.follow_joints(slot);
         if self
@@ -51,13 +51,13 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Whether the tried step has a closed contact.
+    /// Whether the trial step has a closed contact.
     pub(super) fn in_contact(&self) -> bool {
         let mut closed = self.coupling.closed.iter();
         closed.any(|closed| !self.joints.is_link(closed.contact))
     }
 
-    /// Loads of the incremental step, contacts of its end not yet pushing (theory, Eq. N3).
+    /// Loads of the incremental step, without contact forces at its end (theory, Eq. N3).
     fn fill_loads(&mut self, slot: usize) {
         let change = self.ground[1] - self.ground[0];
         for (building, own) in self
@@ -118,7 +118,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Indentations and rates of contacts and links at the end of the tried step.
+    /// Indentations and rates of contacts and links at the end of the trial step.
     fn follow_joints(&mut self, slot: usize) {
         let factors = &self.factors[slot];
         let k = &factors.coefficients;
@@ -146,8 +146,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Lists the closed contacts and the links from left to right, with the indentations they would have if none
-    /// pushed.
+    /// Lists the closed contacts and the links from left to right, with their indentations without these forces.
     fn list_closed(&mut self, slot: usize) {
         self.coupling.clear();
         let rate_gain = self.factors[slot].coefficients.c;
@@ -177,7 +176,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Solves for the forces of closed contacts and links and lets them push (theory, Eqs. P1–P5, L2).
+    /// Solves for the forces of closed contacts and links and applies them (theory, Eqs. P1–P5, L2).
     fn find_forces(&mut self, slot: usize) -> Result<(), StepError> {
         if self.in_contact() {
             self.fill_compliance(slot);
@@ -234,7 +233,7 @@ impl<E: StepEquations> Simulation<'_, E> {
         }
     }
 
-    /// Motion of contact `index` over the tried step.
+    /// Motion of contact `index` over the trial step.
     pub(super) fn indentation_curve(&self, index: usize, step: f64) -> Cubic {
         let contact = &self.system.contacts[index];
         let trial = &self.trials[index];
