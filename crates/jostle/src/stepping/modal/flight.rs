@@ -1,4 +1,4 @@
-//! Free flight: several regular steps at once while no contact is near.
+//! Free-vibration steps: several regular steps at once while no contact is near.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -11,25 +11,26 @@ use crate::state::ContactPhase;
 use crate::stepping::clock::Clock;
 use crate::stepping::events::Cubic;
 
-/// Most steps taken at once, and fewest.
+/// Largest and smallest number of steps at once.
 const MOST: usize = 16;
 const FEWEST: usize = 2;
 
-/// Room for some steps of free flight.
+/// Buffers for several free-vibration steps.
 pub(super) struct Flight {
     /// Length of its steps; zero before the first \[s\].
     step: f64,
-    /// How many are tried next.
+    /// Number of steps to try next.
     ahead: usize,
     lanes: Vec<Lanes>,
-    /// Of the squares and products of ground accelerations: in the energy lost by damping, and of both in Γ ∫q dt.
+    /// Coefficients of squares and products of ground accelerations in the dissipated energy, and of ground
+    /// accelerations in Γ ∫q dt.
     damped_by_ground: [f64; 3],
     area_by_ground: [f64; 2],
-    /// Modal displacements and velocities now, filled up to whole lanes.
+    /// Modal displacements and velocities now, padded to whole lanes.
     start: [Vec<f64>; 2],
-    /// q, q̇, q̈ and the loose part of its rate, step after step.
+    /// q, q̇, q̈ and jerk without load, step after step.
     modal: [Vec<f64>; 4],
-    /// What they show of everything watched; the present comes first.
+    /// Monitored quantities; the present comes first.
     shown: [Vec<f64>; 4],
     ends: Vec<Clock>,
     ground: Vec<f64>,
@@ -54,7 +55,7 @@ impl Flight {
         }
     }
 
-    /// Takes over the factors of a table, its loads put down to the ground: p = −Γ a.
+    /// Uses the factors of a table, with loads from the ground motion: p = −Γ a.
     fn set(&mut self, reduced: &Reduced, table: &Table) {
         self.step = table.step;
         self.lanes.clear();
@@ -90,7 +91,7 @@ impl Flight {
         }
     }
 
-    /// Everything watched after so many steps.
+    /// Monitored quantities after a number of steps.
     fn watched(&self, places: usize, steps: usize) -> Watched<'_> {
         let own = steps * places..(steps + 1) * places;
         let [u, rate, acceleration, loose] = &self.shown;
@@ -102,7 +103,7 @@ impl Flight {
         }
     }
 
-    /// Modal displacements and velocities after so many steps, at least one.
+    /// Modal displacements and velocities after a number of steps, at least one.
     fn state(&self, modes: usize, steps: usize) -> [&[f64]; 2] {
         let from = (steps - 1) * self.start[0].len();
         let [q, v, ..] = &self.modal;
@@ -110,7 +111,7 @@ impl Flight {
     }
 }
 
-/// Steps ahead, and what they show.
+/// Computed steps and their monitored quantities.
 struct Fly<'a> {
     ahead: Ahead<'a>,
     reduced: &'a Reduced,
@@ -161,8 +162,7 @@ impl WithSimd for Fly<'_> {
 }
 
 impl Walk<'_> {
-    /// Takes several regular steps at once in which nothing touches; false when there is none, and a step
-    /// is to be taken by itself.
+    /// Takes several regular steps without contact at once; false if there are none and a single step is needed.
     pub(super) fn fly(&mut self) -> bool {
         let quiet = |phase: &ContactPhase| *phase == ContactPhase::Open;
         if !self.phases.iter().all(quiet) || self.contact_division.iter().any(|d| *d > 1) {
@@ -189,7 +189,7 @@ impl Walk<'_> {
         true
     }
 
-    /// Where the next steps end, and how the ground moves there; returns their number.
+    /// Ends of the next steps and the ground accelerations there; returns their number.
     fn plan_ahead(&mut self) -> usize {
         let flight = &mut self.flight;
         flight.ends.clear();
@@ -217,7 +217,7 @@ impl Walk<'_> {
         planned
     }
 
-    /// All planned steps, as if nothing touched.
+    /// All planned steps without contact.
     fn go_ahead(&mut self) {
         let (flight, reduced) = (&mut self.flight, self.reduced);
         for (list, now) in flight.start.iter_mut().zip([&self.q[0], &self.v[0]]) {
@@ -249,7 +249,7 @@ impl Walk<'_> {
         });
     }
 
-    /// How many of the planned steps end before anything can touch, or is no number any more.
+    /// Number of planned steps before a contact may close, or before a value is not finite.
     fn free_steps(&self) -> usize {
         let flight = &self.flight;
         let places = self.reduced.watched();
@@ -263,7 +263,7 @@ impl Walk<'_> {
             !self.pounding
                 || (0..self.phases.len()).all(|index| {
                     let closing = |list: &[f64]| self.reduced.closing(index, list);
-                    // Near misses are for single steps, which look at them.
+                    // Near contacts are left to single steps, which record them.
                     let width = self.system.contacts[index].width - self.doubt(index);
                     Cubic::new(
                         closing(then.u) - width,
@@ -281,7 +281,7 @@ impl Walk<'_> {
             .unwrap_or(planned)
     }
 
-    /// Books a step of a flight of so many: energies, peaks, and a row where one is due.
+    /// Records one of several steps: energies, peaks, and a row if due.
     fn take(&mut self, index: usize, free: usize) {
         let (flight, places) = (&self.flight, self.reduced.watched());
         let step = flight.step;
@@ -336,7 +336,7 @@ impl Walk<'_> {
         self.work.solves += 1;
     }
 
-    /// Stands at the end of so many steps of the flight.
+    /// Moves to the end of a number of steps.
     fn land(&mut self, steps: usize) {
         let (flight, places) = (&self.flight, self.reduced.watched());
         let modes = self.reduced.modes();
@@ -420,7 +420,7 @@ mod tests {
         }
     }
 
-    /// The same run, with flights or step by step.
+    /// The same run with several steps at once and step by step.
     fn run(model: &Model, record_interval: Option<f64>, most: usize) -> Outcome {
         let system = System::assemble(model).expect("a valid model");
         let shaking = |i: u32| {
@@ -451,7 +451,7 @@ mod tests {
         let model = row_of_towers();
         for record_interval in [None, Some(0.004)] {
             let together = run(&model, record_interval, FEWEST);
-            // A flight of no steps never begins.
+            // Zero steps at once are never tried.
             let apart = run(&model, record_interval, 0);
             assert!(together.impacts.len() > 10, "{}", together.impacts.len());
             let work = |outcome: &Outcome| (outcome.work.steps, outcome.work.contact_steps);

@@ -1,21 +1,21 @@
-//! Forces of closed contacts at the end of a step: by Newton's method on the forces themselves, and what they then do.
+//! Forces of closed contacts at the end of a step: by Newton's method on the forces, and their application.
 
 use super::kernels::AddUp;
 use super::walk::Walk;
 use crate::stepping::coupling::Closed;
 use crate::stepping::outcome::StepError;
 
-/// Rounds of Newton's method before it gives way to slower and safer ones.
+/// Iterations of Newton's method before a slower and safer method is used.
 const QUICK_ROUNDS: u64 = 12;
-/// Of these, rounds in which rates and forces of several contacts settle on each other.
+/// Outer iterations between rates and forces of several contacts.
 const ROUNDS: usize = 60;
-/// Change of the forces, relative to the greatest, at which they have settled.
+/// Change of the forces, relative to the greatest, at convergence.
 const SETTLED: f64 = 1e-13;
-/// Change that may be nothing but rounding where it no longer shrinks.
+/// Change that counts as rounding if it no longer decreases.
 const ROUNDING: f64 = 1e-11;
 
 impl Walk<'_> {
-    /// Solves for the forces of the closed contacts at the end of the tried step and lets them push.
+    /// Solves for the forces of the closed contacts at the end of the trial step and applies them.
     pub(super) fn find_contact_forces(&mut self, slot: usize) -> Result<(), StepError> {
         if self.coupling.closed.is_empty() {
             return Ok(());
@@ -31,7 +31,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// How far and how fast end forces open the closed contacts.
+    /// Effect of end forces on indentations and rates of the closed contacts.
     fn couple(&mut self, slot: usize) {
         self.equations.openings.clear();
         let reduced = self.reduced;
@@ -48,7 +48,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Forces with which indentations and rates agree, from those foreseen.
+    /// Forces consistent with indentations and rates, starting from the predicted ones.
     fn settle(&mut self) -> Result<(), StepError> {
         self.begin_with_foreseen();
         if let Some(rounds) = self.equations.solve(&mut self.coupling.closed) {
@@ -67,9 +67,9 @@ impl Walk<'_> {
             .extend(self.coupling.closed.iter().map(foreseen));
     }
 
-    /// The same where Newton's method on the forces does not settle. Every round takes a rate that goes with the
-    /// indentation of its own contact, so that what is solved rises steadily; what the others add beyond that is put in from
-    /// the round before, and is small where steps are short.
+    /// The same if Newton's method on the forces does not converge. In every iteration the rate depends on the
+    /// indentation of its own contact, so the function is monotone; the contribution of the others is taken from
+    /// the previous iteration, and is small for short steps.
     fn settle_in_rounds(&mut self) -> Result<(), StepError> {
         let n = self.coupling.closed.len();
         let diverged = StepError::ContactDiverged {
@@ -108,7 +108,7 @@ impl Walk<'_> {
                 greatest = greatest.max(closed.force.abs());
                 *force = closed.force;
             }
-            // Rounds that begin near their end may go round in circles in the last digits.
+            // Iterations that start near the solution may cycle in the last digits.
             let rounding = change <= ROUNDING * greatest && change >= last;
             if n == 1 || change <= SETTLED * greatest || rounding {
                 return Ok(());
@@ -118,7 +118,7 @@ impl Walk<'_> {
         Err(diverged)
     }
 
-    /// Lets the forces push: what each does over the step is known.
+    /// Applies the forces by their known responses over the step.
     fn press(&mut self, slot: usize) {
         let reduced = self.reduced;
         for closed in &self.coupling.closed {
@@ -156,7 +156,7 @@ impl Walk<'_> {
 /// F = f(δ⁰ − W F, δ̇⁰ − V F) of the laws f of all closed contacts.
 #[derive(Debug, Default)]
 pub(super) struct ForceEquations {
-    /// W and V, row by row: how far and how fast a unit force of one opens another \[m/N, m/(N s)\].
+    /// W and V, row by row: opening and opening rate of a contact due to a unit force of another \[m/N, m/(N s)\].
     pub(super) openings: Vec<[f64; 2]>,
     /// F of every closed contact \[N\].
     pub(super) forces: Vec<f64>,
@@ -168,8 +168,8 @@ pub(super) struct ForceEquations {
 }
 
 impl ForceEquations {
-    /// Solves for the forces from those that stand in `forces`, and notes them and their indentations; how many rounds it
-    /// took, or `None` where they do not settle, as at corners of a law.
+    /// Solves for the forces, starting from `forces`, and stores them and their indentations; returns the number of
+    /// iterations, or `None` without convergence, as at corners of a law.
     pub(super) fn solve(&mut self, closed: &mut [Closed]) -> Option<u64> {
         let n = closed.len();
         let mut last = f64::INFINITY;
@@ -210,7 +210,7 @@ impl ForceEquations {
         (indentation, rate)
     }
 
-    /// The matrix of Newton's method, and what the laws would have the forces change.
+    /// The matrix of Newton's method, and the residual of the laws.
     fn linearise(&mut self, closed: &[Closed]) {
         self.matrix.clear();
         self.change.clear();
@@ -229,7 +229,7 @@ impl ForceEquations {
     }
 }
 
-/// Replaces the right-hand side by the solution, exchanging rows; `None` where the matrix is singular.
+/// Replaces the right-hand side by the solution, with row exchanges; `None` if the matrix is singular.
 fn eliminate(matrix: &mut [f64], side: &mut [f64]) -> Option<()> {
     let n = side.len();
     for pivot in 0..n {
@@ -286,7 +286,8 @@ mod tests {
         }
     }
 
-    /// A dashpot that does not pull throws the faces apart, and no force lets them touch: that is for the slower way.
+    /// A dashpot without tension separates the two sides, and no force keeps contact: the slower method handles
+    /// this.
     #[test]
     fn a_force_that_jumps_does_not_settle() {
         let law = ForceLaw::Kelvin {
@@ -315,8 +316,8 @@ mod tests {
         assert!(eliminate(&mut singular, &mut [1.0, 1.0]).is_none());
     }
 
-    /// Three contacts whose forces open each other, one of which ends up open: every force is the one its law gives for
-    /// the motion under all of them.
+    /// Three coupled contacts, one of which is open at the end: every force equals that of its law for the motion
+    /// under all of them.
     #[test]
     fn forces_are_those_of_their_laws() {
         let law = ForceLaw::Hertz {

@@ -1,4 +1,4 @@
-//! Contacts that close, push and open, in modal coordinates.
+//! Contacts in modal coordinates: closing, forces, opening.
 
 use std::f64::consts::PI;
 
@@ -15,38 +15,39 @@ use crate::stepping::impacts::{
 };
 use crate::stepping::outcome::StepError;
 
-/// Fewest and most parts of a free step after velocities have jumped: dashpots and high modes answer at once, and soon no
-/// more.
+/// Smallest and largest number of parts of a free-vibration step after a jump of velocities: dashpots and high
+/// modes respond quickly and decay soon.
 const AFTER_BLOW: [u32; 2] = [16, 1024];
-/// Steps then in which accelerations are taken at their ends only.
+/// Number of steps then in which accelerations are evaluated at their ends only.
 const STRUCK_STEPS: u32 = 2;
-/// Steps per radian of the quickest mode after a blow.
+/// Steps per radian of the fastest mode after an impact of the momentum law.
 const STEPS_PER_RADIAN: f64 = 2.0;
-/// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
+/// Offset at which the slope of a force is evaluated, as a fraction of a step: beyond any corner at which the last
+/// step ended.
 const AHEAD: f64 = 1e-3;
-/// Parts of a step in which a force sets in or ends.
+/// Parts of a step in which a force starts or ends.
 const CORNER_PARTS: u32 = 16;
 
-/// A contact force as it can be foreseen at the start of a step.
+/// A contact force predicted at the start of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Foreseen {
     /// At the end of the step \[N\].
     pub(super) end: f64,
     /// Its slope at the start \[N/s\].
     slope: f64,
-    /// What the parabola of the same mean and end would rise over the step if it went on as it starts \[N\].
+    /// Increment over the step with the initial slope of the parabola of the same mean and end \[N\].
     rise: f64,
 }
 
 impl Foreseen {
-    /// b in F₀ + (F₁ − F₀)τ + b(τ² − τ), a parabola that starts as foreseen \[N\].
+    /// b in F₀ + (F₁ − F₀)τ + b(τ² − τ), a parabola with the predicted initial slope \[N\].
     pub(super) fn bend(&self, start: f64, end: f64) -> f64 {
         end - start - self.rise
     }
 }
 
 impl Walk<'_> {
-    /// Motion of contact `index` over the tried step.
+    /// Motion of contact `index` over the trial step.
     pub(super) fn indentation_curve(&self, index: usize, step: f64) -> Cubic {
         let trial = &self.trials[index];
         Cubic::new(
@@ -58,7 +59,7 @@ impl Walk<'_> {
         )
     }
 
-    /// The first touch, or release with a jump of force, in the tried step.
+    /// The first contact, or release with a jump of force, in the trial step.
     pub(super) fn first_event(&self, step: f64) -> Option<Event> {
         if !self.pounding {
             return None;
@@ -85,7 +86,7 @@ impl Walk<'_> {
         first
     }
 
-    /// A closed contact that would open and close again within the tried step.
+    /// A closed contact that would open and close again within the trial step.
     pub(super) fn opens_unseen(&self, step: f64) -> Option<usize> {
         let closed = self.coupling.closed.iter();
         let mut unseen = closed.filter(|closed| {
@@ -100,8 +101,8 @@ impl Walk<'_> {
         unseen.next().map(|closed| closed.contact)
     }
 
-    /// A closed contact whose force is off from what was foreseen by more than the greatest force so far: the mean that can be
-    /// foreseen then has nothing to do with it.
+    /// A closed contact whose force differs from the prediction by more than the greatest force so far: the
+    /// predicted mean is then meaningless.
     pub(super) fn goes_unforeseen(&self) -> Option<usize> {
         if !self.plan.chooses_contact_steps() {
             return None;
@@ -125,15 +126,15 @@ impl Walk<'_> {
             && event.at * step <= self.shortest_step(event)
     }
 
-    /// An event nearer than this happens at the start of the step \[s\].
+    /// An event within this time occurs at the start of the step \[s\].
     pub(super) fn shortest_step(&self, event: &Event) -> f64 {
         let contact = &self.system.contacts[event.contact];
         let division = self.plan.division(contact, self.trials[event.contact].rate);
         AT_ONCE * self.plan.step / f64::from(self.division().max(division))
     }
 
-    /// Repeats the step so that it ends on an event, or on an earlier one met on the way; false when that one happened
-    /// at the start, and time stands still.
+    /// Repeats the step so that it ends on an event, or on an earlier one found in the repetition; false if that
+    /// one occurred at the start and time does not advance.
     pub(super) fn step_to(&mut self, mut event: Event, stride: &Stride) -> Result<bool, StepError> {
         let mut length = event.at * stride.length;
         for _ in 0..20 {
@@ -185,7 +186,7 @@ impl Walk<'_> {
         Ok(true)
     }
 
-    /// Closes or opens contacts at the present instant, whose indentations and rates stand in `trials`.
+    /// Closes or opens contacts at the present instant, with the indentations and rates in `trials`.
     pub(super) fn happen(&mut self, event: Event) {
         let time = self.time;
         if event.crossing == Crossing::Downwards {
@@ -211,14 +212,14 @@ impl Walk<'_> {
         self.open_steps[index] = 0;
     }
 
-    /// Whether an open contact touches and closes now.
+    /// Whether an open contact closes now.
     fn is_closing(&self, index: usize) -> bool {
         let trial = &self.trials[index];
         self.is_open(index) && trial.indentation >= -TOGETHER && trial.rate > 0.0
     }
 
-    /// Lets momentum laws act on a contact and on all others that touch and close, one after the other, until none
-    /// closes any more. Whether the given contact was struck.
+    /// Applies momentum laws to a contact and all others that close at this instant, one after the other, until
+    /// none is closing. Returns whether the given contact had an impact.
     fn strike(&mut self, first: usize) -> bool {
         let mut struck = false;
         let mut next = Some(first);
@@ -256,7 +257,7 @@ impl Walk<'_> {
         }
     }
 
-    /// A contact closing at `rate` opens at once with `restitution` times that.
+    /// A contact closing at `rate` opens instantly at `restitution` times that rate.
     fn blow(&mut self, index: usize, restitution: f64, rate: f64) {
         let contact = &self.system.contacts[index];
         let impulse = momentum::impulse(restitution, contact.effective_mass(), rate);
@@ -286,7 +287,7 @@ impl Walk<'_> {
         });
     }
 
-    /// Division of free steps with which the quickest modes of buildings that have struck each other are seen.
+    /// Division of free-vibration steps that resolves the fastest modes of buildings after an impact.
     fn division_after_blow(&self, index: usize) -> u32 {
         let struck = self.system.contacts[index].faces.buildings();
         let modes = struck.into_iter().flatten().flat_map(|building| {
@@ -299,7 +300,7 @@ impl Walk<'_> {
         wanted.next_power_of_two().clamp(fewest, most)
     }
 
-    /// A contact begins to push.
+    /// The force of a contact starts.
     fn close(&mut self, index: usize) {
         let contact = &self.system.contacts[index];
         let rate = self.trials[index].rate.max(0.0);
@@ -317,7 +318,7 @@ impl Walk<'_> {
             0.0
         };
         let mut division = self.plan.first_division(contact, rate, share);
-        // A slow touch may be followed by a strong push.
+        // A slow first contact may be followed by a large force.
         let acceleration = self.reduced.closing(index, &self.acceleration[0]);
         loop {
             let step = self.plan.step / f64::from(division);
@@ -348,8 +349,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Loads of the tried step while nothing is known of the forces at its end: every contact force sets out as foreseen,
-    /// and bends so that it ends at nothing. Then a force at the end sets in as the square of time.
+    /// Loads of the trial step before the end forces are known: every contact force starts as predicted and is a
+    /// parabola that ends at zero. An end force is then added as the square of time.
     pub(super) fn let_forces_set_out(&mut self, step: f64) {
         self.bend.fill(0.0);
         self.coupling.clear();
@@ -378,7 +379,7 @@ impl Walk<'_> {
         }
     }
 
-    /// A contact force over a step if the faces go on as they accelerate now.
+    /// A contact force over a step for the present relative acceleration and jerk.
     fn foresee(&self, index: usize, episode: &Episode, step: f64) -> Foreseen {
         let contact = &self.system.contacts[index];
         let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
@@ -399,7 +400,7 @@ impl Walk<'_> {
         let mean = if smooth {
             (before + 4.0 * half + end) / 6.0
         } else {
-            // Forces set in with all kinds of powers of time, and end within a step.
+            // Forces start with different powers of time, and end within a step.
             let parts = f64::from(CORNER_PARTS);
             let at = |part: u32| force(f64::from(part) / parts);
             let inside = |first: u32| (first..CORNER_PARTS).step_by(2).map(at).sum::<f64>();
@@ -407,7 +408,7 @@ impl Walk<'_> {
         };
         let rise = 6.0 * mean - 4.0 * before - 2.0 * end;
         let slope = if episode.since == self.time {
-            // Laws do not know it yet.
+            // The laws have not been updated yet.
             rise / step
         } else {
             let response = respond(start, rate);
@@ -416,14 +417,14 @@ impl Walk<'_> {
         Foreseen { end, slope, rise }
     }
 
-    /// Rate of a contact force just after the present; modal accelerations stand in `scratch` \[N/s\].
+    /// Rate of a contact force just after the present; modal accelerations are in `scratch` \[N/s\].
     pub(super) fn slope_from_here(&self, index: usize) -> f64 {
         let ContactPhase::Closed(episode) = self.phases[index] else {
             return 0.0;
         };
         let law = &self.system.contacts[index].law;
         if law.starts_steeply() && episode.since == self.time {
-            // No cubic follows a root of the time.
+            // A cubic cannot follow a root of time.
             return 0.0;
         }
         let ahead = AHEAD * self.plan.step / f64::from(self.contact_division[index]);
@@ -435,12 +436,12 @@ impl Walk<'_> {
         response.by_indentation * rate + response.by_rate * acceleration
     }
 
-    /// Relative acceleration of the faces of a contact; modal ones stand in `scratch` \[m/s²\].
+    /// Relative acceleration of the points of a contact; modal ones are in `scratch` \[m/s²\].
     fn relative_acceleration(&self, index: usize) -> f64 {
         self.reduced.closing_of_modes(index, &self.scratch)
     }
 
-    /// Before the state moves on: what every closed contact does over the step.
+    /// Updates every closed contact over the step, before the state changes.
     pub(super) fn gather_episodes(&mut self, step: f64) {
         for closed in 0..self.coupling.closed.len() {
             let index = self.coupling.closed[closed].contact;
@@ -459,7 +460,7 @@ impl Walk<'_> {
         }
     }
 
-    /// After the state has moved on: peaks of the forces, and contacts that have opened.
+    /// Updates peaks of forces and opened contacts, after the state has changed.
     pub(super) fn finish_episodes(&mut self, step: f64, start: f64) {
         for closed in 0..self.coupling.closed.len() {
             let index = self.coupling.closed[closed].contact;
@@ -487,7 +488,7 @@ impl Walk<'_> {
             };
             let slopes = [self.coupling.closed[closed].start_slope, slope];
             episode.follow_force(&law, &trial, slopes, turn, start, step);
-            // Still the slope at the end when the contact opens there.
+            // The slope at the end also applies if the contact opens there.
             self.reduced.push_apart(index, slope, &mut self.jerk);
             if episode.since < start {
                 self.control_division(index, step, &response, &episode);
@@ -504,9 +505,10 @@ impl Walk<'_> {
     /// After a step of a closed contact: finer steps where its error endangers the tolerance, coarser ones where the grid
     /// allows and the error is far below (theory, Eq. Q6).
     ///
-    /// Foreseen motion leaves out what is of fourth order in h, and so its force at the end, by e; then the step misses
-    /// h e/24 of the impulse. Over the π/(ωh) steps of half a cycle at the present contact stiffness, that is an error of
-    /// the force of π e/24; four times as much is allowed for, since forces that set in as t^1.5 are off by more.
+    /// The predicted motion omits terms of fourth order in h, so its end force has an error e, and the step has an
+    /// error of h e/24 in the impulse. Over the π/(ωh) steps of half a cycle at the present contact stiffness, this
+    /// is an error of the force of π e/24. A factor of four covers forces that start as t^1.5, which have larger
+    /// errors.
     fn control_division(
         &mut self,
         index: usize,
@@ -535,7 +537,7 @@ impl Walk<'_> {
         self.finest_in_contact = self.finest_in_contact.max(*division);
     }
 
-    /// How far from touching an event of a contact may be made or missed within the tolerance \[m\].
+    /// Distance within which a contact may be made or missed within the tolerance \[m\].
     pub(super) fn doubt(&self, index: usize) -> f64 {
         self.tolerance
             * self.system.contacts[index]
@@ -543,8 +545,8 @@ impl Walk<'_> {
                 .max(self.peaks.closing[index].value)
     }
 
-    /// Notes a touch that is hardly one: faces that turn back before they are far in, that were hardly apart before, or
-    /// that stay together because they are too slow to bounce.
+    /// Records a marginal contact: small indentation, small opening before it, or lasting contact because of a low
+    /// speed.
     fn doubt_touch(&mut self, index: usize, rate: f64) {
         let doubt = self.doubt(index);
         let acceleration = self.reduced.closing(index, &self.acceleration[0]);
@@ -556,7 +558,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Notes faces that nearly touched, or nearly parted, in the tried step.
+    /// Records contacts that nearly closed, or nearly opened, in the trial step.
     pub(super) fn doubt_turns(&mut self, step: f64) {
         for index in 0..self.phases.len() {
             let (then, now) = (
@@ -581,7 +583,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Lists an episode as an impact, if it was one.
+    /// Adds an episode to the impacts, if it counts as one.
     pub(super) fn report_impact(&mut self, contact: usize, episode: &Episode, finished: bool) {
         self.impacts.extend(impact_of(contact, episode, finished));
     }

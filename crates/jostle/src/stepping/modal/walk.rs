@@ -1,4 +1,4 @@
-//! The walk through a ground motion in modal coordinates.
+//! Time stepping through a ground motion in modal coordinates.
 
 use std::ops::ControlFlow;
 
@@ -25,45 +25,45 @@ use crate::system::System;
 
 /// Steps between calls of the observer.
 const OBSERVED_EVERY: u64 = 256;
-/// Most rows of a history in a step of free flight.
+/// Largest number of history rows in a free-vibration step.
 const MOST_ROWS: f64 = 64.0;
-/// How often a step is halved in search of an opening within it, or of forces that can be foreseen.
+/// Largest number of halvings of a step, to find an opening within it, or for predictable forces.
 const MOST_HALVINGS: usize = 12;
-/// Events without progress before a run gives up.
+/// Largest number of events without progress.
 const MOST_EVENTS_AT_ONCE: usize = 1000;
 
-/// A run under way.
+/// State of a run.
 pub(super) struct Walk<'a> {
     pub(super) system: &'a System,
     pub(super) motion: &'a GroundMotion,
     pub(super) plan: &'a Plan,
     pub(super) pounding: bool,
     pub(super) reduced: &'a Reduced,
-    /// The first serves steps off the grid, the others one division of the free-flight step each.
+    /// The first is for steps off the grid, the others for one division of the free-vibration step each.
     pub(super) tables: Vec<Table>,
     divisions: Vec<u32>,
-    /// Division of free flight, so that histories have their rows.
+    /// Division of free-vibration steps for history rows.
     pub(super) least_division: u32,
-    /// How many times as many steps that are as the tolerance asks for.
+    /// Ratio of these steps to those required by the tolerance.
     pub(super) rows_per_step: usize,
     pub(super) flight: Flight,
     rules: Rules,
     pub(super) clock: Clock,
     pub(super) time: f64,
-    /// Ground acceleration now and at the end of the tried step.
+    /// Ground acceleration now and at the end of the trial step.
     pub(super) ground: [f64; 2],
-    /// Modal displacement, velocity and load now, and at the end of the tried step.
+    /// Modal displacement, velocity and load now, and at the end of the trial step.
     pub(super) q: [Vec<f64>; 2],
     pub(super) v: [Vec<f64>; 2],
     pub(super) p: [Vec<f64>; 2],
-    /// Bend of the modal load over the tried step: contact forces are parabolas.
+    /// Curvature term of the modal load over the trial step: contact forces are parabolas.
     pub(super) bend: Vec<f64>,
-    /// ∫q of the accepted step, then whatever else needs a list of modes.
+    /// ∫q of the accepted step, then scratch for lists of modes.
     pub(super) scratch: Vec<f64>,
-    /// ∫τq of the accepted step, where a contact is closed.
+    /// ∫τq of the accepted step, if a contact is closed.
     moment: Vec<f64>,
-    /// What is watched now, and at the end of the tried step; its accelerations and what their rates are but for the
-    /// loads', now and a step ago.
+    /// Monitored quantities now, and at the end of the trial step; their accelerations, and jerk without the load
+    /// term, now and at the previous step.
     pub(super) u: [Vec<f64>; 2],
     pub(super) rate: [Vec<f64>; 2],
     pub(super) acceleration: [Vec<f64>; 2],
@@ -72,12 +72,12 @@ pub(super) struct Walk<'a> {
     pub(super) phases: Vec<ContactPhase>,
     pub(super) trials: Vec<ContactTrial>,
     pub(super) contact_division: Vec<u32>,
-    /// Steps that a contact has been open, while its division still counts.
+    /// Number of steps since a contact opened, while its division still applies.
     pub(super) open_steps: Vec<u32>,
     pub(super) strongest: Vec<f64>,
     pub(super) coupling: ContactEquations,
     pub(super) equations: ForceEquations,
-    /// Forces of closed contacts over the tried step as they could be foreseen.
+    /// Predicted forces of closed contacts over the trial step.
     pub(super) foreseen: Vec<Foreseen>,
     pub(super) finest_in_contact: u32,
     pub(super) impacts: Vec<Impact>,
@@ -85,13 +85,13 @@ pub(super) struct Walk<'a> {
     pub(super) work: Work,
     pub(super) peaks: Peaks,
     pub(super) reached: Reached,
-    /// Forces of storeys where errors are looked at \[N, N·m\].
+    /// Forces of storeys for error estimates \[N, N·m\].
     pub(super) looked_at: Vec<f64>,
-    /// Steps left in which accelerations may still follow a jump of velocities, unlike a cubic.
+    /// Remaining steps in which accelerations respond to a jump of velocities, unlike a cubic.
     pub(super) struck: u32,
     /// Whether this step ends at a corner of a contact force.
     pub(super) at_corner: bool,
-    /// How far every open contact has opened since it was closed; infinite before it ever was \[m\].
+    /// Greatest opening of every open contact since it was closed; infinite before the first contact \[m\].
     pub(super) clearance: Vec<f64>,
     /// Relative tolerance of peaks \[–\].
     pub(super) tolerance: f64,
@@ -99,10 +99,10 @@ pub(super) struct Walk<'a> {
     pub(super) doubtful_from: Option<f64>,
 }
 
-/// Share of the tolerance below which shapes are not what is to be mended.
+/// Fraction of the tolerance below which shapes are accurate enough.
 const LEAST_SHARE: f64 = 0.3;
 
-/// How much finer a run is than planned, and the work done before it.
+/// Refinement of a run relative to the plan, and the work of previous runs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refinement {
     /// Relative tolerance of peaks \[–\].
@@ -112,16 +112,16 @@ pub(super) struct Refinement {
     pub(super) work: Work,
 }
 
-/// What a run says of its own accuracy.
+/// Estimated accuracy of a run.
 pub(super) struct Verdict {
     pub(super) estimate: Estimate,
-    /// Modes of every building that miss too much.
+    /// Modes of every building with too large errors.
     pub(super) lacking: Vec<Vec<usize>>,
     /// First instant at which a contact was made or missed by less than the tolerance \[s\].
     pub(super) doubtful_from: Option<f64>,
 }
 
-/// Into how many parts free steps are divided for rows of a history.
+/// Division of free-vibration steps for history rows.
 fn rows_per_step(plan: &Plan, settings: Settings) -> u32 {
     settings.record_interval.map_or(1, |interval| {
         if interval == 0.0 {
@@ -185,7 +185,7 @@ impl<'a> Walk<'a> {
         let mut peaks = Peaks::new(system, reduced, settings.record_interval);
         peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
         let mut acceleration = pair(watched);
-        // At rest on moving ground buildings stay behind.
+        // Initial acceleration relative to the ground of a building at rest: −a_g.
         for (acceleration, share) in acceleration[0].iter_mut().zip(peaks.driven()) {
             *acceleration = -share * ground;
         }
@@ -238,7 +238,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// To the end of the motion; with how far peaks may be off.
+    /// Runs to the end of the motion; returns the estimated errors of peaks.
     pub(super) fn run(
         mut self,
         observer: &mut impl FnMut(Progress) -> ControlFlow<()>,
@@ -322,7 +322,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Displacements, velocities and accelerations of everything.
+    /// Displacements, velocities and accelerations of all degrees of freedom.
     fn full_state(&mut self) -> State {
         let mut state = State::at_rest(self.system, 0.0);
         state.time = self.time;
@@ -398,7 +398,7 @@ impl<'a> Walk<'a> {
         stride
     }
 
-    /// Into how many parts the free-flight step is divided now.
+    /// Present division of the free-vibration step.
     pub(super) fn division(&self) -> u32 {
         let divisions = self.contact_division.iter().copied();
         divisions.fold(self.least_division, u32::max)
@@ -421,9 +421,9 @@ impl<'a> Walk<'a> {
         self.tables.len() - 1
     }
 
-    /// Sets the odd table to a length.
+    /// Sets the table for irregular steps to a length.
     pub(super) fn set_odd(&mut self, length: f64) {
-        // Seldom enough that what damping takes may come from the balance of every mode.
+        // Rare enough that the dissipated energy may come from the balance of every mode.
         self.tables[0].set(self.reduced, length, None);
         self.work.factorizations += 1;
     }
@@ -450,7 +450,7 @@ impl<'a> Walk<'a> {
         self.find_contact_forces(slot)
     }
 
-    /// q₁ and q̇₁ under the loads that stand in `p` and `bend`.
+    /// q₁ and q̇₁ under the loads in `p` and `bend`.
     pub(super) fn advance(&mut self, slot: usize) {
         let ([q0, q1], [v0, v1]) = (&mut self.q, &mut self.v);
         let [p0, p1] = &self.p;
@@ -458,7 +458,7 @@ impl<'a> Walk<'a> {
         self.tables[slot].advance(self.reduced.arch(), of, [q1, v1]);
     }
 
-    /// Watched displacements, indentations and rates at the end of the tried step.
+    /// Monitored displacements, indentations and rates at the end of the trial step.
     pub(super) fn follow(&mut self) {
         let watched = [&mut self.u[1][..], &mut self.rate[1][..]];
         self.reduced.show([&self.q[1], &self.v[1]], watched);
@@ -470,7 +470,7 @@ impl<'a> Walk<'a> {
         self.read_trials(0);
     }
 
-    /// Sets `trials` to the present or to the end of the tried step.
+    /// Sets `trials` to the present or to the end of the trial step.
     pub(super) fn read_trials(&mut self, at: usize) {
         let (u, rate) = (&self.u[at], &self.rate[at]);
         for (index, trial) in self.trials.iter_mut().enumerate() {
@@ -540,7 +540,7 @@ impl<'a> Walk<'a> {
         self.take_row(was_closed, &energy);
     }
 
-    /// Rates of modal accelerations now, but for those of the loads, in `jerk`; the accelerations stand in `scratch`.
+    /// Modal jerk without the load term, in `jerk`; the accelerations are in `scratch`.
     fn jerks(&mut self) {
         let modes = self.scratch.iter().zip(&self.v[0]);
         let factors = self.reduced.damping.iter().zip(&self.reduced.stiffness);
@@ -549,8 +549,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Takes in the peaks of a step that was taken, whose modal accelerations at the end stand in `scratch` and whose
-    /// jerks, but for the ground's, in `jerk`.
+    /// Updates peaks with an accepted step; its modal accelerations at the end are in `scratch`, and its jerk
+    /// without the ground term in `jerk`.
     fn look(&mut self, ground: [f64; 2], start: f64, step: f64) {
         let reduced = self.reduced;
         self.acceleration.swap(0, 1);
@@ -597,7 +597,7 @@ impl<'a> Walk<'a> {
         self.show_accelerations();
     }
 
-    /// What the ground put in and damping took; with closed contacts their work as well.
+    /// Input and dissipated energy; with closed contacts their work as well.
     fn step_energy(&mut self, slot: usize, was_closed: bool) -> StepEnergy {
         let table = &self.tables[slot];
         let [p0, p1] = &self.p;
@@ -621,7 +621,7 @@ impl<'a> Walk<'a> {
         StepEnergy { damped, input }
     }
 
-    /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch` and ∫τq in `moment`.
+    /// ∫ F δ̇ dt of every closed contact, by parts; ∫q is in `scratch` and ∫τq in `moment`.
     fn contact_work(&mut self, step: f64) {
         for closed in &self.coupling.closed {
             let index = closed.contact;
@@ -643,7 +643,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// After an impact steps grow back to those of free flight, doubled every few.
+    /// After an impact steps grow back to free-vibration steps, doubled every few steps.
     fn cool_down(&mut self) {
         for (index, phase) in self.phases.iter().enumerate() {
             let division = &mut self.contact_division[index];
@@ -665,7 +665,7 @@ impl<'a> Walk<'a> {
         self.energy.balance(kinetic, strain)
     }
 
-    /// Adds a row to the history where one is due.
+    /// Adds a row to the history if one is due.
     fn take_row(&mut self, wanted: bool, energy: &Energy) {
         if self.peaks.is_due(self.time, wanted) {
             let watched = Watched {
@@ -705,5 +705,5 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Steps of a size after an impact.
+/// Number of steps of each size after an impact.
 const STEPS_AFTERWARDS: u32 = 4;
