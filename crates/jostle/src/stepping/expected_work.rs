@@ -61,7 +61,7 @@ pub(super) fn too_long(
     Some(ModelFault {
         path,
         problem: format!(
-            "the run would take {:.2e} steps of {:.2e} s for {} displacements, about {:.1e} hours of computing: {cause}; accept_unusual = true under [analysis] runs it all the same",
+            "the run would take {:.2e} steps of {:.2e} s for {} displacements, about {:.1e} hours of computing: {cause}; accept_unusual = true under [analysis] runs it anyway",
             (motion.duration / plan.step).ceil(),
             plan.step,
             system.len(),
