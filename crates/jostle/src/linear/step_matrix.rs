@@ -1,10 +1,10 @@
-//! Which matrix to factorise.
+//! The matrix to factorise.
 
 /// K̂ = κ K + K′ + c C′ + g M of one building (theory, Eq. N2): members and joints, P-Delta and base springs,
 /// dashpots, masses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepMatrix {
-    /// κ: weight of the stiffness that damping goes with, 1 + β c in a step \[–\].
+    /// κ: weight of the stiffness with stiffness-proportional damping, 1 + β c in a step \[–\].
     pub stiffness: f64,
     /// g: weight of the masses \[1/s²\].
     pub mass: f64,
@@ -13,7 +13,7 @@ pub struct StepMatrix {
 }
 
 impl StepMatrix {
-    /// K + K′: what resists a load at rest.
+    /// K + K′: the static stiffness.
     pub const STATIC: Self = Self {
         stiffness: 1.0,
         mass: 0.0,

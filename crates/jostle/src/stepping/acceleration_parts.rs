@@ -1,14 +1,14 @@
 //! Peak accelerations of floors in equal parts of a run.
 
-/// Parts that a run is divided into.
+/// Number of parts of a run.
 const PARTS: usize = 32;
-/// A part counts where its peak is at least this share of the floor's greatest.
+/// A part counts if its peak is at least this fraction of the floor's peak.
 const NEAR: f64 = 0.5;
 
 /// Peak total acceleration of every floor in every part of a run \[m/s²\].
 ///
-/// Two runs whose free vibrations have lost each other's phase may have the same greatest acceleration by chance. They
-/// seldom have the same peak in every part.
+/// Two runs with a phase difference in free vibration may have the same peak acceleration by chance. They seldom
+/// have the same peak in every part.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct AccelerationParts {
     /// Length of a part \[s\].
@@ -18,7 +18,7 @@ pub(crate) struct AccelerationParts {
 }
 
 impl AccelerationParts {
-    /// For so many floors of all buildings and a run of `duration` \[s\].
+    /// For a number of floors of all buildings and a run of `duration` \[s\].
     pub(crate) fn new(floors: usize, duration: f64) -> Self {
         Self {
             length: duration / PARTS as f64,
@@ -27,12 +27,12 @@ impl AccelerationParts {
         }
     }
 
-    /// Goes on to the part of an instant.
+    /// Selects the part of an instant.
     pub(crate) fn set_time(&mut self, time: f64) {
         self.part = ((time / self.length) as usize).min(PARTS - 1);
     }
 
-    /// Takes a value of a floor, counted through all buildings.
+    /// Adds a value of a floor, counted through all buildings.
     #[inline]
     pub(crate) fn take(&mut self, floor: usize, magnitude: f64) {
         let peak = &mut self.floors[floor][self.part];

@@ -1,4 +1,4 @@
-//! Square matrices whose entries vanish away from the diagonal: what contacts and links in a row make of each other.
+//! Banded square matrices: the coupling of contacts and links in a row.
 
 /// A matrix stored by rows, `reach` entries on either side of the diagonal.
 #[derive(Clone, Debug, Default)]
@@ -9,7 +9,7 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// Takes a new size and sets all entries to zero.
+    /// Sets a new size and all entries to zero.
     pub(super) fn reset(&mut self, size: usize, reach: usize) {
         self.size = size;
         self.reach = reach.min(size.saturating_sub(1));
@@ -56,7 +56,7 @@ impl Band {
             .sum()
     }
 
-    /// Replaces the lower half by L and D of A = L D Lᵀ, which needs no exchange of rows where A is positive definite.
+    /// Replaces the lower half by L and D of A = L D Lᵀ, without row exchanges, since A is positive definite.
     /// Returns the multiply-adds.
     pub(super) fn factorize(&mut self) -> u64 {
         let mut operations = 0;

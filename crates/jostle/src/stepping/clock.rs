@@ -1,7 +1,7 @@
-//! Where a run stands on its grid of regular steps.
+//! Position of a run on its grid of regular steps.
 
-/// Time as whole free-vibration steps plus an offset: regular instants never drift, and steps that ended on an
-/// event find back to the grid.
+/// Time as whole free-vibration steps plus an offset: regular instants do not drift, and steps after an event
+/// return to the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Clock {
     step: f64,
@@ -14,13 +14,13 @@ pub(crate) struct Clock {
 pub(crate) struct NextStep {
     /// Its length \[s\].
     pub(crate) length: f64,
-    /// Whether it is exactly one regular step of the asked-for division.
+    /// Whether it is exactly one regular step of the requested division.
     pub(crate) regular: bool,
-    /// Where it ends.
+    /// Its end.
     pub(crate) end: Clock,
 }
 
-/// A remainder shorter than this share of a step is taken together with the next step.
+/// A remainder shorter than this fraction of a step is joined to the next step.
 const SHORTEST: f64 = 0.25;
 
 impl Clock {

@@ -6,9 +6,10 @@ use super::clock::Clock;
 use super::plan::{ContactSteps, Plan};
 use crate::interface::Contact;
 
-/// Steps of a half cycle at the present stiffness, relative to those planned, beyond which finer ones gain nothing.
+/// Number of steps per half cycle at the present stiffness, relative to the planned one, above which accuracy stops
+/// improving.
 const MOST_FINER: f64 = 4.0;
-/// How far an estimate must lie below the target before steps are doubled, beyond what doubling multiplies it by.
+/// Margin of an estimate below the target before steps are doubled, in addition to the factor of doubling.
 const SLACK: f64 = 1.5;
 
 /// What a step of a closed contact has shown.
@@ -17,11 +18,11 @@ pub(super) struct Observed {
     pub(super) step: f64,
     /// F′ at its end \[N/m\].
     pub(super) stiffness: f64,
-    /// ∂F/∂δ̇ there; 0 where the error is one of displacements alone, and finer steps for a dashpot gain nothing \[N·s/m\].
+    /// ∂F/∂δ̇ there; 0 if the error is one of displacements only, so that a dashpot needs no finer steps \[N·s/m\].
     pub(super) damping: f64,
     /// Error of the force over half a cycle of such steps, relative to the greatest of the gap \[–\].
     pub(super) error: f64,
-    /// Power of the step with which it grows.
+    /// Its order in the step.
     pub(super) order: i32,
 }
 
@@ -30,7 +31,7 @@ pub(super) fn half_cycle(contact: &Contact, stiffness: f64) -> f64 {
     PI * (contact.effective_mass() / stiffness).sqrt()
 }
 
-/// The division to go on with.
+/// The next division.
 pub(super) fn next_division(
     plan: &Plan,
     contact: &Contact,
@@ -48,7 +49,7 @@ pub(super) fn next_division(
         error,
         order,
     } = *observed;
-    // An overdamped contact gives way within m/c, which may be much less than half a cycle.
+    // The time scale of an overdamped contact is m/c, which may be much less than half a cycle.
     let quickest = stiffness.max(damping * damping / contact.effective_mass());
     if quickest <= 0.0 || !error.is_finite() {
         return division;

@@ -1,4 +1,4 @@
-//! Closed contacts, and links beside them: the few forces that join the buildings in a step (theory, Eqs. P1–P5, L2).
+//! Closed contacts and links: the forces that couple the buildings in a step (theory, Eqs. P1–P5, L2).
 
 use super::band::Band;
 use crate::contact::{ContactResponse, ForceLaw, Memory};
@@ -7,11 +7,11 @@ use crate::history::Extreme;
 /// One closed contact, or one link, in the step to be solved.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closed {
-    /// Index in the system; links count on where contacts end.
+    /// Index in the system; links follow the contacts.
     pub(crate) contact: usize,
     pub(crate) law: ForceLaw,
     pub(crate) memory: Memory,
-    /// Indentation and rate at the end of the step if nothing here pushed.
+    /// Indentation and rate at the end of the step without these forces.
     pub(crate) free: f64,
     pub(crate) free_rate: f64,
     /// The rate is `free_rate` + `rate_gain`·(indentation − free).
@@ -21,21 +21,21 @@ pub(crate) struct Closed {
     pub(crate) force: f64,
     /// dF/dt at the start of the step \[N/s\].
     pub(crate) start_slope: f64,
-    /// Where the indentation is greatest, if the motion turns in the step.
+    /// Instant of the greatest indentation, if the motion reverses in the step.
     pub(crate) turn: Option<Extreme>,
-    /// Relative acceleration of the faces at the start of the step \[m/s²\].
+    /// Relative acceleration of the two points at the start of the step \[m/s²\].
     pub(crate) start_acceleration: f64,
 }
 
 /// Newton's method on the indentations: δ + W f(δ, δ̇) = δ_free.
 ///
-/// The left side rises monotonically in δ for every law, so that the solution is unique; steps that do not
-/// reduce the residual are halved. From left to right W is a band: only forces on one and the same building meet.
+/// The left side increases monotonically with δ for every law, so the solution is unique; corrections that do not
+/// reduce the residual are halved. From left to right W is banded: only forces on the same building are coupled.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactEquations {
     /// From left to right.
     pub(crate) closed: Vec<Closed>,
-    /// Places of these in the order of all contacts and links.
+    /// Indices of these in the order of all contacts and links.
     pub(super) places: Vec<usize>,
     /// W.
     pub(super) compliance: Band,
@@ -52,13 +52,13 @@ pub(crate) struct ContactEquations {
 const ITERATIONS: usize = 60;
 
 impl ContactEquations {
-    /// Forgets all closed contacts.
+    /// Removes all closed contacts.
     pub(super) fn clear(&mut self) {
         self.closed.clear();
         self.places.clear();
     }
 
-    /// Finds indentations and forces; returns the iterations, or `None` when they do not converge.
+    /// Finds indentations and forces; returns the iterations, or `None` without convergence.
     pub(crate) fn solve(&mut self) -> Option<u64> {
         for closed in &mut self.closed {
             closed.indentation = closed.free;
@@ -66,7 +66,7 @@ impl ContactEquations {
         self.solve_from_here()
     }
 
-    /// The same, from indentations that are near already.
+    /// The same, starting from given indentations.
     pub(super) fn solve_from_here(&mut self) -> Option<u64> {
         self.newton().or_else(|| self.settle())
     }
@@ -105,7 +105,7 @@ impl ContactEquations {
                     size = new_size;
                     break;
                 }
-                // Nothing is left to gain but rounding.
+                // Only rounding errors remain.
                 if change <= 1e-11 * scale && new_size <= 4.0 * size {
                     return Some(iteration as u64);
                 }
@@ -180,7 +180,7 @@ pub(super) fn scaled_band(compliance: &Band, roots: &[f64], scaled: &mut Band) {
     scaled.reset(compliance.size(), compliance.reach());
     for i in 0..compliance.size() {
         for j in compliance.columns(i).start..=i {
-            // Rounding of the columns of W may differ in the mirror.
+            // Rounding of symmetric entries of W may differ.
             let both = 0.5 * (compliance.get(i, j) + compliance.get(j, i));
             let unit = if i == j { 1.0 } else { 0.0 };
             scaled.set(i, j, unit + roots[i] * both * roots[j]);

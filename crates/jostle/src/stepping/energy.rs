@@ -1,19 +1,19 @@
-//! The energy audit (theory, Eq. E1): sums over steps that must balance if every step is in equilibrium.
+//! The energy balance (theory, Eq. E1): sums over steps that balance if every step is in equilibrium.
 
 use crate::history::Energy;
 use crate::simd;
 use crate::state::State;
 use crate::system::System;
 
-/// Work done on and lost by the buildings so far, and the largest error of the balance.
+/// Energies so far, and the largest error of the balance.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct EnergyAudit {
     pub(crate) input: f64,
     pub(crate) damped: f64,
     pub(crate) contact: f64,
-    /// Work done on springs that yield, what they would give back included.
+    /// Work done on yielding springs, recoverable energy included.
     pub(crate) springs: f64,
-    /// Work done on links, what their springs would give back included.
+    /// Work done on links, recoverable energy of their springs included.
     pub(crate) links: f64,
     initial: f64,
     imbalance: Imbalance,
@@ -27,7 +27,7 @@ pub(crate) struct Imbalance {
 }
 
 impl Imbalance {
-    /// Takes in a balance, and writes the worst so far into it.
+    /// Adds a balance, and writes the worst so far into it.
     pub(crate) fn watch(&mut self, mut energy: Energy) -> Energy {
         let held = energy.kinetic + energy.strain;
         self.largest = self.largest.max(energy.input.abs()).max(held);
@@ -39,7 +39,7 @@ impl Imbalance {
     }
 }
 
-/// Energy that would be given back \[J\].
+/// Recoverable energy \[J\].
 struct Stored {
     kinetic: f64,
     strain: f64,
@@ -75,7 +75,7 @@ fn stored(system: &System, state: &State) -> Stored {
 }
 
 impl EnergyAudit {
-    /// Starts from a state that may already hold energy.
+    /// Starts from a state that may already have energy.
     pub(crate) fn starting_from(system: &System, state: &State) -> Self {
         let stored = stored(system, state);
         Self {

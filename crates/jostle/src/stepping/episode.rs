@@ -1,4 +1,4 @@
-//! What a closed contact goes through in one step, however the buildings are stepped.
+//! A closed contact in one step, for every solver.
 
 use super::events::{Cubic, bisect};
 use super::runner::{ContactTrial, TOGETHER};
@@ -7,8 +7,8 @@ use crate::history::Extreme;
 use crate::state::Episode;
 
 impl Episode {
-    /// Takes in the indentation over a step \[s\] that begins at `start` \[s\]: how deep it went, and when and how fast
-    /// the faces part if the force ends. Returns the turn of the indentation \[m\], if there is one.
+    /// Adds the indentation over a step \[s\] that begins at `start` \[s\]: its peak, and instant and rate of
+    /// separation if the force ends. Returns the reversal of the indentation \[m\], if there is one.
     pub(super) fn follow_indentation(
         &mut self,
         law: &ForceLaw,
@@ -29,7 +29,7 @@ impl Episode {
         turn
     }
 
-    /// At which share of a step over which the indentation follows a curve the force ends.
+    /// Fraction of a step at which the force ends, for a given curve of the indentation.
     pub(super) fn force_ends(&self, law: &ForceLaw, curve: &Cubic, step: f64) -> f64 {
         bisect(0.0, 1.0, |at| {
             let rate = curve.rise(at) / step;
@@ -37,7 +37,7 @@ impl Episode {
         })
     }
 
-    /// Takes in the force over the same step, of these `slopes` at its ends \[N/s\]: the greatest may lie within.
+    /// Adds the force over the same step, with its `slopes` at the ends \[N/s\]: the peak may lie within the step.
     pub(super) fn follow_force(
         &mut self,
         law: &ForceLaw,
@@ -53,7 +53,7 @@ impl Episode {
         };
         if self.force > 0.0 && trial.force > 0.0 {
             if let Some(turn) = turn.filter(|_| law.has_corner_at_turn()) {
-                // A cubic would cut the corner or overshoot it.
+                // A cubic would miss or overshoot the corner.
                 peak = Extreme {
                     value: law.follow(turn.value, 0.0, &self.memory).force,
                     at: turn.at,
@@ -68,7 +68,7 @@ impl Episode {
         }
     }
 
-    /// Takes in a sudden change of velocities: the force that the law says now, and by how much it has changed \[N\].
+    /// Applies a sudden change of velocities: the new force of the law, and its change \[N\].
     pub(super) fn jump(&mut self, law: &ForceLaw, trial: &ContactTrial, time: f64) -> f64 {
         let force = law
             .follow(trial.indentation, trial.rate, &self.memory)
@@ -81,7 +81,7 @@ impl Episode {
         change
     }
 
-    /// Stands at the end of the step; returns whether the faces have parted for good.
+    /// Moves to the end of the step; returns whether the contact has opened.
     pub(super) fn advance(
         &mut self,
         law: &ForceLaw,
@@ -93,7 +93,7 @@ impl Episode {
             law.remember(turn.value, 0.0, &mut self.memory);
         }
         law.remember(trial.indentation, trial.rate, &mut self.memory);
-        // Faces that are apart and come back have parted within the step: what follows is another impact.
+        // If the two sides separate and return within the step, the contact has opened: another impact follows.
         let apart = trial.rate <= 0.0 || trial.indentation < -TOGETHER;
         trial.indentation <= 0.0 && apart && !law.jumps_at_release()
     }

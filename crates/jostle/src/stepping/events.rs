@@ -29,13 +29,13 @@ impl Cubic {
         }
     }
 
-    /// Value at a share of the step.
+    /// Value at a fraction of the step.
     pub(crate) fn value(&self, at: f64) -> f64 {
         let [c0, c1, c2, c3] = self.powers();
         c0 + at * (c1 + at * (c2 + at * c3))
     }
 
-    /// Slope times the step at a share of the step.
+    /// Slope times the step at a fraction of the step.
     pub(crate) fn rise(&self, at: f64) -> f64 {
         let [_, c1, c2, c3] = self.powers();
         c1 + at * (2.0 * c2 + at * 3.0 * c3)
@@ -51,7 +51,7 @@ impl Cubic {
         ]
     }
 
-    /// Shares of the step, in order, where the slope vanishes strictly inside it.
+    /// Fractions of the step, in order, where the slope vanishes strictly inside it.
     pub(crate) fn turning_points(&self) -> impl Iterator<Item = f64> {
         let [_, c1, c2, c3] = self.powers();
         let discriminant = c2 * c2 - 3.0 * c1 * c3;
@@ -69,8 +69,8 @@ impl Cubic {
             .filter(|point| *point > 0.0 && *point < 1.0)
     }
 
-    /// Share of the step where the value first crosses zero in the given direction. The start counts as lying
-    /// on the side one comes from.
+    /// Fraction of the step where the value first crosses zero in the given direction. The start counts as lying
+    /// before the crossing.
     pub(crate) fn first_crossing(&self, crossing: Crossing) -> Option<f64> {
         let sign = if crossing == Crossing::Upwards {
             1.0
@@ -94,13 +94,13 @@ impl Cubic {
         None
     }
 
-    /// Whether it is certain that the value stays below zero all the step: a cubic leaves the range of its ends by no more
-    /// than 4/27 of the sum of its end rises.
+    /// Whether the value certainly stays below zero in the whole step: a cubic leaves the range of its ends by no
+    /// more than 4/27 of the sum of its end increments.
     pub(crate) fn stays_below_zero(&self) -> bool {
         self.start.max(self.end) + 0.15 * (self.start_rise.abs() + self.end_rise.abs()) < 0.0
     }
 
-    /// Greatest value inside the step, if the cubic turns there from rising to falling.
+    /// Greatest value inside the step, if the cubic has a maximum there.
     pub(crate) fn peak(&self, start_time: f64, step: f64) -> Option<Extreme> {
         if self.start_rise <= 0.0 || self.end_rise >= 0.0 {
             return None;
@@ -151,7 +151,7 @@ mod tests {
             assert!((cubic.value(at) - f(a + at * h)).abs() < 1e-13);
             assert!((cubic.rise(at) - h * slope(a + at * h)).abs() < 1e-12);
         }
-        // It falls, turns at t = 1 with the value 0, and rises.
+        // It decreases, has a minimum of 0 at t = 1, and increases.
         assert_eq!(cubic.peak(a, h), None);
     }
 
@@ -167,7 +167,7 @@ mod tests {
             };
             found += 1;
             let at = bisect(0.0, 1.0, |at| cubic.rise(at) <= 0.0);
-            // Both roots are as sharp as the slope is steep there.
+            // The accuracy of both roots follows from the slope there.
             assert!((cubic.value(at) - peak.value).abs() < 1e-14, "{cubic:?}");
             assert!((at - peak.at).abs() < 1e-9, "{cubic:?}: {at}, {peak:?}");
         }

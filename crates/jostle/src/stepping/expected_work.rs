@@ -1,4 +1,4 @@
-//! The work to expect of a run, and a bound on it.
+//! Expected work of a run, and its bound.
 
 use super::Plan;
 use crate::model::{Analysis, ModelFault};
@@ -13,8 +13,8 @@ const OF_A_STEP: f64 = 20.0;
 const TIME_OF_ONE: f64 = 2e-8;
 
 impl Plan {
-    /// Work to expect of a run: regular steps, times displacements and what every step of a building costs besides.
-    /// Steps in contact are not counted \[–\].
+    /// Expected work of a run: regular steps times displacements, plus a constant per step and building. Steps in
+    /// contact are not counted \[–\].
     #[must_use]
     pub fn expected_work(&self, system: &System, duration: f64) -> f64 {
         let of_a_step = system.len() as f64 + OF_A_STEP * system.buildings.len() as f64;
@@ -22,7 +22,7 @@ impl Plan {
     }
 }
 
-/// The fault of a run that would not end in a reasonable time: more work than [`Analysis::most_work`].
+/// The fault of a run with too much work: more work than [`Analysis::most_work`].
 pub(super) fn too_long(
     plan: &Plan,
     system: &System,

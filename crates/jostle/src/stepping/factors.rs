@@ -1,4 +1,4 @@
-//! Factorised step equations of all buildings for one step size, and what they say about contacts.
+//! Factorised step equations of all buildings for one step size, and the compliances of contacts.
 
 use super::integrator::{BuildingCoefficients, Coefficients};
 use super::joints::Joints;
@@ -9,7 +9,7 @@ use crate::model::Integrator;
 use crate::structure::StepEquations;
 use crate::system::System;
 
-/// Everything that depends on the step size but not on the state.
+/// Data that depend on the step size but not on the state.
 pub(crate) struct StepFactors<E: StepEquations> {
     pub(crate) coefficients: Coefficients,
     pub(crate) buildings: Vec<BuildingCoefficients>,
@@ -18,10 +18,10 @@ pub(crate) struct StepFactors<E: StepEquations> {
     tangents: Vec<f64>,
     /// Springs of one building whose stiffness has changed.
     changed: Vec<usize>,
-    /// Displacements of its building under a unit push to the right on every point, where already asked for.
+    /// Displacements of its building under a unit force to the right at every point, if computed already.
     columns: Vec<Vec<f64>>,
     ready: Vec<bool>,
-    /// For links while no contact is closed.
+    /// Equations of links while no contact is closed.
     pub(super) links: LinkFactor,
 }
 
@@ -49,7 +49,7 @@ impl<E: StepEquations> StepFactors<E> {
         tangents: &[f64],
         work: &mut Work,
     ) -> Result<(), (usize, NotPositive)> {
-        // Of no use until all buildings are done.
+        // Invalid until all buildings are done.
         self.tangents.clear();
         self.coefficients = integrator.coefficients(step);
         for (index, building) in system.buildings.iter().enumerate() {
@@ -70,7 +70,7 @@ impl<E: StepEquations> StepFactors<E> {
         Ok(())
     }
 
-    /// Takes over other tangents; only what they change is factorised anew. `Err` names the building.
+    /// Updates the factors for other tangents; only changed parts are factorised again. `Err` names the building.
     pub(super) fn retune(
         &mut self,
         system: &System,
@@ -134,7 +134,7 @@ impl<E: StepEquations> StepFactors<E> {
         work.solves += system.buildings.len() as u64;
     }
 
-    /// Makes sure that the displacements under a unit force of a contact or a link are known.
+    /// Computes the displacements under a unit force of a contact or a link, if necessary.
     pub(super) fn prepare(
         &mut self,
         index: usize,
@@ -158,7 +158,8 @@ impl<E: StepEquations> StepFactors<E> {
         }
     }
 
-    /// g_cᵀ K̂⁻¹ g_d: how far a unit force of contact or link d opens c, both prepared (theory, Eq. P1) \[m/N\].
+    /// g_cᵀ K̂⁻¹ g_d: opening of c due to a unit force of contact or link d, both prepared (theory, Eq. P1)
+    /// \[m/N\].
     pub(super) fn compliance(&self, c: usize, d: usize, system: &System, joints: &Joints) -> f64 {
         let mut sum = 0.0;
         for (own, own_sign) in joints.sides[c].into_iter().zip([1.0, -1.0]) {

@@ -23,8 +23,8 @@ impl Integrator {
     }
 }
 
-/// Δv = c Δu + D′ and Δa = a Δu + B′, with D′ = d_v v + d_a a and B′ = b_v v + b_a a. What is out of balance at the
-/// start, R, weighs `unbalanced` in the step and becomes `carried`·R + `left`·M Δa at its end (theory, Eq. N4).
+/// Δv = c Δu + D′ and Δa = a Δu + B′, with D′ = d_v v + d_a a and B′ = b_v v + b_a a. The residual at the start, R,
+/// has the weight `unbalanced` in the step and becomes `carried`·R + `left`·M Δa at its end (theory, Eq. N4).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Coefficients {
     pub(crate) step: f64,
@@ -34,7 +34,7 @@ pub(crate) struct Coefficients {
     pub(crate) b_a: f64,
     pub(crate) d_v: f64,
     pub(crate) d_a: f64,
-    /// Weight of inertia beside all other forces: 1 unless equilibrium is shifted.
+    /// Weight of inertia relative to all other forces: 1 unless equilibrium is shifted.
     inertia: f64,
     pub(crate) unbalanced: f64,
     pub(crate) carried: f64,

@@ -1,4 +1,4 @@
-//! Where contacts and links act: their points, each once, and their order along the row.
+//! Points of contacts and links, each once, and their order along the row.
 
 use std::collections::BTreeMap;
 
@@ -9,13 +9,14 @@ use crate::system::System;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Joints {
     pub(super) contacts: usize,
-    /// Building and degree of freedom of every point; neighbouring gaps share those of a floor that moves as one.
+    /// Building and degree of freedom of every point; neighbouring gaps share those of a floor that moves as one
+    /// body.
     pub(super) points: Vec<(usize, usize)>,
     /// Left and right point; `None` is a wall.
     pub(super) sides: Vec<[Option<usize>; 2]>,
     /// All of them from left to right.
     pub(super) order: Vec<usize>,
-    /// For each place in that order the last place whose joint shares a building.
+    /// For each index in that order the last index whose contact or link shares a building.
     last_partner: Vec<usize>,
 }
 
@@ -77,8 +78,8 @@ impl Joints {
         index >= self.contacts
     }
 
-    /// How far apart two coupled ones of a selection, given by their places in the order from left to right, stand in
-    /// that selection at most.
+    /// Largest distance of two coupled ones within a selection, given by their indices in the order from left to
+    /// right.
     pub(super) fn reach(&self, places: &[usize]) -> usize {
         let mut reach = 0;
         for (i, &place) in places.iter().enumerate() {

@@ -1,5 +1,5 @@
-//! The loops over all displacements of a building in a step, compiled for the widest registers at hand and chosen at run
-//! time. Nothing is fused, so that the bits are the same on every processor.
+//! The loops over all displacements of a building in a step, compiled for the widest available registers and chosen
+//! at run time. Operations are not fused, so the bits are the same on every processor.
 
 use pulp::NullaryFnOnce;
 
@@ -7,7 +7,7 @@ use super::integrator::{BuildingCoefficients, Coefficients};
 use crate::simd;
 use crate::structure::Equations;
 
-/// Loads of the incremental step, but for contacts and for what is out of balance (theory, Eq. N3).
+/// Loads of the incremental step, without contacts and residual (theory, Eq. N3).
 pub(super) struct Loads<'a> {
     pub(super) equations: &'a Equations,
     pub(super) own: &'a BuildingCoefficients,
@@ -47,7 +47,7 @@ pub(super) struct Advance<'a> {
 }
 
 impl NullaryFnOnce for Advance<'_> {
-    /// Σ m Δu of what the ground drives, and Σ m Δu².
+    /// Σ m Δu of the driven masses, and Σ m Δu².
     type Output = [f64; 2];
 
     #[inline(always)]

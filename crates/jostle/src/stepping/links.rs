@@ -66,7 +66,7 @@ impl Links {
     }
 }
 
-/// The link as a contact that is always closed and may pull.
+/// The link as a contact that is always closed and may be in tension.
 pub(super) fn law_of(link: &LinkElement) -> ForceLaw {
     ForceLaw::Kelvin {
         stiffness: link.stiffness,

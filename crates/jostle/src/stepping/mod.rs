@@ -1,7 +1,7 @@
-//! Stepping: from one instant to the next, with every impact found and none counted twice.
+//! Time stepping, with event location of every impact.
 //!
-//! [`simulate()`] takes a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved alone;
-//! forces between them are found in `coupling`. A step in which a contact closes is repeated so that it ends there.
+//! [`simulate`] runs a [`crate::System`] through a [`crate::GroundMotion`]. Each building is solved separately;
+//! only `coupling` joins them. A step in which a contact closes is repeated so that it ends at first contact.
 
 mod acceleration_parts;
 mod band;

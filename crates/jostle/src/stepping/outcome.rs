@@ -1,4 +1,4 @@
-//! What a run is asked for and what it leaves behind.
+//! Settings and results of a run.
 
 use super::acceleration_parts::AccelerationParts;
 use crate::history::{
@@ -9,10 +9,10 @@ use crate::linear::NotPositive;
 use crate::state::State;
 use crate::system::{BuildingSystem, System};
 
-/// What a run should leave behind.
+/// Settings of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Whether buildings push each other or pass through each other.
+    /// Whether contact forces act.
     pub pounding: Pounding,
     /// Least time between recorded instants in free vibration, zero for every step; every step of a closed contact
     /// is recorded. `None` records no histories \[s\].
@@ -28,28 +28,28 @@ impl Default for Settings {
     }
 }
 
-/// Whether contacts push.
+/// Whether contact forces act.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pounding {
-    /// Buildings hit each other.
+    /// With contact forces.
     Included,
-    /// Buildings pass through each other; closings are still followed.
+    /// Without contact forces; closings are still computed.
     Excluded,
 }
 
-/// How far a run has come.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Time reached \[s\].
     pub time: f64,
-    /// Time to reach \[s\].
+    /// Final time \[s\].
     pub duration: f64,
 }
 
-/// Everything a run leaves behind.
+/// Results of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Time histories, if asked for.
+    /// Time histories, if requested.
     pub history: Option<History>,
     /// Impacts in the order in which they ended.
     pub impacts: Vec<Impact>,
@@ -61,67 +61,68 @@ pub struct Outcome {
     pub base_shear: Vec<f64>,
     /// Peak accelerations in parts of a direct run.
     pub(crate) acceleration_parts: AccelerationParts,
-    /// Cracks and first yields, in the order in which they came.
+    /// Cracks and first yields, in order of time.
     pub spring_events: Vec<SpringEvent>,
     /// Every spring that yields, from the left building to the right.
     pub springs: Vec<SpringTotals>,
     /// Links, in the order of the system.
     pub links: Vec<LinkTotals>,
-    /// Loops of springs that yield, if histories were asked for.
+    /// Loops of springs that yield, if histories were requested.
     pub spring_history: Option<SpringHistory>,
     /// Energies at the end.
     pub energy: Energy,
     /// Work done.
     pub work: Work,
-    /// Regular step of free vibration; `None` when the run did not begin \[s\].
+    /// Regular free-vibration step; `None` if the run did not start \[s\].
     pub free_step: Option<f64>,
     /// Smallest regular step taken in contact \[s\].
     pub contact_step: Option<f64>,
     /// State at the end.
     pub state: State,
-    /// How far reported peaks may be off, where that was estimated.
+    /// Estimated errors of reported peaks, if any.
     pub accuracy: Option<Accuracy>,
-    /// Why the run ended.
+    /// Reason for the end.
     pub end: RunEnd,
 }
 
 /// An a-posteriori estimate of the errors of reported peaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
-    /// What they may be off, relative to the greatest of their kind in the building \[–\].
+    /// Tolerance, relative to the greatest of their kind in the building \[–\].
     pub tolerance: f64,
-    /// What they are off by estimate \[–\].
+    /// Estimated error \[–\].
     pub residual: f64,
-    /// First instant at which a contact was made or missed by less than the tolerance; only modal stepping looks for it
-    /// \[s\].
+    /// First instant at which a contact was made or missed by less than the tolerance; only modal stepping computes
+    /// it \[s\].
     pub doubtful_from: Option<f64>,
-    /// Instant from which results depend on contacts made or missed within the tolerance, where
+    /// Instant from which results depend on contacts made or missed within the tolerance, if
     /// [`find_sensitivity`](super::find_sensitivity) has found one \[s\].
     pub sensitive_from: Option<f64>,
 }
 
-/// Why a run ended.
+/// Reason for the end of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RunEnd {
     /// The end of the motion was reached.
     Completed,
     /// The observer asked to stop.
     Stopped,
-    /// A step failed; what came before stands.
+    /// A step failed; earlier results are valid.
     Failed(StepError),
 }
 
-/// A step that could not be taken.
+/// A failed step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
-    /// The solver cannot do what the system or the initial state asks for; [`crate::Plan::choose`] says so beforehand.
+    /// The solver does not support the system or the initial state; [`crate::Plan::choose`] reports this
+    /// beforehand.
     #[error("this run cannot begin: {reason}")]
     Unsuited {
-        /// What it cannot do.
+        /// The unsupported feature.
         reason: String,
     },
-    /// A building offers no resistance.
+    /// A building is a mechanism.
     #[error(
         "\"{building}\" cannot be stepped at t = {time:.6} s: {source}; check its supports and stiffnesses"
     )]
@@ -133,7 +134,7 @@ pub enum StepError {
         /// Where.
         source: NotPositive,
     },
-    /// The contact forces were not found.
+    /// The contact forces did not converge.
     #[error(
         "the contact forces did not converge at t = {time:.6} s ({closed} contacts closed); a smaller contact_step may help"
     )]
@@ -143,7 +144,7 @@ pub enum StepError {
         /// Number of closed contacts.
         closed: usize,
     },
-    /// The forces of yielding springs were not found.
+    /// The forces of yielding springs did not converge.
     #[error(
         "the yielding springs of \"{building}\" did not converge at t = {time:.6} s even with the shortest steps; a smaller step or tolerance may help"
     )]
@@ -153,7 +154,7 @@ pub enum StepError {
         /// Time \[s\].
         time: f64,
     },
-    /// A storey leans beyond what any building survives.
+    /// A storey drift is beyond collapse.
     #[error(
         "\"{building}\" collapses at t = {time:.3} s: storey {storey} leans by {:.0} % of its height", 100.0 * drift
     )]
@@ -175,7 +176,7 @@ pub enum StepError {
         /// Time \[s\].
         time: f64,
     },
-    /// Contacts keep closing and opening without time passing.
+    /// Contacts close and open repeatedly without progress in time.
     #[error(
         "contacts close and open endlessly at t = {time:.6} s; a smaller contact_step or a softer contact may help"
     )]
@@ -186,7 +187,7 @@ pub enum StepError {
 }
 
 impl Outcome {
-    /// What is left behind by a run that could not begin.
+    /// Results of a run that could not start.
     pub(crate) fn not_begun(system: &System, error: StepError) -> Self {
         let floors = |building: &BuildingSystem| vec![FloorPeaks::default(); building.floors.len()];
         Self {

@@ -1,10 +1,10 @@
-//! How far the reported peaks of two runs of one system differ.
+//! Difference of the reported peaks of two runs of one system.
 
 use super::outcome::Outcome;
 use crate::history::{FloorPeaks, Impact};
 use crate::system::System;
 
-/// Weight of differences between parts of runs: larger ones than of the peaks themselves are usual.
+/// Weight of differences between parts of runs, which are usually larger than those of the peaks.
 const IN_PARTS: f64 = 0.25;
 
 /// Greatest difference of peaks, relative to the greatest of its kind in the building or gap \[–\].

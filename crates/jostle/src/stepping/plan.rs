@@ -9,28 +9,29 @@ use crate::motion::GroundMotion;
 use crate::system::{BuildingSystem, System};
 use crate::transfer::{ProductEquations, ProductRefusal};
 
-/// How a run will step.
+/// Step sizes and solver of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Step in free vibration \[s\].
+    /// Free-vibration step \[s\].
     pub step: f64,
     /// Steps while a contact is closed.
     pub contact_steps: ContactSteps,
-    /// How a step is integrated.
+    /// Time integration rule.
     pub integrator: Integrator,
-    /// Which equations.
+    /// Solver.
     pub solver: Solver,
 }
 
-/// Into how many parts a free-vibration step is divided while a contact is closed.
+/// Number of parts of a free-vibration step while a contact is closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContactSteps {
-    /// Always the same.
+    /// Constant.
     Fixed(u32),
-    /// Powers of two. An impact as strong as any before begins with at least so many steps per elastic collision at the
-    /// actual impact speed; afterwards the estimated error of the force is kept below the tolerance.
+    /// Powers of two. An impact as strong as any before starts with at least this number of steps per elastic
+    /// collision at the actual impact speed; afterwards the estimated error of the force is kept below the
+    /// tolerance.
     PerImpact {
-        /// Steps of the strongest impact \[–\].
+        /// Steps of the impact with the peak force \[–\].
         steps: f64,
         /// Estimated error, relative to the greatest force of the gap \[–\].
         tolerance: f64,
@@ -41,51 +42,51 @@ pub enum ContactSteps {
 const STEPS_PER_FIRST_PERIOD: f64 = 400.0;
 /// Free-vibration steps per third lateral period, at a tolerance of 1e-3.
 const STEPS_PER_THIRD_PERIOD: f64 = 120.0;
-/// Share of the tolerance that the response of a mode at resonance may use up as steps move its frequency.
+/// Fraction of the tolerance for the response of a mode at resonance due to frequency errors of the steps.
 const RESONANCE_SHARE: f64 = 0.5;
-/// No mode asks for shorter steps than this share of a radian, at a tolerance of 1e-3.
+/// Lower limit of the step of any mode, as a fraction of a radian, at a tolerance of 1e-3.
 const SHORTEST_OF_MODE: f64 = 0.01;
 /// Free-vibration steps per period of an analytic ground motion, at a tolerance of 1e-3.
 const STEPS_PER_MOTION_PERIOD: f64 = 100.0;
 /// Steps per elastic impact, at a tolerance of 1e-3.
 const STEPS_PER_IMPACT: f64 = 60.0;
-/// Tolerance that fixed steps stand for \[–\].
+/// Nominal tolerance of fixed steps \[–\].
 pub(super) const USUAL_TOLERANCE: f64 = 1e-3;
-/// Share of the tolerance that the force of a single impact may use up: what one impact is off, many later ones multiply.
+/// Fraction of the tolerance for the force of a single impact, because later impacts multiply its error.
 const CONTACT_SHARE: f64 = 0.1;
 const MODAL_CONTACT_SHARE: f64 = 0.05;
-/// Steps per half cycle of a contact that remain however weak it is, relative to those of an impact, and at least.
+/// Least steps per half cycle of a weak contact, relative to those of an impact, and in absolute number.
 const FEWEST_ADAPTED: f64 = 1.0 / 6.0;
 const FEWEST_OF_ALL: f64 = 4.0;
-/// How much finer steps begin where the force starts steeply.
+/// Refinement at the start of steep forces.
 const STEEP_START: f64 = 32.0;
-/// Free-vibration step where nothing else limits it \[s\].
+/// Free-vibration step without other limits \[s\].
 const LONGEST_STEP: f64 = 0.02;
-/// Fewest fixed steps per first period and per impact that still mean something.
+/// Smallest number of fixed steps per first period and per impact.
 const FEWEST_PER_PERIOD: f64 = 20.0;
 const FEWEST_PER_IMPACT: f64 = 8.0;
-/// Impact speed for judging fixed contact steps \[m/s\].
+/// Impact speed for checking fixed contact steps \[m/s\].
 const TYPICAL_SPEED: f64 = 0.5;
-/// Free-vibration steps of modal stepping, at a tolerance of 1e-3: per first and third lateral period, and per period of
-/// an analytic motion.
+/// Free-vibration steps of modal stepping, at a tolerance of 1e-3: per first and third lateral period, and per
+/// period of an analytic motion.
 const MODAL_STEPS_PER_FIRST: f64 = 20.0;
 const MODAL_STEPS_PER_THIRD: f64 = 7.5;
 const MODAL_STEPS_PER_MOTION_PERIOD: f64 = 300.0;
-/// And where nothing else limits it \[s\].
+/// Free-vibration step of modal stepping without other limits \[s\].
 const LONGEST_MODAL_STEP: f64 = 0.05;
 /// Steps per elastic impact of modal stepping, at a tolerance of 1e-3.
 const MODAL_STEPS_PER_IMPACT: f64 = 36.0;
-/// And per half cycle of a contact however weak it is, relative to these.
+/// Least steps per half cycle of a weak contact, relative to these.
 const MODAL_FEWEST_ADAPTED: f64 = 0.7;
 /// Finest division of a free-vibration step.
 const FINEST: u32 = 1 << 20;
 
 impl Plan {
-    /// Chooses the steps for a system and a motion, and the solver where none is asked for.
+    /// Chooses the steps for a system and a motion, and the solver if none is named.
     ///
     /// # Errors
-    /// A solver that cannot step the system; a fixed step that cannot resolve the first period, the record or an
-    /// impact; more work than [`Analysis::most_work`].
+    /// A solver that does not support the system; a fixed step that cannot resolve the first period, the record or
+    /// an impact; more work than [`Analysis::most_work`].
     pub fn choose(
         system: &System,
         motion: &GroundMotion,
@@ -142,7 +143,7 @@ impl Plan {
         }
     }
 
-    /// What reported peaks may be off, relative to the greatest of their kind; 1e-3 where contact steps are fixed \[–\].
+    /// Tolerance of reported peaks, relative to the greatest of their kind; 1e-3 with fixed contact steps \[–\].
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         match self.contact_steps {
@@ -154,7 +155,7 @@ impl Plan {
         }
     }
 
-    /// Whether the step of free vibration is the one that the tolerance asks for, rather than one that was given.
+    /// Whether the free-vibration step follows from the tolerance and was not given.
     pub(super) fn is_automatic(&self, system: &System, motion: &GroundMotion) -> bool {
         let refinement = (self.tolerance() / 1e-3).sqrt();
         self.chooses_contact_steps() && {
@@ -163,8 +164,8 @@ impl Plan {
         }
     }
 
-    /// The same plan with steps shorter by about this factor, in free vibration and in contact; longer ones for less than 1.
-    /// Steps go on landing on the points of a record.
+    /// The same plan with free-vibration and contact steps shorter by about this factor, or longer for factors
+    /// below 1. Steps still end on the points of a record.
     pub(super) fn refined(&self, factor: f64, motion: &GroundMotion) -> Self {
         let step = self.step / factor;
         let step = match motion.step() {
@@ -174,7 +175,8 @@ impl Plan {
         self.with_step(Some(step))
     }
 
-    /// The same plan with another step of free vibration, and steps in contact to match, whose error falls with its square.
+    /// The same plan with another free-vibration step and matching contact steps, whose error falls with its
+    /// square.
     pub(super) fn with_step(&self, step: Option<f64>) -> Self {
         let step = step.unwrap_or(self.step);
         let factor = self.step / step;
@@ -198,8 +200,8 @@ impl Plan {
         }
     }
 
-    /// How far peaks may be off because average acceleration slows every mode down; `None` where buildings yield, whose
-    /// modes change, or another integrator is asked for \[–\].
+    /// Estimated error of peaks due to the period elongation of average acceleration; `None` for yielding
+    /// buildings, whose modes change, or for another integrator \[–\].
     #[must_use]
     pub(crate) fn frequency_error(&self, system: &System, motion: &GroundMotion) -> Option<f64> {
         let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
@@ -213,7 +215,7 @@ impl Plan {
         })
     }
 
-    /// The shortest step to expect: after a typical impact, back to the grid \[s\].
+    /// The shortest expected step: after a typical impact, back to the grid \[s\].
     #[must_use]
     pub fn shortest_step(&self, system: &System) -> f64 {
         let finest = system
@@ -224,8 +226,8 @@ impl Plan {
         finest.map_or(self.step, |division| 0.25 * self.step / f64::from(division))
     }
 
-    /// Whether the chosen solver keeps enough digits for every step to expect (theory, Eq. R0). Only the product
-    /// of transfer matrices can fail.
+    /// Whether the chosen solver keeps enough digits for every expected step (theory, Eq. R0). Only the product of
+    /// transfer matrices can fail.
     ///
     /// # Errors
     /// [`ProductRefusal`], with the building and the remedy.
@@ -240,9 +242,9 @@ impl Plan {
             .try_for_each(|building| ProductEquations::check_step(building, self.integrator, step))
     }
 
-    /// The division with which a contact that closes at `impact_speed` \[m/s\] begins, when the force to expect is this
-    /// share of the greatest of its gap: errors count relative to the latter, and fall with the square of the step, or with
-    /// its fourth power in modal stepping.
+    /// The first division of a contact that closes at `impact_speed` \[m/s\], if the expected force is this
+    /// fraction of the greatest of its gap: errors count relative to the latter, and fall with the square of the
+    /// step, or with its fourth power in modal stepping.
     #[must_use]
     pub fn first_division(&self, contact: &Contact, impact_speed: f64, share: f64) -> u32 {
         match self.contact_steps {
@@ -268,7 +270,7 @@ impl Plan {
         }
     }
 
-    /// Steps per half cycle of a contact that remain however weak it is.
+    /// Least steps per half cycle of a weak contact.
     fn fewest_in_contact(&self, steps: f64) -> f64 {
         if self.solver == Solver::Modal {
             MODAL_FEWEST_ADAPTED * steps
@@ -277,7 +279,7 @@ impl Plan {
         }
     }
 
-    /// Whether steps in contact are chosen as it goes on, rather than given.
+    /// Whether contact steps are automatic.
     #[must_use]
     pub(crate) fn chooses_contact_steps(&self) -> bool {
         matches!(self.contact_steps, ContactSteps::PerImpact { .. })
@@ -289,13 +291,14 @@ impl Plan {
         (2 * division).min(FINEST)
     }
 
-    /// Whether steps of this division hardly see a contact stiffness F′ \[N/m\], and finer ones are to be had.
+    /// Whether steps of this division are too coarse to resolve a contact stiffness F′ \[N/m\], and a finer
+    /// division exists.
     #[must_use]
     pub(crate) fn is_too_coarse(&self, division: u32, contact: &Contact, slope: f64) -> bool {
         slope > 0.0 && division < self.coarsest(contact, slope)
     }
 
-    /// The coarsest division worth having at a contact stiffness F′ \[N/m\]: steps must still see it.
+    /// The coarsest division that resolves a contact stiffness F′ \[N/m\].
     fn coarsest(&self, contact: &Contact, slope: f64) -> u32 {
         let ContactSteps::PerImpact { steps, .. } = self.contact_steps else {
             return 1;
@@ -326,8 +329,8 @@ impl Plan {
     }
 }
 
-/// The solver asked for, or the quickest that keeps the tolerance. Who gives steps means those of Riccati's recursion;
-/// damping in all modes is for modal stepping alone.
+/// The named solver, or the fastest one that meets the tolerance. Fixed steps imply the Riccati solver; damping in
+/// all modes requires modal stepping.
 fn solver_for(system: &System, analysis: &Analysis) -> Solver {
     let usual = || {
         let automatic = analysis.step.is_none() && analysis.contact_step.is_none();
@@ -343,7 +346,7 @@ fn solver_for(system: &System, analysis: &Analysis) -> Solver {
     analysis.solver.unwrap_or_else(usual)
 }
 
-/// What the solver cannot do.
+/// The unsupported feature of the solver.
 fn check_solver(
     solver: Solver,
     system: &System,
@@ -373,7 +376,7 @@ fn check_solver(
     }
 }
 
-/// The free-vibration step in modal coordinates, where only the search for touches and peaks needs any: cubics must follow
+/// The free-vibration step of modal stepping. Only the search for contacts and peaks needs it: cubics must follow
 /// the third mode.
 fn modal_step(system: &System, motion: &GroundMotion, refinement: f64) -> f64 {
     // Cubics are of fourth order.
@@ -386,7 +389,7 @@ fn modal_step(system: &System, motion: &GroundMotion, refinement: f64) -> f64 {
         }
     }
     if let Some(period) = motion.period() {
-        // Loads are straight over a step, which is of second order.
+        // Loads are linear over a step, which is of second order.
         step = step.min(refinement * refinement * period / MODAL_STEPS_PER_MOTION_PERIOD);
     }
     match motion.step() {
@@ -414,7 +417,7 @@ fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f6
     if let Some(period) = motion.period() {
         step = step.min(refinement * period / STEPS_PER_MOTION_PERIOD);
     }
-    // Average acceleration moves every frequency by (ωh)²/12.
+    // Average acceleration changes every frequency by (ωh)²/12.
     for building in &system.buildings {
         if !building.equations.springs.is_empty() {
             continue;
@@ -424,7 +427,7 @@ fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f6
             step = step.min(refinement * most.sqrt().max(SHORTEST_OF_MODE / omega));
         }
     }
-    // Steps must land on the points of a record, where its slope changes.
+    // Steps must end on the points of a record, where its slope changes.
     match motion.step() {
         Some(record_step) => record_step / (record_step / step - 1e-9).ceil().max(1.0),
         None => step,
@@ -432,7 +435,8 @@ fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f6
 }
 
 /// Of every lateral mode: error of its share of the response per squared step, and its circular frequency. Average
-/// acceleration moves a frequency by (ωh)²/12; at resonance that counts 1/(2ζ) times, if the motion lasts for so many cycles.
+/// acceleration changes a frequency by (ωh)²/12; at resonance this counts 1/(2ζ) times, if the motion has enough
+/// cycles.
 fn frequency_errors<'a>(
     building: &'a BuildingSystem,
     motion: &GroundMotion,

@@ -7,7 +7,7 @@ use crate::history::{Column, Energy, EnergyTerm, Extreme, FloorPeaks, History, S
 use crate::state::{ContactPhase, State};
 use crate::system::System;
 
-/// Takes histories and peaks.
+/// Recorder of histories and peaks.
 pub(crate) struct Recorder {
     history: Option<History>,
     /// Loops of springs that yield, row by row with the history.
@@ -18,7 +18,7 @@ pub(crate) struct Recorder {
     pub(crate) closing: Vec<Extreme>,
     pub(crate) base_shear: Vec<f64>,
     pub(crate) parts: AccelerationParts,
-    /// Displacement and velocity of every floor, and closing and rate of every contact, a step ago.
+    /// Displacement and velocity of every floor, and closing and rate of every contact, at the start of the step.
     before: Vec<(f64, f64)>,
 }
 
@@ -52,7 +52,8 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
 }
 
 impl Recorder {
-    /// Records histories at least `interval` apart, every step for zero; `None` only takes peaks. The run takes `duration`.
+    /// Records histories at least `interval` apart, every step for zero; `None` records only peaks. The run lasts
+    /// `duration`.
     pub(crate) fn new(system: &System, duration: f64, interval: Option<f64>) -> Self {
         let buildings = system.buildings.iter();
         let floors: usize = buildings.map(|building| building.floors.len()).sum();
@@ -94,7 +95,7 @@ impl Recorder {
         self.history
     }
 
-    /// Remembers the tracked motions at the start of a step.
+    /// Stores the tracked motions at the start of a step.
     pub(crate) fn before_step(&mut self, system: &System, state: &State) {
         self.before.clear();
         let (u, v) = (&state.displacement, &state.velocity);

@@ -1,5 +1,5 @@
-//! What a change of the gaps much smaller than the tolerance does to a run: whether its results depend on a contact that is
-//! just made or just missed.
+//! Effect of a change of the gaps much smaller than the tolerance: whether results depend on a contact just made or
+//! just missed.
 
 use std::ops::ControlFlow;
 
@@ -11,27 +11,28 @@ use crate::interface::Contact;
 use crate::motion::GroundMotion;
 use crate::system::{BuildingSystem, System};
 
-/// By how much gaps are changed, in tolerances of their greatest closing.
+/// Change of gaps, in tolerances of their greatest closing.
 const CHANGE: f64 = 0.1;
 
-/// By how much the gap of a contact that was just missed is narrowed, in tolerances of its greatest closing.
+/// Reduction of the gap of a contact just missed, in tolerances of its greatest closing.
 const NARROWER: f64 = 1.0;
 
-/// Share of the displacements of struck floors that counts like a closing: the closing of a gap of no width stays small.
+/// Fraction of the displacements of contact floors that counts as closing, since the closing of a gap of zero width
+/// stays small.
 const SWAY: f64 = 0.1;
 
-/// Most impacts that are trusted not to multiply small errors.
+/// Number of impacts above which small errors may multiply.
 const FEW_IMPACTS: usize = 12;
 
-/// Finds the instant from which the answers of a run hang on contacts made or missed within the tolerance, and notes it in
-/// the outcome.
+/// Finds the instant from which results of a run depend on contacts made or missed within the tolerance, and stores
+/// it in the outcome.
 ///
-/// Each gap is made wider by a tenth of the tolerance of its greatest closing, or of a tenth of the displacement of the
-/// struck floors where that is more, and the run is repeated. If reported peaks
-/// change by more than the tolerance, relative to the greatest of their kind in the building or gap, the runs part at the
-/// first impact that differs by as much. Where a contact stays open and its closing comes within the tolerance of the gap,
-/// the gap is made narrower by that much instead, so that the contact is made. Other runs with a dozen impacts at most, none of them in doubt, are not repeated; nor
-/// are those of buildings that yield.
+/// Each gap is made wider by a tenth of the tolerance of its greatest closing, or of a tenth of the displacement of
+/// the contact floors if that is more, and the run is repeated. If reported peaks change by more than the
+/// tolerance, relative to the greatest of their kind in the building or gap, the first impact that differs by as
+/// much gives the instant. If a contact stays open and its closing is within the tolerance of the gap, the gap is
+/// made narrower instead, so that the contact is made. Other runs with at most twelve impacts, none of them
+/// doubtful, are not repeated; nor are those of buildings that yield.
 pub fn find_sensitivity(
     system: &System,
     motion: &GroundMotion,
@@ -97,7 +98,7 @@ fn sensitive_from(
     parted.or(doubtful).or(first.min_by(f64::total_cmp))
 }
 
-/// Greatest displacement of the floors that meet at a contact, or of their buildings where it lies between floors \[m\].
+/// Greatest displacement of the floors of a contact, or of their buildings if it lies between floors \[m\].
 fn greatest_displacement(contact: &Contact, outcome: &Outcome) -> f64 {
     let sides = contact.ports.buildings().into_iter();
     let sides = sides.zip(contact.ports.floors());
@@ -123,7 +124,8 @@ fn nearly_touches(system: &System, outcome: &Outcome, contact: usize, tolerance:
         && (width - closing).abs() < tolerance * width.max(closing)
 }
 
-/// When the first impacts of a contact differ in force or impulse by more than the tolerance of the greatest of its gap.
+/// Instant at which impacts of a contact first differ in force or impulse by more than the tolerance of the
+/// greatest of its gap.
 fn parted_at(
     system: &System,
     [a, b]: [&Outcome; 2],

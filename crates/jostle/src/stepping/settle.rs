@@ -1,17 +1,17 @@
-//! Contact forces where Newton's method finds none: one contact after the other, each by bisection.
+//! Contact forces if Newton's method fails: one contact after the other, each by bisection.
 
 use super::coupling::{Closed, ContactEquations};
 
 /// Rounds over all contacts.
 const ROUNDS: u64 = 4000;
-/// Change of the forces, relative to the greatest, after which they have settled.
+/// Change of the forces, relative to the greatest, at convergence.
 const SETTLED: f64 = 1e-13;
 
 impl ContactEquations {
-    /// Solves δ + W f(δ, δ̇) = δ_free contact by contact, round after round. This is the descent of a strictly convex
-    /// function along its coordinates, so it converges, if slowly. Where a force jumps, as that of a dashpot at
-    /// δ = 0, the solution may lie on the jump: the force is then what equilibrium asks for, between both ends.
-    /// Returns the rounds.
+    /// Solves δ + W f(δ, δ̇) = δ_free contact by contact, round after round. This is coordinate descent on a
+    /// strictly convex function, so it converges, though slowly. If a force jumps, as that of a dashpot at δ = 0,
+    /// the solution may lie on the jump: equilibrium then determines the force, between both ends. Returns the
+    /// rounds.
     pub(super) fn settle(&mut self) -> Option<u64> {
         let n = self.closed.len();
         for closed in &mut self.closed {
@@ -41,7 +41,7 @@ impl ContactEquations {
     }
 }
 
-/// The zero of δ + w F(δ) − (δ_free − others), which rises with δ.
+/// The zero of δ + w F(δ) − (δ_free − others), which increases with δ.
 fn settle_one(closed: &mut Closed, own_compliance: f64, opened_by_others: f64) {
     let free = closed.free - opened_by_others;
     let force = |indentation: f64| {
@@ -115,7 +115,7 @@ mod tests {
         }
     }
 
-    /// A dashpot that does not pull pushes with any force up to c δ̇ at δ = 0; none of the two ends is a solution.
+    /// A dashpot without tension may have any force up to c δ̇ at δ = 0; neither end is a solution.
     #[test]
     fn a_solution_on_a_jump_is_found() {
         let law = ForceLaw::Kelvin {
@@ -123,7 +123,7 @@ mod tests {
             damping: 4e6,
             tension: false,
         };
-        // Without force it would be 1 µm in and still closing; the full dashpot would throw it out.
+        // Without force the indentation would be 1 µm and closing; the full dashpot force would open the contact.
         let mut equations = ContactEquations::default();
         equations.closed = vec![closed(law, 0, 1e-6, 0.4)];
         equations.compliance.reset(1, 0);

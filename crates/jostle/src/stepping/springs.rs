@@ -1,8 +1,8 @@
 //! Springs that yield: the outer iteration of a step (theory, Eqs. Y1 to Y3).
 //!
-//! Every spring is a straight line near its last known point, m = m_r + k_t (δ − δ_r). The step is solved, contacts
+//! Every spring is linear near its last known point, m = m_r + k_t (δ − δ_r). The step is solved, contacts
 //! included, and repeated with the lines at the new deformations until every spring lies on the line it was solved
-//! with. Forces rise with deformation, so that the step has one solution; lines are finite in number, so that it is
+//! with. Forces increase with deformation, so the step has one solution; the number of lines is finite, so it is
 //! reached exactly.
 
 use super::direct::Direct;
@@ -14,7 +14,7 @@ use crate::state::State;
 use crate::structure::StepEquations;
 use crate::system::{BuildingSystem, System};
 
-/// A spring in the tried step.
+/// A spring in the trial step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SpringTrial {
     /// Start of the line: deformation and force.
@@ -25,7 +25,7 @@ pub(super) struct SpringTrial {
     rate_term: f64,
     /// Force with which the solution before was balanced there.
     balance: f64,
-    /// What the solution made of it: deformation, force on the line, and the answer of the rule.
+    /// Result of the solution: deformation, force on the line, and response of the rule.
     reached: f64,
     on_line: f64,
     answer: f64,
@@ -33,27 +33,27 @@ pub(super) struct SpringTrial {
 }
 
 impl SpringTrial {
-    /// How far the rule is from the line, as a share of the force of yield.
+    /// Difference of the rule from the line, as a fraction of the yield force.
     fn misfit(&self, yield_force: f64) -> f64 {
         (self.answer - self.on_line).abs() / yield_force.max(self.answer.abs())
     }
 
-    /// Whether it is on the line but for rounding.
+    /// Whether it is on the line within rounding.
     fn fits(&self, yield_force: f64) -> bool {
         let apart = (self.answer - self.on_line).abs();
         apart <= FIT * yield_force || apart <= FIT * self.answer.abs()
     }
 }
 
-/// Everything a run keeps about its springs that yield.
+/// Data of a run about its yielding springs.
 #[derive(Clone, Debug, Default)]
 pub(super) struct YieldingSprings {
     pub(super) trials: Vec<SpringTrial>,
-    /// Slopes on which the springs went on after the last step.
+    /// Slopes of the springs after the last step.
     pub(super) tangents: Vec<f64>,
-    /// Those of the lines now tried.
+    /// Slopes of the current trial lines.
     wanted: Vec<f64>,
-    /// Forces with which the last step was balanced; the rules' own differ by rounding.
+    /// Forces with which the last step was balanced; those of the rules differ by rounding.
     balanced: Vec<f64>,
     /// Loads of the step without springs.
     loads: Vec<f64>,
@@ -101,13 +101,13 @@ impl YieldingSprings {
     }
 }
 
-/// Share of the force of yield by which a spring may miss the line it was solved with.
+/// Tolerance of a spring on its line, as a fraction of the yield force.
 const FIT: f64 = 1e-12;
-/// Iterations before the direction of Newton's method is searched for the best point on it.
+/// Number of iterations before a line search.
 const PLAIN_ITERATIONS: usize = 8;
-/// Iterations before the step is given up.
+/// Largest number of iterations.
 const MOST_ITERATIONS: usize = 30;
-/// Bisections of the way.
+/// Bisections of the line search.
 const HALVINGS: usize = 12;
 
 impl<E: StepEquations> Direct<E> {

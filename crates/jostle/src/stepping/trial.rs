@@ -1,4 +1,4 @@
-//! A step tried but not yet taken.
+//! A trial step.
 
 use super::clock::Clock;
 use super::coupling::Closed;

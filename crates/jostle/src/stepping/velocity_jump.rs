@@ -1,4 +1,4 @@
-//! Sudden changes of velocity: what the momentum law does to two buildings (docs/contact.md, N1 and N2).
+//! Sudden changes of velocity under the momentum law (docs/contact.md, N1 and N2).
 
 use super::direct::Direct;
 use super::runner::{Jump, RunState};
@@ -15,9 +15,9 @@ pub(super) struct JumpFactor<E: StepEquations> {
     mass_factor: f64,
 }
 
-/// How much larger G M is than the rest.
+/// Ratio of G M to the other terms.
 const HEAVY: f64 = 1e13;
-/// s: what is slower than this does not matter at a sudden change \[1/s\].
+/// s: slower processes have no effect on a sudden change \[1/s\].
 const SUDDEN: f64 = 1e9;
 
 impl<E: StepEquations> JumpFactor<E> {
@@ -48,7 +48,7 @@ impl<E: StepEquations> JumpFactor<E> {
             })
     }
 
-    /// Lets massless degrees of freedom follow a change of the massive ones.
+    /// Changes massless degrees of freedom with the massive ones.
     fn follow(&self, equations: &E, mass: &[f64], change: &mut [f64], load: &mut [f64]) {
         for ((load, mass), change) in load.iter_mut().zip(mass).zip(change.iter()) {
             *load = self.mass_factor * mass * change;
@@ -62,7 +62,7 @@ impl<E: StepEquations> JumpFactor<E> {
     }
 }
 
-/// Room for the changes of one building.
+/// Scratch vector for the changes of one building.
 #[derive(Clone, Debug, Default)]
 pub(super) struct JumpScratch {
     velocity: Vec<f64>,

@@ -11,29 +11,30 @@ use crate::state::State;
 use crate::structure::StepEquations;
 use crate::system::System;
 
-/// Refinements before the error that is left is reported.
+/// Largest number of refinements.
 const MOST_REFINEMENTS: u64 = 4;
 /// Margin of the measured error: errors of single peaks fall less regularly than the square of the step.
 const MARGIN: f64 = 1.5;
-/// Share of the tolerance at which refined steps aim.
+/// Fraction of the tolerance that refined steps aim at.
 const AIM: f64 = 0.5;
 /// Least and greatest factors by which steps are refined at a time.
 const REFINEMENT: [f64; 2] = [1.4, 3.0];
-/// Runs do not converge where a refinement leaves more than this share of the error.
+/// Fraction of the error that may remain after a refinement; otherwise refinement stops.
 const LEFT_OVER: f64 = 0.8;
 
-/// Share of the lost energy that may have gone into a peak, as a factor of its motion.
+/// Weight of the energy imbalance in the error of a peak.
 const LOST: f64 = 0.25;
 
-/// What rounding adds to the error: motions that hold the energy which is unaccounted for, relative to all motion \[–\].
+/// Contribution of rounding to the error: motion with the energy of the imbalance, relative to all motion \[–\].
 ///
-/// Steps balance their energy exactly, apart from rounding. Very short steps lose digits, and two of them may lose the same.
+/// Steps balance their energy exactly, apart from rounding. Very short steps lose digits, and two of them may lose
+/// them alike.
 fn rounding(outcome: &Outcome) -> f64 {
     LOST * outcome.energy.imbalance().sqrt()
 }
 
-/// Runs an elastic system with automatic steps twice, the second time with steps half as long, and goes on refining them
-/// while the error of the finer run exceeds the tolerance. Other systems run once.
+/// Runs an elastic system with automatic steps twice, the second time with steps half as long, and refines them
+/// further while the error of the finer run exceeds the tolerance. Other systems run once.
 ///
 /// Average acceleration is of second order: where steps shrink by the factor r, the error of the finer run is the difference
 /// of both over r² − 1 (L. F. Richardson, 1911, Phil. Trans. R. Soc. A 210, 307–357).
@@ -69,7 +70,7 @@ pub(super) fn within_tolerance<E: StepEquations>(
         let mut outcome = run(&fine);
         outcome.work.repeated_runs = refinements;
         if outcome.end != RunEnd::Completed {
-            // A refinement that was stopped or failed must not cost the run before it.
+            // If a refinement is stopped or fails, the previous run is kept.
             return if refinements > 0 { before } else { outcome };
         }
         let ratio = coarse.step / fine.step;

@@ -1,4 +1,4 @@
-//! The few shapes in which an elastic building answers the ground and its contacts (theory, Eqs. Q3 and Q4).
+//! The reduced basis of an elastic building for ground motion and contact forces (theory, Eqs. Q3 and Q4).
 
 use super::defects;
 use super::span::{RitzModes, Span};
@@ -9,37 +9,37 @@ use crate::structure::Equations;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::rates::{PerRate, RATES, RateFactors};
 
-/// Ritz modes of one building: natural modes as far as they matter in time, and beyond them what makes its
-/// flexibility at the contacts and under the ground motion exact.
+/// Ritz modes of one building: the lateral natural modes, and further vectors that make its flexibility at the
+/// contacts and under the ground motion exact.
 pub(super) struct Basis {
     pub(super) modes: RitzModes,
-    /// Whether these are all natural modes there are.
+    /// Whether these are all natural modes.
     pub(super) is_complete: bool,
-    /// Factorisations and solutions it took.
+    /// Factorisations and solutions for its computation.
     pub(super) factorizations: u64,
     pub(super) solves: u64,
 }
 
-/// Where and how closely the basis has to agree with the building.
+/// Points and tolerance of the comparison of basis and building.
 pub(super) struct Demand<'a> {
     /// Degrees of freedom of the building that contacts push.
     pub(super) ports: &'a [usize],
     /// Degrees of freedom of its floors.
     pub(super) floors: &'a [usize],
-    /// Rates s ≥ 0 at which the flexibilities gᵀ(K + s²M)⁻¹g are met exactly; the last is that of further vectors
+    /// Rates s ≥ 0 at which the flexibilities gᵀ(K + s²M)⁻¹g are exact; the last is that of further vectors
     /// \[1/s\].
     pub(super) met: &'a [f64],
-    /// Rates at which they are compared, the hardest to meet first; with those above no more than [`RATES`].
+    /// Rates at which they are compared, the most critical first; together with those above at most [`RATES`].
     pub(super) compared: &'a [f64],
-    /// By how much they may differ there, relative; ten times as much at floors that are not pushed \[–\].
+    /// Admissible relative difference there; ten times as much at floors without contact force \[–\].
     pub(super) tolerance: f64,
 }
 
 impl Basis {
-    /// The lateral modes of the building, and its answers to the ground and to every contact at the rates asked for; as
-    /// long as the building and its reduction can be told apart, further Krylov vectors of the last of these
-    /// answers (E. L. Wilson, M.-W. Yuan, J. M. Dickens, 1982, Earthq. Eng. Struct. Dyn. 10, 813–821; several rates
-    /// as in rational interpolation, E. J. Grimme, 1997).
+    /// The lateral modes of the building, and its responses to the ground motion and to every contact at the given
+    /// rates; as long as building and basis differ by more than the tolerance, further Krylov vectors of the last
+    /// of these responses (E. L. Wilson, M.-W. Yuan, J. M. Dickens, 1982, Earthq. Eng. Struct. Dyn. 10, 813–821;
+    /// several rates as in rational interpolation, E. J. Grimme, 1997).
     ///
     /// # Errors
     /// [`NotPositive`] when the building can move without deforming.
@@ -79,7 +79,7 @@ impl Basis {
         })
     }
 
-    /// The same with what these modes miss added to the span; all natural modes where that is hardly fewer.
+    /// The same with the defects of these modes added to the span; all natural modes if their number is similar.
     ///
     /// # Errors
     /// [`NotPositive`] as for [`Basis::of`].
@@ -132,7 +132,7 @@ impl Basis {
     }
 }
 
-/// Most masses of a building all of whose modes are kept without asking: they cost less than finding out which matter.
+/// Number of masses up to which all modes are used: this costs less than a reduced basis.
 const ALL_MODES: usize = 40;
 
 /// Degrees of freedom with mass.
@@ -141,16 +141,17 @@ fn massive(building: &BuildingSystem) -> impl Iterator<Item = usize> + '_ {
     masses.filter(|(_, mass)| **mass > 0.0).map(|(dof, _)| dof)
 }
 
-/// Answers of the building itself, to compare with.
+/// Responses of the full building, for comparison.
 struct Wanted {
     rate: f64,
-    /// Displacements of the floors, and of the face itself, under the ground and under a push on every face.
+    /// Displacements of the floors, and of the contact point itself, under ground motion and under a force at every
+    /// contact.
     answers: Vec<Vec<f64>>,
 }
 
-/// How much further off floors may be that are not pushed.
+/// Factor of the tolerance at floors without contact force.
 const FLOOR_SHARE: f64 = 10.0;
-/// Floors that answer with less than this share of the others do not count.
+/// Floors with less than this fraction of the response of the others do not count.
 const QUIET: f64 = 1e-2;
 
 struct Growing<'a> {
@@ -168,7 +169,7 @@ struct Growing<'a> {
 impl<'a> Growing<'a> {
     fn of(building: &'a BuildingSystem, demand: &'a Demand<'a>) -> Result<Self, NotPositive> {
         let sweep = &*building.sweep;
-        // Rates that are met come first; what is left of the lanes repeats them.
+        // Matched rates come first; the remaining lanes repeat them.
         let asked = || demand.met.iter().chain(demand.compared).copied();
         let mut rates = [0.0; RATES];
         for (lane, rate) in rates.iter_mut().zip(asked().chain(asked().cycle())) {
@@ -224,7 +225,7 @@ impl<'a> Growing<'a> {
         })
     }
 
-    /// One block more; false when there is nothing left to find.
+    /// Adds a block of vectors; false if there is no new vector.
     fn extend(&mut self) -> bool {
         let last_rate = self.factors.only(self.demand.met.len().saturating_sub(1));
         let answers = answers_to_inertia(
@@ -240,7 +241,7 @@ impl<'a> Growing<'a> {
         self.span.vectors.len() > self.last_block
     }
 
-    /// Whether answers within the vectors are those of the building.
+    /// Whether the responses in the basis agree with those of the building.
     fn is_close(&self) -> Result<bool, NotPositive> {
         let shown =
             |place: &usize| -> Vec<f64> { self.span.vectors.iter().map(|v| v[*place]).collect() };
@@ -258,7 +259,7 @@ impl<'a> Growing<'a> {
             let close = of_loads.all(|(((got, load), own), wanted)| {
                 let sizes = wanted.iter().map(|answer| answer.abs());
                 let quiet = QUIET * sizes.fold(0.0, f64::max);
-                // The face itself comes last, and is to be met more closely.
+                // The contact point itself comes last, with a smaller tolerance.
                 let floors = floors.iter().map(|shown| (shown, FLOOR_SHARE));
                 let mut places = floors.chain(own.map(|_| (load, 1.0))).zip(wanted);
                 places.all(|((shown, share), wanted)| {
@@ -308,7 +309,7 @@ fn answers_to_inertia(
     found
 }
 
-/// A rate at which stiffness does not count beside inertia \[1/s\].
+/// A rate at which stiffness is negligible compared with inertia \[1/s\].
 pub(super) fn at_once(equations: &Equations) -> f64 {
     let stiffest = equations
         .mass
@@ -320,7 +321,7 @@ pub(super) fn at_once(equations: &Equations) -> f64 {
     (1e13 * stiffest).sqrt()
 }
 
-/// The face that every load pushes: none for the ground, then one after the other.
+/// The contact point of every load: none for the ground motion, then one after the other.
 fn loaded<'a>(demand: &Demand<'a>) -> impl Iterator<Item = Option<&'a usize>> + use<'a> {
     std::iter::once(None).chain(demand.ports.iter().map(Some))
 }

@@ -1,15 +1,15 @@
-//! What damping takes from modes over a step.
+//! Energy dissipated by damping of modes over a step.
 
 use pulp::NullaryFnOnce;
 
 use super::response::{INPUTS, PRODUCTS, Response, Responses, most_radians};
 use super::series::radians;
 
-/// Below so many radians over a step four points of Gauss' rule have all digits, and up to so many twelve.
+/// Radians over a step below which four points of Gauss' rule are exact to rounding, and below which twelve are.
 const FEW_POINTS: f64 = 0.4;
 const MANY_POINTS: f64 = 6.0;
 
-/// Gauss' rules for the energy that damping takes.
+/// Gauss' rules for the dissipated energy.
 pub(super) struct Rules {
     few: Vec<(f64, f64)>,
     many: Vec<(f64, f64)>,
@@ -24,9 +24,9 @@ impl Rules {
     }
 }
 
-/// d ∫ q̇² dt over a step as a quadratic form in (q₀, q̇₀, p₀, p₁, b), mode by mode: upper triangle row by row, what stands
-/// off the diagonal twice. By quadrature, so that the energy balance is a check; where a mode turns or dies too quickly for
-/// that, as what its load puts in and its energy does not keep.
+/// d ∫ q̇² dt over a step as a quadratic form in (q₀, q̇₀, p₀, p₁, b), mode by mode: upper triangle row by row,
+/// off-diagonal entries doubled. Computed by quadrature, so that the energy balance is a check; for modes too fast
+/// for that, as work of the load minus change of energy.
 pub(super) struct Damped<'a, const N: usize> {
     pub(super) damping: [f64; N],
     pub(super) stiffness: [f64; N],
@@ -82,7 +82,7 @@ fn by_quadrature<const N: usize>(
     let mut form = [[0.0; N]; PRODUCTS];
     for &(at, weight) in rule {
         let mut row = Responses::velocities_over(damping, stiffness, at * step);
-        // The load until that instant: another line, with a lesser bend.
+        // The load until that instant: another line, with a smaller curvature.
         for i in 0..N {
             let (first, second, bent) = (row[2][i], row[3][i], row[4][i]);
             row[2][i] = first + second * (1.0 - at);
@@ -103,7 +103,7 @@ fn by_quadrature<const N: usize>(
     form
 }
 
-/// What the load of a mode puts in and its energy does not keep.
+/// Work of the load of a mode minus its change of energy.
 fn damped_by_balance(
     damping: f64,
     stiffness: f64,
@@ -126,7 +126,7 @@ fn damped_by_balance(
     };
     let unit = |at: usize| std::array::from_fn(|i| if i == at { 1.0 } else { 0.0 });
     let [q0, v0, p0, p1] = [0, 1, 2, 3].map(unit);
-    // ∫p q̇ dt by parts, the slope of the load being that of the line and 2τ − 1 of the bend.
+    // ∫p q̇ dt by parts, where the slope of the load is that of the line plus 2τ − 1 times b.
     let slope = [0.0, 0.0, -1.0, 1.0, -1.0].map(|share| share / step);
     let bend = [0.0, 0.0, 0.0, 0.0, 2.0 / step];
     add(1.0, &p1, &response.displacement);

@@ -1,8 +1,8 @@
-//! What the shapes of a building miss: the residual of every Ritz mode, as the displacement it causes.
+//! Defects of the shapes of a building: the residual of every Ritz mode, as the displacement it causes.
 //!
-//! Let θ = ω² and φ be a Ritz pair, r = Kφ − θMφ its residual. As the shapes contain the static answers to all loads, the
-//! residual of a motion Σ φ q in the equations of the whole building is −Σ (r/θ)(q̈ + α q̇): it is driven by modal
-//! accelerations, and vanishes for natural modes (theory, Eq. Q7).
+//! Let θ = ω² and φ be a Ritz pair, r = Kφ − θMφ its residual. Since the shapes contain the static response to all
+//! loads, the residual of a motion Σ φ q in the equations of the full building is −Σ (r/θ)(q̈ + α q̇): it is driven
+//! by modal accelerations, and vanishes for natural modes (theory, Eq. Q7).
 
 use super::reduced::forces_of;
 use super::span::RitzModes;
@@ -10,16 +10,16 @@ use crate::linear::NotPositive;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::rates::RATES;
 
-/// What every Ritz mode of a building misses at some places, for a unit modal acceleration.
+/// Defects of every Ritz mode of a building at some points, for a unit modal acceleration.
 pub(super) struct Defects {
-    /// d = (K + s²M)⁻¹ r/θ at a rate s near ω, at every place mode by mode, then its base shear, the shears of storeys and
-    /// their overturning moments \[s²·kg^−½, N·s²·m⁻¹·kg^−½\].
+    /// d = (K + s²M)⁻¹ r/θ at a rate s near ω, at every point mode by mode, then its base shear, the shears of
+    /// storeys and their overturning moments \[s²·kg^−½, N·s²·m⁻¹·kg^−½\].
     pub(super) rows: Vec<Vec<f64>>,
-    /// How much too high θ is, relative \[–\].
+    /// Relative error of θ \[–\].
     detuning: Vec<f64>,
 }
 
-/// How much of what a mode off its frequency may be off by counts: seldom do all cycles of a motion count as at resonance.
+/// Weight of the error due to a frequency error: a motion seldom has a full resonance.
 const DETUNED: f64 = 0.25;
 
 impl Defects {
@@ -58,8 +58,8 @@ impl Defects {
         Ok(found)
     }
 
-    /// What share of a shape, as a displacement for a unit modal acceleration, is off because the frequency is: at
-    /// resonance |Δω|/ω over ζ of it, with d = 2ζω \[s²\].
+    /// Error of a shape due to the frequency error, as a displacement for a unit modal acceleration: at resonance
+    /// |Δω|/(ω ζ) of it, with d = 2ζω \[s²\].
     pub(super) fn detuned(&self, modes: &RitzModes, damping: &[f64]) -> Vec<f64> {
         let modes = self.detuning.iter().zip(damping).zip(&modes.stiffness);
         modes
@@ -68,7 +68,7 @@ impl Defects {
     }
 }
 
-/// The defects of some modes over all degrees of freedom, of any size.
+/// The defects of some modes over all degrees of freedom, of any scale.
 ///
 /// # Errors
 /// [`NotPositive`] when the building can move without deforming.

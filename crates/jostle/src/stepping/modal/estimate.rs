@@ -1,4 +1,4 @@
-//! How far reported peaks may be off: what the shapes of a run miss, and what cubics between its steps cut off.
+//! Estimated errors of reported peaks: from missing shapes, and from cubics between steps.
 
 use super::mode_kernels::{ROWS, Show};
 use super::peaks::{Peaks, Watched};
@@ -9,24 +9,24 @@ use crate::system::System;
 /// Kinds of peaks of a building: displacements, drifts, total accelerations, base shear, storey shears, overturning moments.
 const KINDS: usize = 6;
 
-/// What a run has shown of its own errors so far.
+/// Error estimates of a run so far.
 #[derive(Clone, Debug)]
 pub(super) struct Reached {
     /// Greatest acceleration of every mode in free steps, times the fourth power of their length \[m·s²·kg^½\].
     free: Vec<f64>,
-    /// The same in all steps, as it is \[m/s²·kg^½\].
+    /// The same in all steps, without the step length \[m/s²·kg^½\].
     all: Vec<f64>,
     /// Of every floor: displacement, drift, acceleration, of the lowest the base shear, then shear and overturning moment of
     /// the storey below.
     floors: Vec<Vec<[Widened; KINDS]>>,
-    /// Accelerations times ω², and what both miss.
+    /// Accelerations times ω², and the errors of both.
     quickened: Vec<f64>,
     missed: [Vec<f64>; 2],
     forces_missed: Vec<f64>,
     until_look: u32,
 }
 
-/// Greatest size of a quantity, and of the same with what it misses added.
+/// Greatest magnitude of a quantity, and of the same plus its error.
 #[derive(Clone, Copy, Debug, Default)]
 struct Widened {
     known: f64,
@@ -39,16 +39,16 @@ impl Widened {
         self.with_missed = self.with_missed.max(value.abs() + missed.abs());
     }
 
-    /// By how much the peak may be off.
+    /// Estimated error of the peak.
     fn off(&self) -> f64 {
         self.with_missed - self.known
     }
 }
 
-/// Errors of modes between steps may fall together where no impact, which is followed by short steps, decides the peaks.
+/// Errors of modes between steps may add up if no impact, with its short steps, determines the peaks.
 const TOGETHER: f64 = 2.0;
 
-/// Steps between one look at what is missed and the next.
+/// Number of steps between evaluations of the error.
 const LOOK_EVERY: u32 = 4;
 
 impl Reached {
@@ -66,8 +66,8 @@ impl Reached {
         }
     }
 
-    /// Takes in the modal accelerations at the end of a step; `free`: its length, if it was a free one. Whether what
-    /// is missed should be looked at.
+    /// Adds the modal accelerations at the end of a step; `free`: its length, if it was a free-vibration step.
+    /// Returns whether the error should be evaluated.
     pub(super) fn widen(&mut self, accelerations: &[f64], free: Option<f64>) -> bool {
         if let Some(step) = free {
             let power = (step * step) * (step * step);
@@ -86,7 +86,7 @@ impl Reached {
         false
     }
 
-    /// Takes in what is missed at an instant.
+    /// Adds the error at an instant.
     pub(super) fn look(
         &mut self,
         system: &System,
@@ -140,7 +140,7 @@ impl Reached {
 }
 
 impl Reached {
-    /// Modes of every building whose defects are a part worth adding of errors beyond a tolerance.
+    /// Modes of every building whose defects contribute significantly to errors beyond a tolerance.
     pub(super) fn lacking(
         &self,
         reduced: &Reduced,
@@ -187,20 +187,20 @@ impl Reached {
     }
 }
 
-/// Share of the tolerance from which what a mode misses is added to the shapes.
+/// Fraction of the tolerance above which the defect of a mode is added to the shapes.
 const WORTH_ADDING: f64 = 0.1;
 
 /// Estimated errors of peaks, each relative to the greatest of its kind in the building; the greatest of all \[–\].
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Estimate {
-    /// By shapes that are left out.
+    /// By omitted shapes.
     pub(super) shapes: f64,
     /// By cubics between the ends of steps.
     pub(super) between: f64,
 }
 
 impl Estimate {
-    /// Both together; they have nothing to do with each other.
+    /// Both together; they are independent.
     pub(super) fn both(&self) -> f64 {
         self.shapes.hypot(self.between)
     }
@@ -273,7 +273,7 @@ fn scales(floors: &[FloorPeaks], shear: f64) -> [f64; KINDS] {
 }
 
 impl ReducedBuilding {
-    /// Value of one of its modes at a watched place.
+    /// Value of one of its modes at a monitored point.
     fn of_blocks(&self, blocks: &[[f64; ROWS]], place: usize, mode: usize) -> f64 {
         blocks[place / ROWS * self.modes.len() + mode][place % ROWS]
     }

@@ -1,4 +1,4 @@
-//! Forces of closed contacts at the end of a step: by Newton's method on the forces themselves, and what they then do.
+//! Forces of closed contacts at the end of a step: by Newton's method on the forces, and their application.
 
 use super::mode_kernels::AddUp;
 use super::stepper::ModalStepper;
@@ -6,13 +6,13 @@ use crate::stepping::coupling::Closed;
 use crate::stepping::outcome::StepError;
 use crate::stepping::runner::RunState;
 
-/// Rounds of Newton's method before it gives way to slower and safer ones.
+/// Iterations of Newton's method before a slower and safer method is used.
 const QUICK_ROUNDS: u64 = 12;
-/// Of these, rounds in which rates and forces of several contacts settle on each other.
+/// Outer iterations between rates and forces of several contacts.
 const ROUNDS: usize = 60;
-/// Change of the forces, relative to the greatest, at which they have settled.
+/// Change of the forces, relative to the greatest, at convergence.
 const SETTLED: f64 = 1e-13;
-/// Change that may be nothing but rounding where it no longer shrinks.
+/// Change that counts as rounding if it no longer decreases.
 const ROUNDING: f64 = 1e-11;
 
 impl ModalStepper<'_> {
@@ -113,7 +113,7 @@ impl ModalStepper<'_> {
                 greatest = greatest.max(closed.force.abs());
                 *force = closed.force;
             }
-            // Rounds that begin near their end may go round in circles in the last digits.
+            // Iterations that start near the solution may cycle in the last digits.
             let rounding = change <= ROUNDING * greatest && change >= last;
             if n == 1 || change <= SETTLED * greatest || rounding {
                 return Ok(());
@@ -161,7 +161,7 @@ impl ModalStepper<'_> {
 /// F = f(δ⁰ − W F, δ̇⁰ − V F) of the laws f of all closed contacts.
 #[derive(Debug, Default)]
 pub(super) struct ForceEquations {
-    /// W and V, row by row: how far and how fast a unit force of one opens another \[m/N, m/(N s)\].
+    /// W and V, row by row: opening and opening rate of a contact due to a unit force of another \[m/N, m/(N s)\].
     pub(super) openings: Vec<[f64; 2]>,
     /// F of every closed contact \[N\].
     pub(super) forces: Vec<f64>,
@@ -173,8 +173,8 @@ pub(super) struct ForceEquations {
 }
 
 impl ForceEquations {
-    /// Solves for the forces from those that stand in `forces`, and notes them and their indentations; how many rounds it
-    /// took, or `None` where they do not settle, as at corners of a law.
+    /// Solves for the forces, starting from `forces`, and stores them and their indentations; returns the number of
+    /// iterations, or `None` without convergence, as at corners of a law.
     pub(super) fn solve(&mut self, closed: &mut [Closed]) -> Option<u64> {
         let n = closed.len();
         let mut last = f64::INFINITY;
@@ -215,7 +215,7 @@ impl ForceEquations {
         (indentation, rate)
     }
 
-    /// The matrix of Newton's method, and what the laws would have the forces change.
+    /// The matrix of Newton's method, and the residual of the laws.
     fn linearise(&mut self, closed: &[Closed]) {
         self.matrix.clear();
         self.change.clear();
@@ -234,7 +234,7 @@ impl ForceEquations {
     }
 }
 
-/// Replaces the right-hand side by the solution, exchanging rows; `None` where the matrix is singular.
+/// Replaces the right-hand side by the solution, with row exchanges; `None` if the matrix is singular.
 fn eliminate(matrix: &mut [f64], side: &mut [f64]) -> Option<()> {
     let n = side.len();
     for pivot in 0..n {
@@ -291,7 +291,8 @@ mod tests {
         }
     }
 
-    /// A dashpot that does not pull throws the faces apart, and no force lets them touch: that is for the slower way.
+    /// A dashpot without tension separates the two sides, and no force keeps contact: the slower method handles
+    /// this.
     #[test]
     fn a_force_that_jumps_does_not_settle() {
         let law = ForceLaw::Kelvin {
@@ -320,8 +321,8 @@ mod tests {
         assert!(eliminate(&mut singular, &mut [1.0, 1.0]).is_none());
     }
 
-    /// Three contacts whose forces open each other, one of which ends up open: every force is the one its law gives for
-    /// the motion under all of them.
+    /// Three coupled contacts, one of which is open at the end: every force equals that of its law for the motion
+    /// under all of them.
     #[test]
     fn forces_are_those_of_their_laws() {
         let law = ForceLaw::Hertz {

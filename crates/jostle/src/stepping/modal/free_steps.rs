@@ -1,4 +1,4 @@
-//! Free vibration: several regular steps at once while no contact is near.
+//! Free-vibration steps: several regular steps at once while no contact is near.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -12,7 +12,7 @@ use crate::stepping::clock::Clock;
 use crate::stepping::events::Cubic;
 use crate::stepping::runner::RunState;
 
-/// Most steps taken at once, and fewest.
+/// Largest and smallest number of steps at once.
 const MOST: usize = 16;
 const FEWEST: usize = 2;
 
@@ -20,17 +20,18 @@ const FEWEST: usize = 2;
 pub(super) struct FreeSteps {
     /// Length of its steps; zero before the first \[s\].
     step: f64,
-    /// How many are tried next.
+    /// Number of steps to try next.
     ahead: usize,
     lanes: Vec<Lanes>,
-    /// Of the squares and products of ground accelerations: in the energy lost by damping, and of both in Γ ∫q dt.
+    /// Coefficients of squares and products of ground accelerations in the dissipated energy, and of ground
+    /// accelerations in Γ ∫q dt.
     damped_by_ground: [f64; 3],
     area_by_ground: [f64; 2],
-    /// Modal displacements and velocities now, filled up to whole lanes.
+    /// Modal displacements and velocities now, padded to whole lanes.
     start: [Vec<f64>; 2],
-    /// q, q̇, q̈ and its rate without that of the loads, step after step.
+    /// q, q̇, q̈ and jerk without load, step after step.
     modal: [Vec<f64>; 4],
-    /// What they show of everything watched; the present comes first.
+    /// Monitored quantities; the present comes first.
     shown: [Vec<f64>; 4],
     ends: Vec<Clock>,
     ground: Vec<f64>,
@@ -55,7 +56,7 @@ impl FreeSteps {
         }
     }
 
-    /// Takes over the factors of a table, its loads put down to the ground: p = −Γ a.
+    /// Uses the factors of a table, with loads from the ground motion: p = −Γ a.
     fn set(&mut self, reduced: &Reduced, table: &Table) {
         self.step = table.step;
         self.lanes.clear();
@@ -91,7 +92,7 @@ impl FreeSteps {
         }
     }
 
-    /// Everything watched after so many steps.
+    /// Monitored quantities after a number of steps.
     fn watched(&self, places: usize, steps: usize) -> Watched<'_> {
         let own = steps * places..(steps + 1) * places;
         let [u, rate, acceleration, unloaded_jerk] = &self.shown;
@@ -103,7 +104,7 @@ impl FreeSteps {
         }
     }
 
-    /// Modal displacements and velocities after so many steps, at least one.
+    /// Modal displacements and velocities after a number of steps, at least one.
     fn state(&self, modes: usize, steps: usize) -> [&[f64]; 2] {
         let from = (steps - 1) * self.start[0].len();
         let [q, v, ..] = &self.modal;
@@ -426,7 +427,7 @@ mod tests {
         }
     }
 
-    /// The same run, with flights or step by step.
+    /// The same run with several steps at once and step by step.
     fn run(model: &Model, record_interval: Option<f64>, most: usize) -> Outcome {
         let system = System::assemble(model).expect("a valid model");
         let shaking = |i: u32| {
@@ -453,7 +454,7 @@ mod tests {
         let model = row_of_towers();
         for record_interval in [None, Some(0.004)] {
             let together = run(&model, record_interval, FEWEST);
-            // No steps at once: one by one.
+            // Zero steps at once are never tried.
             let apart = run(&model, record_interval, 0);
             assert!(together.impacts.len() > 10, "{}", together.impacts.len());
             let work = |outcome: &Outcome| (outcome.work.steps, outcome.work.contact_steps);

@@ -1,9 +1,9 @@
 //! Elastic buildings by their modes: exact between the points of a record, coupled at their contacts only (theory,
 //! section 14).
 //!
-//! Between two instants at which loads bend, every mode is known in closed form. Free vibration therefore needs no steps
-//! but those of the record and of the search for touches; contacts take shorter ones, over which their forces are
-//! parabolas. What it cannot do is refused by [`refusals`].
+//! Between two corners of the load, every mode is known in closed form. Free vibration therefore needs only the
+//! steps of the record and of the search for contacts; contacts need shorter ones, over which their forces are
+//! parabolas. [`refusals`] rejects unsupported features.
 
 mod basis;
 mod damped;
@@ -34,7 +34,7 @@ use crate::system::System;
 use reduced::{Rates, Reduced};
 use stepper::{Refinement, finish, runner};
 
-/// Why buildings cannot be stepped by their modes; empty when they can.
+/// Reasons why modal stepping does not support the buildings; empty if it does.
 #[must_use]
 pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
     let mut reasons = Vec::new();
@@ -63,25 +63,25 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
     reasons
 }
 
-/// Impact speed at which a contact is judged \[m/s\].
+/// Impact speed for the time scale of a contact \[m/s\].
 const TYPICAL_SPEED: f64 = 0.5;
-/// Share of the tolerance that flexibilities may be off.
+/// Fraction of the tolerance for flexibilities.
 const FLEXIBILITY_SHARE: f64 = 0.02;
 
-/// The shapes that stand for the buildings of a system. They depend on buildings, on where these meet and by which law,
-/// and on the tolerance; not on the widths of gaps nor on motions, so that runs of many of these may share them.
+/// The shapes of the buildings of a system. They depend on buildings, contacts and their laws, and on the
+/// tolerance, but not on gap widths or motions, so runs that differ only in these may share them.
 pub struct Reduction {
     reduced: Reduced,
-    /// What it took.
+    /// Work for their computation.
     work: Work,
 }
 
 impl Reduction {
-    /// Finds the shapes, by what the plan tolerates.
+    /// Computes the shapes for the tolerance of the plan.
     ///
     /// # Errors
-    /// [`StepError::Unsuited`] when modes cannot step the system, [`StepError::NotPositive`] when a building can move
-    /// without resistance.
+    /// [`StepError::Unsuited`] if modal stepping does not support the system, [`StepError::NotPositive`] if a
+    /// building is a mechanism.
     pub fn of(system: &System, plan: &Plan) -> Result<Self, StepError> {
         let mut reasons = refusals(system, plan.integrator).into_iter();
         if let Some(reason) = reasons.next() {
@@ -102,8 +102,8 @@ impl Reduction {
     }
 }
 
-/// Runs a system from rest in modal coordinates, with shapes found before: of this system, or of one that differs in
-/// the widths of its gaps only, and for the same tolerance. The answer is that of [`crate::simulate`], bit for bit.
+/// Runs a system from rest in modal coordinates, with given shapes: of this system, or of one that differs only in
+/// gap widths, and for the same tolerance. The result equals that of [`crate::simulate`], bit by bit.
 pub fn simulate(
     system: &System,
     motion: &GroundMotion,
@@ -164,10 +164,10 @@ pub fn simulate(
     }
 }
 
-/// Runs repeated with more shapes or finer steps before the errors that are left are reported.
+/// Largest number of repetitions with more shapes or finer steps.
 const MOST_REPEATS: u32 = 4;
 
-/// Whether a state is one that modal stepping can start from.
+/// Whether modal stepping can start from a state.
 pub(super) fn is_rest(state: &State) -> bool {
     let mut values = state.displacement.iter().chain(&state.velocity);
     values.all(|value| *value == 0.0)
@@ -177,7 +177,7 @@ pub(super) fn is_rest(state: &State) -> bool {
             .any(|phase| matches!(phase, ContactPhase::Closed(_)))
 }
 
-/// Rates of what happens to a building.
+/// Characteristic rates of a building.
 fn rates(system: &System, building: usize) -> Rates {
     let contacts = system
         .contacts

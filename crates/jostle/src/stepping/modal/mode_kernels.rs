@@ -1,14 +1,14 @@
-//! The loops over modes, compiled for the widest registers at hand and chosen at run time. Nothing is fused or
-//! reordered between register widths, so that the bits are the same on every processor.
+//! The loops over modes, compiled for the widest available registers and chosen at run time. Operations are not
+//! fused or reordered between register widths, so the bits are the same on every processor.
 
 use pulp::{NullaryFnOnce, Simd, WithSimd};
 
 use super::response::{INPUTS, PRODUCTS};
 use crate::simd;
 
-/// Watched displacements taken at once.
+/// Monitored displacements processed at once.
 pub(super) const ROWS: usize = 8;
-/// Modes taken at once.
+/// Modes processed at once.
 pub(super) const LANES: usize = 8;
 
 /// Σ factors of (q₀, q̇₀, p₀, p₁, b), mode by mode.
@@ -34,7 +34,7 @@ impl NullaryFnOnce for Combine<'_> {
     }
 }
 
-/// What loads put into damped modes over a step and these do not keep \[J\].
+/// Work of loads on damped modes over a step minus their change of energy \[J\].
 pub(super) struct Unkept<'a> {
     pub(super) damping: &'a [f64],
     pub(super) stiffness: &'a [f64],
@@ -70,7 +70,7 @@ impl NullaryFnOnce for Unkept<'_> {
     fn call(self) -> f64 {
         let n = self.damping.len();
         let ([q0, v0, p0, p1, bend], [q1, v1]) = (self.of, self.end);
-        // All of one length, so that none need be asked again.
+        // All of one length, to avoid bounds checks.
         let cut = Self {
             stiffness: &self.stiffness[..n],
             of: [&q0[..n], &v0[..n], &p0[..n], &p1[..n], &bend[..n]],
@@ -94,7 +94,7 @@ impl NullaryFnOnce for Unkept<'_> {
     }
 }
 
-/// Adds so many times some lists to others.
+/// axpy for several lists.
 pub(super) struct AddUp<'a, const N: usize> {
     pub(super) factor: f64,
     pub(super) of: [&'a [f64]; N],
@@ -112,12 +112,12 @@ impl<const N: usize> NullaryFnOnce for AddUp<'_, N> {
     }
 }
 
-/// What lists of modal values of one building show at its watched displacements.
+/// Monitored displacements of one building from lists of modal values.
 pub(super) struct Show<'a, const N: usize> {
     /// Block after block of rows, mode by mode.
     pub(super) blocks: &'a [[f64; ROWS]],
     pub(super) modal: [&'a [f64]; N],
-    /// In whole blocks.
+    /// Padded to whole blocks.
     pub(super) watched: [&'a mut [f64]; N],
 }
 
@@ -133,7 +133,7 @@ impl<const N: usize> WithSimd for Show<'_, N> {
         } = self;
         let n = modal[0].len();
         for (at, block) in blocks.chunks_exact(n.max(1)).enumerate() {
-            // As many registers as a block needs, however wide they are.
+            // As many registers as a block needs at any width.
             let mut sums = [[simd.splat_f64s(0.0); ROWS]; N];
             for (mode, shape) in block.iter().enumerate() {
                 let (shape, _) = S::as_simd_f64s(shape);
@@ -154,13 +154,13 @@ impl<const N: usize> WithSimd for Show<'_, N> {
     }
 }
 
-/// Factors of [`LANES`] modes for steps of one length in free vibration, where loads follow from the ground alone: of
-/// (q₀, q̇₀, a₀, a₁), a being the ground acceleration.
+/// Factors of [`LANES`] modes for free-vibration steps of one length, where loads follow from the ground motion
+/// alone: of (q₀, q̇₀, a₀, a₁), a being the ground acceleration.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Lanes {
     pub(super) displacement: [[f64; LANES]; 4],
     pub(super) velocity: [[f64; LANES]; 4],
-    /// Of the energy lost by damping: q₀², q₀q̇₀, q̇₀², then q₀ and q̇₀ with a₀ and a₁.
+    /// Of the dissipated energy: q₀², q₀q̇₀, q̇₀², then q₀ and q̇₀ with a₀ and a₁.
     pub(super) damped: [[f64; LANES]; 7],
     /// Of Γ ∫q dt: q₀ and q̇₀.
     pub(super) area: [[f64; LANES]; 2],
@@ -172,9 +172,9 @@ pub(super) struct Lanes {
 /// Sums over modes of a step, lane by lane.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sums {
-    /// What damping takes, but for the products of ground accelerations alone \[J\].
+    /// Dissipated energy without the products of ground accelerations \[J\].
     pub(super) damped: [f64; LANES],
-    /// Γ ∫q dt, but for the parts of ground accelerations.
+    /// Γ ∫q dt without the parts of ground accelerations.
     pub(super) area: [f64; LANES],
     /// Γ q₁.
     pub(super) moved: [f64; LANES],
@@ -183,14 +183,14 @@ pub(super) struct Sums {
     pub(super) strain: [f64; LANES],
 }
 
-/// Several steps of free vibration, for all modes.
+/// Several free-vibration steps, for all modes.
 pub(super) struct Ahead<'a> {
     pub(super) lanes: &'a [Lanes],
     /// Ground acceleration at the start and after every step.
     pub(super) ground: &'a [f64],
     /// q₀ and q̇₀.
     pub(super) start: [&'a [f64]; 2],
-    /// q, q̇, q̈ and what the rate of q̈ is but for the load's, step after step.
+    /// q, q̇, q̈ and jerk without load, step after step.
     pub(super) modal: [&'a mut [f64]; 4],
     pub(super) sums: &'a mut [Sums],
 }
@@ -277,10 +277,10 @@ impl WithSimd for Ahead<'_> {
     }
 }
 
-/// Greatest so far of everything watched, and what cannot be exceeded unseen; infinite where there is nothing.
+/// Peaks of monitored quantities so far, which are limits for detection; infinite for padding.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Limits {
-    /// Of displacements, and of the base shear both ways \[m, N\].
+    /// Of displacements, and of the base shear in both directions \[m, N\].
     pub(super) high: Vec<f64>,
     pub(super) low: Vec<f64>,
     /// Of storey drifts times storey heights, and of total accelerations \[m, m/s²\].
@@ -288,11 +288,11 @@ pub(super) struct Limits {
     pub(super) acceleration: Vec<f64>,
 }
 
-/// Whether a step may exceed a limit, block by block of what is watched: a cubic between its ends leaves their range by no
-/// more than `beyond` times the sum of its end slopes.
+/// Whether a step may exceed a limit, block by block of monitored quantities: a cubic between its ends leaves their
+/// range by no more than `beyond` times the sum of its end slopes.
 pub(super) struct Exceeds<'a> {
     pub(super) limits: &'a Limits,
-    /// At both ends: displacements, velocities, accelerations and what the rates of these are but for the load's.
+    /// At both ends: displacements, velocities, accelerations, and jerk without load.
     pub(super) ends: [[&'a [f64]; 4]; 2],
     pub(super) driven: &'a [f64],
     /// Ground acceleration at both ends, and its slope.
@@ -359,7 +359,7 @@ impl WithSimd for Exceeds<'_> {
                 let reach = out_of(simd, beyond, rate0, rate1);
                 let total = simd.add_f64s(greater(simd, then, now), reach);
                 let shaken = simd.greater_than_f64s(total, acceleration[at]);
-                // What stands lowest has no limit against the floor below.
+                // The lowest one has no limit relative to a floor below.
                 let (then, now, rate0, rate1) = if at == 0 {
                     (
                         simd.rotate_right_f64s(u0[0], 1),
@@ -385,26 +385,26 @@ impl WithSimd for Exceeds<'_> {
     }
 }
 
-/// So many registers of a list.
+/// Several registers of a list.
 #[inline(always)]
 fn own<S: Simd>(list: &[f64], count: usize) -> &[S::f64s] {
     &S::as_simd_f64s(list).0[..count]
 }
 
-/// For each of them after the first, the values one place before its own.
+/// For each of them after the first, the values shifted by one.
 #[inline(always)]
 fn below<S: Simd>(list: &[f64], count: usize) -> &[S::f64s] {
     &S::as_simd_f64s(&list[S::F64_LANES - 1..]).0[..count - 1]
 }
 
-/// By how much cubics of these end slopes may leave the range of their ends.
+/// Largest excess of cubics with these end slopes over the range of their ends.
 #[inline(always)]
 fn out_of<S: Simd>(simd: S, beyond: S::f64s, before: S::f64s, after: S::f64s) -> S::f64s {
     let slopes = simd.add_f64s(simd.abs_f64s(before), simd.abs_f64s(after));
     simd.mul_f64s(beyond, slopes)
 }
 
-/// The greater size of two.
+/// The greater magnitude of two.
 #[inline(always)]
 fn greater<S: Simd>(simd: S, a: S::f64s, b: S::f64s) -> S::f64s {
     simd.max_f64s(simd.abs_f64s(a), simd.abs_f64s(b))
@@ -432,7 +432,8 @@ impl WithSimd for Quadratic<'_> {
         let mut lanes = [0.0; LANES];
         let (sums, _) = S::as_mut_simd_f64s(&mut lanes);
         let registers = sums.len();
-        // Lists cut into registers: so many of them are one group of lanes. One by one: mapping arrays is not inlined.
+        // Lists divided into registers, several of which form a group of lanes. Written out, because mapping arrays
+        // is not inlined.
         let [a, b, c, d, e] = self.of;
         let [aa, ab, ac, ad, ae, bb, bc, bd, be, cc, cd, ce, dd, de, ee] = self.form;
         let count = whole / S::F64_LANES;
@@ -510,7 +511,7 @@ mod tests {
         (0..n).map(|i| (seed + 1.7 * i as f64).sin()).collect()
     }
 
-    /// Steps ahead have the same bits in wide registers as in narrow ones.
+    /// Several steps at once have the same bits in wide and narrow registers.
     #[test]
     fn nor_does_it_in_steps_ahead() {
         let values = |seed: f64| std::array::from_fn(|lane| (seed + 1.7 * lane as f64).sin());
@@ -565,7 +566,7 @@ mod tests {
         assert!(wide.iter().any(|value| *value != 0.0));
     }
 
-    /// The same bits in wide registers as in narrow ones, and the right sums.
+    /// The same bits in wide and narrow registers, and correct sums.
     #[test]
     fn register_width_does_not_show() {
         for n in [1, 3, 8, 23, 42] {
@@ -622,7 +623,7 @@ mod tests {
         }
     }
 
-    /// Every block is judged by itself, with the floor below that may stand in the block before.
+    /// Every block is tested separately; its floor below may be in the previous block.
     #[test]
     fn exceeding_is_seen_block_by_block() {
         let n = 3 * ROWS;
@@ -647,7 +648,7 @@ mod tests {
             most(a, b, [then[3][i] + free(i), now[3][i] + free(i)])
         };
         let widest = |i: usize| if i == 0 { f64::INFINITY } else { drift(i) };
-        // A little above what is reached everywhere, but for one quantity at one place.
+        // Slightly above the reached values everywhere, except for one quantity at one point.
         for place in 0..n {
             for quantity in 0..4 {
                 let gap = |i: usize, k: usize| {

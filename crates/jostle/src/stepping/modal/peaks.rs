@@ -1,4 +1,5 @@
-//! Histories and peaks in modal coordinates, also between steps that are long beside the higher modes.
+//! Histories and peaks in modal coordinates, also between steps that are long compared with the periods of higher
+//! modes.
 
 use pulp::Arch;
 
@@ -10,7 +11,7 @@ use crate::stepping::events::Cubic;
 use crate::stepping::recorder::{columns, greatest_in_step};
 use crate::system::System;
 
-/// Takes histories and peaks.
+/// Recorder of histories and peaks.
 pub(super) struct Peaks {
     history: Option<History>,
     interval: f64,
@@ -18,33 +19,34 @@ pub(super) struct Peaks {
     pub(super) floors: Vec<Vec<FloorPeaks>>,
     pub(super) closing: Vec<Extreme>,
     pub(super) base_shear: Vec<f64>,
-    /// What a unit ground acceleration takes from the accelerations of everything watched, and its rate from their rates.
+    /// Contribution of a unit ground acceleration to the accelerations of monitored quantities, and of its rate to
+    /// their rates.
     driven: Vec<f64>,
     limits: Limits,
-    /// Forces of storeys as they were last looked at and before, and their rates at both ends where they are looked at
-    /// \[N, N·m; N/s, N·m/s\].
+    /// Forces of storeys at the last two evaluations, and their rates at both ends if evaluated \[N, N·m; N/s,
+    /// N·m/s\].
     forces: [Vec<f64>; 2],
     force_rates: [Vec<f64>; 2],
-    /// What modal accelerations add to them at both ends.
+    /// Contribution of modal accelerations to them at both ends.
     forces_missed: [Vec<f64>; 2],
     before: Before,
-    /// Blocks of what is watched that may exceed a limit in the step looked at.
+    /// Blocks of monitored quantities that may exceed a limit in the step.
     seen: Vec<bool>,
 }
 
-/// When forces of storeys were last looked at, and modal velocities and accelerations then.
+/// Instant of the last evaluation of storey forces, with modal velocities and accelerations then.
 struct Before {
     time: f64,
     velocities: Vec<f64>,
     accelerations: Vec<f64>,
 }
 
-/// What is watched at an instant, place by place.
+/// Monitored quantities at an instant.
 #[derive(Clone, Copy)]
 pub(super) struct Watched<'a> {
     pub(super) u: &'a [f64],
     pub(super) rate: &'a [f64],
-    /// Acceleration relative to the ground, and its rate but for that of the load.
+    /// Acceleration relative to the ground, and jerk without load.
     pub(super) acceleration: &'a [f64],
     pub(super) unloaded_jerk: &'a [f64],
 }
@@ -55,7 +57,7 @@ impl<'a> Watched<'a> {
     }
 }
 
-/// A step that was taken.
+/// An accepted step.
 pub(super) struct Taken<'a> {
     /// Its start and its end.
     pub(super) then: Watched<'a>,
@@ -134,8 +136,8 @@ impl Peaks {
         }
     }
 
-    /// Updates forces of storeys with what happened since they were last looked at: modal displacements, velocities and
-    /// accelerations at an instant.
+    /// Updates forces of storeys since the last evaluation: modal displacements, velocities and accelerations at an
+    /// instant.
     pub(super) fn follow_forces(
         &mut self,
         system: &System,
@@ -225,7 +227,7 @@ impl Peaks {
         &self.forces[0]
     }
 
-    /// Whether a floor, a storey or a base shear may go beyond what it did before.
+    /// Whether a floor, a storey or a base shear may exceed its peak so far.
     fn may_exceed(&mut self, taken: &Taken<'_>) -> bool {
         let Taken {
             then,
@@ -273,7 +275,7 @@ impl Peaks {
                 };
                 ends.raise(&mut peaks.displacement_max, start, step);
                 ends.lower(&mut peaks.displacement_min, start, step);
-                // Per storey height, as it is kept.
+                // Per storey height, as stored.
                 let slenderness = 1.0 / floor.storey_height;
                 let drift = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| (a[k] - b[k]) * slenderness);
                 let drifts = Ends {
@@ -294,7 +296,7 @@ impl Peaks {
                     ],
                 };
                 if taken.struck {
-                    // What a dashpot makes of a jump of velocity dies away within the step, unlike a cubic.
+                    // The reaction of a dashpot to a jump of velocity decays within the step, unlike a cubic.
                     let ends = total.then[0].abs().max(total.now[0].abs());
                     peaks.total_acceleration = peaks.total_acceleration.max(ends);
                 } else {
@@ -304,7 +306,7 @@ impl Peaks {
                 self.limits.low[at] = peaks.displacement_min.value;
                 self.limits.acceleration[at] = peaks.total_acceleration;
                 if at > own.watched.start {
-                    // A little less, as the product is rounded.
+                    // Slightly less, because the product is rounded.
                     let widest = peaks.storey_drift * floor.storey_height;
                     self.limits.drift[at] = (1.0 - 1e-12) * widest;
                 }
@@ -320,12 +322,12 @@ impl Peaks {
         }
     }
 
-    /// Whether a row of the history is due, or wanted at once.
+    /// Whether a row of the history is due, or requested now.
     pub(super) fn is_due(&self, time: f64, wanted: bool) -> bool {
         self.history.is_some() && (wanted || time >= self.due)
     }
 
-    /// Adds a row: time and ground, and what is watched.
+    /// Adds a row: time, ground acceleration and monitored quantities.
     pub(super) fn record(
         &mut self,
         system: &System,
@@ -369,14 +371,15 @@ impl Peaks {
     }
 }
 
-/// Share of the peak so far below which no force of a storey exceeds it within a step: of steps that see the third mode.
+/// Fraction of the peak so far below which no storey force can exceed it within a step that resolves the third
+/// mode.
 const NEAR: f64 = 0.8;
-/// By how much, in steps times the sum of its end slopes, a cubic may leave the range of its ends: 4/27.
+/// Largest excess of a cubic over the range of its ends, in steps times the sum of its end slopes: 4/27.
 const BEYOND: f64 = 0.15;
 
 impl Limits {
-    /// Nothing was seen so far; other faces of contacts have no peaks, and the drift of the lowest storey is the
-    /// displacement of its floor.
+    /// No peaks so far; other contact points have no peaks, and the drift of the lowest storey is the displacement
+    /// of its floor.
     fn none(reduced: &Reduced) -> Self {
         let watched = reduced.watched();
         let mut limits = Self {
@@ -407,7 +410,7 @@ struct Ends {
 }
 
 impl Ends {
-    /// By how much a cubic may leave the range of its ends.
+    /// Largest excess of a cubic over the range of its ends.
     #[inline(always)]
     fn beyond(&self, step: f64) -> f64 {
         BEYOND * step * (self.then[1].abs() + self.now[1].abs())

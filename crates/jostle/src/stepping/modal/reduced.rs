@@ -17,7 +17,7 @@ use crate::linear::NotPositive;
 use crate::simd;
 use crate::system::{BuildingSystem, System};
 
-/// A row of buildings as oscillators, and how they show at floors and contacts.
+/// A row of buildings as oscillators, with their displacements at floors and contacts.
 pub(super) struct Reduced {
     /// d = 2ζω of every mode \[1/s\].
     pub(super) damping: Vec<f64>,
@@ -26,7 +26,7 @@ pub(super) struct Reduced {
     /// Γ = φᵀM r \[kg^½\].
     pub(super) participation: Vec<f64>,
     pub(super) buildings: Vec<ReducedBuilding>,
-    /// The registers at hand.
+    /// The available registers.
     arch: Arch,
     /// Where the two faces of every contact show; `None` is a wall.
     pub(super) ports: Vec<[Option<Shown>; 2]>,
@@ -34,52 +34,50 @@ pub(super) struct Reduced {
     pub(super) unit_forces: Vec<UnitForce>,
 }
 
-/// Where a face shows: its building, and its place among all watched displacements.
+/// A contact point: its building, and its index among all monitored displacements.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
     pub(super) building: usize,
     pub(super) watched: usize,
 }
 
-/// Modes and watched displacements of one building.
+/// Modes and monitored displacements of one building.
 pub(super) struct ReducedBuilding {
     /// Its modes among all.
     pub(super) modes: Range<usize>,
-    /// What is watched of it among all: displacements of floors from the ground up, then of other faces of contacts, the
-    /// base shear \[m, N\], and nothing up to a whole block.
+    /// Its monitored quantities among all: displacements of floors from the ground up, then of other contact
+    /// points, the base shear \[m, N\], and padding to a whole block.
     pub(super) watched: Range<usize>,
-    /// Shears of its storeys from the ground up, then their overturning moments, among all \[N, N·m\], and nothing up to a
-    /// whole block.
+    /// Shears of its storeys from the ground up, then their overturning moments, among all \[N, N·m\], and padding
+    /// to a whole block.
     pub(super) forces: Range<usize>,
-    /// Number of floors, and the place of the base shear.
+    /// Number of floors, and the index of the base shear.
     pub(super) floors: usize,
     pub(super) shear: usize,
-    /// Shapes at so many watched displacements at once, mode by mode; rows that fill up the last block are zero \[kg^−½\].
+    /// Shapes at a block of monitored displacements, mode by mode; padding rows are zero \[kg^−½\].
     pub(super) blocks: Vec<[f64; ROWS]>,
     /// Shapes as forces of storeys, likewise \[N·kg^−½, N·m·kg^−½\].
     pub(super) force_blocks: Vec<[f64; ROWS]>,
-    /// What a unit acceleration of every mode adds to forces of storeys beyond that, statically, and how far they may be
-    /// off even so; empty where all natural modes are kept \[N·s²·m⁻¹·kg^−½, N·s²·kg^−½\].
+    /// Additional static contribution of a unit acceleration of every mode to forces of storeys, and the remaining
+    /// error; empty if all natural modes are used \[N·s²·m⁻¹·kg^−½, N·s²·kg^−½\].
     pub(super) forces_missed: Vec<[f64; ROWS]>,
     pub(super) forces_off: Vec<[f64; ROWS]>,
-    /// What a unit acceleration of every mode misses at everything watched, statically; empty where all natural modes are
-    /// kept.
+    /// Static error of monitored quantities per unit acceleration of every mode; empty if all natural modes are
+    /// used.
     pub(super) missed: Vec<[f64; ROWS]>,
     /// Number of degrees of freedom, and the shapes over all of them.
     size: usize,
     basis: Arc<Basis>,
 }
 
-/// Damping ratio at which what shapes miss answers their residuals no more than statically, as far as random models show
-/// \[–\].
+/// Damping ratio above which missing shapes respond statically to the residuals, from random models \[–\].
 const WELL_DAMPED: f64 = 0.035;
-/// Share of what shapes miss of forces that is left when it has been added, as far as random models show \[–\].
+/// Remaining fraction of the error of forces after the correction, from random models \[–\].
 const SECOND_ORDER: f64 = 0.5;
-/// Most that it answers more where it is damped less \[–\].
+/// Largest amplification at low damping \[–\].
 const MOST_RESONANCE: f64 = 20.0;
 
-/// By how much more than statically natural modes that are not among the shapes may answer, as a resonance grows with
-/// 1/(2ζ); with d = 2ζω \[–\].
+/// Dynamic amplification of natural modes outside the shapes, which grows with 1/(2ζ); with d = 2ζω \[–\].
 fn resonance(damping: &[f64], stiffness: &[f64]) -> f64 {
     let ratios = damping.iter().zip(stiffness);
     let least = ratios
@@ -93,7 +91,7 @@ fn resonance(damping: &[f64], stiffness: &[f64]) -> f64 {
 }
 
 impl Reduced {
-    /// `rates`: how quickly things happen to every building; `closeness`: how well its answers must be met.
+    /// `rates`: characteristic rates of every building; `closeness`: tolerance of its responses.
     pub(super) fn of(
         system: &System,
         rates: &[Rates],
@@ -112,7 +110,7 @@ impl Reduced {
             let jumps = system.contacts.iter().any(|contact| {
                 contact.law.onset(1.0) > 0.0 && contact.ports.buildings().contains(&Some(index))
             });
-            // A force that begins with a jump moves at first the mass that is struck alone, then those beside it.
+            // A force that starts with a jump first moves only the mass at the contact, then the adjacent ones.
             let at_once = jumps.then(|| basis::at_once(&building.equations));
             let met: Vec<f64> = [0.0]
                 .into_iter()
@@ -127,8 +125,8 @@ impl Reduced {
                 compared: &[high, low, 3.0 * swaying, swaying],
                 tolerance: closeness,
             };
-            // At once nothing moves but the mass that is struck, which no few modes can show; and damping given mode by mode
-            // is that of all natural modes.
+            // Instantly only the mass at the contact moves, which a few modes cannot represent; and damping of all
+            // modes requires all natural modes.
             let basis = if struck.next().is_some() || building.modal_damping.is_some() {
                 Basis::complete(building)
             } else {
@@ -142,7 +140,7 @@ impl Reduced {
         Self::with_bases(system, bases, work)
     }
 
-    /// The same with what some modes of every building miss added, or with all natural modes of these buildings.
+    /// The same with defects of some modes of every building added, or with all natural modes of these buildings.
     pub(super) fn enriched(
         &self,
         system: &System,
@@ -249,7 +247,7 @@ impl Reduced {
             let resonance = resonance(&self.damping[start..], &basis.modes.stiffness);
             forces_missed = in_blocks(&defects.rows[shown.len()..], basis.len());
             for row in &mut defects.rows[shown.len()..] {
-                // What is missed statically is added to forces; what is left is of second order.
+                // The static error is added to forces; the remaining error is of second order.
                 row.iter_mut().for_each(|value| *value *= SECOND_ORDER);
             }
             let lists = shown.iter().chain(&storeys);
@@ -280,7 +278,7 @@ impl Reduced {
         Ok(())
     }
 
-    /// The registers at hand.
+    /// The available registers.
     pub(super) fn arch(&self) -> Arch {
         self.arch
     }
@@ -290,7 +288,7 @@ impl Reduced {
         self.stiffness.len()
     }
 
-    /// Number of places of watched displacements, in whole blocks.
+    /// Number of monitored displacements, in whole blocks.
     pub(super) fn watched(&self) -> usize {
         self.buildings
             .last()
@@ -304,7 +302,7 @@ impl Reduced {
             .map_or(0, |building| building.forces.end)
     }
 
-    /// What modal displacements or velocities make of the forces of all storeys.
+    /// Forces of all storeys from modal displacements or velocities.
     pub(super) fn show_forces(&self, modal: &[f64], forces: &mut [f64]) {
         self.arch.dispatch(ShowForces {
             buildings: &self.buildings,
@@ -314,8 +312,9 @@ impl Reduced {
         });
     }
 
-    /// What modal accelerations add to them, as shapes do not follow the members between masses exactly: the
-    /// mode-acceleration correction (R. R. Craig, A. J. Kurdila, 2006, Fundamentals of Structural Dynamics, section 11.4).
+    /// Contribution of modal accelerations, since shapes do not follow the members between masses exactly: the
+    /// mode-acceleration correction (R. R. Craig, A. J. Kurdila, 2006, Fundamentals of Structural Dynamics, section
+    /// 11.4).
     pub(super) fn show_forces_missed(&self, accelerations: &[f64], forces: &mut [f64]) {
         self.arch.dispatch(ShowForces {
             buildings: &self.buildings,
@@ -325,12 +324,12 @@ impl Reduced {
         });
     }
 
-    /// What two lists of modal values show at everything watched.
+    /// Monitored quantities from two lists of modal values.
     pub(super) fn show(&self, modal: [&[f64]; 2], watched: [&mut [f64]; 2]) {
         self.show_of(0..self.buildings.len(), modal, watched);
     }
 
-    /// The same of some buildings, where the lists begin with the first of them.
+    /// The same for some buildings; the lists begin with the first of them.
     pub(super) fn show_of(
         &self,
         buildings: Range<usize>,
@@ -354,7 +353,7 @@ impl Reduced {
         }
     }
 
-    /// Left minus right of watched values of a contact; a wall stands still.
+    /// Left minus right of monitored values of a contact; a wall has zero.
     #[inline]
     pub(super) fn closing(&self, contact: usize, values: &[f64]) -> f64 {
         let [left, right] = self.ports[contact];
@@ -375,7 +374,7 @@ impl Reduced {
         own.blocks[place / ROWS * own.modes.len() + mode][place % ROWS]
     }
 
-    /// Adds what a force on the faces of a contact, pushing them apart, makes of modal loads.
+    /// Adds the modal loads of a contact force.
     pub(super) fn push_apart(&self, contact: usize, force: f64, loads: &mut [f64]) {
         let push = &self.unit_forces[contact];
         self.arch.dispatch(AddUp {
@@ -397,8 +396,8 @@ impl Reduced {
     }
 }
 
-/// Degrees of freedom of a building that are watched: its floors from the ground up, then other faces of contacts; and
-/// those that contacts push.
+/// Monitored degrees of freedom of a building: its floors from the ground up, then other contact points; and those
+/// of contacts.
 struct Watched {
     places: Vec<usize>,
     ports: Vec<usize>,
@@ -423,8 +422,8 @@ impl Watched {
     }
 }
 
-/// Rows of values of all modes, so many rows at once; those that fill up the last block are zero.
-/// Shears of all storeys, then their overturning moments, of every shape.
+/// Rows of values of all modes, in blocks; padding rows are zero. Shears of all storeys, then their overturning
+/// moments, of every shape.
 fn storey_forms(building: &BuildingSystem, basis: &Basis) -> Vec<Vec<f64>> {
     let storeys = building.storeys.len();
     let mut rows = Vec::with_capacity(2 * storeys);
@@ -490,7 +489,7 @@ fn in_blocks(rows: &[Vec<f64>], modes: usize) -> Vec<[f64; ROWS]> {
     blocks
 }
 
-/// How quickly things happen to a building \[1/s\].
+/// Characteristic rates of a building \[1/s\].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rates {
     /// π over its shortest impact.
@@ -514,7 +513,7 @@ pub(super) struct Table {
     answers: Vec<UnitResponse>,
 }
 
-/// What a step did to the energies of all modes \[J\].
+/// Energies of all modes over a step \[J\].
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct StepEnergy {
     pub(super) damped: f64,
@@ -588,8 +587,9 @@ impl Table {
         arch.dispatch(Combine { factors, of, out });
     }
 
-    /// Energy that damping takes over the step to `end`, with ∫q and, where loads bend, ∫τq over it \[J\]. With rules it
-    /// is found from the motion, so that the balance is a check; without, as what loads put in and modes do not keep.
+    /// Energy dissipated by damping over the step to `end`, with ∫q and, for loads with curvature, ∫τq over it
+    /// \[J\]. With rules it is computed from the motion, so the balance is a check; without, as work of the loads
+    /// minus change of energy.
     pub(super) fn damped(
         &self,
         reduced: &Reduced,
@@ -634,9 +634,9 @@ fn filled(values: &[f64]) -> [f64; LANES] {
     lanes
 }
 
-/// Rates at which answers are compared, in units of that of the quickest push \[–\].
+/// Rates at which responses are compared, in units of that of the shortest impact \[–\].
 const COMPARED: [f64; 2] = [0.5, 2.0];
-/// Rate at which the answer to a force that begins with a jump is met, in rates of an impact.
+/// Rate at which the response to a force that starts with a jump is matched, in rates of an impact.
 const SOON: f64 = 5.0;
-/// Modes up to which wide registers are not worth their call.
+/// Number of modes below which wide registers do not pay.
 const FEW_MODES: usize = 8;

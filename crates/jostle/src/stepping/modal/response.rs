@@ -5,12 +5,12 @@ use pulp::{Arch, NullaryFnOnce};
 use super::mode_kernels::LANES;
 use super::series::{INTEGRALS, Impulse, SERIES, radians};
 
-/// What a step begins with: q₀, q̇₀, p₀, p₁ and the bend b.
+/// Inputs of a step: q₀, q̇₀, p₀, p₁ and the curvature term b.
 pub(super) const INPUTS: usize = 5;
 /// Products of two of these.
 pub(super) const PRODUCTS: usize = INPUTS * (INPUTS + 1) / 2;
 
-/// What a mode makes of its state and of a load p₀ + (p₁ − p₀)τ + b(τ² − τ) over a step h, τ = t/h.
+/// Response of a mode to its state and a load p₀ + (p₁ − p₀)τ + b(τ² − τ) over a step h, τ = t/h.
 ///
 /// q̈ + d q̇ + k q = p with d = 2ζω, k = ω² (N. C. Nigam and P. C. Jennings, 1969, Bull. Seism. Soc. Am. 59,
 /// 909–922, for b = 0). All rows are factors of (q₀, q̇₀, p₀, p₁, b).
@@ -56,7 +56,7 @@ impl Response {
     fn free(damping: f64, stiffness: f64, step: f64) -> [[f64; 2]; 2] {
         let half = 0.5 * damping;
         let inside = stiffness - half * half;
-        // From here on oscillations and decays cannot be told apart.
+        // Near critical damping oscillation and decay cannot be distinguished.
         if inside.abs() <= 1e-12 * stiffness {
             let decay = (-half * step).exp();
             return [
@@ -99,7 +99,7 @@ pub(super) struct Responses<const N: usize> {
 }
 
 impl Responses<LANES> {
-    /// Of [`LANES`] modes, in the registers at hand.
+    /// Of [`LANES`] modes, in the available registers.
     pub(super) fn of_several(
         arch: Arch,
         damping: [f64; LANES],
@@ -150,7 +150,7 @@ impl<const N: usize> Responses<N> {
         if still == 0 {
             return closed;
         }
-        // Where the series would not converge its numbers are not used.
+        // Results of the series are not used where it does not converge.
         let series = Self::of_impulses(stiffness, step, &Impulse::over(damping, stiffness, step));
         let mut mixed = closed;
         for i in 0..N {
@@ -248,8 +248,8 @@ impl<const N: usize> Responses<N> {
         all
     }
 
-    /// All from the answer h to an impulse: a constant load makes ∫h of it, one that rises ∫∫h and its square twice
-    /// ∫∫∫h, and a start at rest away from zero is a constant load −k.
+    /// All from the impulse response h: ∫h for a constant load, ∫∫h for a linear one, 2∫∫∫h for a quadratic one; an
+    /// initial displacement acts as a constant load −k.
     #[inline(always)]
     fn of_impulses(stiffness: &[f64; N], step: f64, impulse: &Impulse<N, INTEGRALS>) -> Self {
         let mut all = Self::NONE;
@@ -285,7 +285,7 @@ impl<const N: usize> Responses<N> {
     }
 }
 
-/// [`LANES`] modes, compiled for the registers at hand.
+/// [`LANES`] modes, compiled for the available registers.
 struct Several {
     damping: [f64; LANES],
     stiffness: [f64; LANES],
@@ -301,7 +301,7 @@ impl NullaryFnOnce for Several {
     }
 }
 
-/// What follows a load τ² − τ once free motion has died: factors of τ², τ and 1.
+/// Particular solution for a load τ² − τ: factors of τ², τ and 1.
 #[inline(always)]
 fn steady_bend(damping: f64, stiffness: f64, step: f64) -> [f64; 3] {
     let bent = 1.0 / stiffness;
@@ -408,7 +408,7 @@ mod tests {
         }
     }
 
-    /// Many modes at once, and one by one, to the last digits; also where some need the closed forms.
+    /// Many modes at once and one by one agree to the last digits, also if some need the closed forms.
     #[test]
     fn several_modes_are_as_good_as_one() {
         let bits = |response: &Response| {
@@ -440,7 +440,7 @@ mod tests {
 
     #[test]
     fn tiny_steps_keep_their_digits() {
-        // For h → 0: q₁ = p₀ h²/3 + p₁ h²/6 − b h²/12, which the closed forms would lose.
+        // For h → 0: q₁ = p₀ h²/3 + p₁ h²/6 − b h²/12, where the closed forms lose all digits.
         let response = Response::over(0.4, 16.0, 1e-7);
         assert!((response.displacement[2] / (1e-14 / 3.0) - 1.0).abs() < 1e-6);
         assert!((response.displacement[3] / (1e-14 / 6.0) - 1.0).abs() < 1e-6);

@@ -1,10 +1,10 @@
-//! Modes that turn little over a step, several at once: power series of their answers to an impulse (theory, section 14).
+//! Modes with small ωh, several at once: power series of their impulse responses (theory, section 14).
 
-/// Below this many radians over a step a power series keeps all digits; the closed forms lose them as (ωh)³.
+/// Radians over a step below which the power series is exact to rounding; the closed forms lose digits as (ωh)⁻³.
 pub(super) const SERIES: f64 = 1.0;
-/// Most terms of the series; the last one is below 10⁻¹⁸.
+/// Largest number of terms; the last one is below 10⁻¹⁸.
 const TERMS: usize = 20;
-/// Most integrals of an answer.
+/// Largest number of integrals of a response.
 pub(super) const INTEGRALS: usize = 5;
 
 /// 1/((n + 1)(n + 2)) for every term, and 1/(n + 1).
@@ -27,13 +27,13 @@ const fn reciprocals<const N: usize>(factors: usize) -> [f64; N] {
     list
 }
 
-/// How far a mode turns or dies over a step \[rad\].
+/// Larger of ωh and dh of a mode \[rad\].
 #[inline(always)]
 pub(super) fn radians(damping: f64, stiffness: f64, step: f64) -> f64 {
     stiffness.sqrt().max(damping) * step
 }
 
-/// Terms that matter at so many radians.
+/// Number of terms needed for a number of radians.
 #[inline(always)]
 fn terms(radians: f64) -> usize {
     match radians {
@@ -44,7 +44,7 @@ fn terms(radians: f64) -> usize {
     }
 }
 
-/// What N modes make of a unit impulse, h(0) = 0 and ḣ(0) = 1 without load, by the end of a step.
+/// Responses of N modes to a unit impulse, h(0) = 0 and ḣ(0) = 1 without load, at the end of a step.
 pub(super) struct Impulse<const N: usize, const I: usize> {
     /// ḣ times the step \[s\].
     pub(super) slope: [f64; N],
@@ -55,7 +55,7 @@ pub(super) struct Impulse<const N: usize, const I: usize> {
 }
 
 impl<const N: usize, const I: usize> Impulse<N, I> {
-    /// For fewer radians than [`SERIES`].
+    /// For less than [`SERIES`] radians.
     #[inline(always)]
     pub(super) fn over(damping: &[f64; N], stiffness: &[f64; N], step: f64) -> Self {
         let mut count = 0;

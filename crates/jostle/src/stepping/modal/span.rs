@@ -1,4 +1,4 @@
-//! Vectors of a building, orthonormal in its mass, and the Ritz modes among them.
+//! M-orthonormal vectors of a building, and their Ritz modes.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -7,8 +7,8 @@ use crate::linear::NotPositive;
 use crate::simd;
 use crate::system::BuildingSystem;
 
-/// What remains of a vector beside the others when it brings nothing new; less would be rounding, in which massless degrees
-/// of freedom no longer follow the others and are far too stiff.
+/// Remainder of a vector below which it counts as dependent; a smaller one would be rounding, in which massless
+/// degrees of freedom do not follow the others and are far too stiff.
 const NOTHING_NEW: f64 = 1e-4;
 
 /// M-orthonormal vectors over all degrees of freedom.
@@ -21,11 +21,11 @@ pub(super) struct Span<'a> {
     pub(super) driven: Vec<f64>,
 }
 
-/// The best approximations of natural modes among some vectors (Rayleigh and Ritz).
+/// The best approximations of natural modes in a span of vectors (Rayleigh and Ritz).
 pub(super) struct RitzModes {
-    /// ω², rising \[1/s²\].
+    /// ω², ascending \[1/s²\].
     pub(super) stiffness: Vec<f64>,
-    /// Vectors over all degrees of freedom, massless ones included, and what part every shape φ, φᵀMφ = 1, has of each
+    /// Vectors over all degrees of freedom, massless ones included, and the coefficients of every shape φ, φᵀMφ = 1
     /// \[kg^−½\].
     pub(super) vectors: Vec<Vec<f64>>,
     pub(super) parts: Vec<Vec<f64>>,
@@ -54,7 +54,7 @@ impl<'a> Span<'a> {
         }
     }
 
-    /// Keeps what a vector has beside the others.
+    /// Adds the part of a vector orthogonal to the others.
     pub(super) fn add(&mut self, mut vector: Vec<f64>) {
         let equations = &self.building.equations;
         let most = equations.mass.iter().filter(|mass| **mass > 0.0).count();
@@ -116,7 +116,7 @@ impl<'a> Span<'a> {
     }
 }
 
-/// Takes from a vector what it has of those already known, which are M-orthonormal (Gram and Schmidt, all at once).
+/// Orthogonalises a vector against the M-orthonormal ones (classical Gram–Schmidt).
 struct Strip<'a> {
     vector: &'a mut [f64],
     known: &'a [Vec<f64>],

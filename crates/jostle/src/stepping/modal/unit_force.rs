@@ -1,4 +1,4 @@
-//! What forces at contacts make of modal loads, and what these do until the end of a step.
+//! Modal loads of contact forces, and their response over a step.
 
 use std::ops::Range;
 
@@ -48,13 +48,13 @@ impl UnitForce {
     }
 }
 
-/// What a unit force at the end of a step does until then, when it sets in as the square of time.
+/// Response at the end of a step to a force that grows as the square of time to unity.
 #[derive(Clone, Debug, Default)]
 pub(super) struct UnitResponse {
     known: bool,
     /// Displacements and velocities of the modes of its [`UnitForce`].
     pub(super) modal: [Vec<f64>; 2],
-    /// What is watched there of displacements and velocities \[m/N, m/(N s)\].
+    /// Monitored displacements and velocities there \[m/N, m/(N s)\].
     pub(super) watched: [Vec<f64>; 2],
 }
 
@@ -64,8 +64,8 @@ impl UnitResponse {
         self.known = false;
     }
 
-    /// Finds it, where it is not known yet, from what loads that rise along a line, and bends of loads, make of
-    /// displacements and of velocities.
+    /// Computes it, if necessary, from the responses of displacements and velocities to linear loads and to
+    /// curvature terms.
     pub(super) fn find(&mut self, contact: usize, ends: [[&[f64]; 2]; 2], reduced: &Reduced) {
         if self.known {
             return;
@@ -85,7 +85,7 @@ impl UnitResponse {
         reduced.show_of(push.buildings.clone(), [q, v], [u, rate]);
     }
 
-    /// How far and how fast the force, at contact `from`, opens a contact \[m/N, m/(N s)\].
+    /// Opening and opening rate of a contact due to the force at contact `from` \[m/N, m/(N s)\].
     pub(super) fn opening(&self, contact: usize, from: usize, reduced: &Reduced) -> [f64; 2] {
         let seen = &reduced.unit_forces[from].watched;
         let [left, right] = reduced.ports[contact];

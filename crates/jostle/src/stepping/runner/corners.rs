@@ -1,5 +1,5 @@
-//! Corners of contact forces over time: where the slope of a force jumps, so does that of accelerations, which are often
-//! greatest there. Steps end at corners.
+//! Corners of contact forces over time: where the slope of a force jumps, so does that of accelerations, whose
+//! peaks are often there. Steps end at corners.
 
 use super::contact_events::{AT_ONCE, Landing};
 use super::{Runner, Stepper};
@@ -8,20 +8,20 @@ use crate::stepping::clock::NextStep;
 use crate::stepping::events::{Cubic, bisect};
 use crate::stepping::outcome::StepError;
 
-/// Share of a step to which a corner is found, in tolerances, and the greatest \[–\].
+/// Fraction of a step to which a corner is located, in tolerances, and its upper bound \[–\].
 const CLOSENESS: f64 = 0.1;
 const WIDEST: f64 = 1e-4;
-/// Most tries for it.
+/// Largest number of trials.
 const MOST_TRIES: usize = 6;
-/// How far a step may be extended to reach a corner, as a share of it.
+/// Largest extension of a step to reach a corner, as a fraction of it.
 const EXTENSION: f64 = 1.5;
 
-/// A corner of a contact force within a tried step.
+/// A corner of a contact force within a trial step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     contact: usize,
     kind: Kind,
-    /// Share of the step.
+    /// Fraction of the step.
     at: f64,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Corner {
 enum Kind {
     /// The force ends.
     Release,
-    /// The motion turns, and a damper or a slider ends or begins to act; with the sign of the rate before.
+    /// The motion reverses, and a dashpot or a slider starts or stops acting; with the sign of the rate before.
     Turn { sign: f64 },
     /// The stiffness changes at an indentation \[m\]; with the sign of the rate before.
     Kink { sign: f64, indentation: f64 },
@@ -43,7 +43,7 @@ impl<S: Stepper> Runner<'_, S> {
             let index = closed.contact;
             for kind in self.kinds(index).into_iter().flatten() {
                 let reached = first.map_or(before, |first| first.at);
-                // A corner nearer than this is the one at which the last step has ended.
+                // A closer corner is the one at which the last step ended.
                 if let Some(at) = self.corner_at(index, kind, step, 1.0)
                     && at < reached
                     && at > AT_ONCE
@@ -75,7 +75,7 @@ impl<S: Stepper> Runner<'_, S> {
         ]
     }
 
-    /// At which share of the tried step a corner is reached, if it is before `most`.
+    /// Fraction of the trial step at which a corner is reached, if it is before `most`.
     fn corner_at(&self, index: usize, kind: Kind, step: f64, most: f64) -> Option<f64> {
         let ContactPhase::Closed(episode) = self.run.phases[index] else {
             return None;
@@ -95,7 +95,8 @@ impl<S: Stepper> Runner<'_, S> {
         Some(bisect(0.0, end, past))
     }
 
-    /// Repeats the step so that it ends at a corner, or on an event met before it.
+    /// Repeats the step so that it ends at a corner, or on an earlier event; false if the event occurred at the
+    /// start and time does not advance.
     pub(super) fn step_to_corner(
         &mut self,
         corner: Corner,
