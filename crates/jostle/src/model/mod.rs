@@ -4,11 +4,13 @@
 //! path of the field it concerns, so that a reader can point at the line of the file.
 
 mod integrator;
+mod members;
 
 use crate::contact::ContactLaw;
 use crate::hysteresis::Hysteresis;
 
 pub use integrator::Integrator;
+pub use members::MemberRequest;
 
 /// Buildings in a row, what stands between neighbours, and the settings of the analysis.
 ///
@@ -494,6 +496,8 @@ pub struct Analysis {
     /// Most work that a run may be expected to need, as [`Plan::expected_work`](crate::Plan::expected_work) counts it;
     /// infinity for no bound \[–\].
     pub most_work: f64,
+    /// Forces of columns and beams that are asked for; `[output] members` of a model file.
+    pub members: MemberRequest,
 }
 
 /// Bound on the work of a run unless more is asked for: some hours of computing \[–\].
@@ -509,6 +513,7 @@ impl Default for Analysis {
             solver: None,
             integrator: Integrator::default(),
             most_work: MOST_WORK,
+            members: MemberRequest::default(),
         }
     }
 }

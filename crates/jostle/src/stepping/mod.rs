@@ -19,6 +19,7 @@ mod integrator;
 mod joints;
 mod kernels;
 mod links;
+mod member_peaks;
 pub mod modal;
 mod outcome;
 mod peak_change;

@@ -229,6 +229,10 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
 
     pub(super) fn run(mut self, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Outcome {
         let duration = self.motion.duration;
+        let links = &self.links.forces;
+        self.recorder
+            .members
+            .take(self.system, &self.state, links, self.ground[0]);
         self.recorder.record(
             self.system,
             &self.state,
@@ -281,6 +285,8 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
             base_shear: std::mem::take(&mut self.recorder.base_shear),
             acceleration_parts: std::mem::take(&mut self.recorder.parts),
             spring_history: self.recorder.springs.take(),
+            members: std::mem::take(&mut self.recorder.members.extremes),
+            member_history: self.recorder.members.history.take(),
             history: self.recorder.into_history(),
             spring_events: self.yielding.events,
             springs: self.yielding.totals,
@@ -428,6 +434,10 @@ impl<'a, E: StepEquations> Simulation<'a, E> {
         self.work.contact_steps += u64::from(was_closed);
         self.recorder
             .after_step(self.system, &self.state, step, self.ground[0]);
+        let links = &self.links.forces;
+        self.recorder
+            .members
+            .take(self.system, &self.state, links, self.ground[0]);
         self.recorder.record(
             self.system,
             &self.state,

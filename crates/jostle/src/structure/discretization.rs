@@ -1,5 +1,6 @@
 //! From a building as described to lumped masses and massless elements.
 
+use super::member_forces::{FrameMember, MemberPlace};
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, Member, Node, Skeleton, Spring, Support};
 use crate::hysteresis::Hysteresis;
@@ -20,6 +21,8 @@ pub struct Idealisation {
     pub right_face: Vec<usize>,
     /// Where the springs sit that yield, in the order of [`crate::structure::Equations::springs`].
     pub spring_places: Vec<SpringPlace>,
+    /// Columns and beams, storey by storey from the ground up, columns first; none in a shear building.
+    pub members: Vec<FrameMember>,
 }
 
 impl Idealisation {
@@ -203,6 +206,7 @@ fn idealise_frame(
         left_face: Vec::new(),
         right_face: Vec::new(),
         spring_places: Vec::new(),
+        members: Vec::new(),
     };
     // Hinges come before springs, in the order of the skeleton.
     let at_the_base =
@@ -241,6 +245,7 @@ fn idealise_frame(
                     0.25 / frame.column_segments as f64,
                 );
             }
+            let first = skeleton.members.len();
             let interior = skeleton.add_line(
                 ends[0],
                 ends[1],
@@ -249,6 +254,13 @@ fn idealise_frame(
                 column,
                 frame.axial.columns_flexible,
             );
+            idealisation.members.push(FrameMember {
+                place: MemberPlace::Column {
+                    line: line + 1,
+                    storey: storey + 1,
+                },
+                elements: first..skeleton.members.len(),
+            });
             let face = interior.into_iter().chain([to]);
             if line == 0 {
                 idealisation.left_face.extend(face.clone());
@@ -272,6 +284,7 @@ fn idealise_frame(
                     });
                 }
             }
+            let first = skeleton.members.len();
             skeleton.add_line(
                 ends[0],
                 ends[1],
@@ -280,6 +293,13 @@ fn idealise_frame(
                 &frame.beams[storey],
                 frame.axial.beams_flexible,
             );
+            idealisation.members.push(FrameMember {
+                place: MemberPlace::Beam {
+                    floor: storey + 1,
+                    span: bay + 1,
+                },
+                elements: first..skeleton.members.len(),
+            });
         }
         for &joint in &joints {
             skeleton.nodes[joint].mass += frame.floor_mass[storey] / joints.len() as f64;
@@ -378,5 +398,6 @@ fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealis
         right_face: floors.clone(),
         floors,
         spring_places,
+        members: Vec::new(),
     }
 }

@@ -84,6 +84,7 @@ pub(crate) fn assembled(skeleton: Skeleton, floors: Vec<usize>) -> BuildingSyste
     let idealisation = Idealisation {
         foot: None,
         spring_places: Vec::new(),
+        members: Vec::new(),
         skeleton,
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -308,6 +308,8 @@ impl<'a> Walk<'a> {
             closing: std::mem::take(&mut self.peaks.closing),
             base_shear: std::mem::take(&mut self.peaks.base_shear),
             spring_history: None,
+            members: Vec::new(),
+            member_history: None,
             history: self.peaks.into_history(),
             spring_events: Vec::new(),
             springs: Vec::new(),
