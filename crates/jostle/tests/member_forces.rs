@@ -305,7 +305,7 @@ fn every_joint_and_struck_point_is_in_equilibrium() {
         stiffness: 3e6,
         damping: 2e5,
         floors: FloorPairs::Listed(vec![[Level::Height(7.7), Level::Floor(2)]]),
-        level_tolerance: 1.0,
+        level_tolerance: 1e-3,
     });
     let models = [
         ("plain", neighbours()),
@@ -483,4 +483,91 @@ fn a_portal_frame_follows_its_closed_forms() {
     assert_near(forces.at(BEAM, SectionAt::First)[2], -2.0 * foot, p * l);
     // The thrust of the feet closes the frame.
     assert_near(forces.at(BEAM, SectionAt::First)[0], -3.0 * foot / h, p);
+}
+
+/// Greatest difference of the forces of two runs, relative to the greatest of their kind in the building.
+fn difference(system: &System, [a, b]: [&Outcome; 2], kinds: &[usize]) -> f64 {
+    let mut worst = 0.0_f64;
+    for (index, building) in system.buildings.iter().enumerate() {
+        for &kind in kinds {
+            let members = building.members.members.iter();
+            let forms = members.flat_map(|m| m.sections.iter().map(|s| s.forms[kind]));
+            let (mut scale, mut change) = (0.0_f64, 0.0_f64);
+            for form in forms {
+                let [a, b] = [a, b].map(|run| run.members[index][form]);
+                for side in 0..2 {
+                    scale = scale.max(a[side].abs()).max(b[side].abs());
+                    change = change.max((a[side] - b[side]).abs());
+                }
+            }
+            worst = worst.max(change / scale);
+        }
+    }
+    worst
+}
+
+#[test]
+fn riccati_and_modal_stepping_agree_within_the_tolerance() {
+    let mut flexible = neighbours();
+    for building in &mut flexible.buildings {
+        if let Structure::Frame(frame) = &mut building.structure {
+            frame.axial = Axial {
+                columns_flexible: true,
+                beams_flexible: true,
+            };
+        }
+    }
+    for (name, mut model) in [("rigid", neighbours()), ("flexible", flexible)] {
+        model.analysis.tolerance = 1e-3;
+        let (system, modal) = run(&model, Solver::Modal, 3.0);
+        let promised = modal.accuracy.expect("estimated");
+        assert!(promised.residual <= 1e-3, "{name}: {promised:?}");
+        assert!(!modal.impacts.is_empty());
+        model.analysis.tolerance = 1e-4;
+        let (_, riccati) = run(&model, Solver::Riccati, 3.0);
+        for kind in 0..3 {
+            let apart = difference(&system, [&modal, &riccati], &[kind]);
+            println!("{name} {kind}: {apart:e}");
+            assert!(apart < 1e-3, "{name}: force {kind} differs by {apart:e}");
+        }
+    }
+}
+
+#[test]
+fn shears_of_columns_make_up_the_shear_of_their_storey() {
+    let mut model = neighbours();
+    model.analysis.members =
+        MemberRequest::with_histories(&["A.column.1.2", "A.column.2.2", "A.column.3.2"]);
+    for (solver, tolerance) in [(Solver::Riccati, 1e-9), (Solver::Modal, 1e-3)] {
+        let (system, outcome) = run(&model, solver, 3.0);
+        let history = outcome.member_history.as_ref().expect("asked for");
+        assert_eq!(history.members().len(), 3);
+        let sections: Vec<usize> = history
+            .members()
+            .iter()
+            .map(|[building, member]| {
+                system.buildings[*building].members.members[*member]
+                    .sections
+                    .len()
+            })
+            .collect();
+        let sums = history.rows().map(|row| {
+            let (mut sum, mut at) = (0.0, 0);
+            for count in &sections {
+                sum += row[at][1];
+                at += count;
+            }
+            sum
+        });
+        let peak = sums.fold(0.0_f64, |most, sum: f64| most.max(sum.abs()));
+        let known = outcome.floors[0][1].storey_shear;
+        assert!(
+            (peak / known - 1.0).abs() < tolerance,
+            "{solver:?}: {peak} against {known}"
+        );
+        assert_eq!(
+            history.rows().count(),
+            outcome.history.expect("recorded").len()
+        );
+    }
 }

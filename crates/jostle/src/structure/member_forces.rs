@@ -156,6 +156,12 @@ impl LinearForm {
         sum
     }
 
+    /// What displacements of the building add to the force.
+    pub(crate) fn of_displacements(&self, displacement: &[f64]) -> f64 {
+        let entries = self.displacement.iter();
+        entries.map(|(dof, share)| share * displacement[*dof]).sum()
+    }
+
     /// Whether displacements and self weight alone determine it.
     pub(crate) fn follows_displacements(&self) -> bool {
         self.velocity.is_empty()

@@ -3,6 +3,7 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::kernels::{Ahead, LANES, Lanes, Show, Sums};
+use super::members::Instant;
 use super::peaks::{Taken, Watched};
 use super::reduced::{Reduced, Table};
 use super::walk::Walk;
@@ -314,23 +315,26 @@ impl Walk<'_> {
             struck: false,
         };
         self.peaks.after_step(self.system, self.reduced, &taken);
+        let modes = self.reduced.modes();
+        let [q, v] = flight.state(modes, index + 1);
+        let [a, jerk] =
+            [2, 3].map(|list| &flight.modal[list][index * flight.start[0].len()..][..modes]);
+        let instant = Instant {
+            q,
+            v,
+            a,
+            jerk,
+            time: self.time,
+            ground: g1,
+            phases: &self.phases,
+            smooth: true,
+        };
         if (index + 1).is_multiple_of(self.rows_per_step) || index + 1 == free {
-            let modes = self.reduced.modes();
-            let [q, v] = flight.state(modes, index + 1);
-            let a = &flight.modal[2][index * flight.start[0].len()..][..modes];
-            self.peaks
-                .follow_forces(self.system, self.reduced, [q, v, a], self.time);
+            self.peaks.follow_forces(self.system, self.reduced, instant);
         }
         if self.peaks.is_due(self.time, false) {
-            let instant = (self.time, g1);
-            self.peaks.record(
-                self.system,
-                self.reduced,
-                instant,
-                now,
-                &self.phases,
-                &energy,
-            );
+            self.peaks
+                .record(self.system, self.reduced, instant, now, &energy);
         }
         self.work.steps += 1;
         self.work.solves += 1;

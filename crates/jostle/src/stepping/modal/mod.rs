@@ -14,6 +14,7 @@ mod flight;
 mod forces;
 mod kernels;
 mod meeting;
+mod members;
 mod peaks;
 mod pushes;
 mod reduced;

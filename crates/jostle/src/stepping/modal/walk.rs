@@ -7,6 +7,7 @@ use super::estimate::{Estimate, Reached};
 use super::flight::Flight;
 use super::forces::ForceEquations;
 use super::meeting::Foreseen;
+use super::members::Instant;
 use super::peaks::{Peaks, Taken, Watched};
 use super::reduced::{Reduced, StepEnergy, Table};
 use crate::history::{Energy, Impact, Work};
@@ -246,6 +247,9 @@ impl<'a> Walk<'a> {
         let tolerance = self.tolerance;
         let duration = self.motion.duration;
         let energy = self.balance();
+        if self.peaks.members.is_some() {
+            self.accelerations();
+        }
         self.take_row(true, &energy);
         let mut end = RunEnd::Completed;
         let mut next_look = 0;
@@ -301,6 +305,11 @@ impl<'a> Walk<'a> {
             .filter(|d| *d > 0)
             .map(|d| step_of(d.max(self.least_division)));
         let state = self.full_state();
+        let members = self.peaks.members.take();
+        let (members, member_history) = members.map_or_else(
+            || (vec![Vec::new(); self.system.buildings.len()], None),
+            |members| members.finish(self.system, self.reduced),
+        );
         Outcome {
             impacts: self.impacts,
             acceleration_parts: AccelerationParts::default(),
@@ -308,8 +317,8 @@ impl<'a> Walk<'a> {
             closing: std::mem::take(&mut self.peaks.closing),
             base_shear: std::mem::take(&mut self.peaks.base_shear),
             spring_history: None,
-            members: Vec::new(),
-            member_history: None,
+            members,
+            member_history,
             history: self.peaks.into_history(),
             spring_events: Vec::new(),
             springs: Vec::new(),
@@ -572,11 +581,22 @@ impl<'a> Walk<'a> {
             step,
             struck: self.struck > 0,
         };
+        let was_struck = taken.struck;
         self.peaks.after_step(self.system, reduced, &taken);
         self.struck = self.struck.saturating_sub(1);
-        let modal = [&self.q[0][..], &self.v[0], &self.scratch];
-        self.peaks
-            .follow_forces(self.system, reduced, modal, self.time);
+        let open = self.phases.iter().all(|phase| *phase == ContactPhase::Open);
+        let smooth = open && !was_struck;
+        let now = Instant {
+            q: &self.q[0],
+            v: &self.v[0],
+            a: &self.scratch,
+            jerk: &self.jerk,
+            time: self.time,
+            ground: self.ground[0],
+            phases: &self.phases,
+            smooth,
+        };
+        self.peaks.follow_forces(self.system, reduced, now);
     }
 
     fn show_accelerations(&mut self) {
@@ -676,15 +696,18 @@ impl<'a> Walk<'a> {
                 acceleration: &self.acceleration[0],
                 loose: &self.loose[0],
             };
-            let instant = (self.time, self.ground[0]);
-            self.peaks.record(
-                self.system,
-                self.reduced,
-                instant,
-                watched,
-                &self.phases,
-                energy,
-            );
+            let instant = Instant {
+                q: &self.q[0],
+                v: &self.v[0],
+                a: &self.scratch,
+                jerk: &self.jerk,
+                time: self.time,
+                ground: self.ground[0],
+                phases: &self.phases,
+                smooth: true,
+            };
+            self.peaks
+                .record(self.system, self.reduced, instant, watched, energy);
         }
     }
 
