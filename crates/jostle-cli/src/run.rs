@@ -33,6 +33,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             SolverName::Modal => Some(Solver::Modal),
         };
     }
+    if args.members {
+        follow_all_members(&mut opened)?;
+    }
     opened.warn();
     let (motion, plan) = opened.plan()?;
     if let Some(warning) = opened.input.unusual_motion(&motion) {
@@ -101,6 +104,10 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             let path = out.join("hinges.parquet");
             jostle_io::write_hinges_parquet(&path, &opened.system, &outcome, &summary)?;
         }
+        if let Some(history) = &outcome.member_history {
+            let path = out.join("members.parquet");
+            jostle_io::write_members_parquet(&path, &opened.system, history, &summary)?;
+        }
         jostle_io::write_summary_json(&out.join("summary.json"), &summary)?;
     }
 
@@ -168,6 +175,21 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     }
 }
 
+/// Asks for the greatest forces of all columns and beams.
+fn follow_all_members(opened: &mut Opened) -> Result<(), Failure> {
+    let model = &mut opened.input.model;
+    model.analysis.members.envelopes = true;
+    if let Err(faults) = model.check() {
+        let problems: Vec<&str> = faults.iter().map(|fault| &fault.problem[..]).collect();
+        return Err(Failure::Input(format!(
+            "--members: {}",
+            problems.join("; ")
+        )));
+    }
+    opened.system.follow_members(&model.analysis.members);
+    Ok(())
+}
+
 /// Why nothing is compared with a run without contact, if it did not reach its end.
 fn not_compared(without: &Outcome, duration: f64) -> Option<String> {
     let reason = match &without.end {
@@ -184,11 +206,12 @@ fn not_compared(without: &Outcome, duration: f64) -> Option<String> {
 }
 
 /// The files of a run.
-const FILES: [(&str, Kind); 5] = [
+const FILES: [(&str, Kind); 6] = [
     ("summary.json", Kind::SUMMARY),
     ("history.parquet", Kind::TABLE),
     ("impacts.parquet", Kind::TABLE),
     ("hinges.parquet", Kind::TABLE),
+    ("members.parquet", Kind::TABLE),
     ("report.html", Kind::REPORT),
 ];
 

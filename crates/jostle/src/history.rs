@@ -354,6 +354,7 @@ impl SpringHistory {
 pub struct MemberHistory {
     members: Vec<[usize; 2]>,
     sections: usize,
+    times: Vec<f64>,
     values: Vec<[f64; 3]>,
 }
 
@@ -369,12 +370,14 @@ impl MemberHistory {
         (!members.is_empty()).then(|| Self {
             members,
             sections,
+            times: Vec::new(),
             values: Vec::new(),
         })
     }
 
-    /// Adds an instant; `values`: those of all forms, building by building.
-    pub(crate) fn push(&mut self, system: &System, values: &[Vec<f64>]) {
+    /// Adds an instant \[s\]; `values`: those of all forms, building by building.
+    pub(crate) fn push(&mut self, system: &System, time: f64, values: &[Vec<f64>]) {
+        self.times.push(time);
         for [building, member] in &self.members {
             let forces = &system.buildings[*building].members;
             let sections = forces.members[*member].sections.iter();
@@ -385,6 +388,7 @@ impl MemberHistory {
     }
 
     pub(crate) fn reserve(&mut self, rows: usize) {
+        self.times.reserve(rows);
         self.values.reserve(rows * self.sections);
     }
 
@@ -392,6 +396,12 @@ impl MemberHistory {
     #[must_use]
     pub fn members(&self) -> &[[usize; 2]] {
         &self.members
+    }
+
+    /// Recorded instants \[s\].
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
     }
 
     /// Forces of the sections of all members at every instant, in the order of the members.

@@ -45,9 +45,9 @@ impl MemberPeaks {
     }
 
     /// Adds a row to the histories.
-    pub(crate) fn record(&mut self, system: &System) {
+    pub(crate) fn record(&mut self, system: &System, time: f64) {
         if let Some(history) = &mut self.history {
-            history.push(system, &self.values);
+            history.push(system, time, &self.values);
         }
     }
 

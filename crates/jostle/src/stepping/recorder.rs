@@ -191,7 +191,7 @@ impl Recorder {
         if let Some(springs) = &mut self.springs {
             springs.push(&state.springs);
         }
-        self.members.record(system);
+        self.members.record(system, state.time);
         let mut row = history.push_row().iter_mut();
         let mut put = |value: f64| {
             if let Some(place) = row.next() {

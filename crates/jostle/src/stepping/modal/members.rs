@@ -402,7 +402,7 @@ impl MemberPeaks {
                 self.row[index][*form] = sum;
             }
         }
-        history.push(system, &self.row);
+        history.push(system, now.time, &self.row);
     }
 
     /// Greatest and least value of every form of every building, and the histories.
