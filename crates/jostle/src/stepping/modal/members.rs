@@ -7,6 +7,7 @@ use super::kernels::{ROWS, Show};
 use super::peaks::Ends;
 use super::reduced::{Reduced, in_blocks};
 use crate::history::MemberHistory;
+use crate::simd;
 use crate::state::ContactPhase;
 use crate::system::{BuildingSystem, System};
 
@@ -26,6 +27,8 @@ pub(super) struct MemberRows {
     shapes: Vec<[f64; ROWS]>,
     missed: Vec<[f64; ROWS]>,
     off: Vec<[f64; ROWS]>,
+    /// Most that every row changes per change of Σ (ω q)², the square root of it.
+    norms: Vec<f64>,
     /// Axial forces that pass through rigid beams: they also follow from velocities, accelerations and pushes.
     passed: Passed,
 }
@@ -35,8 +38,11 @@ pub(super) struct MemberRows {
 struct Passed {
     range: Range<usize>,
     forms: Vec<usize>,
-    /// Shares of modal displacements, velocities and accelerations.
-    shares: [Vec<[f64; ROWS]>; 3],
+    /// Shares of modal displacements, velocities and accelerations, one after the other.
+    shares: Vec<[f64; ROWS]>,
+    /// The greatest of every mode, and of the ground acceleration.
+    greatest: Vec<f64>,
+    greatest_of_ground: f64,
     /// Force per ground acceleration, and per rate of it while modes are free \[kg\].
     ground: Vec<[f64; 2]>,
     contacts: Vec<Vec<usize>>,
@@ -79,7 +85,7 @@ impl MemberRows {
         let dense = |list: &[(usize, f64)]| {
             basis.of_shapes(|vector| list.iter().map(|(dof, share)| share * vector[*dof]).sum())
         };
-        let mut shares = [const { Vec::new() }; 3];
+        let mut shares: Vec<Vec<f64>> = Vec::new();
         let mut ground = Vec::new();
         for form in &passed {
             let properties = &forms[*form];
@@ -102,20 +108,33 @@ impl MemberRows {
                     .zip(missed)
                     .for_each(|(a, m)| *a += m);
             }
-            shares[0].push(rows.shapes[*form].clone());
-            shares[1].push(velocity);
-            shares[2].push(acceleration);
+            shares.push([&rows.shapes[*form][..], &velocity, &acceleration].concat());
         }
+        let mut greatest = vec![0.0_f64; 3 * count];
+        for row in &shares {
+            for (most, share) in greatest.iter_mut().zip(row) {
+                *most = most.max(share.abs());
+            }
+        }
+        let squares = |form: &usize| {
+            let row = rows.shapes[*form].iter().zip(&basis.modes.stiffness);
+            row.map(|(share, k)| share * share / k).sum::<f64>()
+        };
         let padded = |start: usize, count: usize| start..start + count.div_ceil(ROWS) * ROWS;
         Self {
             range: padded(starts[0], own.len()),
+            norms: own.iter().map(|form| squares(form).sqrt()).collect(),
             kinds: own.iter().map(|form| kind_of[*form]).collect(),
             shapes: pick(Some(rows.shapes), &own),
             missed: pick(rows.missed, &own),
             off: pick(rows.off, &own),
             passed: Passed {
                 range: padded(starts[1], passed.len()),
-                shares: shares.map(|rows| in_blocks(&rows, count)),
+                shares: in_blocks(&shares, 3 * count),
+                greatest,
+                greatest_of_ground: ground
+                    .iter()
+                    .fold(0.0, |most, [g, _]: &[f64; 2]| most.max(g.abs())),
                 ground,
                 contacts: passed
                     .iter()
@@ -153,30 +172,51 @@ pub(super) struct Instant<'a> {
     pub(super) smooth: bool,
 }
 
-/// Follows the forces of columns and beams.
+/// Follows the forces of columns and beams. A block of them is looked at only once the building has moved so far that one
+/// could come near its greatest or least value.
 pub(super) struct MemberPeaks {
-    /// Values now and before.
-    values: [Vec<f64>; 2],
     /// Greatest and least value, and greatest size with what may be missed.
     greatest: Vec<f64>,
     least: Vec<f64>,
     with_off: Vec<f64>,
-    /// Of axial forces that pass through beams: value and rate now and before.
-    passed: [[Vec<f64>; 2]; 2],
-    passed_extremes: Vec<[f64; 2]>,
-    spare: [Vec<f64>; 2],
+    watch: Vec<Watch>,
+    /// The same of axial forces that pass through beams.
+    passed: Vec<[f64; 2]>,
+    watch_passed: Vec<Watch>,
+    /// Modal displacements, velocities, accelerations and jerks now and before, building by building.
+    modal: [Vec<f64>; 2],
     time: f64,
     ground: f64,
-    v: Vec<f64>,
-    a: Vec<f64>,
     history: Option<MemberHistory>,
     /// Values of all forms at a row of the history, and whether it is wanted.
     row: Vec<Vec<f64>>,
     wanted: Vec<Vec<bool>>,
 }
 
+/// How far a building has moved, and how far it may before a block of forces is looked at.
+#[derive(Clone, Default)]
+struct Watch {
+    moved: f64,
+    rate: f64,
+    /// Block by block.
+    until: Vec<f64>,
+}
+
+impl Watch {
+    fn new(range: &Range<usize>) -> Self {
+        Self {
+            until: vec![0.0; range.len() / ROWS],
+            ..Self::default()
+        }
+    }
+}
+
 /// Share of the extreme so far from which a step is looked at more closely.
 const NEAR: f64 = 0.8;
+/// What the path between instants may be longer than their velocities say.
+const LONGER: f64 = 1.2;
+/// Lists of modal values that are kept: q, its rate, the rate of that and the jerk.
+const LISTS: usize = 4;
 
 impl MemberPeaks {
     /// `None` where no forces are asked for.
@@ -193,19 +233,19 @@ impl MemberPeaks {
                 wanted[*building][form] = true;
             }
         }
-        let pair = |n: usize| [vec![0.0; n], vec![0.0; n]];
+        let buildings = || reduced.buildings.iter().map(|own| &own.members);
         Some(Self {
-            values: pair(own),
             greatest: vec![0.0; own],
             least: vec![0.0; own],
             with_off: vec![0.0; own],
-            passed: [pair(passed), pair(passed)],
-            passed_extremes: vec![[0.0; 2]; passed],
-            spare: pair(passed),
+            watch: buildings().map(|own| Watch::new(&own.range)).collect(),
+            passed: vec![[0.0; 2]; passed],
+            watch_passed: buildings()
+                .map(|own| Watch::new(&own.passed.range))
+                .collect(),
+            modal: [(); 2].map(|()| vec![0.0; LISTS * reduced.modes()]),
             time: 0.0,
             ground: 0.0,
-            v: vec![0.0; reduced.modes()],
-            a: vec![0.0; reduced.modes()],
             history: MemberHistory::new(system).filter(|_| records),
             row: sizes().map(|n| vec![0.0; n]).collect(),
             wanted,
@@ -221,146 +261,188 @@ impl MemberPeaks {
     /// Takes in what happened since the last instant.
     pub(super) fn follow(&mut self, reduced: &Reduced, now: Instant<'_>) {
         let step = now.time - self.time;
-        self.values.swap(0, 1);
-        self.passed.swap(0, 1);
-        for own in &reduced.buildings {
-            self.follow_building(reduced, &own.members, now, step);
+        self.modal.swap(0, 1);
+        for (index, own) in reduced.buildings.iter().enumerate() {
+            let own = &own.members;
+            let count = own.modes.len();
+            let all = LISTS * own.modes.start..LISTS * own.modes.end;
+            let lists = [now.q, now.v, now.a, now.jerk];
+            for (to, list) in self.modal[0][all.clone()]
+                .chunks_mut(count.max(1))
+                .zip(lists)
+            {
+                to.copy_from_slice(&list[own.modes.clone()]);
+            }
+            let stiffness = &reduced.stiffness[own.modes.clone()];
+            self.follow_own(reduced, index, own, stiffness, step);
+            self.follow_passed(reduced, index, own, now, step);
         }
         self.time = now.time;
         self.ground = now.ground;
-        self.v.copy_from_slice(now.v);
-        self.a.copy_from_slice(now.a);
     }
 
-    fn follow_building(
+    fn follow_own(
         &mut self,
         reduced: &Reduced,
+        index: usize,
         own: &MemberRows,
-        now: Instant<'_>,
+        stiffness: &[f64],
         step: f64,
     ) {
-        let (arch, modes) = (reduced.arch(), own.modes.clone());
-        arch.dispatch(Show {
-            blocks: &own.shapes,
-            modal: [&now.q[modes.clone()]],
-            watched: [&mut self.values[0][own.range.clone()]],
-        });
-        for block in own.range.clone().step_by(ROWS) {
-            if self.is_near(block) {
-                self.look_at_block(reduced, own, block, now, step);
+        let count = own.modes.len();
+        let first = LISTS * own.modes.start;
+        let [now, then] = self
+            .modal
+            .each_ref()
+            .map(|list| &list[first..first + LISTS * count]);
+        let of = |list: usize| list * count..(list + 1) * count;
+        let watch = &mut self.watch[index];
+        let rate = simd::weighted_square(stiffness, &now[of(1)]).sqrt();
+        watch.moved += LONGER * step * watch.rate.max(rate);
+        watch.rate = rate;
+        let arch = reduced.arch();
+        for (block, until) in watch.until.iter_mut().enumerate() {
+            if watch.moved < *until {
+                continue;
             }
-        }
-        if own.passed.range.is_empty() {
-            return;
-        }
-        let range = own.passed.range.clone();
-        let [present, past] = &mut self.passed;
-        let [value, rate] = present;
-        let (value, rate) = (&mut value[range.clone()], &mut rate[range.clone()]);
-        let [more, more_rate] = &mut self.spare;
-        let (more, more_rate) = (&mut more[range.clone()], &mut more_rate[range.clone()]);
-        let lists = [[now.q, now.v], [now.v, now.a], [now.a, now.jerk]];
-        for (index, (blocks, lists)) in own.passed.shares.iter().zip(lists).enumerate() {
-            let modal = lists.map(|list| &list[modes.clone()]);
-            let watched = if index == 0 {
-                [&mut *value, &mut *rate]
-            } else {
-                [&mut *more, &mut *more_rate]
-            };
+            let blocks =
+                |blocks: &'_ [[f64; ROWS]]| block * count..((block + 1) * count).min(blocks.len());
+            let mut value = [0.0; ROWS];
             arch.dispatch(Show {
-                blocks,
-                modal,
-                watched,
+                blocks: &own.shapes[blocks(&own.shapes)],
+                modal: [&now[of(0)]],
+                watched: [&mut value],
             });
-            if index > 0 {
-                value
-                    .iter_mut()
-                    .zip(&*more)
-                    .for_each(|(sum, part)| *sum += part);
-                rate.iter_mut()
-                    .zip(&*more_rate)
-                    .for_each(|(sum, part)| *sum += part);
+            let places = own.range.start + block * ROWS..own.range.start + (block + 1) * ROWS;
+            let (greatest, least) = (
+                &mut self.greatest[places.clone()],
+                &mut self.least[places.clone()],
+            );
+            let mut slack = f64::INFINITY;
+            for (row, norm) in own.norms[block * ROWS..].iter().take(ROWS).enumerate() {
+                let above = NEAR * greatest[row] - value[row];
+                let below = value[row] - NEAR * least[row];
+                slack = slack.min(above.min(below) / norm.max(f64::MIN_POSITIVE));
             }
-        }
-        let slope = if step > 0.0 {
-            (now.ground - self.ground) / step
-        } else {
-            0.0
-        };
-        for (row, ([fixed, free], contacts)) in own
-            .passed
-            .ground
-            .iter()
-            .zip(&own.passed.contacts)
-            .enumerate()
-        {
-            value[row] += fixed * now.ground;
-            value[row] -= contacts.iter().map(|c| now.phases[*c].force()).sum::<f64>();
-            rate[row] += free * slope;
-            let at = range.start + row;
-            let [greatest, least] = &mut self.passed_extremes[at];
-            let [before, before_rate] = &*past;
-            let (then, then_rate) = (before[at], before_rate[at]);
-            if now.smooth && step > 0.0 {
-                let ends = Ends {
-                    then: [then, then_rate],
-                    now: [value[row], rate[row]],
-                };
-                [*greatest, *least] = ends.extremes([*greatest, *least], step);
-            } else {
-                *greatest = greatest.max(value[row]);
-                *least = least.min(value[row]);
+            *until = watch.moved + slack.max(0.0);
+            if slack > 0.0 {
+                continue;
             }
-        }
-    }
-
-    fn is_near(&self, block: usize) -> bool {
-        let rows = block..block + ROWS;
-        let [now, then] = self.values.each_ref().map(|list| &list[rows.clone()]);
-        let (greatest, least) = (&self.greatest[rows.clone()], &self.least[rows]);
-        let mut near = false;
-        for row in 0..ROWS {
-            near |= now[row].max(then[row]) > NEAR * greatest[row];
-            near |= now[row].min(then[row]) < NEAR * least[row];
-        }
-        near
-    }
-
-    fn look_at_block(
-        &mut self,
-        reduced: &Reduced,
-        own: &MemberRows,
-        block: usize,
-        now: Instant<'_>,
-        step: f64,
-    ) {
-        let (count, modes) = (own.modes.len(), own.modes.clone());
-        let at = (block - own.range.start) / ROWS * count;
-        let show = |blocks: &[[f64; ROWS]], lists: [&[f64]; 2]| {
-            let mut shown = [[0.0; ROWS]; 2];
-            if !blocks.is_empty() {
-                let [first, second] = &mut shown;
-                reduced.arch().dispatch(Show {
-                    blocks: &blocks[at..at + count],
-                    modal: lists.map(|list| &list[modes.clone()]),
-                    watched: [first, second],
+            let (mut before, mut missed, mut off) =
+                ([[0.0; ROWS]; 3], [[0.0; ROWS]; 2], [0.0; ROWS]);
+            let [value_then, rate_then, rate_now] = &mut before;
+            arch.dispatch(Show {
+                blocks: &own.shapes[blocks(&own.shapes)],
+                modal: [&then[of(0)], &then[of(1)], &now[of(1)]],
+                watched: [value_then, rate_then, rate_now],
+            });
+            if !own.missed.is_empty() {
+                let [missed_then, missed_now] = &mut missed;
+                arch.dispatch(Show {
+                    blocks: &own.missed[blocks(&own.missed)],
+                    modal: [&then[of(2)], &now[of(2)]],
+                    watched: [missed_then, missed_now],
+                });
+                arch.dispatch(Show {
+                    blocks: &own.off[blocks(&own.off)],
+                    modal: [&now[of(2)]],
+                    watched: [&mut off],
                 });
             }
-            shown
-        };
-        let missed = show(&own.missed, [&self.a, now.a]);
-        let rates = show(&own.shapes, [&self.v, now.v]);
-        let [_, off] = show(&own.off, [now.a, now.a]);
-        for row in 0..ROWS {
-            let place = block + row;
-            let ends = Ends {
-                then: [self.values[1][place] + missed[0][row], rates[0][row]],
-                now: [self.values[0][place] + missed[1][row], rates[1][row]],
-            };
-            let so_far = [self.greatest[place], self.least[place]];
-            [self.greatest[place], self.least[place]] = ends.extremes(so_far, step);
-            let with_off = ends.now[0].abs() + off[row].abs();
-            self.with_off[place] = self.with_off[place].max(with_off);
+            let with_off = &mut self.with_off[places];
+            for row in 0..ROWS {
+                let ends = Ends {
+                    then: [before[0][row] + missed[0][row], before[1][row]],
+                    now: [value[row] + missed[1][row], before[2][row]],
+                };
+                [greatest[row], least[row]] = ends.extremes([greatest[row], least[row]], step);
+                with_off[row] = with_off[row].max(ends.now[0].abs() + off[row].abs());
+            }
+        }
+    }
+
+    fn follow_passed(
+        &mut self,
+        reduced: &Reduced,
+        index: usize,
+        own: &MemberRows,
+        instant: Instant<'_>,
+        step: f64,
+    ) {
+        let passed = &own.passed;
+        if passed.range.is_empty() {
+            return;
+        }
+        let count = own.modes.len();
+        let first = LISTS * own.modes.start;
+        let [now, then] = self
+            .modal
+            .each_ref()
+            .map(|list| &list[first..first + LISTS * count]);
+        let (values, rates) = (0..3 * count, count..4 * count);
+        let watch = &mut self.watch_passed[index];
+        let moved = passed.greatest.iter().zip(now).zip(then);
+        let moved = moved.map(|((share, now), then)| share * (now - then).abs());
+        let rise = instant.ground - self.ground;
+        watch.moved += moved.sum::<f64>() + passed.greatest_of_ground * rise.abs();
+        let pushed = passed.contacts.iter().flatten();
+        let pushed = pushed
+            .into_iter()
+            .any(|contact| instant.phases[*contact].force() != 0.0);
+        let cubic = instant.smooth && step > 0.0;
+        for (block, until) in watch.until.iter_mut().enumerate() {
+            if watch.moved < *until && !pushed {
+                continue;
+            }
+            let blocks = &passed.shares[block * 3 * count..(block + 1) * 3 * count];
+            let (mut value, mut before) = ([0.0; ROWS], [[0.0; ROWS]; 3]);
+            let arch = reduced.arch();
+            arch.dispatch(Show {
+                blocks,
+                modal: [&now[values.clone()]],
+                watched: [&mut value],
+            });
+            let rows = block * ROWS..((block + 1) * ROWS).min(passed.forms.len());
+            let mut slack = f64::INFINITY;
+            for (row, at) in rows.clone().enumerate() {
+                value[row] += passed.ground[at][0] * instant.ground;
+                let contacts = passed.contacts[at].iter();
+                value[row] -= contacts.map(|c| instant.phases[*c].force()).sum::<f64>();
+                let [greatest, least] = self.passed[passed.range.start + at];
+                let above = NEAR * greatest - value[row];
+                slack = slack.min(above).min(value[row] - NEAR * least);
+            }
+            *until = watch.moved + slack.max(0.0);
+            if slack > 0.0 {
+                continue;
+            }
+            if cubic {
+                let [value_then, rate_then, rate_now] = &mut before;
+                arch.dispatch(Show {
+                    blocks,
+                    modal: [
+                        &then[values.clone()],
+                        &then[rates.clone()],
+                        &now[rates.clone()],
+                    ],
+                    watched: [value_then, rate_then, rate_now],
+                });
+            }
+            for (row, at) in rows.enumerate() {
+                let [fixed, free] = passed.ground[at];
+                let extremes = &mut self.passed[passed.range.start + at];
+                if cubic {
+                    let slope = free * rise / step;
+                    let ends = Ends {
+                        then: [before[0][row] + fixed * self.ground, before[1][row] + slope],
+                        now: [value[row], before[2][row] + slope],
+                    };
+                    *extremes = ends.extremes(*extremes, step);
+                } else {
+                    let [greatest, least] = *extremes;
+                    *extremes = [greatest.max(value[row]), least.min(value[row])];
+                }
+            }
         }
     }
 
@@ -392,9 +474,11 @@ impl MemberPeaks {
                     continue;
                 }
                 let mut sum = passed.ground[row][0] * now.ground;
-                for (blocks, modal) in passed.shares.iter().zip([now.q, now.v, now.a]) {
-                    for mode in 0..own.modes.len() {
-                        sum += own.value(blocks, row, mode) * list(modal, mode);
+                let count = own.modes.len();
+                for (part, modal) in [now.q, now.v, now.a].into_iter().enumerate() {
+                    for mode in 0..count {
+                        let block = row / ROWS * 3 * count + part * count + mode;
+                        sum += passed.shares[block][row % ROWS] * list(modal, mode);
                     }
                 }
                 let contacts = passed.contacts[row].iter();
@@ -421,7 +505,7 @@ impl MemberPeaks {
                 extremes[*form][1] += self.least[place];
             }
             for (place, form) in own.passed.range.clone().zip(&own.passed.forms) {
-                let [greatest, least] = self.passed_extremes[place];
+                let [greatest, least] = self.passed[place];
                 extremes[*form][0] += greatest;
                 extremes[*form][1] += least;
             }
@@ -438,7 +522,7 @@ impl MemberPeaks {
             scales[*kind] = scales[*kind].max(size);
         }
         for place in own.passed.range.clone() {
-            let [greatest, least] = self.passed_extremes[place];
+            let [greatest, least] = self.passed[place];
             scales[0] = scales[0].max(greatest).max(-least);
         }
         scales
