@@ -9,8 +9,9 @@ use jostle::{
     Column, EnergyTerm, GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Summary, simulate,
 };
 use jostle_io::{
-    history_names, impact_columns, summary_json, write_atomically, write_history_parquet,
-    write_impacts_parquet, write_summary_json,
+    history_names, impact_columns, member_columns, member_history_columns, summary_json,
+    write_atomically, write_history_parquet, write_impacts_parquet, write_members_parquet,
+    write_summary_json,
 };
 use jostle_report::Page;
 use numpy::PyArray2;
@@ -273,6 +274,10 @@ impl Run {
                 write_history_parquet(&path, model, &summary, &history)?;
             }
             write_impacts_parquet(&folder.join("impacts.parquet"), &summary)?;
+            if let Some(members) = &self.outcome.member_history {
+                let path = folder.join("members.parquet");
+                write_members_parquet(&path, &self.model.system, members, &summary)?;
+            }
             if let Some(page) = page {
                 write_atomically(&folder.join("report.html"), page.as_bytes())?;
             }
@@ -289,6 +294,19 @@ impl Run {
             &self.histories.columns,
         );
         Ok(Table::of_histories(names, self.histories.table(py)?))
+    }
+
+    /// Greatest forces of columns and beams as a table, of one building or of all.
+    #[pyo3(signature = (building=None))]
+    fn member_table(&self, building: Option<usize>) -> Table {
+        Table::of_columns(member_columns(&self.summary(None), building))
+    }
+
+    /// Histories of members as a table, columns as in members.parquet; `None` if no member was named.
+    fn member_history_table(&self) -> Option<Table> {
+        let history = self.outcome.member_history.as_ref()?;
+        let columns = member_history_columns(&self.model.system, history);
+        Some(Table::of_columns(columns))
     }
 
     /// The impacts as a table, columns as in impacts.parquet.

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use jostle_io::{
-    write_atomically, write_history_parquet, write_impacts_parquet, write_summary_json,
+    write_atomically, write_history_parquet, write_impacts_parquet, write_members_parquet,
+    write_summary_json,
 };
 use jostle_report::Page;
 
@@ -39,6 +40,10 @@ pub(crate) fn write_run(ran: &Ran, folder: &Path) -> Result<(), StudyError> {
     if let Some(history) = &ran.outcome.history {
         write_history_parquet(&folder.join("history.parquet"), model, summary, history)?;
         write_impacts_parquet(&folder.join("impacts.parquet"), summary)?;
+        if let Some(members) = &ran.outcome.member_history {
+            let (path, system) = (folder.join("members.parquet"), &ran.prepared.system);
+            write_members_parquet(&path, system, members, summary)?;
+        }
         let page = Page {
             model,
             motion: &ran.prepared.motion,

@@ -77,6 +77,7 @@ fn building(
     let idealisation = Idealisation {
         foot: None,
         spring_places: Vec::new(),
+        members: Vec::new(),
         skeleton,
         left_face: floors.clone(),
         right_face: floors.clone(),
