@@ -36,6 +36,7 @@ class Model:
         motion: a :class:`Motion`, the name or path of a record, or ``[motion]`` of the model file.
         title: printed on summaries and reports.
         analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
+        output: ``[output]`` of the model file: ``{"members": True}`` for forces of columns and beams.
 
     Raises:
         ModelError: all faults at once, with the message of the command line.
@@ -53,6 +54,7 @@ class Model:
         motion: Motion | str | os.PathLike[str] | Table | None = None,
         title: str | None = None,
         analysis: Table | None = None,
+        output: Table | None = None,
     ) -> None:
         row = [buildings] if isinstance(buildings, (Part, Mapping)) else buildings
         tree: dict[str, Any] = {"building": [_table(building) for building in row]}
@@ -63,6 +65,8 @@ class Model:
             tree["title"] = title
         if analysis is not None:
             tree["analysis"] = analysis
+        if output is not None:
+            tree["output"] = output
         if isinstance(motion, (str, os.PathLike)):
             tree["motion"] = {"record": motion}
         elif motion is not None and not isinstance(motion, Motion):

@@ -226,6 +226,33 @@ class Result:
         """One row per impact in the order of time, columns as in ``impacts.parquet``."""
         return Table._of(self._core.impact_table())
 
+    def members(self, building: str | None = None) -> Table:
+        """Greatest forces of columns and beams, for a model with ``output={"members": True}``.
+
+        One row per end, and one on either side of every point where a neighbour can strike a column: ``member``
+        (such as ``"J1.column.2.3"``: line, storey), ``end``, ``struck_height_m``, ``axial_max_n``, ``axial_min_n``,
+        ``shear_peak_n``, ``moment_peak_n_m``. Axial forces are positive in tension.
+
+        Args:
+            building: name of a building; ``None`` takes all.
+
+        Raises:
+            KeyError: no building has this name.
+            ValueError: the model does not ask for forces of members, or no building is a frame.
+        """
+        names = [own["name"] for own in self.summary["buildings"]]
+        if building is not None and building not in names:
+            raise KeyError(f"no building is called {building!r}; there are {', '.join(map(repr, names))}")
+        if not any("members" in own for own in self.summary["buildings"]):
+            raise ValueError('no forces of columns and beams were asked for; add output={"members": True} to the model')
+        return Table._of(self._core.member_table(None if building is None else names.index(building)))
+
+    @cached_property
+    def member_history(self) -> Table | None:
+        """Forces over time of the members named in ``output={"members": [...]}``, columns as in ``members.parquet``."""
+        table = self._core.member_history_table()
+        return None if table is None else Table._of(table)
+
     @cached_property
     def without_contact(self) -> Result | None:
         """The result of the same buildings without contact, computed on first access. ``None`` without gaps."""

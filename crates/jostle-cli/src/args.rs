@@ -120,6 +120,9 @@ pub(crate) struct RunArgs {
     /// Add the results of `jostle method` to the report
     #[arg(long, conflicts_with = "no_report")]
     pub(crate) method: bool,
+    /// Add the greatest axial force, shear and moment of every column and beam of frames
+    #[arg(long)]
+    pub(crate) members: bool,
     /// Use this solver instead of that of the model
     #[arg(long, value_enum)]
     pub(crate) solver: Option<SolverName>,

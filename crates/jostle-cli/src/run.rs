@@ -6,7 +6,9 @@ use std::sync::atomic::AtomicBool;
 
 use jostle::method::MethodSurvey;
 use jostle::{RunEnd, Solver};
-use jostle_run::{Content, Prepared, Ran, Results, describe_summary, earlier_files, stopped_by};
+use jostle_run::{
+    Content, Opened, Prepared, Ran, Results, describe_summary, earlier_files, stopped_by,
+};
 
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
@@ -27,6 +29,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             SolverName::Product => Some(Solver::Product),
             SolverName::Modal => Some(Solver::Modal),
         };
+    }
+    if args.members {
+        follow_all_members(&mut opened)?;
     }
     let of_model = opened.input.warnings.len();
     terminal::warn_all(&opened.input.warnings);
@@ -99,6 +104,21 @@ fn analyse(
         }
         _ => Ok(()),
     }
+}
+
+/// Asks for the greatest forces of all columns and beams.
+fn follow_all_members(opened: &mut Opened) -> Result<(), Failure> {
+    let model = &mut Arc::make_mut(&mut opened.input).model;
+    model.analysis.members.envelopes = true;
+    if let Err(faults) = model.check() {
+        let problems: Vec<&str> = faults.iter().map(|fault| &fault.problem[..]).collect();
+        return Err(Failure::Input(format!(
+            "--members: {}",
+            problems.join("; ")
+        )));
+    }
+    Arc::make_mut(&mut opened.system).follow_members(&model.analysis.members);
+    Ok(())
 }
 
 /// Surveys of the method for the report, if they were asked for.

@@ -527,3 +527,118 @@ fn walls_widths_and_links_are_described_and_computed() {
     let sum: f64 = names.iter().map(|name| number(&energy[*name])).sum();
     assert!((sum / number(&energy["input_j"]) - 1.0).abs() < 1e-9);
 }
+
+/// A low frame beside a tower whose slabs strike its columns.
+const SLABS_AGAINST_COLUMNS: &str = r#"
+title = "Slabs against columns"
+
+[motion]
+record = "el-centro-1940-ns"
+pga = "0.3 g"
+duration = "4 s"
+
+[[building]]
+name = "Low"
+kind = "frame"
+storeys = 2
+storey_height = "3.2 m"
+spans = ["6 m", "6 m"]
+column = { width = "500 mm", depth = "500 mm" }
+beam = { width = "300 mm", depth = "600 mm" }
+concrete = "C30"
+beam_mass = "4500 kg/m"
+
+[[building]]
+name = "Tower"
+kind = "frame"
+storeys = 2
+storey_height = ["4.4 m", "3.2 m"]
+spans = ["5 m"]
+column = { width = "300 mm", depth = "300 mm" }
+beam = { width = "300 mm", depth = "600 mm" }
+concrete = "C30"
+beam_mass = "4500 kg/m"
+
+[[gap]]
+between = ["Low", "Tower"]
+width = "2 mm"
+floors = [["4.4 m", 1], [2, "6.4 m"]]
+"#;
+
+#[test]
+fn forces_of_members_are_there_when_asked_for() {
+    let folder = folder();
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("written");
+    };
+    write("plain.toml", SLABS_AGAINST_COLUMNS);
+    let summary = |args: &[&str]| -> Value {
+        let output = jostle(folder.path(), args);
+        assert!(output.status.success(), "{}", complained(&output));
+        serde_json::from_str(&printed(&output)).expect("a summary")
+    };
+    let silent = summary(&["run", "plain.toml", "--json"]);
+    assert!(silent["buildings"][0].get("members").is_none());
+    let all = summary(&["run", "plain.toml", "--json", "--members"]);
+    let low = &all["buildings"][0];
+    let members = low["members"].as_array().expect("asked for");
+    assert_eq!(members.len(), 2 * 3 + 2 * 2);
+    assert_eq!(members[0]["name"], "Low.column.1.1");
+    assert_eq!(members[0]["ends"][0]["at"], "foot");
+    let named = |name: &str| members.iter().find(|m| m["name"] == name).expect("there");
+    let struck = named("Low.column.3.2")["struck"]
+        .as_array()
+        .expect("a list");
+    assert_eq!(struck.len(), 1);
+    assert_eq!(struck[0]["height_m"], 4.4);
+    let hits = all["gaps"][0]["contacts"][0]["impact_count"].as_u64();
+    assert!(hits > Some(0));
+    assert_eq!(struck[0]["impact_count"].as_u64(), hits);
+    assert_eq!(
+        struck[0]["peak_force_n"],
+        all["gaps"][0]["contacts"][0]["peak_force_n"]
+    );
+    for side in ["below", "above"] {
+        assert!(struck[0][side]["shear_peak_n"].as_f64() > Some(1e3));
+    }
+    // The other results are as they were.
+    let base = |summary: &Value| summary["buildings"][1]["base_shear_peak_n"].as_f64();
+    let (a, b) = (
+        base(&silent).expect("a number"),
+        base(&all).expect("a number"),
+    );
+    assert!((a / b - 1.0).abs() < 1e-3, "{a} and {b}");
+
+    let list = "\n[output]\nmembers = [\"Low.column.3.2\", \"Low.beam.2.1\"]\n";
+    write("named.toml", &format!("{SLABS_AGAINST_COLUMNS}{list}"));
+    let output = jostle(folder.path(), &["run", "named.toml", "--out", "named"]);
+    assert!(output.status.success(), "{}", complained(&output));
+    let table = std::fs::metadata(folder.path().join("named/members.parquet")).expect("written");
+    assert!(table.len() > 1000);
+    let report = std::fs::read_to_string(folder.path().join("named/report.html")).expect("written");
+    assert!(report.contains("Columns and beams of Low") && report.contains("Low.column.3.2"));
+}
+
+#[test]
+fn members_that_do_not_exist_are_refused() {
+    let folder = folder();
+    for (value, expected) in [
+        (
+            "[\"Low.column.4.1\"]",
+            "is no member of \"Low\"; it has Low.column.LINE.STOREY with line 1…3 and storey 1…2",
+        ),
+        ("[\"Lwo.beam.1.1\"]", "begins with the name of no building"),
+        ("[\"Tower.beam.1.01\"]", "is no member of \"Tower\""),
+        ("3", "expected true, false or a list of members"),
+    ] {
+        let text = format!("{SLABS_AGAINST_COLUMNS}\n[output]\nmembers = {value}\n");
+        std::fs::write(folder.path().join("wrong.toml"), text).expect("written");
+        let output = jostle(folder.path(), &["run", "wrong.toml"]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = complained(&output);
+        assert!(
+            said.contains(expected) && said.contains("output.members"),
+            "{said}"
+        );
+    }
+}

@@ -50,6 +50,8 @@ pub(crate) enum Section {
     Gap,
     Link,
     Analysis,
+    /// What results should hold beyond the usual.
+    Output,
     /// A study file.
     Study,
     /// One thing that varies in a study.
@@ -246,6 +248,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps between neighbours, and between the ends of the row and walls there."),
     optional(S::Root, "link", Tables(&[S::Link]), "Springs and dampers that join neighbours."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
+    optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
 
     optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC. A study and jostle gap use all records of a list; the other keys apply to each."),
     optional(S::Motion, "kind", Choice(WAVES), "An analytic motion instead of a record."),
@@ -442,6 +445,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Analysis, "solver", Choice(SOLVERS), "\"auto\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, the published product of transfer matrices, or, for elastic buildings, their modes. \"auto\" is modal for elastic buildings with automatic steps, otherwise riccati."),
     default(S::Analysis, "integrator", ChoiceOrTable(INTEGRATORS, S::Integrator), "\"average-acceleration\"", "Time integration rule."),
     default(S::Analysis, "accept_unusual", FlagOrTexts, "false", "Accepts values outside their usual ranges: true for all, or a list of fields such as [\"building[0].spans\"]; \"analysis.step\" stands for the work of a run."),
+
+    default(S::Output, "members", FlagOrTexts, "false", "Axial force, shear and moment of columns and beams of frames: true for the greatest of every member, or a list of members such as [\"J1.column.2.3\"] (line, storey) and [\"J1.beam.5.1\"] (floor, span), whose histories are written as well."),
 
     required(S::Integrator, "method", Choice(INTEGRATORS), "Name of the rule; all rules except average acceleration can add numerical damping."),
     default(S::Integrator, "beta", Quantity(D::Dimensionless), "0.25", "Newmark's beta."),

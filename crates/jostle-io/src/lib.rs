@@ -66,8 +66,9 @@ pub use study_file::{
     StudyFile,
 };
 pub use tables::{
-    Values, encode_values_parquet, history_names, impact_columns, write_columns_parquet,
-    write_hinges_parquet, write_history_parquet, write_impacts_parquet, write_values_parquet,
+    Values, encode_values_parquet, history_names, impact_columns, member_columns,
+    member_history_columns, write_columns_parquet, write_hinges_parquet, write_history_parquet,
+    write_impacts_parquet, write_members_parquet, write_values_parquet,
 };
 pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
 pub use templates::{TEMPLATE_NAMES, template};

@@ -12,6 +12,7 @@ mod hinges;
 mod link;
 mod matching;
 mod motion;
+mod output;
 mod partial;
 mod reinforced;
 mod section;
@@ -401,7 +402,11 @@ fn read_root(
         }
         None => Vec::new(),
     };
-    let analysis = analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
+    let mut analysis =
+        analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
+    if let Some(field) = reader.get(&view, "output") {
+        analysis.members = output::read(reader, &field);
+    }
     let (buildings, reinforced) = buildings?;
     let model = Model {
         title: title.unwrap_or_default(),

@@ -66,6 +66,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "Springs and dampers between neighbours, acting both ways at all times.",
     ),
     (Section::Analysis, "`[analysis]`", ""),
+    (
+        Section::Output,
+        "`[output]`",
+        "See [how-to/struck-columns.md](how-to/struck-columns.md).",
+    ),
     (Section::Integrator, "`analysis.integrator`", ""),
     (
         Section::Study,

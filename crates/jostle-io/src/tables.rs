@@ -1,10 +1,12 @@
-//! `history.parquet`, `impacts.parquet` and `hinges.parquet`: columns with units in their names, compressed with zstd.
+//! `history.parquet`, `impacts.parquet`, `hinges.parquet` and `members.parquet`: columns with units in their names, compressed with zstd.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use jostle::results::summary::{ContactSummary, ImpactSummary, SpringSummary};
-use jostle::structure::{BaseMotion, MemberEnd, SpringPlace};
+use jostle::history::MemberHistory;
+use jostle::results::summary::{ContactSummary, ImpactSummary, SectionSummary, SpringSummary};
+use jostle::results::{member_name, section_name};
+use jostle::structure::{BaseMotion, MemberEnd, SectionAt, SpringPlace};
 use jostle::{Column, EnergyTerm, History, Model, Outcome, Summary, System, springs_of};
 use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type};
@@ -262,6 +264,116 @@ pub fn write_hinges_parquet(
         .map(|(name, values)| (name.to_owned(), values))
         .collect();
     write_table(path, summary, named)
+}
+
+/// The columns of the table of columns and beams: one row per end, and one on either side of every point where a neighbour
+/// can strike a column. `building`: those of one building only.
+#[must_use]
+pub fn member_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'static str, Values)> {
+    let mut rows: Vec<(&str, Option<f64>, &SectionSummary)> = Vec::new();
+    for (index, own) in summary.buildings.iter().enumerate() {
+        if building.is_some_and(|building| building != index) {
+            continue;
+        }
+        for member in &own.members {
+            rows.extend(member.ends.iter().map(|end| (&member.name[..], None, end)));
+            for struck in &member.struck {
+                for side in [&struck.below, &struck.above] {
+                    rows.push((&member.name, Some(struck.height_m), side));
+                }
+            }
+        }
+    }
+    let text = |of: fn(&(&str, Option<f64>, &SectionSummary)) -> String| {
+        Values::Text(rows.iter().map(of).collect())
+    };
+    let real = |of: fn(&SectionSummary) -> f64| {
+        Values::Real(rows.iter().map(|(.., section)| of(section)).collect())
+    };
+    vec![
+        ("member", text(|row| row.0.to_owned())),
+        ("end", text(|row| row.2.at.to_owned())),
+        (
+            "struck_height_m",
+            Values::Instant(rows.iter().map(|row| row.1).collect()),
+        ),
+        ("axial_max_n", real(|section| section.axial_max_n)),
+        ("axial_min_n", real(|section| section.axial_min_n)),
+        ("shear_peak_n", real(|section| section.shear_peak_n)),
+        ("moment_peak_n_m", real(|section| section.moment_peak_n_m)),
+    ]
+}
+
+/// The columns of the histories of members: one row per instant and section, in the order of time.
+#[must_use]
+pub fn member_history_columns(
+    system: &System,
+    history: &MemberHistory,
+) -> Vec<(&'static str, Values)> {
+    let mut sections: Vec<(String, &'static str, Option<f64>)> = Vec::new();
+    for [building, member] in history.members() {
+        let building = &system.buildings[*building];
+        let member = &building.members.members[*member];
+        for section in &member.sections {
+            let struck = matches!(section.at, SectionAt::Below | SectionAt::Above);
+            sections.push((
+                member_name(building, member.place),
+                section_name(member.place, section.at),
+                struck.then_some(section.height),
+            ));
+        }
+    }
+    let instants = history.times().len();
+    let repeated = |of: fn(&(String, &'static str, Option<f64>)) -> String| {
+        let texts: Vec<String> = sections.iter().map(of).collect();
+        Values::Text(
+            texts
+                .iter()
+                .cycle()
+                .take(texts.len() * instants)
+                .cloned()
+                .collect(),
+        )
+    };
+    let real = |kind: usize| {
+        Values::Real(
+            history
+                .rows()
+                .flatten()
+                .map(|forces| forces[kind])
+                .collect(),
+        )
+    };
+    let times = history.times().iter();
+    let times = times.flat_map(|time| std::iter::repeat_n(*time, sections.len()));
+    let heights = sections.iter().map(|section| section.2).cycle();
+    vec![
+        ("time_s", Values::Real(times.collect())),
+        ("member", repeated(|section| section.0.clone())),
+        ("end", repeated(|section| section.1.to_owned())),
+        (
+            "struck_height_m",
+            Values::Instant(heights.take(sections.len() * instants).collect()),
+        ),
+        ("axial_n", real(0)),
+        ("shear_n", real(1)),
+        ("moment_n_m", real(2)),
+    ]
+}
+
+/// Writes the histories of members that were asked for; see [`member_history_columns`].
+///
+/// # Errors
+/// [`OutputError`] with path and reason.
+pub fn write_members_parquet(
+    path: &Path,
+    system: &System,
+    history: &MemberHistory,
+    summary: &Summary,
+) -> Result<(), OutputError> {
+    let columns = member_history_columns(system, history).into_iter();
+    let columns = columns.map(|(name, values)| (name.to_owned(), values));
+    write_table(path, summary, columns.collect())
 }
 
 /// Kind, level, line and end of a place.

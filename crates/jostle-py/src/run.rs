@@ -6,7 +6,10 @@ use std::time::{Duration, Instant};
 
 use jostle::stepping::Progress;
 use jostle::{Column, EnergyTerm, Pounding, RunEnd, Settings, Summary};
-use jostle_io::{history_names, impact_columns, summary_json, write_atomically};
+use jostle_io::{
+    history_names, impact_columns, member_columns, member_history_columns, summary_json,
+    write_atomically,
+};
 use jostle_run::{Content, FileKind, Ran, Results, RunError, Stage, earlier_files, may_write};
 use numpy::PyArray2;
 use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt};
@@ -252,6 +255,19 @@ impl Run {
             &self.histories.columns,
         );
         Ok(Table::of_histories(names, self.histories.table(py)?))
+    }
+
+    /// Greatest forces of columns and beams as a table, of one building or of all.
+    #[pyo3(signature = (building=None))]
+    fn member_table(&self, building: Option<usize>) -> Table {
+        Table::of_columns(member_columns(&self.summary(None), building))
+    }
+
+    /// Histories of members as a table, columns as in members.parquet; `None` if no member was named.
+    fn member_history_table(&self) -> Option<Table> {
+        let history = self.outcome.member_history.as_ref()?;
+        let columns = member_history_columns(&self.model.system, history);
+        Some(Table::of_columns(columns))
     }
 
     /// The impacts as a table, columns as in impacts.parquet.

@@ -10,6 +10,7 @@ mod encode;
 mod envelope;
 mod format;
 mod hinges;
+mod members;
 mod method;
 mod motion_page;
 mod page;

@@ -4,7 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
-use crate::{Page, describe, format, hinges, method, payload, tables};
+use crate::{Page, describe, format, hinges, members, method, payload, tables};
 
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
 /// The scripts, in the order of their dependence; together they are one module.
@@ -100,6 +100,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         (envelopes(page, &run, without))
                         (tables::peaks(page))
                     }
+                    @if let Some(members) = members::section(page) { (members) }
                     @if !page.model.gaps.is_empty() {
                         section #joints {
                             h2 { "Comparison with code requirements" }

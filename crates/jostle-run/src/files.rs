@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use jostle_io::{
     OutputError, write_atomically, write_hinges_parquet, write_history_parquet,
-    write_impacts_parquet, write_summary_json,
+    write_impacts_parquet, write_members_parquet, write_summary_json,
 };
 
 use crate::error::RunError;
@@ -16,14 +16,16 @@ const SUMMARY: &str = "summary.json";
 const HISTORY: &str = "history.parquet";
 const IMPACTS: &str = "impacts.parquet";
 const HINGES: &str = "hinges.parquet";
+const MEMBERS: &str = "members.parquet";
 const REPORT: &str = "report.html";
 
 /// The files of a run.
-const FILES: [(&str, FileKind); 5] = [
+const FILES: [(&str, FileKind); 6] = [
     (SUMMARY, FileKind::SUMMARY),
     (HISTORY, FileKind::TABLE),
     (IMPACTS, FileKind::TABLE),
     (HINGES, FileKind::TABLE),
+    (MEMBERS, FileKind::TABLE),
     (REPORT, FileKind::REPORT),
 ];
 
@@ -44,7 +46,7 @@ pub fn earlier_files(folder: &Path, force: bool) -> Result<Vec<&'static str>, Ru
 /// Which files to write beside `summary.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Content {
-    /// `history.parquet`, `impacts.parquet` and, if buildings yield, `hinges.parquet`.
+    /// `history.parquet`, `impacts.parquet`, if buildings yield `hinges.parquet`, and if members are asked for `members.parquet`.
     pub tables: bool,
     /// `report.html`.
     pub report: bool,
@@ -99,6 +101,12 @@ impl Results<'_> {
             let system = &self.prepared.system;
             staged.add(HINGES, |path| {
                 write_hinges_parquet(path, system, outcome, summary)
+            })?;
+        }
+        if let Some(members) = &outcome.member_history {
+            let system = &self.prepared.system;
+            staged.add(MEMBERS, |path| {
+                write_members_parquet(path, system, members, summary)
             })?;
         }
         Ok(())

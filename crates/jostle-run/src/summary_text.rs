@@ -334,6 +334,7 @@ mod tests {
             without_contact: None,
             residual_roof_displacement_m: 0.0,
             hinges,
+            members: Vec::new(),
         }
     }
 

@@ -77,6 +77,7 @@ fn building(
     let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
+        members: Vec::new(),
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -61,6 +61,7 @@ pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
     let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
+        members: Vec::new(),
         stick_model,
         floors: left_face.clone(),
         left_face,
@@ -96,6 +97,7 @@ fn single_mass(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem 
     let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
+        members: Vec::new(),
         stick_model,
         floors: vec![1],
         left_face: vec![1],

@@ -1,6 +1,7 @@
 //! Results of a run: time histories, impacts, peaks, energies and work.
 
 use crate::hysteresis::{HysteresisMemory, Stage};
+use crate::system::System;
 
 /// Time histories at the recorded instants: one row per instant, one column per quantity.
 ///
@@ -345,6 +346,67 @@ impl SpringHistory {
             .skip(spring)
             .step_by(self.springs.max(1))
             .copied()
+    }
+}
+
+/// Axial force, shear and moment of members over time, at the instants of a [`History`] \[N, N, N·m\].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MemberHistory {
+    members: Vec<[usize; 2]>,
+    sections: usize,
+    times: Vec<f64>,
+    values: Vec<[f64; 3]>,
+}
+
+impl MemberHistory {
+    /// Of these members: building, and member of its forces; `None` if there are none.
+    pub(crate) fn new(system: &System) -> Option<Self> {
+        let members = system.members_followed.clone();
+        let sections = |[building, member]: &[usize; 2]| {
+            let forces = &system.buildings[*building].members;
+            forces.members[*member].sections.len()
+        };
+        let sections = members.iter().map(sections).sum();
+        (!members.is_empty()).then(|| Self {
+            members,
+            sections,
+            times: Vec::new(),
+            values: Vec::new(),
+        })
+    }
+
+    /// Adds an instant \[s\]; `values`: those of all forms, building by building.
+    pub(crate) fn push(&mut self, system: &System, time: f64, values: &[Vec<f64>]) {
+        self.times.push(time);
+        for [building, member] in &self.members {
+            let forces = &system.buildings[*building].members;
+            let sections = forces.members[*member].sections.iter();
+            let own = &values[*building];
+            self.values
+                .extend(sections.map(|section| section.forms.map(|form| own[form])));
+        }
+    }
+
+    pub(crate) fn reserve(&mut self, rows: usize) {
+        self.times.reserve(rows);
+        self.values.reserve(rows * self.sections);
+    }
+
+    /// Members that it follows: building, and member of its forces.
+    #[must_use]
+    pub fn members(&self) -> &[[usize; 2]] {
+        &self.members
+    }
+
+    /// Recorded instants \[s\].
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Forces of the sections of all members at every instant, in the order of the members.
+    pub fn rows(&self) -> impl Iterator<Item = &[[f64; 3]]> {
+        self.values.chunks(self.sections.max(1))
     }
 }
 

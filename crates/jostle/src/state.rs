@@ -2,7 +2,7 @@
 
 use crate::contact::Memory;
 use crate::hysteresis::HysteresisMemory;
-use crate::structure::StoreyForce;
+use crate::structure::{Motion, StoreyForce};
 use crate::system::{BuildingSystem, System};
 
 /// The state of a row of buildings at one instant; a clone is a checkpoint.
@@ -138,6 +138,35 @@ impl BuildingSystem {
             .filter(|(spring, _)| spring.carries_base_shear)
             .map(|(_, memory)| memory.force());
         elastic + yielding.sum::<f64>()
+    }
+
+    /// Calls `take` with every force of columns and beams that is followed, in the order of
+    /// [`MemberForces::forms`](crate::structure::MemberForces::forms) \[N, N·m\]. `links`: forces of the links of the
+    /// system \[N\]; `ground`: ground acceleration \[m/s²\].
+    pub fn member_forces(
+        &self,
+        state: &State,
+        links: &[f64],
+        ground: f64,
+        mut take: impl FnMut(usize, f64),
+    ) {
+        let range = self.range();
+        let motion = Motion {
+            displacement: &state.displacement[range.clone()],
+            velocity: &state.velocity[range.clone()],
+            acceleration: &state.acceleration[range],
+            ground,
+        };
+        let springs = &state.springs[self.spring_range()];
+        for (index, form) in self.members.forms.iter().enumerate() {
+            let value = form.value(
+                motion,
+                |spring| springs[spring].force(),
+                |contact| state.contacts[contact].force(),
+                |link| links[link],
+            );
+            take(index, value);
+        }
     }
 
     /// Calls `take` with every storey, from the top down, its shear \[N\] and overturning moment \[N·m\].

@@ -1,7 +1,9 @@
 //! Collects all faults of a model at once.
 
+mod members;
 mod neighbours;
 
+use members::check_members;
 use neighbours::check_neighbours;
 
 use crate::model::{
@@ -85,6 +87,7 @@ fn check(model: &Model) -> Result<(), Vec<ModelFault>> {
     }
     check_neighbours(&mut faults, model);
     check_analysis(&mut faults, model);
+    check_members(&mut faults, model);
     if faults.0.is_empty() {
         Ok(())
     } else {

@@ -4,11 +4,13 @@
 //! path of the field it concerns, so that a reader can point at the line of the file.
 
 mod integrator;
+mod members;
 
 use crate::contact::ContactLaw;
 use crate::hysteresis::Hysteresis;
 
 pub use integrator::Integrator;
+pub use members::MemberRequest;
 
 /// Buildings in a row, gaps and links between them, and the settings of the analysis.
 ///
@@ -531,6 +533,8 @@ pub struct Analysis {
     /// Largest expected work of a run, as [`Plan::expected_work`](crate::Plan::expected_work) counts it; infinity
     /// for no bound \[–\].
     pub most_work: f64,
+    /// Forces of columns and beams that are asked for; `[output] members` of a model file.
+    pub members: MemberRequest,
 }
 
 /// Default bound on the work of a run: some hours of computing \[–\].
@@ -546,6 +550,7 @@ impl Default for Analysis {
             solver: None,
             integrator: Integrator::default(),
             most_work: MOST_WORK,
+            members: MemberRequest::default(),
         }
     }
 }

@@ -1,8 +1,10 @@
 //! Results of a run as numbers to report.
 
 mod counted_impact;
+mod members;
 mod summarise;
 pub mod summary;
 
 pub use counted_impact::{CountedImpact, counted, find_simultaneous};
+pub use members::{member_name, section_name};
 pub use summarise::{Run, springs_of};

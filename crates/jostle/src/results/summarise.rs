@@ -6,6 +6,7 @@ use crate::hysteresis::{Side, Stage};
 use crate::model::WALL;
 use crate::model::{Gap, Model};
 use crate::motion::GroundMotion;
+use crate::results::members::members_of;
 use crate::results::summary::{
     BuildingSummary, BuildingWithoutContact, ContactSummary, EnergySummary, FloorSummary,
     FloorWithoutContact, GapSummary, HingeSummary, ImpactSummary, LinkFloorSummary, LinkSummary,
@@ -164,6 +165,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         }),
         residual_roof_displacement_m: roof_displacement(building, outcome),
         hinges: hinge_summary(building, outcome),
+        members: members_of(index, run),
     }
 }
 
@@ -349,7 +351,7 @@ fn link_summary(index: usize, run: &Run) -> LinkSummary {
     }
 }
 
-fn counted_impacts(index: usize, gap: &Gap, outcome: &Outcome) -> Vec<CountedImpact> {
+pub(super) fn counted_impacts(index: usize, gap: &Gap, outcome: &Outcome) -> Vec<CountedImpact> {
     let mut impacts: Vec<&Impact> = outcome
         .impacts
         .iter()

@@ -71,6 +71,50 @@ pub struct BuildingSummary {
     pub residual_roof_displacement_m: f64,
     /// Hinge counts.
     pub hinges: HingeSummary,
+    /// Columns and beams, storey by storey from the ground up, columns first; absent unless asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberSummary>,
+}
+
+/// Greatest forces of one column or beam.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct MemberSummary {
+    /// `J1.column.LINE.STOREY` or `J1.beam.FLOOR.SPAN`, counted from 1.
+    pub name: String,
+    /// Foot and head of a column, left and right end of a beam.
+    pub ends: Vec<SectionSummary>,
+    /// Points of a column between its ends where a neighbour can strike it, from the lowest up.
+    pub struck: Vec<StruckSummary>,
+}
+
+/// Greatest forces at one section of a member.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct SectionSummary {
+    /// `foot`, `head`, `left`, `right`, `below` or `above`.
+    pub at: &'static str,
+    /// Greatest axial force, positive in tension \[N\].
+    pub axial_max_n: f64,
+    /// Least axial force, negative in compression \[N\].
+    pub axial_min_n: f64,
+    /// Greatest shear, either sign \[N\].
+    pub shear_peak_n: f64,
+    /// Greatest moment, either sign \[N·m\].
+    pub moment_peak_n_m: f64,
+}
+
+/// A point of a column between its ends where a neighbour can strike it.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct StruckSummary {
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Number of impacts on it.
+    pub impact_count: usize,
+    /// Greatest contact force on it \[N\].
+    pub peak_force_n: f64,
+    /// Just below the point.
+    pub below: SectionSummary,
+    /// Just above it.
+    pub above: SectionSummary,
 }
 
 /// Numbers of hinges, or storeys of a shear building, beyond the elastic range, and their peaks.

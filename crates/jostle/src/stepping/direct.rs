@@ -121,6 +121,8 @@ impl<E: StepEquations> Direct<E> {
             base_shear: std::mem::take(&mut self.recorder.base_shear),
             acceleration_parts: std::mem::take(&mut self.recorder.parts),
             spring_history: self.recorder.springs.take(),
+            members: std::mem::take(&mut self.recorder.members.extremes),
+            member_history: self.recorder.members.history.take(),
             history: self.recorder.into_history(),
             spring_events: self.yielding.events,
             springs: self.yielding.totals,
@@ -132,6 +134,16 @@ impl<E: StepEquations> Direct<E> {
             state: self.state,
             accuracy,
             end,
+        }
+    }
+
+    /// Forces of columns and beams now, where they are asked for.
+    fn follow_members(&mut self, run: &RunState<'_>) {
+        if self.recorder.members.is_asked() {
+            self.state.contacts.clone_from(&run.phases);
+            let (links, ground) = (&self.links.forces, run.ground[0]);
+            let members = &mut self.recorder.members;
+            members.take(run.system, &self.state, links, ground);
         }
     }
 
@@ -274,6 +286,7 @@ impl<E: StepEquations> Stepper for Direct<E> {
     const ENDS_STEPS_AT_CORNERS: bool = false;
 
     fn record_start(&mut self, run: &mut RunState<'_>) {
+        self.follow_members(run);
         self.record(run, true);
     }
 
@@ -425,6 +438,7 @@ impl<E: StepEquations> Stepper for Direct<E> {
         let ground = run.ground[0];
         self.recorder
             .after_step(run.system, &self.state, step, ground);
+        self.follow_members(run);
         self.record(run, was_closed);
         self.check_collapse(run)
     }

@@ -18,6 +18,7 @@ mod integrator;
 mod joints;
 mod kernels;
 mod links;
+mod member_peaks;
 pub mod modal;
 mod outcome;
 mod peak_change;

@@ -2,8 +2,8 @@
 
 use super::acceleration_parts::AccelerationParts;
 use crate::history::{
-    Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, SpringEvent, SpringHistory,
-    SpringTotals, Work,
+    Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, MemberHistory, SpringEvent,
+    SpringHistory, SpringTotals, Work,
 };
 use crate::linear::NotPositive;
 use crate::state::State;
@@ -69,6 +69,11 @@ pub struct Outcome {
     pub links: Vec<LinkTotals>,
     /// Loops of springs that yield, if histories were requested.
     pub spring_history: Option<SpringHistory>,
+    /// Greatest and least value of every force of columns and beams, building by building, in the order of
+    /// [`MemberForces::forms`](crate::structure::MemberForces::forms); empty unless asked for \[N, N·m\].
+    pub members: Vec<Vec<[f64; 2]>>,
+    /// Forces of members over time, if asked for.
+    pub member_history: Option<MemberHistory>,
     /// Energies at the end.
     pub energy: Energy,
     /// Work done.
@@ -190,6 +195,7 @@ impl Outcome {
     /// Results of a run that could not start.
     pub(crate) fn not_begun(system: &System, error: StepError) -> Self {
         let floors = |building: &BuildingSystem| vec![FloorPeaks::default(); building.floors.len()];
+        let unknown = |building: &BuildingSystem| vec![[0.0; 2]; building.members.forms.len()];
         Self {
             history: None,
             impacts: Vec::new(),
@@ -201,6 +207,8 @@ impl Outcome {
             springs: Vec::new(),
             links: vec![LinkTotals::default(); system.links.len()],
             spring_history: None,
+            members: system.buildings.iter().map(unknown).collect(),
+            member_history: None,
             energy: Energy::default(),
             work: Work::default(),
             free_step: None,

@@ -7,6 +7,9 @@ use crate::system::System;
 /// Weight of differences between parts of runs, which are usually larger than those of the peaks.
 const IN_PARTS: f64 = 0.25;
 
+/// Axial force, shear, moment.
+const MEMBER_FORCES: usize = 3;
+
 /// Greatest difference of peaks, relative to the greatest of its kind in the building or gap \[–\].
 pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
     let kinds: [fn(&FloorPeaks) -> f64; 6] = [
@@ -34,6 +37,15 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             worst = worst.max(IN_PARTS * change / greatest);
         }
         floors_before += a_floors.len();
+        for kind in 0..MEMBER_FORCES {
+            let members = system.buildings[index].members.members.iter();
+            let forms = members.flat_map(|m| m.sections.iter().map(|section| section.forms[kind]));
+            let pairs = forms.flat_map(|form| {
+                let [a, b] = [a, b].map(|run| run.members[index][form]);
+                [0, 1].map(|side| [a[side], b[side]])
+            });
+            worst = worst.max(relative(pairs));
+        }
     }
     let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
     for gap in 0..gaps {

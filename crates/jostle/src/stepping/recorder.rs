@@ -3,6 +3,7 @@
 use super::acceleration_parts::AccelerationParts;
 use super::energy::EnergyAudit;
 use super::events::Cubic;
+use super::member_peaks::MemberPeaks;
 use crate::history::{Column, Energy, EnergyTerm, Extreme, FloorPeaks, History, SpringHistory};
 use crate::state::{ContactPhase, State};
 use crate::system::System;
@@ -18,6 +19,7 @@ pub(crate) struct Recorder {
     pub(crate) closing: Vec<Extreme>,
     pub(crate) base_shear: Vec<f64>,
     pub(crate) parts: AccelerationParts,
+    pub(crate) members: MemberPeaks,
     /// Displacement and velocity of every floor, and closing and rate of every contact, at the start of the step.
     before: Vec<(f64, f64)>,
 }
@@ -77,6 +79,7 @@ impl Recorder {
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
             parts: AccelerationParts::new(floors, duration),
+            members: MemberPeaks::new(system, interval.is_some()),
             before: Vec::with_capacity(tracked),
         }
     }
@@ -89,6 +92,7 @@ impl Recorder {
         if let Some(springs) = &mut self.springs {
             springs.reserve(rows);
         }
+        self.members.reserve(rows);
     }
 
     pub(crate) fn into_history(self) -> Option<History> {
@@ -203,6 +207,7 @@ impl Recorder {
         if let Some(springs) = &mut self.springs {
             springs.push(&state.springs);
         }
+        self.members.record(system, state.time);
         let mut row = history.push_row().iter_mut();
         let mut put = |value: f64| {
             if let Some(place) = row.next() {

@@ -1,5 +1,6 @@
 //! From a building as described to lumped masses and massless elements.
 
+use super::member_forces::{FrameMember, MemberPlace};
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, Member, Node, Spring, StickModel, Support};
 use crate::hysteresis::Hysteresis;
@@ -20,6 +21,8 @@ pub struct Discretization {
     pub right_face: Vec<usize>,
     /// Positions of the springs that yield, in the order of [`crate::structure::Equations::springs`].
     pub spring_places: Vec<SpringPlace>,
+    /// Columns and beams, storey by storey from the ground up, columns first; none in a shear building.
+    pub members: Vec<FrameMember>,
 }
 
 impl Discretization {
@@ -206,6 +209,7 @@ fn discretize_frame(
         left_face: Vec::new(),
         right_face: Vec::new(),
         spring_places: Vec::new(),
+        members: Vec::new(),
     };
     // Hinges come before springs, in the order of the stick model.
     let at_the_base =
@@ -244,6 +248,7 @@ fn discretize_frame(
                     0.25 / frame.column_segments as f64,
                 );
             }
+            let first = stick_model.members.len();
             let interior = stick_model.add_line(
                 ends[0],
                 ends[1],
@@ -252,6 +257,13 @@ fn discretize_frame(
                 column,
                 frame.axial.columns_flexible,
             );
+            discretization.members.push(FrameMember {
+                place: MemberPlace::Column {
+                    line: line + 1,
+                    storey: storey + 1,
+                },
+                elements: first..stick_model.members.len(),
+            });
             let port = interior.into_iter().chain([to]);
             if line == 0 {
                 discretization.left_face.extend(port.clone());
@@ -275,6 +287,7 @@ fn discretize_frame(
                     });
                 }
             }
+            let first = stick_model.members.len();
             stick_model.add_line(
                 ends[0],
                 ends[1],
@@ -283,6 +296,13 @@ fn discretize_frame(
                 &frame.beams[storey],
                 frame.axial.beams_flexible,
             );
+            discretization.members.push(FrameMember {
+                place: MemberPlace::Beam {
+                    floor: storey + 1,
+                    span: bay + 1,
+                },
+                elements: first..stick_model.members.len(),
+            });
         }
         for &joint in &joints {
             stick_model.nodes[joint].mass += frame.floor_mass[storey] / joints.len() as f64;
@@ -381,5 +401,6 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
         right_face: floors.clone(),
         floors,
         spring_places,
+        members: Vec::new(),
     }
 }

@@ -5,6 +5,7 @@ mod discretization;
 pub(crate) mod element;
 mod equations;
 mod member_end;
+mod member_forces;
 mod path;
 mod spring_place;
 mod step_equations;
@@ -17,6 +18,10 @@ pub use assembled_building::AssembledBuilding;
 pub use discretization::Discretization;
 pub use equations::{Equations, YieldingSpring};
 pub(crate) use member_end::{ductility, end_stiffnesses};
+pub(crate) use member_forces::Motion;
+pub use member_forces::{
+    FrameMember, LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections, SectionAt,
+};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{Hinge, Member, Node, Spring, StickModel, Support};

@@ -46,6 +46,7 @@ impl System {
         }
         let mut system = Self::of_buildings(buildings);
         system.join(&row, model)?;
+        system.follow_members(&model.analysis.members);
         let faults = finite::of_contacts(&system);
         if faults.is_empty() {
             Ok(system)
@@ -65,8 +66,10 @@ impl System {
             buildings: self.buildings.clone(),
             contacts: Vec::new(),
             links: Vec::new(),
+            members_followed: Vec::new(),
         };
         system.join(&Row::of(model), model)?;
+        system.follow_members(&model.analysis.members);
         Ok(system)
     }
 

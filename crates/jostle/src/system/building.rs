@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::eigen::{Mode, lateral_modes_along};
 use crate::model::{Damping, Gravity, usual_damping_modes};
 use crate::statics::{Collapse, Settled, under_gravity};
-use crate::structure::{AssembledBuilding, Discretization};
+use crate::structure::{AssembledBuilding, Discretization, MemberForces};
 use crate::transfer::riccati::RiccatiSweep;
 
 /// One building of a system: its equations, and where they stand among those of the others.
@@ -32,6 +32,8 @@ pub struct BuildingSystem {
     /// Lateral modes, longest period first; empty when the building can move without deforming.
     /// [`crate::eigen::modes`] finds those of all kinds.
     pub modes: Vec<Mode>,
+    /// How forces of columns and beams follow from the motion; empty unless they are asked for.
+    pub members: MemberForces,
     /// The recursion through its equations, shared by all runs.
     pub(crate) sweep: Arc<RiccatiSweep>,
 }
@@ -93,6 +95,7 @@ impl BuildingSystem {
             spring_offset: 0,
             modal_damping: None,
             modes,
+            members: MemberForces::default(),
             sweep: Arc::new(sweep),
         }
     }

@@ -3,6 +3,7 @@
 mod assemble;
 mod building;
 mod finite;
+mod members;
 
 use crate::interface::{Contact, LinkElement, Port, PortPair};
 use crate::model::LEVEL_TOLERANCE;
@@ -31,6 +32,9 @@ pub struct System {
     pub contacts: Vec<Contact>,
     /// Springs and dashpots between buildings, link by link, from the lowest up.
     pub links: Vec<LinkElement>,
+    /// Members whose forces are recorded over time: building, and member of its
+    /// [`MemberForces`](crate::structure::MemberForces).
+    pub members_followed: Vec<[usize; 2]>,
 }
 
 impl System {
@@ -52,6 +56,7 @@ impl System {
             buildings,
             contacts: Vec::new(),
             links: Vec::new(),
+            members_followed: Vec::new(),
         }
     }
 

@@ -84,6 +84,7 @@ pub(crate) fn assembled(stick_model: StickModel, floors: Vec<usize>) -> Building
     let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
+        members: Vec::new(),
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -247,6 +247,7 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
         left_face: Vec::new(),
         right_face: Vec::new(),
         spring_places: Vec::new(),
+        members: Vec::new(),
     };
     BuildingSystem::new("beam", discretization)
 }

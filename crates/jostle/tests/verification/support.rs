@@ -305,6 +305,7 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
     let discretization = Discretization {
         foot: None,
         spring_places: Vec::new(),
+        members: Vec::new(),
         stick_model,
         floors: vec![1],
         left_face: vec![1],

@@ -4,7 +4,7 @@
 //! loads, the residual of a motion Σ φ q in the equations of the full building is −Σ (r/θ)(q̈ + α q̇): it is driven
 //! by modal accelerations, and vanishes for natural modes (theory, Eq. Q7).
 
-use super::reduced::forces_of;
+use super::reduced::{forces_count, forces_of};
 use super::span::RitzModes;
 use crate::linear::NotPositive;
 use crate::system::BuildingSystem;
@@ -12,8 +12,8 @@ use crate::transfer::riccati::rates::RATES;
 
 /// Defects of every Ritz mode of a building at some points, for a unit modal acceleration.
 pub(super) struct Defects {
-    /// d = (K + s²M)⁻¹ r/θ at a rate s near ω, at every point mode by mode, then its base shear, the shears of
-    /// storeys and their overturning moments \[s²·kg^−½, N·s²·m⁻¹·kg^−½\].
+    /// d = (K + s²M)⁻¹ r/θ at a rate s near ω, at every place mode by mode, then its base shear, the shears of storeys and
+    /// their overturning moments, and forces of columns and beams that are followed \[s²·kg^−½, N·s²·m⁻¹·kg^−½\].
     pub(super) rows: Vec<Vec<f64>>,
     /// Relative error of θ \[–\].
     detuning: Vec<f64>,
@@ -32,7 +32,7 @@ impl Defects {
     ) -> Result<Self, NotPositive> {
         let count = modes.stiffness.len();
         let mut found = Self {
-            rows: vec![vec![0.0; count]; places.len() + 1 + 2 * building.storeys.len()],
+            rows: vec![vec![0.0; count]; places.len() + 1 + forces_count(building)],
             detuning: vec![0.0; count],
         };
         let all: Vec<usize> = (0..count).collect();

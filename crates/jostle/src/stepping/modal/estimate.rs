@@ -173,6 +173,8 @@ impl Reached {
                         .max((force(storey) / scales[4]).abs())
                         .max(moment.abs());
                 }
+                let members = peaks.members.as_ref();
+                most = most.max(members.map_or(0.0, |m| m.off_by_mode(&own.members, mode)));
                 most.max(shear.abs()) * self.all[own.modes.start + mode]
             };
             if own.missed.is_empty() {
@@ -245,6 +247,11 @@ impl Estimate {
                     |place: usize, mode: usize| own.of_blocks(&own.force_blocks, place, mode);
                 between[4] = between[4].max(sum(&|mode| force(storey, mode)));
                 between[5] = between[5].max(sum(&|mode| force(storeys + storey, mode)));
+            }
+            if let Some(members) = &peaks.members {
+                let [shapes, between] = members.errors(&own.members, free);
+                worst.shapes = worst.shapes.max(shapes);
+                worst.between = worst.between.max(together * between);
             }
             between[3] = sum(&|mode| shape(own.shear - own.watched.start, mode));
             for kind in 0..KINDS {

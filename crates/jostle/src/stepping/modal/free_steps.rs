@@ -2,6 +2,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
+use super::members::Instant;
 use super::mode_kernels::{Ahead, LANES, Lanes, Show, Sums};
 use super::peaks::{Taken, Watched};
 use super::reduced::{Reduced, Table};
@@ -320,17 +321,26 @@ impl ModalStepper<'_> {
             struck: false,
         };
         self.peaks.after_step(run.system, self.reduced, &taken);
+        let modes = self.reduced.modes();
+        let [q, v] = free_steps.state(modes, index + 1);
+        let [a, jerk] = [2, 3]
+            .map(|list| &free_steps.modal[list][index * free_steps.start[0].len()..][..modes]);
+        let instant = Instant {
+            q,
+            v,
+            a,
+            jerk,
+            time: run.time,
+            ground: g1,
+            phases: &run.phases,
+            smooth: true,
+        };
         if (index + 1).is_multiple_of(self.rows_per_step) || index + 1 == free {
-            let modes = self.reduced.modes();
-            let [q, v] = free_steps.state(modes, index + 1);
-            let a = &free_steps.modal[2][index * free_steps.start[0].len()..][..modes];
-            self.peaks
-                .follow_forces(run.system, self.reduced, [q, v, a], run.time);
+            self.peaks.follow_forces(run.system, self.reduced, instant);
         }
         if self.peaks.is_due(run.time, false) {
-            let instant = (run.time, g1);
             self.peaks
-                .record(run.system, self.reduced, instant, now, &run.phases, &energy);
+                .record(run.system, self.reduced, instant, now, &energy);
         }
         run.work.steps += 1;
         run.work.solves += 1;

@@ -11,6 +11,7 @@ mod defects;
 mod estimate;
 mod forces;
 mod free_steps;
+mod members;
 mod mode_kernels;
 mod peaks;
 mod predicted_force;

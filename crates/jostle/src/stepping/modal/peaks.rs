@@ -3,10 +3,10 @@
 
 use pulp::Arch;
 
+use super::members::{Instant, MemberPeaks};
 use super::mode_kernels::{Exceeds, Limits, ROWS};
 use super::reduced::Reduced;
 use crate::history::{Energy, Extreme, FloorPeaks, History};
-use crate::state::ContactPhase;
 use crate::stepping::events::Cubic;
 use crate::stepping::recorder::{columns, greatest_in_step};
 use crate::system::System;
@@ -30,6 +30,8 @@ pub(super) struct Peaks {
     /// Contribution of modal accelerations to them at both ends.
     forces_missed: [Vec<f64>; 2],
     before: Before,
+    /// Forces of columns and beams, where they are asked for.
+    pub(super) members: Option<MemberPeaks>,
     /// Blocks of monitored quantities that may exceed a limit in the step.
     seen: Vec<bool>,
 }
@@ -97,6 +99,7 @@ impl Peaks {
                 velocities: vec![0.0; reduced.modes()],
                 accelerations: vec![0.0; reduced.modes()],
             },
+            members: MemberPeaks::new(system, reduced, interval.is_some()),
             seen: vec![false; watched / ROWS],
         }
     }
@@ -104,6 +107,9 @@ impl Peaks {
     pub(super) fn reserve(&mut self, rows: usize) {
         if let Some(history) = &mut self.history {
             history.reserve(rows);
+        }
+        if let Some(members) = &mut self.members {
+            members.reserve(rows);
         }
     }
 
@@ -136,16 +142,18 @@ impl Peaks {
         }
     }
 
-    /// Updates forces of storeys since the last evaluation: modal displacements, velocities and accelerations at an
-    /// instant.
-    pub(super) fn follow_forces(
-        &mut self,
-        system: &System,
-        reduced: &Reduced,
-        modal: [&[f64]; 3],
-        time: f64,
-    ) {
-        let [q, velocities, accelerations] = modal;
+    /// Updates forces of storeys, columns and beams since the last evaluation.
+    pub(super) fn follow_forces(&mut self, system: &System, reduced: &Reduced, now: Instant<'_>) {
+        if let Some(members) = &mut self.members {
+            members.follow(reduced, now);
+        }
+        let Instant {
+            q,
+            v: velocities,
+            a: accelerations,
+            time,
+            ..
+        } = now;
         self.forces.swap(0, 1);
         reduced.show_forces(q, &mut self.forces[0]);
         if self.are_forces_near_peaks(reduced) {
@@ -327,19 +335,27 @@ impl Peaks {
         self.history.is_some() && (wanted || time >= self.due)
     }
 
-    /// Adds a row: time, ground acceleration and monitored quantities.
+    /// Adds a row: the instant and monitored quantities.
     pub(super) fn record(
         &mut self,
         system: &System,
         reduced: &Reduced,
-        (time, ground): (f64, f64),
+        now: Instant<'_>,
         watched: Watched<'_>,
-        phases: &[ContactPhase],
         energy: &Energy,
     ) {
         let Some(history) = &mut self.history else {
             return;
         };
+        let Instant {
+            time,
+            ground,
+            phases,
+            ..
+        } = now;
+        if let Some(members) = &mut self.members {
+            members.record(system, reduced, now);
+        }
         self.due = time + self.interval * (1.0 - 1e-9);
         let mut row = history.push_row().iter_mut();
         let mut put = |value: f64| {
@@ -404,9 +420,9 @@ impl Limits {
 
 /// (value, slope) at the start and at the end of a step.
 #[derive(Clone, Copy)]
-struct Ends {
-    then: [f64; 2],
-    now: [f64; 2],
+pub(super) struct Ends {
+    pub(super) then: [f64; 2],
+    pub(super) now: [f64; 2],
 }
 
 impl Ends {
@@ -450,6 +466,23 @@ impl Ends {
                 at: greatest.at,
             };
         }
+    }
+
+    /// Greatest and least value so far, widened by the step.
+    #[inline(always)]
+    pub(super) fn extremes(self, [greatest, least]: [f64; 2], step: f64) -> [f64; 2] {
+        let Self { then, now } = self;
+        let beyond = self.beyond(step);
+        let [high, low] = [then[0].max(now[0]), then[0].min(now[0])];
+        if high + beyond <= greatest && low - beyond >= least {
+            return [greatest, least];
+        }
+        let curve = Cubic::new(then[0], then[1], now[0], now[1], step);
+        let mut extremes = [greatest.max(high), least.min(low)];
+        for value in curve.turning_points().map(|at| curve.value(at)) {
+            extremes = [extremes[0].max(value), extremes[1].min(value)];
+        }
+        extremes
     }
 
     #[cold]

@@ -8,6 +8,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::basis::{self, Basis, Demand};
 use super::damped::{Damped, Rules};
 use super::defects::Defects;
+use super::members::{FormRows, MemberRows};
 use super::mode_kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
 use super::response::{INPUTS, PRODUCTS, Responses};
 use super::unit_force::{UnitForce, UnitResponse};
@@ -62,6 +63,8 @@ pub(super) struct ReducedBuilding {
     /// error; empty if all natural modes are used \[N·s²·m⁻¹·kg^−½, N·s²·kg^−½\].
     pub(super) forces_missed: Vec<[f64; ROWS]>,
     pub(super) forces_off: Vec<[f64; ROWS]>,
+    /// Forces of columns and beams that are followed.
+    pub(super) members: MemberRows,
     /// Static error of monitored quantities per unit acceleration of every mode; empty if all natural modes are
     /// used.
     pub(super) missed: Vec<[f64; ROWS]>,
@@ -236,7 +239,9 @@ impl Reduced {
             .map(|&dof| basis.of_shapes(|vector| vector[dof]))
             .chain([shear])
             .collect();
-        let storeys = storey_forms(building, &basis);
+        let mut storeys = storey_forms(building, &basis);
+        let members = storeys.split_off(2 * building.storeys.len());
+        let mut defects_of_members = [const { Vec::new() }; 2];
         let forcing = self.forces();
         let (mut missed, mut forces_missed, mut forces_off) = (Vec::new(), Vec::new(), Vec::new());
         if !basis.is_complete {
@@ -245,22 +250,42 @@ impl Reduced {
             work.solves += basis.len() as u64;
             let detuned = defects.detuned(&basis.modes, &self.damping[start..]);
             let resonance = resonance(&self.damping[start..], &basis.modes.stiffness);
-            forces_missed = in_blocks(&defects.rows[shown.len()..], basis.len());
+            let first_of_members = shown.len() + storeys.len();
+            forces_missed = in_blocks(&defects.rows[shown.len()..first_of_members], basis.len());
+            defects_of_members[0] = defects.rows[first_of_members..].to_vec();
             for row in &mut defects.rows[shown.len()..] {
                 // The static error is added to forces; the remaining error is of second order.
                 row.iter_mut().for_each(|value| *value *= SECOND_ORDER);
             }
-            let lists = shown.iter().chain(&storeys);
+            let lists = shown.iter().chain(&storeys).chain(&members);
             for (row, shape) in defects.rows.iter_mut().zip(lists) {
                 for ((value, shape), detuned) in row.iter_mut().zip(shape).zip(&detuned) {
                     *value = resonance * (*value + shape * detuned);
                 }
             }
             missed = in_blocks(&defects.rows[..shown.len()], basis.len());
-            forces_off = in_blocks(&defects.rows[shown.len()..], basis.len());
+            forces_off = in_blocks(&defects.rows[shown.len()..first_of_members], basis.len());
+            defects_of_members[1] = defects.rows.split_off(first_of_members);
         }
         let blocks = in_blocks(&shown, basis.len());
         let rows = shown.len().div_ceil(ROWS) * ROWS;
+        let [missed_of_members, off_of_members] = defects_of_members
+            .each_ref()
+            .map(|rows| (!basis.is_complete).then_some(&rows[..]));
+        let member_rows = MemberRows::new(
+            building,
+            &basis,
+            start..self.stiffness.len(),
+            &self.damping[start..],
+            self.buildings
+                .last()
+                .map_or([0; 2], |last| last.members.ends()),
+            &FormRows {
+                shapes: &members,
+                missed: missed_of_members,
+                off: off_of_members,
+            },
+        );
         self.buildings.push(ReducedBuilding {
             modes: start..self.stiffness.len(),
             watched: watching..watching + rows,
@@ -268,6 +293,7 @@ impl Reduced {
             force_blocks: in_blocks(&storeys, basis.len()),
             forces_missed,
             forces_off,
+            members: member_rows,
             floors: building.floors.len(),
             shear: watching + shown.len() - 1,
             blocks,
@@ -423,17 +449,17 @@ impl Watched {
 }
 
 /// Rows of values of all modes, in blocks; padding rows are zero. Shears of all storeys, then their overturning
-/// moments, of every shape.
+/// moments, then forces of columns and beams that are followed, of every shape.
 fn storey_forms(building: &BuildingSystem, basis: &Basis) -> Vec<Vec<f64>> {
-    let storeys = building.storeys.len();
-    let mut rows = Vec::with_capacity(2 * storeys);
+    let count = forces_count(building);
+    let mut rows = Vec::with_capacity(count);
     let of_vectors: Vec<Vec<f64>> = basis
         .modes
         .vectors
         .iter()
         .map(|vector| forces_of(building, vector))
         .collect();
-    for row in 0..2 * storeys {
+    for row in 0..count {
         let own: Vec<f64> = of_vectors.iter().map(|forces| forces[row]).collect();
         let shapes = basis.modes.parts.iter();
         rows.push(shapes.map(|parts| simd::dot(parts, &own)).collect());
@@ -441,7 +467,13 @@ fn storey_forms(building: &BuildingSystem, basis: &Basis) -> Vec<Vec<f64>> {
     rows
 }
 
-/// Shears of all storeys under displacements of an elastic building, then overturning moments \[N, N·m\].
+/// Number of the forces of [`forces_of`].
+pub(super) fn forces_count(building: &BuildingSystem) -> usize {
+    2 * building.storeys.len() + building.members.forms.len()
+}
+
+/// Shears of all storeys under displacements of an elastic building, then overturning moments, then what displacements
+/// add to the forces of columns and beams that are followed \[N, N·m\].
 pub(super) fn forces_of(building: &BuildingSystem, displacement: &[f64]) -> Vec<f64> {
     let storeys = building.storeys.len();
     let mut forces = vec![0.0; 2 * storeys];
@@ -452,6 +484,8 @@ pub(super) fn forces_of(building: &BuildingSystem, displacement: &[f64]) -> Vec<
             forces[storey] = force.shear;
             forces[storeys + storey] = force.moment;
         });
+    let members = building.members.forms.iter();
+    forces.extend(members.map(|form| form.of_displacements(displacement)));
     forces
 }
 
@@ -479,7 +513,7 @@ impl WithSimd for ShowForces<'_> {
     }
 }
 
-fn in_blocks(rows: &[Vec<f64>], modes: usize) -> Vec<[f64; ROWS]> {
+pub(super) fn in_blocks(rows: &[Vec<f64>], modes: usize) -> Vec<[f64; ROWS]> {
     let mut blocks = Vec::with_capacity(modes * rows.len().div_ceil(ROWS));
     for block in rows.chunks(ROWS) {
         blocks.extend((0..modes).map(|mode| {

@@ -7,6 +7,7 @@ use super::damped::Rules;
 use super::estimate::{Estimate, Reached};
 use super::forces::ForceEquations;
 use super::free_steps::FreeSteps;
+use super::members::Instant;
 use super::peaks::{Peaks, Taken, Watched};
 use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
 use super::reduced::{Reduced, StepEnergy, Table};
@@ -238,6 +239,11 @@ impl<'a> ModalStepper<'a> {
             .filter(|d| *d > 0)
             .map(|d| step_of(d.max(self.least_division)));
         let state = self.full_state(&run);
+        let members = self.peaks.members.take();
+        let (members, member_history) = members.map_or_else(
+            || (vec![Vec::new(); run.system.buildings.len()], None),
+            |members| members.finish(run.system, self.reduced),
+        );
         Outcome {
             impacts: run.impacts,
             acceleration_parts: AccelerationParts::default(),
@@ -245,6 +251,8 @@ impl<'a> ModalStepper<'a> {
             closing: std::mem::take(&mut self.peaks.closing),
             base_shear: std::mem::take(&mut self.peaks.base_shear),
             spring_history: None,
+            members,
+            member_history,
             history: self.peaks.into_history(),
             spring_events: Vec::new(),
             springs: Vec::new(),
@@ -359,11 +367,21 @@ impl<'a> ModalStepper<'a> {
             step,
             struck: self.struck > 0,
         };
+        let was_struck = taken.struck;
         self.peaks.after_step(run.system, reduced, &taken);
         self.struck = self.struck.saturating_sub(1);
-        let modal = [&self.q[0][..], &self.v[0], &self.scratch];
-        self.peaks
-            .follow_forces(run.system, reduced, modal, run.time);
+        let open = (0..run.phases.len()).all(|index| run.is_open(index));
+        let now = Instant {
+            q: &self.q[0],
+            v: &self.v[0],
+            a: &self.scratch,
+            jerk: &self.jerk,
+            time: run.time,
+            ground: run.ground[0],
+            phases: &run.phases,
+            smooth: open && !was_struck,
+        };
+        self.peaks.follow_forces(run.system, reduced, now);
     }
 
     fn show_accelerations(&mut self) {
@@ -448,15 +466,18 @@ impl<'a> ModalStepper<'a> {
                 acceleration: &self.acceleration[0],
                 unloaded_jerk: &self.unloaded_jerk[0],
             };
-            let instant = (run.time, run.ground[0]);
-            self.peaks.record(
-                run.system,
-                self.reduced,
-                instant,
-                watched,
-                &run.phases,
-                energy,
-            );
+            let instant = Instant {
+                q: &self.q[0],
+                v: &self.v[0],
+                a: &self.scratch,
+                jerk: &self.jerk,
+                time: run.time,
+                ground: run.ground[0],
+                phases: &run.phases,
+                smooth: true,
+            };
+            self.peaks
+                .record(run.system, self.reduced, instant, watched, energy);
         }
     }
 }
@@ -469,6 +490,9 @@ impl Stepper for ModalStepper<'_> {
 
     fn record_start(&mut self, run: &mut RunState<'_>) {
         let energy = self.balance();
+        if self.peaks.members.is_some() {
+            self.accelerations();
+        }
         self.take_row(run, true, &energy);
     }
 

@@ -1,0 +1,85 @@
+//! Greatest forces of columns and beams, as numbers to report.
+
+use super::summarise::{Run, counted_impacts};
+use super::summary::{MemberSummary, SectionSummary, StruckSummary};
+use crate::structure::{MemberPlace, MemberSection, MemberSections, SectionAt};
+use crate::system::BuildingSystem;
+
+/// Name of a section of a member: `foot`, `head`, `left`, `right`, `below` or `above`.
+#[must_use]
+pub fn section_name(place: MemberPlace, at: SectionAt) -> &'static str {
+    match (place, at) {
+        (MemberPlace::Column { .. }, SectionAt::First) => "foot",
+        (MemberPlace::Column { .. }, SectionAt::Last) => "head",
+        (MemberPlace::Beam { .. }, SectionAt::First) => "left",
+        (MemberPlace::Beam { .. }, SectionAt::Last) => "right",
+        (_, SectionAt::Below) => "below",
+        (_, SectionAt::Above) => "above",
+    }
+}
+
+/// Full name of a member, such as `J1.column.2.3`.
+#[must_use]
+pub fn member_name(building: &BuildingSystem, place: MemberPlace) -> String {
+    format!("{}.{place}", building.name)
+}
+
+pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
+    let building = &run.system.buildings[index];
+    let extremes = &run.outcome.members[index];
+    let section = |member: &MemberSections, section: &MemberSection| {
+        let [axial, shear, moment] = section.forms.map(|form| extremes[form]);
+        let size = |[greatest, least]: [f64; 2]| greatest.max(-least);
+        SectionSummary {
+            at: section_name(member.place, section.at),
+            axial_max_n: axial[0],
+            axial_min_n: axial[1],
+            shear_peak_n: size(shear),
+            moment_peak_n_m: size(moment),
+        }
+    };
+    let members = building.members.members.iter();
+    members
+        .map(|member| {
+            let (ends, struck) = member.sections.split_at(2);
+            MemberSummary {
+                name: member_name(building, member.place),
+                ends: ends.iter().map(|end| section(member, end)).collect(),
+                struck: struck
+                    .chunks_exact(2)
+                    .map(|pair| {
+                        let (impact_count, peak_force_n) = impacts_at(index, &pair[0], run);
+                        StruckSummary {
+                            height_m: pair[0].height,
+                            impact_count,
+                            peak_force_n,
+                            below: section(member, &pair[0]),
+                            above: section(member, &pair[1]),
+                        }
+                    })
+                    .collect(),
+            }
+        })
+        .collect()
+}
+
+/// Number of impacts on a point of a building, and their greatest force \[N\].
+fn impacts_at(building: usize, section: &MemberSection, run: &Run) -> (usize, f64) {
+    let offset = run.system.buildings[building].offset;
+    let (mut count, mut force) = (0, 0.0_f64);
+    for (index, contact) in run.system.contacts.iter().enumerate() {
+        let mut ports = contact.ports.0.into_iter().flatten();
+        let here = ports.any(|port| {
+            port.building == building && section.dof.is_some_and(|dof| port.dof == offset + dof)
+        });
+        if here {
+            let gap = &run.model.gaps[contact.gap];
+            let impacts = counted_impacts(index, gap, run.outcome);
+            count += impacts.len();
+            force = impacts
+                .iter()
+                .fold(force, |most, impact| most.max(impact.impact.peak_force));
+        }
+    }
+    (count, force)
+}

@@ -1,0 +1,61 @@
+//! Forces of columns and beams: greatest and least values, and histories.
+
+use crate::history::MemberHistory;
+use crate::state::State;
+use crate::system::System;
+
+/// Follows the forces of columns and beams of all buildings that were asked for.
+pub(crate) struct MemberPeaks {
+    /// Greatest and least value of every form of every building.
+    pub(crate) extremes: Vec<Vec<[f64; 2]>>,
+    pub(crate) history: Option<MemberHistory>,
+    /// Values now.
+    values: Vec<Vec<f64>>,
+    asked: bool,
+}
+
+impl MemberPeaks {
+    /// `records`: whether histories are recorded.
+    pub(crate) fn new(system: &System, records: bool) -> Self {
+        let sizes = || system.buildings.iter().map(|b| b.members.forms.len());
+        Self {
+            extremes: sizes()
+                .map(|n| vec![[f64::NEG_INFINITY, f64::INFINITY]; n])
+                .collect(),
+            history: MemberHistory::new(system).filter(|_| records),
+            values: sizes().map(|n| vec![0.0; n]).collect(),
+            asked: sizes().any(|n| n > 0),
+        }
+    }
+
+    /// Takes in a state; `links`: forces of links \[N\].
+    pub(crate) fn take(&mut self, system: &System, state: &State, links: &[f64], ground: f64) {
+        for (index, building) in system.buildings.iter().enumerate() {
+            let (values, extremes) = (&mut self.values[index], &mut self.extremes[index]);
+            building.member_forces(state, links, ground, |form, value| {
+                let [greatest, least] = &mut extremes[form];
+                *greatest = greatest.max(value);
+                *least = least.min(value);
+                values[form] = value;
+            });
+        }
+    }
+
+    /// Whether any force is followed.
+    pub(crate) fn is_asked(&self) -> bool {
+        self.asked
+    }
+
+    /// Adds a row to the histories.
+    pub(crate) fn record(&mut self, system: &System, time: f64) {
+        if let Some(history) = &mut self.history {
+            history.push(system, time, &self.values);
+        }
+    }
+
+    pub(crate) fn reserve(&mut self, rows: usize) {
+        if let Some(history) = &mut self.history {
+            history.reserve(rows);
+        }
+    }
+}

@@ -1,0 +1,464 @@
+//! Axial force, shear and moment at the ends and struck points of columns and beams, as linear forms of the motion.
+
+use std::ops::Range;
+
+use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y};
+use crate::structure::{AssembledBuilding, Member, MemberEnd, SpringPlace};
+
+/// Where a column or a beam of a frame is; all count from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MemberPlace {
+    /// A column, between two floors.
+    Column {
+        /// Column line, from the left.
+        line: usize,
+        /// Storey, from the ground up.
+        storey: usize,
+    },
+    /// A beam, between two column lines.
+    Beam {
+        /// Floor, from the ground up.
+        floor: usize,
+        /// Span, from the left.
+        span: usize,
+    },
+}
+
+impl std::fmt::Display for MemberPlace {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Column { line, storey } => write!(formatter, "column.{line}.{storey}"),
+            Self::Beam { floor, span } => write!(formatter, "beam.{floor}.{span}"),
+        }
+    }
+}
+
+/// A column or a beam of a frame, and the massless members of the stick model that it consists of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameMember {
+    /// Where it is.
+    pub place: MemberPlace,
+    /// Its members of the stick model, upwards or from left to right.
+    pub elements: Range<usize>,
+}
+
+/// Where along a member forces are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SectionAt {
+    /// Lower end of a column, left end of a beam.
+    First,
+    /// Upper end of a column, right end of a beam.
+    Last,
+    /// Just below a point of a column where a neighbour can strike it.
+    Below,
+    /// Just above it.
+    Above,
+}
+
+/// A cross-section of a member whose forces are followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MemberSection {
+    /// Where along the member.
+    pub at: SectionAt,
+    /// Height above the base \[m\].
+    pub height: f64,
+    /// Horizontal displacement of the node there, in the vectors of the building; `None` at the ground.
+    pub dof: Option<usize>,
+    /// Axial force, shear and moment: indices into [`MemberForces::forms`].
+    pub forms: [usize; 3],
+}
+
+/// The sections of one member: its two ends, then below and above every struck point, from the lowest up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MemberSections {
+    /// Where the member is.
+    pub place: MemberPlace,
+    /// Its sections.
+    pub sections: Vec<MemberSection>,
+}
+
+/// How the forces of members follow from the motion of a building.
+///
+/// Forces are those of the elastic members: stiffness-proportional damping is no part of them. Axial forces are positive
+/// in tension. Shear is positive where the lower or left part pushes the other one left or up: that of a column is
+/// horizontal and positive when the building leans to the right, P-Delta included. A moment is positive where it
+/// stretches the bottom of a beam or the right face of a column. At an end with a hinge that yields, it is that of the
+/// hinge.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MemberForces {
+    /// Columns and beams, storey by storey from the ground up, columns first; empty unless asked for.
+    pub members: Vec<MemberSections>,
+    /// Every force once; members of one element have one shear.
+    pub forms: Vec<LinearForm>,
+}
+
+/// A force as a sum over the motion of a building.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LinearForm {
+    /// Degree of freedom of the building, and the force per displacement \[N/m, N, N·m, N·m/rad\].
+    pub(crate) displacement: Vec<(usize, f64)>,
+    /// The same per velocity.
+    pub(crate) velocity: Vec<(usize, f64)>,
+    /// The same per acceleration relative to the ground.
+    pub(crate) acceleration: Vec<(usize, f64)>,
+    /// Spring that yields, and its share of the force.
+    pub(crate) springs: Vec<(usize, f64)>,
+    /// Force per ground acceleration \[kg\].
+    pub(crate) ground: f64,
+    /// Force of self weight beyond that of the displacements at rest \[N\].
+    pub(crate) constant: f64,
+    /// Floor whose left face lies in the cut-off part, from 0: what pushes it reduces the force.
+    pub(crate) left_face: Option<usize>,
+    /// Contacts and links that push there, as indices of the system.
+    pub(crate) contacts: Vec<usize>,
+    pub(crate) links: Vec<usize>,
+}
+
+/// The motion of a building at an instant.
+#[derive(Clone, Copy)]
+pub(crate) struct Motion<'a> {
+    pub(crate) displacement: &'a [f64],
+    pub(crate) velocity: &'a [f64],
+    pub(crate) acceleration: &'a [f64],
+    /// Ground acceleration \[m/s²\].
+    pub(crate) ground: f64,
+}
+
+impl LinearForm {
+    /// The force; `spring`, `contact` and `link` return forces by index \[N, N·m\].
+    #[inline]
+    pub(crate) fn value(
+        &self,
+        motion: Motion<'_>,
+        spring: impl Fn(usize) -> f64,
+        contact: impl Fn(usize) -> f64,
+        link: impl Fn(usize) -> f64,
+    ) -> f64 {
+        let dot = |list: &[(usize, f64)], of: &[f64]| -> f64 {
+            list.iter().map(|(dof, share)| share * of[*dof]).sum()
+        };
+        let mut sum = dot(&self.displacement, motion.displacement) + self.constant;
+        if !self.follows_displacements() {
+            sum += dot(&self.velocity, motion.velocity)
+                + dot(&self.acceleration, motion.acceleration)
+                + self.ground * motion.ground;
+            let springs = self.springs.iter();
+            sum += springs
+                .map(|(index, share)| share * spring(*index))
+                .sum::<f64>();
+            sum -= self
+                .contacts
+                .iter()
+                .map(|index| contact(*index))
+                .sum::<f64>();
+            sum -= self.links.iter().map(|index| link(*index)).sum::<f64>();
+        }
+        sum
+    }
+
+    /// What displacements of the building add to the force.
+    pub(crate) fn of_displacements(&self, displacement: &[f64]) -> f64 {
+        let entries = self.displacement.iter();
+        entries.map(|(dof, share)| share * displacement[*dof]).sum()
+    }
+
+    /// Whether displacements and self weight alone determine it.
+    pub(crate) fn follows_displacements(&self) -> bool {
+        self.velocity.is_empty()
+            && self.acceleration.is_empty()
+            && self.springs.is_empty()
+            && self.contacts.is_empty()
+            && self.links.is_empty()
+            && self.ground == 0.0
+    }
+}
+
+impl MemberForces {
+    /// Forces of all members of a frame; none for a building without members. `struck` tells whether a neighbour can
+    /// strike the node with this horizontal displacement of the building. `gravity`: that of the weight in the
+    /// displacements at rest; 0 without it \[m/s²\].
+    pub(crate) fn new(
+        building: &AssembledBuilding,
+        gravity: f64,
+        struck: impl Fn(usize) -> bool,
+    ) -> Self {
+        let mut forces = Self::default();
+        if building.discretization.members.is_empty() {
+            return forces;
+        }
+        let cuts = Cuts::new(building, gravity);
+        let stick_model = &building.discretization.stick_model;
+        for member in &building.discretization.members {
+            let range = member.elements.clone();
+            let mut places = vec![
+                (SectionAt::First, range.start, 0),
+                (SectionAt::Last, range.end - 1, 1),
+            ];
+            for element in range.start + 1..range.end {
+                let node = cuts.elements[element].ends[0];
+                let dof = building.equations.horizontal(node);
+                let is_column = matches!(member.place, MemberPlace::Column { .. });
+                if is_column && dof.is_some_and(&struck) {
+                    places.push((SectionAt::Below, element - 1, 1));
+                    places.push((SectionAt::Above, element, 0));
+                }
+            }
+            let sections = places.into_iter().map(|(at, element, side)| {
+                let node = cuts.elements[element].ends[side];
+                let forms = [
+                    cuts.axial(element, side),
+                    cuts.shear(element, side),
+                    cuts.moment(member.place, at, element, side),
+                ];
+                MemberSection {
+                    at,
+                    height: stick_model.nodes[node].y,
+                    dof: building.equations.horizontal(node),
+                    forms: forms.map(|form| forces.index_of(form)),
+                }
+            });
+            let sections = sections.collect();
+            forces.members.push(MemberSections {
+                place: member.place,
+                sections,
+            });
+        }
+        forces
+    }
+
+    /// Where a form stands in the list, to which it is added if it is new.
+    fn index_of(&mut self, form: LinearForm) -> usize {
+        // Those that are equal belong to one member or column line: look at the latest first.
+        let known = self.forms.iter().rposition(|known| *known == form);
+        known.unwrap_or_else(|| {
+            self.forms.push(form);
+            self.forms.len() - 1
+        })
+    }
+
+    /// Whether none were asked for, or the building has none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.members.is_empty()
+    }
+}
+
+/// The stick model of a building, ready to be cut.
+struct Cuts<'a> {
+    building: &'a AssembledBuilding,
+    gravity: f64,
+    elements: Vec<Element>,
+    /// Of every node and component: part of the stiffness, degree of freedom and force per displacement of all elements
+    /// together.
+    rows: Vec<[Vec<(Part, usize, f64)>; 3]>,
+}
+
+/// A member of the stick model from its lower or left end on.
+struct Element {
+    ends: [usize; 2],
+    vertical: bool,
+    rigid: bool,
+    compression: f64,
+    stiffness: ElementStiffness,
+}
+
+/// Nodes closer than this lie on one column line or floor \[m\].
+const SAME_LINE: f64 = 1e-6;
+
+impl<'a> Cuts<'a> {
+    fn new(building: &'a AssembledBuilding, gravity: f64) -> Self {
+        let stick_model = &building.discretization.stick_model;
+        let nodes = &stick_model.nodes;
+        let of_member = |member: &Member| {
+            let vertical = member.is_vertical(nodes);
+            let [a, b] = member.ends;
+            let rises = if vertical {
+                nodes[a].y <= nodes[b].y
+            } else {
+                nodes[a].x <= nodes[b].x
+            };
+            Element {
+                ends: if rises { [a, b] } else { [b, a] },
+                vertical,
+                rigid: member.axial_rigidity.is_none(),
+                compression: member.compression,
+                stiffness: element::of_member(member, nodes),
+            }
+        };
+        let mut rows = vec![[const { Vec::new() }; 3]; nodes.len()];
+        for (part, a, b, value) in
+            element::stiffnesses(stick_model).flat_map(|element| element.entries)
+        {
+            if let Some(dof) = building.equations.dof(b) {
+                rows[a.0][a.1].push((part, dof, value));
+            }
+        }
+        Self {
+            building,
+            gravity,
+            elements: stick_model.members.iter().map(of_member).collect(),
+            rows,
+        }
+    }
+
+    /// What displacements do to one component of the force that bends or stretches an element at an end.
+    fn end_force(&self, element: usize, side: usize, component: usize, sign: f64) -> LinearForm {
+        let element = &self.elements[element];
+        let place = (element.ends[side], component);
+        let mut form = LinearForm::default();
+        for (part, a, b, value) in &element.stiffness.entries {
+            if *a == place
+                && *part != Part::Dashpot
+                && let Some(dof) = self.building.equations.dof(*b)
+            {
+                form.displacement.push((dof, sign * value));
+            }
+        }
+        form.displacement = merged(form.displacement);
+        form
+    }
+
+    fn shear(&self, element: usize, side: usize) -> LinearForm {
+        let outwards = [1.0, -1.0][side];
+        if self.elements[element].vertical {
+            self.end_force(element, side, X, -outwards)
+        } else {
+            self.end_force(element, side, Y, outwards)
+        }
+    }
+
+    fn moment(&self, place: MemberPlace, at: SectionAt, element: usize, side: usize) -> LinearForm {
+        let end = match at {
+            SectionAt::First => Some(MemberEnd::First),
+            SectionAt::Last => Some(MemberEnd::Last),
+            _ => None,
+        };
+        let hinge = end.and_then(|end| {
+            let hinge = match place {
+                MemberPlace::Column { line, storey } => SpringPlace::Column { storey, line, end },
+                MemberPlace::Beam { floor, span } => SpringPlace::Beam {
+                    floor,
+                    bay: span,
+                    end,
+                },
+            };
+            let mut places = self.building.discretization.spring_places.iter();
+            places.position(|place| *place == hinge)
+        });
+        match hinge {
+            Some(spring) => LinearForm {
+                springs: vec![(spring, 1.0)],
+                ..LinearForm::default()
+            },
+            None => self.end_force(element, side, THETA, [-1.0, 1.0][side]),
+        }
+    }
+
+    fn axial(&self, element: usize, side: usize) -> LinearForm {
+        let cut = &self.elements[element];
+        match (cut.rigid, cut.vertical) {
+            (true, true) => self.carried_by_column(cut),
+            (true, false) => self.passed_through_beam(cut),
+            (false, vertical) => {
+                let component = if vertical { Y } else { X };
+                let mut form = self.end_force(element, side, component, [-1.0, 1.0][side]);
+                if self.gravity == 0.0 {
+                    form.constant = -cut.compression;
+                }
+                form
+            }
+        }
+    }
+
+    /// By vertical equilibrium of the column line above: beams hang on it, and its masses.
+    fn carried_by_column(&self, cut: &Element) -> LinearForm {
+        let stick_model = &self.building.discretization.stick_model;
+        let top = stick_model.nodes[cut.ends[1]];
+        let equations = &self.building.equations;
+        let mut form = LinearForm::default();
+        for (index, node) in stick_model.nodes.iter().enumerate() {
+            if (node.x - top.x).abs() > SAME_LINE || node.y < top.y - SAME_LINE {
+                continue;
+            }
+            for (part, dof, value) in &self.rows[index][Y] {
+                if *part != Part::Dashpot {
+                    form.displacement.push((*dof, -value));
+                }
+            }
+            if let Some(dof) = equations.dof((index, Y)) {
+                form.acceleration.push((dof, -node.mass));
+                form.velocity.push((dof, -equations.alpha * node.mass));
+            }
+            form.constant -= self.gravity * node.mass;
+        }
+        if self.gravity == 0.0 {
+            form.constant = -cut.compression;
+        }
+        form.tidy()
+    }
+
+    /// By horizontal equilibrium of the floor to the left: columns, masses, damping, and what pushes the left face.
+    fn passed_through_beam(&self, cut: &Element) -> LinearForm {
+        let discretization = &self.building.discretization;
+        let stick_model = &discretization.stick_model;
+        let left = stick_model.nodes[cut.ends[0]];
+        let equations = &self.building.equations;
+        let floors = discretization.floors.iter();
+        let mut form = LinearForm {
+            left_face: floors
+                .map(|node| stick_model.nodes[*node].y)
+                .position(|height| (height - left.y).abs() <= SAME_LINE),
+            ..LinearForm::default()
+        };
+        for (index, node) in stick_model.nodes.iter().enumerate() {
+            if (node.y - left.y).abs() > SAME_LINE || node.x > left.x + SAME_LINE {
+                continue;
+            }
+            for (part, dof, value) in &self.rows[index][X] {
+                match part {
+                    Part::Dashpot => form.velocity.push((*dof, *value)),
+                    Part::Undamped => form.displacement.push((*dof, *value)),
+                    Part::Elastic => {
+                        form.displacement.push((*dof, *value));
+                        form.velocity.push((*dof, equations.beta * value));
+                    }
+                }
+            }
+            if let Some(dof) = equations.dof((index, X)) {
+                form.acceleration.push((dof, node.mass));
+                form.velocity.push((dof, equations.alpha * node.mass));
+                form.ground += node.mass;
+            }
+        }
+        form.tidy()
+    }
+}
+
+impl LinearForm {
+    fn tidy(mut self) -> Self {
+        self.displacement = merged(self.displacement);
+        self.velocity = merged(self.velocity);
+        self.acceleration = merged(self.acceleration);
+        self
+    }
+}
+
+/// Entries of one degree of freedom added up, without those that cancel.
+fn merged(mut entries: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    let greatest = entries
+        .iter()
+        .fold(0.0_f64, |most, (_, v)| most.max(v.abs()));
+    entries.sort_by_key(|(dof, _)| *dof);
+    let mut list: Vec<(usize, f64)> = Vec::new();
+    for (dof, value) in entries {
+        match list.last_mut() {
+            Some((last, sum)) if *last == dof => *sum += value,
+            _ => list.push((dof, value)),
+        }
+    }
+    list.retain(|(_, value)| value.abs() > ROUNDING * greatest);
+    list
+}
+
+/// What is left of stiffnesses that cancel.
+const ROUNDING: f64 = 1e-13;

@@ -1,0 +1,71 @@
+//! Which forces of columns and beams a run follows.
+
+use super::System;
+use crate::interface::PortPair;
+use crate::model::MemberRequest;
+use crate::structure::MemberForces;
+
+impl System {
+    /// Lets runs follow the forces of columns and beams that are asked for, and no others. Names of members that do not
+    /// exist are passed over; [`Model::check`](crate::Model::check) finds them.
+    pub fn follow_members(&mut self, request: &MemberRequest) {
+        self.members_followed.clear();
+        for index in 0..self.buildings.len() {
+            self.buildings[index].members = if request.envelopes {
+                self.member_forces(index)
+            } else {
+                MemberForces::default()
+            };
+        }
+        for wanted in &request.histories {
+            for (index, building) in self.buildings.iter().enumerate() {
+                let members = building.members.members.iter();
+                let names = members.map(|member| format!("{}.{}", building.name, member.place));
+                let found = names.enumerate().find(|(_, name)| name == wanted);
+                let known = found.map(|(member, _)| [index, member]);
+                let new = known.filter(|known| !self.members_followed.contains(known));
+                self.members_followed.extend(new);
+            }
+        }
+    }
+
+    fn member_forces(&self, index: usize) -> MemberForces {
+        let building = &self.buildings[index];
+        let gravity = if building.rest.displacement.is_empty() {
+            0.0
+        } else {
+            crate::statics::STANDARD_GRAVITY
+        };
+        let is_struck = |dof: usize| {
+            let contacts = self.contacts.iter().map(|contact| contact.ports);
+            let mut ports = contacts.flat_map(|ports| ports.0).flatten();
+            ports.any(|port| port.building == index && port.dof == building.offset + dof)
+        };
+        let mut forces = MemberForces::new(&building.structure, gravity, is_struck);
+        for form in &mut forces.forms {
+            let Some(floor) = form.left_face else {
+                continue;
+            };
+            // The building stands right of what pushes its left face.
+            let pushes = |ports: &PortPair| {
+                let [_, right] = ports.0;
+                right.is_some_and(|port| port.building == index && port.floor == Some(floor + 1))
+            };
+            let contacts = self.contacts.iter().map(|contact| &contact.ports);
+            form.contacts = positions(contacts, pushes);
+            form.links = positions(self.links.iter().map(|link| &link.ports), pushes);
+        }
+        forces
+    }
+}
+
+fn positions<'a>(
+    ports: impl Iterator<Item = &'a PortPair>,
+    wanted: impl Fn(&PortPair) -> bool,
+) -> Vec<usize> {
+    let numbered = ports.enumerate();
+    numbered
+        .filter(|(_, ports)| wanted(ports))
+        .map(|(index, _)| index)
+        .collect()
+}
