@@ -114,7 +114,10 @@ fn run(model: &Model, solver: Solver, until: f64) -> (System, Outcome) {
 }
 
 /// All forces of a building: member by member, section by section.
-struct Forces(Vec<(MemberPlace, Vec<(SectionAt, f64, [f64; 3])>)>);
+struct Forces(Vec<(MemberPlace, Vec<SectionForces>)>);
+
+/// Where along the member, height above the base, and axial force, shear and moment.
+type SectionForces = (SectionAt, f64, [f64; 3]);
 
 impl Forces {
     fn of(system: &System, index: usize, state: &State, links: &[f64], ground: f64) -> Self {
