@@ -28,6 +28,8 @@ pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
             ("displacement min", &own.least, reach),
             ("drift", &own.drift, most(&own.drift)),
             ("acceleration", &own.acceleration, most(&own.acceleration)),
+            ("storey shear", &own.storey_shear, most(&own.storey_shear)),
+            ("overturning moment", &own.moment, most(&own.moment)),
         ] {
             for (floor, value) in values.iter().enumerate() {
                 list.push(Quantity {
@@ -45,7 +47,11 @@ pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
             scale: own.shear,
         });
     }
-    for (kind, values) in [("contact force", &peaks.force), ("impulse", &peaks.impulse)] {
+    for (kind, values) in [
+        ("contact force", &peaks.force),
+        ("impulse", &peaks.impulse),
+        ("closing", &peaks.closing),
+    ] {
         for (index, contact) in system.contacts.iter().enumerate() {
             let of_gap = system
                 .contacts
@@ -61,6 +67,16 @@ pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
             });
         }
     }
+    for (element, value) in system.links.iter().zip(&peaks.link) {
+        let of_link = system.links.iter().zip(&peaks.link);
+        let of_link = of_link.filter(|(other, _)| other.link == element.link);
+        list.push(Quantity {
+            kind: "link force",
+            name: format!("link {} at {:.2} m", element.link + 1, element.height),
+            value: *value,
+            scale: of_link.fold(0.0, |m: f64, (_, v)| m.max(*v)),
+        });
+    }
     list
 }
 
@@ -73,6 +89,8 @@ pub(super) fn values_of(summary: &Summary, system: &System) -> Vec<f64> {
         list.extend(floors().map(|f| f.displacement_min_m));
         list.extend(floors().map(|f| f.storey_drift_peak));
         list.extend(floors().map(|f| f.total_acceleration_peak_m_s2));
+        list.extend(floors().map(|f| f.storey_shear_peak_n));
+        list.extend(floors().map(|f| f.overturning_moment_peak_n_m));
         list.push(building.base_shear_peak_n);
     }
     // Contacts of a summary stand gap by gap, in the order of the system.
@@ -82,13 +100,15 @@ pub(super) fn values_of(summary: &Summary, system: &System) -> Vec<f64> {
         own.push((contact.gap, places[contact.gap]));
         places[contact.gap] += 1;
     }
-    list.extend(
+    let contacts = || {
         own.iter()
-            .map(|(gap, place)| summary.gaps[*gap].contacts[*place].peak_force_n),
-    );
-    list.extend(
-        own.iter()
-            .map(|(gap, place)| summary.gaps[*gap].contacts[*place].impulse_n_s),
-    );
+            .map(|(gap, place)| &summary.gaps[*gap].contacts[*place])
+    };
+    list.extend(contacts().map(|contact| contact.peak_force_n));
+    list.extend(contacts().map(|contact| contact.impulse_n_s));
+    list.extend(contacts().map(|contact| contact.closing_peak_m));
+    // Links of a summary stand link by link, in the order of the system.
+    let floors = summary.links.iter().flat_map(|link| &link.floors);
+    list.extend(floors.map(|floor| floor.peak_force_n.abs()));
     list
 }

@@ -77,7 +77,7 @@ impl Run<'_> {
             if self.closed[contact].is_some() {
                 continue;
             }
-            let (x0, v0) = self.closing(contact, &self.q);
+            let (x0, v0) = self.closings[contact];
             let (x1, v1) = self.closing(contact, after);
             let Some(s) = self.touch_of(contact, (x0, v0), (x1, v1), h, reach, pushes) else {
                 continue;
@@ -246,6 +246,7 @@ impl Run<'_> {
             }
             break;
         }
+        self.read_closings();
     }
 
     /// A corner or the release of a contact.

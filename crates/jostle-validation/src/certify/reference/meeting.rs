@@ -16,6 +16,8 @@ pub(super) struct Side {
     /// Jump of the accelerations of floors per force, and of their slopes.
     pub(super) accelerates: Vec<f64>,
     pub(super) jerks: Vec<f64>,
+    /// Slopes of the forces of links per force.
+    pub(super) pulls: Vec<f64>,
 }
 
 pub(super) struct Meeting {
@@ -82,22 +84,14 @@ impl Meeting {
                             *sum += own * *sign;
                         }
                     }
-                    let watch = &watch[index];
-                    let by = |power: i32| -> Vec<f64> {
-                        (0..watch.floors)
-                            .map(|floor| {
-                                let row = watch.displacement(floor);
-                                let terms = row.iter().zip(&component.lambda).zip(&push);
-                                terms.map(|((c, l), b)| (c * l.powi(power) * b).re).sum()
-                            })
-                            .collect()
-                    };
+                    let [accelerates, jerks, pulls] = watch[index].struck(&push);
                     Side {
                         component: index,
                         row,
                         rate,
-                        accelerates: by(1),
-                        jerks: by(2),
+                        accelerates,
+                        jerks,
+                        pulls,
                         push,
                     }
                 })

@@ -8,6 +8,7 @@ mod level;
 mod meeting;
 mod peaks;
 mod polynomial;
+mod storeys;
 mod take;
 mod watch;
 
@@ -20,7 +21,6 @@ use super::linear::{Component, components};
 use super::phi::DEGREE;
 use level::Level;
 use meeting::Meeting;
-use peaks::BuildingPeaks;
 pub use peaks::Peaks;
 use polynomial::{NODES, Poly, ZERO, inverse};
 use watch::Watch;
@@ -66,6 +66,8 @@ struct Run<'a> {
     q: Vec<Vec<c64>>,
     signals: Vec<Vec<(f64, f64)>>,
     closed: Vec<Option<Closed>>,
+    /// Closing less width of every contact, and its rate, now.
+    closings: Vec<(f64, f64)>,
     peaks: Peaks,
     gap_force: Vec<f64>,
     accuracy: Accuracy,
@@ -127,22 +129,8 @@ impl<'a> Run<'a> {
             piece,
             q,
             closed: vec![None; meetings.len()],
-            peaks: Peaks {
-                buildings: system
-                    .buildings
-                    .iter()
-                    .map(|b| BuildingPeaks {
-                        most: vec![0.0; b.floors.len()],
-                        least: vec![0.0; b.floors.len()],
-                        drift: vec![0.0; b.floors.len()],
-                        acceleration: vec![0.0; b.floors.len()],
-                        shear: 0.0,
-                    })
-                    .collect(),
-                force: vec![0.0; meetings.len()],
-                impulse: vec![0.0; meetings.len()],
-                ..Peaks::default()
-            },
+            peaks: Peaks::of(system),
+            closings: vec![(0.0, 0.0); meetings.len()],
             gap_force: vec![0.0; gaps],
             meetings,
             components,
@@ -152,6 +140,7 @@ impl<'a> Run<'a> {
         for index in 0..run.components.len() {
             run.read_signals(index);
         }
+        run.read_closings();
         Ok(run)
     }
 

@@ -64,8 +64,47 @@ impl Run<'_> {
             for (component, ends) in before_signals.iter().zip(&after_signals).enumerate() {
                 self.explore(component, [0.0, reach], [ends.0, ends.1], pushes, 0);
             }
+            for contact in 0..self.meetings.len() {
+                self.take_closing(contact, reach, pushes, &now);
+            }
             self.q = now;
         }
+    }
+
+    /// Reads how far contacts are from touching now.
+    pub(super) fn read_closings(&mut self) {
+        for contact in 0..self.meetings.len() {
+            self.closings[contact] = self.closing(contact, &self.q);
+        }
+    }
+
+    /// Takes the greatest closing of a contact on the way to a share of the step.
+    fn take_closing(&mut self, contact: usize, reach: f64, pushes: &Pushes, after: &[Vec<c64>]) {
+        let h = reach * pushes.step;
+        let width = self.meetings[contact].width;
+        let (x0, v0) = self.closings[contact];
+        let (x1, v1) = self.closing(contact, after);
+        let mut most = (self.peaks.closing[contact] - width).max(x0).max(x1);
+        // It turns on the way, and may do so beyond the greatest so far.
+        if v0 > 0.0 && v1 < 0.0 && x0.max(x1) + 0.3 * h * (v0 - v1) > most {
+            let (mut low, mut high) = ((0.0, v0), (reach, v1));
+            for _ in 0..60 {
+                let share = (low.1 / (low.1 - high.1)).clamp(0.01, 0.99);
+                let s = low.0 + share * (high.0 - low.0);
+                let (x, v) = self.closing_at(contact, s, pushes);
+                most = most.max(x);
+                if v.abs() < 1e-7 * (v0 - v1) {
+                    break;
+                }
+                if v > 0.0 {
+                    low = (s, v);
+                } else {
+                    high = (s, v);
+                }
+            }
+        }
+        self.peaks.closing[contact] = most + width;
+        self.closings[contact] = (x1, v1);
     }
 
     /// Takes peaks inside a part of a step: parts are halved until a cubic meets the exact motion in the middle.
@@ -121,25 +160,20 @@ impl Run<'_> {
     fn exact(&self, component: usize, share: f64, pushes: &Pushes) -> Vec<(f64, f64)> {
         let mut q = Vec::new();
         self.at(component, share, pushes, &mut q);
-        let bare = self.watch[component].values(&q, horner(&pushes.ground, share));
-        self.add_forces(component, bare, share, pushes)
+        let bare = self.watch[component].values(&q);
+        self.with_pushes(component, bare, share, pushes)
     }
 
     pub(super) fn read_signals(&mut self, component: usize) {
-        self.signals[component] = self.watch[component].values(&self.q[component], 0.0);
+        self.signals[component] = self.watch[component].values(&self.q[component]);
     }
 
+    /// Signals of the modes of now with what ground and contacts do at a share of the step.
     fn with_forces(&self, component: usize, s: f64, pushes: &Pushes) -> Vec<(f64, f64)> {
-        let mut own = self.signals[component].clone();
-        let watch = &self.watch[component];
-        let ground = horner(&pushes.ground, s);
-        for floor in 0..watch.floors {
-            own[watch.acceleration(floor)].1 += watch.jerk_by_ground[floor] * ground;
-        }
-        self.add_forces(component, own, s, pushes)
+        self.with_pushes(component, self.signals[component].clone(), s, pushes)
     }
 
-    fn add_forces(
+    fn with_pushes(
         &self,
         component: usize,
         mut own: Vec<(f64, f64)>,
@@ -147,6 +181,7 @@ impl Run<'_> {
         pushes: &Pushes,
     ) -> Vec<(f64, f64)> {
         let watch = &self.watch[component];
+        watch.add_ground(&mut own, horner(&pushes.ground, s));
         for (contact, poly) in &pushes.forces {
             let (force, rise) = (horner(poly, s), slope(poly, s) / pushes.step);
             for side in self.meetings[*contact]
@@ -158,6 +193,9 @@ impl Run<'_> {
                     let signal = &mut own[watch.acceleration(floor)];
                     signal.0 += side.accelerates[floor] * force;
                     signal.1 += side.jerks[floor] * force + side.accelerates[floor] * rise;
+                }
+                for (link, pull) in side.pulls.iter().enumerate() {
+                    own[watch.link(link)].1 += pull * force;
                 }
             }
         }
@@ -178,9 +216,17 @@ impl Run<'_> {
                 peaks.drift[floor] = peaks.drift[floor].max(drift);
                 let acceleration = signals[watch.acceleration(global)].0.abs();
                 peaks.acceleration[floor] = peaks.acceleration[floor].max(acceleration);
+                let shear = signals[watch.storey_shear(global)].0.abs();
+                peaks.storey_shear[floor] = peaks.storey_shear[floor].max(shear);
+                let moment = signals[watch.moment(global)].0.abs();
+                peaks.moment[floor] = peaks.moment[floor].max(moment);
             }
             let place = watch.shear(watched.building);
             peaks.shear = peaks.shear.max(signals[place].0.abs());
+        }
+        for (index, link) in watch.links.iter().enumerate() {
+            let peak = &mut self.peaks.link[link.link];
+            *peak = peak.max(signals[watch.link(index)].0.abs());
         }
     }
 
@@ -206,8 +252,19 @@ impl Run<'_> {
                 look(watch.drift(global), peaks.drift[floor], -peaks.drift[floor]);
                 let a = peaks.acceleration[floor];
                 look(watch.acceleration(global), a, -a);
+                let shear = peaks.storey_shear[floor];
+                look(watch.storey_shear(global), shear, -shear);
+                look(
+                    watch.moment(global),
+                    peaks.moment[floor],
+                    -peaks.moment[floor],
+                );
             }
             look(watch.shear(watched.building), peaks.shear, -peaks.shear);
+        }
+        for (index, link) in watch.links.iter().enumerate() {
+            let peak = self.peaks.link[link.link];
+            look(watch.link(index), peak, -peak);
         }
         near
     }
