@@ -24,26 +24,32 @@ mod hold;
 mod laws;
 mod linear;
 mod models;
+mod more_models;
 mod of_file;
 mod phi;
+mod pulse;
 mod quantities;
+mod random;
 pub mod record;
 mod reference;
 #[cfg(test)]
 mod tests;
 mod truth;
 
+use std::path::Path;
 use std::sync::Arc;
 
 use jostle::{GroundMotion, Solver, System};
 use jostle_io::{Format, Input, read_model_text};
 use rayon::prelude::*;
+use serde_json::{Value, json};
 
 pub use describe::describe;
 pub use hold::Held;
 use hold::hold;
 pub use models::{Drawn, draw};
 pub use of_file::of_file;
+pub use pulse::Pulse;
 pub use quantities::Quantity;
 pub use reference::{Accuracy, Peaks, run as reference};
 pub use truth::Truth;
@@ -107,9 +113,21 @@ impl Certified {
 /// # Errors
 /// What the model file says.
 pub fn read(drawn: &Drawn) -> Result<(Input, GroundMotion), String> {
-    let text = serde_json::to_string(&drawn.tree).map_err(|e| e.to_string())?;
-    let input = read_model_text("random model", &text, Format::Json, "".as_ref())
-        .map_err(|e| e.to_string())?;
+    let Some(pulse) = drawn.pulse else {
+        return read_text(&drawn.tree, Path::new(""));
+    };
+    // Its record has no file: another motion stands in.
+    let mut tree = drawn.tree.clone();
+    let duration = tree["motion"]["duration"].as_f64().unwrap_or(0.0);
+    tree["motion"] = json!({"kind": "sine", "amplitude": 1, "period": 1, "duration": duration});
+    let (input, _) = read_text(&tree, Path::new(""))?;
+    Ok((input, pulse.motion(duration)))
+}
+
+fn read_text(tree: &Value, folder: &Path) -> Result<(Input, GroundMotion), String> {
+    let text = serde_json::to_string(tree).map_err(|e| e.to_string())?;
+    let input =
+        read_model_text("random model", &text, Format::Json, folder).map_err(|e| e.to_string())?;
     let motion = input.ground_motion().map_err(|e| e.to_string())?;
     Ok((input, motion))
 }
@@ -119,14 +137,19 @@ pub fn read(drawn: &Drawn) -> Result<(Input, GroundMotion), String> {
 pub fn certify(seed: u64, number: u64, runs: &[(Solver, f64)]) -> Certified {
     let drawn = draw(seed, number);
     let mut certified = Certified::of(number, drawn.kind);
-    if let Err(why) = fill(&drawn, runs, &mut certified) {
+    let held = read(&drawn).and_then(|(input, motion)| fill(&input, &motion, runs, &mut certified));
+    if let Err(why) = held {
         certified.failed = Some(why);
     }
     certified
 }
 
-fn fill(drawn: &Drawn, runs: &[(Solver, f64)], certified: &mut Certified) -> Result<(), String> {
-    let (input, motion) = read(drawn)?;
+fn fill(
+    input: &Input,
+    motion: &GroundMotion,
+    runs: &[(Solver, f64)],
+    certified: &mut Certified,
+) -> Result<(), String> {
     let mut laws: Vec<String> = input
         .model
         .gaps
@@ -152,14 +175,14 @@ fn fill(drawn: &Drawn, runs: &[(Solver, f64)], certified: &mut Certified) -> Res
             .join("; ")
     })?;
     let begun = std::time::Instant::now();
-    let (truth, peaks) = true_peaks(&system, [&motion; 2])?;
+    let (truth, peaks) = true_peaks(&system, [motion; 2])?;
     certified.seconds = begun.elapsed().as_secs_f64();
     (certified.touches, certified.lasting, certified.steps) =
         (peaks.touches, peaks.lasting, peaks.steps);
     certified.truth = Arc::new(truth);
     for &(solver, tolerance) in runs {
         let truth = &certified.truth;
-        match hold(&input, &system, &motion, truth, solver, tolerance) {
+        match hold(input, &system, motion, truth, solver, tolerance) {
             Ok(held) => certified.runs.push(held),
             Err(why) => {
                 let refusal = (solver.name(), why);

@@ -1,21 +1,22 @@
 //! The promised numbers of one model file.
 
 use std::fmt::Write;
+use std::path::Path;
 
-use super::models::Drawn;
 use super::truth::share;
-use super::{Certified, every_run, fill};
+use super::{Certified, every_run, fill, read_text};
 
 /// The promised numbers of a model file: reference, its change under the perturbation, and both solvers.
 ///
 /// # Errors
 /// Why the file cannot be read, or has no reference.
-pub fn of_file(path: &std::path::Path, tolerances: &[f64]) -> Result<String, String> {
+pub fn of_file(path: &Path, tolerances: &[f64]) -> Result<String, String> {
     let tree = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
     let tree = serde_json::from_str(&tree).map_err(|e| e.to_string())?;
+    let (input, motion) = read_text(&tree, path.parent().unwrap_or(Path::new("")))?;
     let mut certified = Certified::of(0, "file");
     let runs = every_run(tolerances);
-    fill(&Drawn { tree, kind: "file" }, &runs, &mut certified)?;
+    fill(&input, &motion, &runs, &mut certified)?;
     let mut text = String::new();
     let truth = &certified.truth;
     for (k, (quantity, shift)) in truth.quantities.iter().zip(&truth.shifts).enumerate() {

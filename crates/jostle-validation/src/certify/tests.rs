@@ -11,6 +11,15 @@ fn peaks(text: &str) -> Peaks {
     reference(&system, &motion, Accuracy::FINE).expect("a reference")
 }
 
+/// Both solvers held to the reference of a model file.
+fn held(text: &str, tolerances: &[f64]) -> Certified {
+    let tree = serde_json::from_str(text).expect("a tree");
+    let (input, motion) = read_text(&tree, Path::new("")).expect("a sound model");
+    let mut certified = Certified::of(0, "test");
+    fill(&input, &motion, &every_run(tolerances), &mut certified).expect("a reference");
+    certified
+}
+
 fn near(got: f64, expected: f64, share: f64, what: &str) {
     let error = (got / expected - 1.0).abs();
     assert!(
@@ -93,12 +102,7 @@ fn a_tight_run_of_jostle_meets_the_reference() {
        "base": {"horizontal_stiffness": 4e8, "horizontal_damping": 2e6, "mass": 2e4}}],
     "gap": [{"between": ["A", "B"], "width": 0.003, "law": "kelvin-no-tension", "stiffness": 1e8}],
     "link": [{"between": ["A", "B"], "stiffness": 2e6, "damping": 1e5}]}"#;
-    let drawn = Drawn {
-        tree: serde_json::from_str(model).expect("a tree"),
-        kind: "test",
-    };
-    let mut certified = Certified::of(0, "test");
-    fill(&drawn, &every_run(&[1e-5]), &mut certified).expect("a reference");
+    let certified = held(model, &[1e-5]);
     assert!(certified.touches > 5, "{} touches", certified.touches);
     let run = &certified.runs[0];
     for (quantity, error) in run.truth.quantities.iter().zip(&run.errors) {
@@ -122,12 +126,7 @@ const BLOWS: &str = r#"{"motion": {"record": "el-centro-1940-ns", "pga": 2.595, 
 "gap": [{"between": ["A", "B"], "width": 0.001218, "law": "restitution", "restitution": 0.3845, "stiffness": 3.912e8}]}"#;
 
 fn assert_blows_meet_the_reference(base: &str, tolerance: f64, solvers: usize) {
-    let drawn = Drawn {
-        tree: serde_json::from_str(&BLOWS.replace("BASE", base)).expect("a tree"),
-        kind: "test",
-    };
-    let mut certified = Certified::of(0, "test");
-    fill(&drawn, &every_run(&[tolerance]), &mut certified).expect("a reference");
+    let certified = held(&BLOWS.replace("BASE", base), &[tolerance]);
     assert!(
         certified.touches > 20 && certified.lasting > 3,
         "{} touches, {} lasting",
