@@ -281,10 +281,10 @@ impl Closed {
                 to(-v, Piece::In),
                 to(1.0 + d * v / self.speed, Piece::Cut),
             ],
+            (_, Piece::In) => [release, to(v, Piece::Out), NEVER],
             (Law::Rubber { d, .. }, _) => {
                 [release, to(-(1.0 + d * v / self.speed), Piece::Out), NEVER]
             }
-            (_, Piece::In) => [release, to(v, Piece::Out), NEVER],
             (Law::Approach { .. } | Law::Jankowski { .. }, _) => {
                 [release, to(-v, Piece::In), NEVER]
             }
