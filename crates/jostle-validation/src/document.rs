@@ -54,7 +54,8 @@ pub fn page(families: &[Family], extent: Extent) -> String {
     )
     .replace("jostle-validation -- \n", "jostle-validation\n");
     page += "\n## Random models\n\n\
-        Every promised peak of random models is held to the tolerance against a reference of other means. The figure shows \
+        Every promised peak of random models, and the closings and forces of links beside them, is held to the tolerance \
+        against a reference of other means. The figure shows \
         the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [certify.md](certify.md).\n\n\
         ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n\n## Families\n";
     page += "\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n";
