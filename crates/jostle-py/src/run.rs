@@ -265,8 +265,8 @@ impl Run {
 
     /// Histories of members as a table, columns as in members.parquet; `None` if no member was named.
     fn member_history_table(&self) -> Option<Table> {
-        let history = self.outcome.member_history.as_ref()?;
-        let columns = member_history_columns(&self.model.system, history);
+        let history = self.ran.outcome.member_history.as_ref()?;
+        let columns = member_history_columns(&self.ran.prepared.system, history);
         Some(Table::of_columns(columns))
     }
 

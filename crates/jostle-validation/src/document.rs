@@ -53,7 +53,8 @@ pub fn page(families: &[Family], extent: Extent) -> String {
     )
     .replace("jostle-validation -- \n", "jostle-validation\n");
     page += "\n## Random models\n\n\
-        Every peak of random models that the tolerance covers is compared with an independent reference. The figure shows \
+        Every peak of random models that the tolerance covers, and the closings and forces of links, are compared with an \
+        independent reference. The figure shows \
         the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [certify.md](certify.md).\n\n\
         ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n\n## Families\n";
     page += "\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n";

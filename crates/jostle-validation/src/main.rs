@@ -20,7 +20,7 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
   --certify N [--seed S] [--only K] [--json FILE]  holds every promised number of N random models against a reference of
                 other means; FILE gets every ratio
   --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files
-  --certify-dump K FOLDER [--seed S]  writes random model K as a model file
+  --certify-dump K FOLDER [--seed S]  writes random model K as a model file, with its record if it has one of its own
   --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
   --bits [--write]  compares digests of the results of many models with those on record, or records them
   --reference   makes the reference runs of the built-in model anew; takes minutes";
@@ -188,8 +188,14 @@ fn certified(arguments: &[String]) -> ExitCode {
             say(USAGE);
             return ExitCode::from(2);
         };
-        let text =
-            serde_json::to_string_pretty(&certify::draw(seed, model).tree).unwrap_or_default();
+        let drawn = certify::draw(seed, model);
+        let text = serde_json::to_string_pretty(&drawn.tree).unwrap_or_default();
+        if let (Some(pulse), Some(name)) = (drawn.pulse, drawn.tree["motion"]["record"].as_str()) {
+            let record = Path::new(folder).join(name);
+            if written(&record, &pulse.text()) == ExitCode::FAILURE {
+                return ExitCode::FAILURE;
+            }
+        }
         return written(
             &Path::new(folder).join(format!("seed{seed}_model{model}.json")),
             &(text + "\n"),

@@ -13,6 +13,8 @@ pub(super) enum Law {
     Damped { k: f64, d: f64, n: f64 },
     /// k δ^1.5 + c δ^¼ δ̇ in approach only.
     Jankowski { k: f64, c: f64 },
+    /// k δ_u (δ/δ_u)ⁿ up to δ_u, beyond along the tangent; in restitution times 1 + d δ̇/v.
+    Rubber { k: f64, d: f64, n: f64, limit: f64 },
     /// A spring beside a slider; numbers at the reference speed.
     Bilinear {
         first: f64,
@@ -135,13 +137,22 @@ impl Law {
                 },
                 Some(restitution),
             ),
-            ForceLaw::Rubber(_) => return Err("rubber is not part of this".into()),
+            ForceLaw::Rubber(own) => (
+                Self::Rubber {
+                    k: own.stiffness,
+                    d: own.damping,
+                    n: own.exponent,
+                    limit: own.limit,
+                },
+                None,
+            ),
         })
     }
 
     /// Whether the force starts and ends as a broken power of the time.
     pub(super) fn is_steep(&self) -> bool {
-        matches!(self, Self::Jankowski { .. }) || matches!(self, Self::Damped { n, .. } if *n > 1.0)
+        matches!(self, Self::Jankowski { .. } | Self::Rubber { .. })
+            || matches!(self, Self::Damped { n, .. } if *n > 1.0)
     }
 }
 
@@ -153,7 +164,8 @@ impl Closed {
             Law::Kelvin { .. } => Piece::Push,
             Law::Damped { d, .. } if from_rest && d > 0.0 => Piece::Rising,
             Law::Damped { .. } => Piece::Push,
-            Law::Approach { .. } | Law::Jankowski { .. } => Piece::In,
+            Law::Rubber { d, .. } if from_rest && d > 0.0 => Piece::Rising,
+            Law::Approach { .. } | Law::Jankowski { .. } | Law::Rubber { .. } => Piece::In,
             Law::Bilinear { .. } => Piece::Stick(0.0, 0.0),
         };
         let scale = match law {
@@ -198,6 +210,20 @@ impl Closed {
                     0.0
                 };
                 k * x * root + damper
+            }
+            (Law::Rubber { k, d, n, limit }, piece) => {
+                let share = x.max(0.0) / limit;
+                let elastic = if share > 1.0 {
+                    1.0 + n * (share - 1.0)
+                } else {
+                    share.powf(n)
+                };
+                let factor = if piece == Piece::Out {
+                    1.0 + d * v / self.speed
+                } else {
+                    1.0
+                };
+                k * limit * elastic * factor
             }
             (Law::Bilinear { second, .. }, piece) => {
                 let (slider, limit) = self.slider();
@@ -244,7 +270,21 @@ impl Closed {
                 [release, to(-(k * x + c * v), Piece::Push), NEVER]
             }
             (Law::Kelvin { .. }, _) => [release, NEVER, NEVER],
+            (Law::Rubber { d, .. }, Piece::In) if self.from_rest && d > 0.0 => [
+                release,
+                to(v, Piece::Out),
+                to(self.speed - v + NOISE[1], Piece::Rising),
+            ],
+            (Law::Rubber { .. }, Piece::Rising) => [release, to(w + NOISE[1], Piece::In), NEVER],
+            (Law::Rubber { d, .. }, Piece::Out) => [
+                release,
+                to(-v, Piece::In),
+                to(1.0 + d * v / self.speed, Piece::Cut),
+            ],
             (_, Piece::In) => [release, to(v, Piece::Out), NEVER],
+            (Law::Rubber { d, .. }, _) => {
+                [release, to(-(1.0 + d * v / self.speed), Piece::Out), NEVER]
+            }
             (Law::Approach { .. } | Law::Jankowski { .. }, _) => {
                 [release, to(-v, Piece::In), NEVER]
             }

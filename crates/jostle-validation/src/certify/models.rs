@@ -4,58 +4,9 @@ use std::f64::consts::PI;
 
 use serde_json::{Map, Value, json};
 
-/// Random numbers that are the same everywhere (splitmix64).
-struct Random(u64);
-
-impl Random {
-    /// Those of a model of a seed.
-    fn of(seed: u64, model: u64) -> Self {
-        let mut first = Self(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ 0x5851_f42d_4c95_7f2d);
-        let mixed = first.next();
-        let mut second = Self(mixed ^ model.wrapping_mul(0x9fb2_1c65_1e98_df25));
-        Self(second.next())
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Evenly in the logarithm, to four digits.
-    fn scaled(&mut self, low: f64, high: f64) -> f64 {
-        digits(self.between(low.ln(), high.ln()).exp())
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.between(0.0, n as f64) as usize).min(n - 1)
-    }
-
-    /// Evenly among low … high.
-    fn whole(&mut self, low: usize, high: usize) -> usize {
-        low + self.below(high - low + 1)
-    }
-
-    fn chance(&mut self, share: f64) -> bool {
-        self.between(0.0, 1.0) < share
-    }
-}
-
-/// Four significant digits.
-fn digits(value: f64) -> f64 {
-    if value == 0.0 {
-        return 0.0;
-    }
-    let unit = 10_f64.powi(value.abs().log10().floor() as i32 - 3);
-    let rounded = (value / unit).round() * unit;
-    format!("{rounded:.4e}").parse().unwrap_or(value)
-}
+use super::more_models::more;
+use super::pulse::Pulse;
+use super::random::{Random, digits};
 
 /// A model as the tree of a model file, and what it is like.
 #[derive(Clone, Debug)]
@@ -64,9 +15,11 @@ pub struct Drawn {
     pub tree: Value,
     /// Kind of the model.
     pub kind: &'static str,
+    /// The pulse of which its record has the values.
+    pub pulse: Option<Pulse>,
 }
 
-const LAWS: [&str; 11] = [
+pub(super) const LAWS: [&str; 11] = [
     "linear",
     "kelvin",
     "kelvin-no-tension",
@@ -80,7 +33,7 @@ const LAWS: [&str; 11] = [
     "restitution",
 ];
 
-fn gap(random: &mut Random, between: [&str; 2], law: &str) -> Value {
+pub(super) fn gap(random: &mut Random, between: [&str; 2], law: &str) -> Value {
     let mut words = law.split(' ');
     let law = words.next().unwrap_or("linear");
     let mut gap = Map::new();
@@ -147,7 +100,7 @@ fn damping(random: &mut Random, storeys: usize, period: f64, modal: Modal) -> Va
 }
 
 /// A building: its tree and about its first period \[s\].
-fn building(
+pub(super) fn building(
     random: &mut Random,
     name: &str,
     height: f64,
@@ -258,7 +211,7 @@ fn building(
     (Value::Object(tree), period)
 }
 
-fn motion(random: &mut Random, period: f64, longest: f64) -> Value {
+pub(super) fn motion(random: &mut Random, period: f64, longest: f64) -> Value {
     let duration = digits(random.between(4.0, longest));
     let reverse = random.chance(0.3);
     match random.below(4) {
@@ -280,6 +233,11 @@ fn motion(random: &mut Random, period: f64, longest: f64) -> Value {
 /// Model `number` of a seed.
 #[must_use]
 pub fn draw(seed: u64, number: u64) -> Drawn {
+    more(seed, number).unwrap_or_else(|| usual(seed, number))
+}
+
+/// A model of the kinds that most are of.
+pub(super) fn usual(seed: u64, number: u64) -> Drawn {
     let mut random = Random::of(seed, number);
     let height = digits(random.between(2.8, 4.0));
     let roll = random.between(0.0, 1.0);
@@ -354,5 +312,9 @@ pub fn draw(seed: u64, number: u64) -> Drawn {
             "damping": random.scaled(1e4, 2e6),
         }]);
     }
-    Drawn { tree, kind }
+    Drawn {
+        tree,
+        kind,
+        pulse: None,
+    }
 }

@@ -11,6 +11,15 @@ fn peaks(text: &str) -> Peaks {
     reference(&system, &motion, Accuracy::FINE).expect("a reference")
 }
 
+/// Both solvers held to the reference of a model file.
+fn held(text: &str, tolerances: &[f64]) -> Certified {
+    let tree = serde_json::from_str(text).expect("a tree");
+    let (input, motion) = read_text(&tree, Path::new("")).expect("a sound model");
+    let mut certified = Certified::of(0, "test");
+    fill(&input, &motion, &every_run(tolerances), &mut certified).expect("a reference");
+    certified
+}
+
 fn near(got: f64, expected: f64, share: f64, what: &str) {
     let error = (got / expected - 1.0).abs();
     assert!(
@@ -93,12 +102,7 @@ fn a_tight_run_of_jostle_meets_the_reference() {
        "base": {"horizontal_stiffness": 4e8, "horizontal_damping": 2e6, "mass": 2e4}}],
     "gap": [{"between": ["A", "B"], "width": 0.003, "law": "kelvin-no-tension", "stiffness": 1e8}],
     "link": [{"between": ["A", "B"], "stiffness": 2e6, "damping": 1e5}]}"#;
-    let drawn = Drawn {
-        tree: serde_json::from_str(model).expect("a tree"),
-        kind: "test",
-    };
-    let mut certified = Certified::of(0, "test");
-    fill(&drawn, &every_run(&[1e-5]), &mut certified).expect("a reference");
+    let certified = held(model, &[1e-5]);
     assert!(certified.touches > 5, "{} touches", certified.touches);
     let run = &certified.runs[0];
     for (quantity, error) in run.truth.quantities.iter().zip(&run.errors) {
@@ -122,12 +126,7 @@ const BLOWS: &str = r#"{"motion": {"record": "el-centro-1940-ns", "pga": 2.595, 
 "gap": [{"between": ["A", "B"], "width": 0.001218, "law": "restitution", "restitution": 0.3845, "stiffness": 3.912e8}]}"#;
 
 fn assert_blows_meet_the_reference(base: &str, tolerance: f64, solvers: usize) {
-    let drawn = Drawn {
-        tree: serde_json::from_str(&BLOWS.replace("BASE", base)).expect("a tree"),
-        kind: "test",
-    };
-    let mut certified = Certified::of(0, "test");
-    fill(&drawn, &every_run(&[tolerance]), &mut certified).expect("a reference");
+    let certified = held(&BLOWS.replace("BASE", base), &[tolerance]);
     assert!(
         certified.touches > 20 && certified.lasting > 3,
         "{} touches, {} lasting",
@@ -162,6 +161,84 @@ fn feet_on_springs_follow_blows_as_the_reference_says() {
         let base = format!(r#", "base": {{"rotational_stiffness": 5.436e8{dashpot}}}"#);
         assert_blows_meet_the_reference(&base, 1e-4, 1);
     }
+}
+
+/// A storey of a shear building bears its stiffness times its drift, and the roof storey alone its moment.
+#[test]
+fn storeys_of_a_chain_bear_their_stiffness_times_their_drift() {
+    let peaks = peaks(&CHAIN.replace("PARTNER", "").replace("GAP", ""));
+    let own = &peaks.buildings[0];
+    for (storey, stiffness) in [(0, 2.88065e8), (4, 2.19547e8), (10, 1.31342e8)] {
+        let expected = stiffness * 3.7 * own.drift[storey];
+        near(own.storey_shear[storey], expected, 1e-8, "storey shear");
+    }
+    near(own.moment[10], 3.7 * own.storey_shear[10], 1e-8, "moment");
+    near(own.storey_shear[0], own.shear, 1e-8, "base shear");
+}
+
+/// Rubber between floors and columns, under frames whose feet rise and turn.
+#[test]
+fn rubber_columns_and_feet_that_rise_meet_the_reference() {
+    let frame = |name: &str, height: f64, depth: f64| {
+        format!(
+            r#"{{"name": "{name}", "kind": "frame", "storeys": 2, "storey_height": {height}, "spans": [5],
+            "column": {{"width": {depth}, "depth": {depth}}}, "beam": {{"width": 0.3, "depth": 0.5}}, "elastic_modulus": 3e10,
+            "beam_mass": 3000, "column_segments": 1, "beam_segments": 1,
+            "base": {{"vertical_stiffness": 4e8, "rotational_stiffness": 2e8}}}}"#
+        )
+    };
+    let (left, right) = (frame("A", 3.0, 0.5), frame("B", 3.6, 0.4));
+    let certified = held(
+        &format!(
+            r#"{{"motion": {{"kind": "ricker", "amplitude": 4.0, "period": 0.5, "duration": 2}},
+            "building": [{left}, {right}],
+            "gap": [{{"between": ["A", "B"], "width": 0.002, "floors": "all", "law": "rubber", "stiffness": 2e7, "thickness": 0.02}}]}}"#
+        ),
+        &[1e-3],
+    );
+    assert!(certified.touches > 3, "{} touches", certified.touches);
+    assert!(!certified.runs.is_empty());
+    for run in &certified.runs {
+        for (quantity, error) in run.truth.quantities.iter().zip(&run.errors) {
+            let error = error.expect("a certain reference");
+            let name = format!("{} {}", quantity.kind, quantity.name);
+            assert!(error < 1e-3, "{}: {name}: {error:e}", run.solver);
+        }
+    }
+}
+
+#[test]
+fn a_pulse_has_its_velocity_and_leaves_none() {
+    let pulse = Pulse {
+        velocity: 0.5,
+        period: 1.0,
+        oscillations: 2.0,
+        phase: 0.0,
+    };
+    let mut velocity = 0.0;
+    let mut greatest: f64 = 0.0;
+    for value in pulse.values() {
+        velocity += 0.01 * value;
+        greatest = greatest.max(velocity);
+    }
+    near(greatest, 0.5, 1e-2, "velocity");
+    assert!(velocity.abs() < 1e-3, "{velocity}");
+}
+
+#[test]
+fn rare_kinds_leave_all_other_models_as_they_are() {
+    let mut kinds = Vec::new();
+    for number in 1..=300 {
+        let drawn = draw(21, number);
+        match drawn.kind {
+            "rubber" | "pulse" | "springs" | "columns" => kinds.push(drawn.kind),
+            _ => assert_eq!(drawn.tree, models::usual(21, number).tree),
+        }
+    }
+    assert!((20..90).contains(&kinds.len()), "{}", kinds.len());
+    kinds.sort_unstable();
+    kinds.dedup();
+    assert_eq!(kinds.len(), 4);
 }
 
 #[test]

@@ -1,0 +1,114 @@
+//! The promised numbers of a run, and where they are in a summary.
+
+use jostle::{Summary, System};
+
+use super::reference::Peaks;
+
+/// One promised number.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// Its kind.
+    pub kind: &'static str,
+    /// Which one.
+    pub name: String,
+    /// The value.
+    pub value: f64,
+    /// The greatest of its kind in that building or gap.
+    pub scale: f64,
+}
+
+pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
+    let mut list = Vec::new();
+    let most = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    for (building, own) in system.buildings.iter().zip(&peaks.buildings) {
+        let name = &building.name;
+        let reach = most(&own.most).max(most(&own.least));
+        for (kind, values, scale) in [
+            ("displacement max", &own.most, reach),
+            ("displacement min", &own.least, reach),
+            ("drift", &own.drift, most(&own.drift)),
+            ("acceleration", &own.acceleration, most(&own.acceleration)),
+            ("storey shear", &own.storey_shear, most(&own.storey_shear)),
+            ("overturning moment", &own.moment, most(&own.moment)),
+        ] {
+            for (floor, value) in values.iter().enumerate() {
+                list.push(Quantity {
+                    kind,
+                    name: format!("{name} floor {}", floor + 1),
+                    value: *value,
+                    scale,
+                });
+            }
+        }
+        list.push(Quantity {
+            kind: "base shear",
+            name: name.clone(),
+            value: own.shear,
+            scale: own.shear,
+        });
+    }
+    for (kind, values) in [
+        ("contact force", &peaks.force),
+        ("impulse", &peaks.impulse),
+        ("closing", &peaks.closing),
+    ] {
+        for (index, contact) in system.contacts.iter().enumerate() {
+            let of_gap = system
+                .contacts
+                .iter()
+                .zip(values)
+                .filter(|(c, _)| c.gap == contact.gap);
+            let scale = of_gap.fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
+            list.push(Quantity {
+                kind,
+                name: format!("gap {} at {:.2} m", contact.gap + 1, contact.height),
+                value: values[index],
+                scale,
+            });
+        }
+    }
+    for (element, value) in system.links.iter().zip(&peaks.link) {
+        let of_link = system.links.iter().zip(&peaks.link);
+        let of_link = of_link.filter(|(other, _)| other.link == element.link);
+        list.push(Quantity {
+            kind: "link force",
+            name: format!("link {} at {:.2} m", element.link + 1, element.height),
+            value: *value,
+            scale: of_link.fold(0.0, |m: f64, (_, v)| m.max(*v)),
+        });
+    }
+    list
+}
+
+/// The same list from a summary.
+pub(super) fn values_of(summary: &Summary, system: &System) -> Vec<f64> {
+    let mut list = Vec::new();
+    for building in &summary.buildings {
+        let floors = || building.floors.iter();
+        list.extend(floors().map(|f| f.displacement_max_m));
+        list.extend(floors().map(|f| f.displacement_min_m));
+        list.extend(floors().map(|f| f.storey_drift_peak));
+        list.extend(floors().map(|f| f.total_acceleration_peak_m_s2));
+        list.extend(floors().map(|f| f.storey_shear_peak_n));
+        list.extend(floors().map(|f| f.overturning_moment_peak_n_m));
+        list.push(building.base_shear_peak_n);
+    }
+    // Contacts of a summary stand gap by gap, in the order of the system.
+    let mut places = vec![0; summary.gaps.len()];
+    let mut own = Vec::new();
+    for contact in &system.contacts {
+        own.push((contact.gap, places[contact.gap]));
+        places[contact.gap] += 1;
+    }
+    let contacts = || {
+        own.iter()
+            .map(|(gap, place)| &summary.gaps[*gap].contacts[*place])
+    };
+    list.extend(contacts().map(|contact| contact.peak_force_n));
+    list.extend(contacts().map(|contact| contact.impulse_n_s));
+    list.extend(contacts().map(|contact| contact.closing_peak_m));
+    // Links of a summary stand link by link, in the order of the system.
+    let floors = summary.links.iter().flat_map(|link| &link.floors);
+    list.extend(floors.map(|floor| floor.peak_force_n.abs()));
+    list
+}
