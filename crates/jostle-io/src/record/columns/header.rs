@@ -1,10 +1,11 @@
 //! What columns of text say about themselves: comments, and the row of names.
 
 use super::cells;
-use crate::quantity::{Dimension, STANDARD_GRAVITY, parse_quantity, shorten};
+use crate::quantity::{Dimension, parse_quantity, shorten};
 use crate::record::RecordOptions;
 use crate::record::error::RecordError;
 use crate::record::units::{acceleration_unit, option_unit};
+use jostle::statics::STANDARD_GRAVITY;
 
 /// What comments and the header row say.
 #[derive(Default)]
