@@ -266,6 +266,8 @@ class Result:
     def save(self, folder: str | os.PathLike[str], *, report: bool = True, force: bool = False) -> Path:
         """Writes ``summary.json``, ``history.parquet``, ``impacts.parquet`` and ``report.html``, as ``jostle run`` does.
 
+        Models that yield also get ``hinges.parquet``.
+
         Args:
             folder: made where it does not exist.
             report: false leaves out the report and the run without contact that it compares with.
