@@ -293,6 +293,8 @@ class Result:
     def save(self, folder: str | os.PathLike[str], *, report: bool = True, force: bool = False) -> Path:
         """Writes ``summary.json``, ``history.parquet``, ``impacts.parquet`` and ``report.html``, as ``jostle run`` does.
 
+        Models that yield also get ``hinges.parquet``.
+
         Args:
             folder: created if it does not exist.
             report: false omits the report and its run without contact.

@@ -81,6 +81,19 @@ def test_saved_files_are_those_of_the_command_line(
     assert len(lines[0]) == len(lines[1])
 
 
+def test_saved_files_of_a_yielding_model(program: Program, tmp_path: Path) -> None:
+    assert program("run", "paper-inelastic", "--out", "theirs").returncode == 0
+    ours = jostle.run("paper-inelastic").save(tmp_path / "ours")
+    theirs = tmp_path / "theirs"
+    names = sorted(file.name for file in theirs.iterdir())
+    assert names == sorted(file.name for file in ours.iterdir())
+    assert "hinges.parquet" in names
+    for name in (name for name in names if name.endswith(".parquet")):
+        assert (ours / name).read_bytes() == (theirs / name).read_bytes(), name
+    page = (ours / "report.html").read_text("utf-8")
+    assert "column section" in page, "reinforced sections"
+
+
 def test_modes(program: Program, towers_file: Path, towers: jostle.Model) -> None:
     theirs = told_modes(program, str(towers_file), "--count", "5")
     ours = jostle.modes(towers, 5)

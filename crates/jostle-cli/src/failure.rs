@@ -3,8 +3,6 @@
 use jostle_io::{InputError, OutputError};
 use jostle_run::RunError;
 
-use crate::terminal;
-
 /// Why a command did not do what it was asked.
 #[derive(Debug)]
 pub(crate) enum Failure {
@@ -14,23 +12,6 @@ pub(crate) enum Failure {
     Analysis(String),
     /// The user stopped it.
     Stopped,
-}
-
-impl Failure {
-    /// Prints the failure and returns the exit code.
-    pub(crate) fn report(self) -> u8 {
-        match self {
-            Self::Input(text) => {
-                terminal::error(&text);
-                2
-            }
-            Self::Analysis(text) => {
-                terminal::error(&text);
-                1
-            }
-            Self::Stopped => 130,
-        }
-    }
 }
 
 impl std::fmt::Display for Failure {

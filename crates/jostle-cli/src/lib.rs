@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod collide;
+mod command_line;
 mod completions;
 mod export;
 mod failure;
@@ -24,7 +25,9 @@ mod stop;
 mod study;
 mod terminal;
 
-use args::{Args, Command};
+use clap::CommandFactory;
+use command_line::{Args, Command};
+use failure::Failure;
 
 /// Does what the arguments say, the first of which names the program, and returns the exit code.
 pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
@@ -46,8 +49,8 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Motion(command) => motion::run(&command),
         Command::Section(args) => section::section(&args),
         Command::New(args) => starter::new(&args),
-        Command::Completions(args) => completions::completions(&args),
-        Command::Man(args) => man::man(&args),
+        Command::Completions(args) => completions::completions(&args, Args::command()),
+        Command::Man(args) => man::man(&args, Args::command()),
         Command::Schema(args) => terminal::print(&if args.markdown {
             jostle_io::model_reference()
         } else {
@@ -56,6 +59,21 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
     };
     match done {
         Ok(()) => 0,
-        Err(failure) => failure.report(),
+        Err(failure) => report(failure),
+    }
+}
+
+/// Prints why a command failed and returns the exit code.
+fn report(failure: Failure) -> u8 {
+    match failure {
+        Failure::Input(text) => {
+            terminal::error(&text);
+            2
+        }
+        Failure::Analysis(text) => {
+            terminal::error(&text);
+            1
+        }
+        Failure::Stopped => 130,
     }
 }

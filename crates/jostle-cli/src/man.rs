@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::CommandFactory;
 use jostle_io::{OutputError, write_atomically};
 
-use crate::args::Args;
 use crate::failure::Failure;
 use crate::terminal;
 
@@ -19,13 +17,12 @@ pub(crate) struct ManArgs {
     folder: PathBuf,
 }
 
-pub(crate) fn man(args: &ManArgs) -> Result<(), Failure> {
+pub(crate) fn man(args: &ManArgs, mut command: clap::Command) -> Result<(), Failure> {
     let unwritable = |error| OutputError::Io {
         path: args.folder.clone(),
         error,
     };
     std::fs::create_dir_all(&args.folder).map_err(unwritable)?;
-    let mut command = Args::command();
     // Subcommands learn their full names and common options.
     command.build();
     let written = write_pages(&args.folder, &command)?;

@@ -1,11 +1,8 @@
-//! Ground motions and models that come with the program.
+//! Ground motions that come with the program.
 
 use jostle::GroundMotion;
 
-use crate::fault::InputError;
-use crate::model_file::{Input, read_model_text};
 use crate::record::{RecordOptions, parse_record};
-use crate::tree::Format;
 
 /// A ground motion that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,15 +24,6 @@ pub const BUILTIN_RECORDS: &[BuiltinRecord] = &[BuiltinRecord {
     description: "El Centro, Imperial Valley 1940, north-south, digitisation of Peknold; 0.319 g, 31.18 s",
     text: include_str!("../data/el-centro-1940-ns.csv"),
 }];
-
-/// Names and texts of the built-in models.
-const MODELS: &[(&str, &str)] = &[
-    ("paper", include_str!("../data/paper.toml")),
-    (
-        "paper-inelastic",
-        include_str!("../data/paper-inelastic.toml"),
-    ),
-];
 
 /// A built-in ground motion by name, unscaled; `None` if the name is unknown.
 #[must_use]
@@ -86,35 +74,4 @@ pub(crate) fn record_names() -> String {
         .map(|(name, _)| name)
         .collect();
     names.join(", ")
-}
-
-/// Names of the built-in models.
-#[must_use]
-pub fn model_names() -> Vec<&'static str> {
-    MODELS.iter().map(|(name, _)| *name).collect()
-}
-
-/// Text of a built-in model.
-#[must_use]
-pub fn model_text(name: &str) -> Option<&'static str> {
-    MODELS
-        .iter()
-        .find(|(known, _)| *known == name)
-        .map(|(_, text)| *text)
-}
-
-/// Reads a built-in model.
-///
-/// # Errors
-/// If the name is unknown.
-pub fn builtin_model(name: &str) -> Result<Input, InputError> {
-    let text = model_text(name).ok_or_else(|| {
-        let names = model_names().join(", ");
-        InputError::whole(
-            name,
-            "there is no built-in model of this name",
-            Some(format!("built in: {names}")),
-        )
-    })?;
-    read_model_text(name, text, Format::Toml, "".as_ref())
 }

@@ -233,7 +233,7 @@ impl crate::TreeValue {
         if let Ok(number) = text.parse::<f64>() {
             return Self::Number(number);
         }
-        let parsed = crate::toml_tree::parse(&format!("value = {text}"));
+        let parsed = crate::tree::toml_tree::parse(&format!("value = {text}"));
         let value = parsed.ok().and_then(|root| match root.value {
             Value::Table(table) => table.get("value").and_then(Self::of),
             _ => None,

@@ -5,9 +5,9 @@
 
 mod bounded;
 mod builtin;
+mod builtin_model;
 mod csv;
 mod fault;
-mod json_tree;
 mod keys;
 mod knobs;
 mod model_file;
@@ -29,17 +29,16 @@ mod study_file;
 mod tables;
 mod target;
 mod templates;
-mod toml_tree;
 mod tree;
 mod unit;
 mod unusual;
 
-pub use builtin::{
-    BUILTIN_RECORDS, BuiltinRecord, builtin_model, builtin_motions, builtin_record, model_names,
-    model_text,
-};
+pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_record};
+pub use builtin_model::{builtin_model, model_names, model_text};
 pub use csv::csv_field;
 pub use fault::{Fault, InputError};
+/// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
+pub use jostle::statics::STANDARD_GRAVITY;
 pub use keys::LAW_NAMES;
 pub use knobs::{Knob, KnobKind};
 pub use model_file::{
@@ -49,7 +48,7 @@ pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
 pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
 pub use pushover::{pushover_csv, pushover_json};
-pub use quantity::{Dimension, QuantityError, STANDARD_GRAVITY, parse_quantity};
+pub use quantity::{Dimension, QuantityError, parse_quantity};
 pub use record::{
     Channel, Direction, Record, RecordError, RecordFormat, RecordInfo, RecordOptions,
     describe_record, parse_info, parse_record, parse_record_and_info, read_record,

@@ -19,6 +19,7 @@ mod section;
 mod shear;
 #[cfg(test)]
 mod tests;
+mod unusual_results;
 
 pub(crate) use matching::read_spectrum;
 pub use reinforced::ReinforcedMember;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::builtin;
+use crate::builtin_model;
 use crate::fault::InputError;
 use crate::model_file::{self, Input};
 use crate::reader::join;
@@ -99,7 +99,7 @@ impl ModelTree {
     /// As [`ModelTree::load`].
     pub fn find(path: &Path) -> Result<Self, InputError> {
         let name = path.to_str().filter(|_| !path.exists());
-        match name.filter(|name| builtin::model_names().contains(name)) {
+        match name.filter(|name| builtin_model::model_names().contains(name)) {
             Some(name) => Self::builtin(name),
             None => Self::load(path),
         }
@@ -111,8 +111,8 @@ impl ModelTree {
     /// If the name is unknown.
     pub fn builtin(name: &str) -> Result<Self, InputError> {
         // Says which names there are.
-        builtin::builtin_model(name)?;
-        let text = builtin::model_text(name).unwrap_or_default();
+        builtin_model(name)?;
+        let text = builtin_model::model_text(name).unwrap_or_default();
         Self::parse(name, text, Format::Toml, Path::new(""))
     }
 

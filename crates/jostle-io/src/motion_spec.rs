@@ -9,7 +9,8 @@ use jostle_motion::{
 
 use crate::builtin;
 use crate::keys::nearest;
-use crate::record::{RecordError, RecordOptions, read_record};
+use crate::record::{GREATEST_ACCELERATION, RecordError, RecordOptions, read_record};
+use crate::source::BACKSLASH;
 
 /// The ground motion of a model file.
 #[derive(Clone, Debug, PartialEq)]
@@ -163,9 +164,6 @@ fn printable(name: &str) -> String {
     name.chars().map(spelt).collect()
 }
 
-/// Remedy for a Windows path in a TOML string.
-pub(crate) const BACKSLASH: &str = "a backslash inside \"…\" starts an escape; in a path write / instead, or put the path in single quotes: 'C:\\records\\a.at2'";
-
 fn remedy(name: &str, nearest: &[String]) -> String {
     if name.contains(char::is_control) {
         format!("; {BACKSLASH}")
@@ -175,9 +173,6 @@ fn remedy(name: &str, nearest: &[String]) -> String {
         format!(" (did you mean \"{}\"?)", nearest.join("\" or \""))
     }
 }
-
-/// No earthquake comes near this; larger numbers are a mistaken unit \[m/s²\].
-pub(crate) const GREATEST_ACCELERATION: f64 = 100.0;
 
 impl MotionSpec {
     /// A record as recorded, by built-in name or by path from the current folder.

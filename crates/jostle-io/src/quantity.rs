@@ -2,10 +2,9 @@
 
 use std::fmt;
 
-use crate::unit::{self, Unit, UnitError};
+use jostle::statics::STANDARD_GRAVITY;
 
-/// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
-pub const STANDARD_GRAVITY: f64 = 9.80665;
+use crate::unit::{self, Unit, UnitError};
 
 /// Dimension of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::csv::csv_remark;
-use crate::quantity::STANDARD_GRAVITY;
+use jostle::statics::STANDARD_GRAVITY;
 
 /// A PEER AT2 file in g, eight digits, five values a line.
 #[must_use]

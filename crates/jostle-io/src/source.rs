@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+/// Remedy for a Windows path in a TOML string.
+pub(crate) const BACKSLASH: &str = "a backslash inside \"…\" starts an escape; in a path write / instead, or put the path in single quotes: 'C:\\records\\a.at2'";
+
 /// Bytes of the text that a value or key covers.
 pub(crate) type Span = Range<usize>;
 

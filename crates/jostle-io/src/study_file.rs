@@ -13,7 +13,7 @@ pub use factor::{Factor, FactorValues, Level};
 pub use selection::{SelectionScaling, SelectionWanted};
 pub use wanted::{FragilityMethod, FragilityWanted, IdaWanted};
 
-use crate::builtin;
+use crate::builtin_model;
 use crate::fault::{Fault, InputError};
 use crate::keys::{DESIGNS, SAMPLINGS, Section, nearest};
 use crate::model_file;
@@ -341,13 +341,13 @@ fn base_model(
     };
     let name = reader.text(&base)?;
     let path = folder.join(&name);
-    if !path.exists() && !builtin::model_names().contains(&name.as_str()) {
-        let remedy = nearest(&name, builtin::model_names().into_iter())
+    if !path.exists() && !builtin_model::model_names().contains(&name.as_str()) {
+        let remedy = nearest(&name, builtin_model::model_names().into_iter())
             .map(|name| format!("did you mean the built-in \"{name}\"?"));
         let problem = format!(
             "there is no file {}, and no built-in model of this name; built in: {}",
             path.display(),
-            builtin::model_names().join(", ")
+            builtin_model::model_names().join(", ")
         );
         *reader.bad(&base, problem) = remedy;
         return None;

@@ -1,6 +1,6 @@
 //! Commented starter files: templates, and the built-in models themselves.
 
-use crate::builtin::model_text;
+use crate::builtin_model::model_text;
 
 /// Names of the templates; the first is the default.
 pub const TEMPLATE_NAMES: [&str; 6] = [

@@ -1,10 +1,12 @@
 //! A tree of values that remember where they stand, the same from TOML and from JSON.
 
+mod json_tree;
+pub(crate) mod toml_tree;
+
 use std::path::Path;
 
 use crate::fault::{Fault, InputError};
 use crate::source::{Source, Span};
-use crate::{json_tree, toml_tree};
 
 /// Syntax of a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

@@ -1,6 +1,6 @@
 //! Unit algebra: `kN.m`, `N/m^1.5`, `cm/s2` as a factor to SI and exponents of metre, kilogram and second.
 
-use crate::quantity::STANDARD_GRAVITY;
+use jostle::statics::STANDARD_GRAVITY;
 
 /// A unit: its size in SI and its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]

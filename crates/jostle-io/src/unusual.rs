@@ -1,14 +1,10 @@
 //! Usual ranges of quantities: every reader of models warns outside the usual range, and refuses values that only a
 //! wrong unit can explain. This file has all the numbers.
 
-use jostle::results::summary::Summary;
-use jostle::{GroundMotion, LawKind, Model, System};
-
 use crate::keys::Section::{self as S};
-use crate::model_file::Input;
-use crate::motion_spec::GREATEST_ACCELERATION;
 use crate::quantity::Dimension::{self as D};
 use crate::quantity::{parse_quantity, show_number, split_number, unit_size};
+use crate::record::GREATEST_ACCELERATION;
 use crate::tree::{Node, Value};
 
 /// The key that accepts unusual values, for remedies.
@@ -74,7 +70,7 @@ pub(crate) const FIRST_PERIOD: [f64; 2] = [0.05, 15.0];
 /// Greatest indentation of a contact between concrete floors \[m\].
 pub(crate) const INDENTATION: f64 = 0.05;
 /// Impact speed at which a contact is compared with a storey \[m/s\].
-const IMPACT_SPEED: f64 = 0.5;
+pub(crate) const IMPACT_SPEED: f64 = 0.5;
 
 /// Ranges of the keys of a model file.
 #[rustfmt::skip]
@@ -295,131 +291,6 @@ pub(crate) fn is_within(path: &str, other: &str) -> bool {
         .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
-impl Input {
-    /// Adds to the warnings what is unusual about the assembled model: periods, and contacts softer than a storey.
-    pub fn note_system(&mut self, system: &System) {
-        let found = of_system(&self.model, system);
-        for (path, text) in found {
-            self.warn(&path, &text);
-        }
-    }
-
-    /// The warning of a ground motion whose peak is unusual as scaled.
-    #[must_use]
-    pub fn unusual_motion(&self, motion: &GroundMotion) -> Option<String> {
-        self.unusual_peak(motion.peak())
-    }
-
-    fn unusual_peak(&self, peak: f64) -> Option<String> {
-        const PATH: &str = "motion";
-        // A field with its own unit is checked where it is read.
-        let judged = self.warnings.iter().any(|known| known.starts_with(PATH));
-        if judged || self.accepts(PATH) || self.accepts("motion.pga") {
-            return None;
-        }
-        match PEAK_ACCELERATION.judge(peak, Written::bare(peak)) {
-            Verdict::Usual => None,
-            Verdict::Unusual(text) | Verdict::Refused(text, _) => Some(format!("{PATH}: {text}")),
-        }
-    }
-
-    /// Adds to the notes of a summary what the model was warned of, and what is unusual about the results.
-    pub fn add_notes(&self, summary: &mut Summary) {
-        let results = of_results(&self.model, summary);
-        let motion = self.unusual_peak(summary.motion.pga_m_s2);
-        let notes = results.into_iter().chain(self.warnings.iter().cloned());
-        let notes = notes.chain(motion);
-        for note in notes {
-            if !summary.notes.contains(&note) {
-                summary.notes.push(note);
-            }
-        }
-    }
-}
-
-/// Unusual properties of an assembled model, by field.
-fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    let [shortest, longest] = FIRST_PERIOD;
-    let first_period = |building: usize| {
-        let modes = system.buildings.get(building)?.modes.first()?;
-        Some(modes.period())
-    };
-    for (index, building) in system.buildings.iter().enumerate() {
-        let Some(period) = first_period(index) else {
-            continue;
-        };
-        if !(shortest..=longest).contains(&period) {
-            found.push((
-                format!("building[{index}]"),
-                format!(
-                    "the first period of \"{}\" is {} s, outside {shortest} s to {longest} s; check the units of its stiffness and mass",
-                    building.name,
-                    three_digits(period)
-                ),
-            ));
-        }
-    }
-    for (index, gap) in model.gaps.iter().enumerate() {
-        let storey = gap.between.iter().flatten().filter_map(|&building| {
-            let floors = model.buildings.get(building)?.floors();
-            Some(storey_period(first_period(building)?, floors))
-        });
-        let storey = storey.fold(0.0, f64::max);
-        let durations = system
-            .contacts
-            .iter()
-            .filter(|contact| contact.gap == index);
-        let duration = durations
-            .map(|contact| {
-                contact
-                    .law
-                    .elastic_duration(contact.effective_mass(), IMPACT_SPEED)
-            })
-            .fold(0.0, f64::max);
-        let bumper = matches!(gap.law.kind, LawKind::Rubber(_));
-        // Half a swing of a storey, twice as long because the storey is only an estimate.
-        if storey > 0.0 && duration > storey && !bumper {
-            found.push((
-                format!("gap[{index}].stiffness"),
-                format!(
-                    "the contact is softer than a storey: an elastic impact at {IMPACT_SPEED} m/s lasts {} s, a storey swings back in {} s; check the unit of the contact stiffness",
-                    three_digits(duration),
-                    three_digits(0.5 * storey)
-                ),
-            ));
-        }
-    }
-    found
-}
-
-/// Period of a single floor on a single storey of a uniform shear building with this first period \[s\].
-fn storey_period(first: f64, floors: usize) -> f64 {
-    let angle = 0.5 * std::f64::consts::PI / (2.0 * floors as f64 + 1.0);
-    2.0 * angle.sin() * first
-}
-
-/// Unusual results of a run.
-fn of_results(model: &Model, summary: &Summary) -> Vec<String> {
-    let mut found = Vec::new();
-    for (index, (gap, law)) in summary.gaps.iter().zip(&model.gaps).enumerate() {
-        let impacts = gap.contacts.iter().flat_map(|contact| &contact.impacts);
-        let deepest = impacts
-            .map(|impact| impact.peak_indentation_m)
-            .fold(0.0, f64::max);
-        if deepest > INDENTATION && !matches!(law.law.kind, LawKind::Rubber(_)) {
-            found.push(format!(
-                "gap[{index}]: the peak indentation between \"{}\" and \"{}\" is {:.0} mm, more than the {:.0} mm that concrete allows; check the unit of the contact stiffness",
-                gap.between[0],
-                gap.between[1],
-                1e3 * deepest,
-                1e3 * INDENTATION
-            ));
-        }
-    }
-    found
-}
-
 /// A number with at most six significant digits, without zeros at its end.
 fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
@@ -427,15 +298,5 @@ fn short(value: f64) -> String {
         rounded.to_string()
     } else {
         format!("{rounded:e}")
-    }
-}
-
-/// A number with three significant digits, for messages.
-fn three_digits(value: f64) -> String {
-    if (1e-3..1e4).contains(&value) {
-        let digits = (2.0 - value.log10().floor()).clamp(0.0, 5.0) as usize;
-        format!("{value:.digits$}")
-    } else {
-        format!("{value:.2e}")
     }
 }

@@ -79,6 +79,21 @@ impl Accelerogram {
     }
 }
 
+/// Most values of a motion.
+pub(crate) const MOST_POINTS: usize = 1 << 24;
+
+/// Refuses motions with too many points.
+pub(crate) fn check_points(points: f64) -> Result<(), MotionFault> {
+    if points <= MOST_POINTS as f64 {
+        Ok(())
+    } else {
+        Err(MotionFault::TooMany {
+            points: points as usize,
+            most: MOST_POINTS,
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -65,7 +65,7 @@ pub fn butterworth(
     }
     let lowest = filter.low.or(filter.high).unwrap_or(nyquist);
     let pad = (1.5 * order as f64 / lowest / motion.step()).ceil();
-    crate::processing::check_points(2.0 * pad + motion.points() as f64)?;
+    crate::accelerogram::check_points(2.0 * pad + motion.points() as f64)?;
     let pad = pad as usize;
     let mut values = vec![0.0; pad];
     values.extend_from_slice(motion.acceleration());

@@ -1,13 +1,11 @@
 //! Scaling, cutting, padding, resampling, baselines.
 
 use crate::Accelerogram;
+use crate::accelerogram::check_points;
 use crate::fault::{MotionFault, within};
 use crate::filter::low_pass;
 use crate::integration::{end_of, velocity_of};
 use crate::least_squares::fit_polynomial;
-
-/// Most values of a motion.
-pub(crate) const MOST_POINTS: usize = 1 << 24;
 
 impl Accelerogram {
     /// The motion times a factor.
@@ -192,15 +190,4 @@ fn check_degree(degree: usize) -> Result<(), MotionFault> {
         degree as f64,
         degree <= 8,
     )
-}
-
-pub(crate) fn check_points(points: f64) -> Result<(), MotionFault> {
-    if points <= MOST_POINTS as f64 {
-        Ok(())
-    } else {
-        Err(MotionFault::TooMany {
-            points: points as usize,
-            most: MOST_POINTS,
-        })
-    }
 }

@@ -190,8 +190,7 @@ pub(crate) fn unit(number: String, unit: &str) -> String {
     }
 }
 
-/// g \[m/s²\].
-pub(crate) const STANDARD_GRAVITY: f64 = 9.806_65;
+pub(crate) use jostle::statics::STANDARD_GRAVITY;
 
 #[cfg(test)]
 mod tests {

@@ -3,7 +3,6 @@
 use jostle::hysteresis::Corner;
 
 use crate::fibre::{Fibres, Resultants};
-use crate::fit::Trilinear;
 use crate::section::Section;
 
 /// Choices of an analysis.
@@ -158,14 +157,6 @@ impl MomentCurvature {
         self.points
             .iter()
             .fold(0.0, |peak, point| point.force.max(peak))
-    }
-
-    /// The trilinear curve of equal energy.
-    ///
-    /// # Errors
-    /// [`AnalysisError::Brittle`] when the section yields before it cracks.
-    pub fn trilinear(&self) -> Result<Trilinear, AnalysisError> {
-        Trilinear::fit(self)
     }
 }
 

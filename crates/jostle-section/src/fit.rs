@@ -15,6 +15,16 @@ pub struct Trilinear {
     pub ultimate: Corner,
 }
 
+impl MomentCurvature {
+    /// The trilinear curve of equal energy.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Brittle`] when the section yields before it cracks.
+    pub fn trilinear(&self) -> Result<Trilinear, AnalysisError> {
+        Trilinear::fit(self)
+    }
+}
+
 impl Trilinear {
     /// Fits a curve: through the first crack, along the line through first yield, and on to the end of the
     /// curve; the corner between the last two lies where the area below equals that of the curve.

@@ -19,8 +19,8 @@ mod single;
 pub mod statistics;
 mod study;
 mod varied;
+mod workshop;
 
-pub use case::{CaseError, Workshop};
 pub use critical_gap::{CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps};
 pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};
@@ -32,3 +32,4 @@ pub use runner::{Done, Progress, RunSettings, run, run_folder};
 pub use single::run_case;
 pub use study::{Study, StudyError};
 pub use varied::{Varied, varied};
+pub use workshop::{CaseError, Workshop};

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use crate::case::{self, Workshop};
+use crate::case;
 use crate::dataset::{
     Claim, Journal, PartFault, cases_of, journal_path, keep_copy, part_path, set_aside, settle,
     strangers, verify, write_part,
@@ -17,6 +17,7 @@ use crate::dataset::{
 use crate::row::{Row, Status};
 use crate::single::{run_until, write_run};
 use crate::study::{Study, StudyError};
+use crate::workshop::Workshop;
 
 /// Which part of a study this process computes, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

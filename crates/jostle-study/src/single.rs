@@ -6,8 +6,8 @@ use std::path::Path;
 use jostle::{RunEnd, Settings};
 use jostle_run::{Content, Prepared, Ran, Stage};
 
-use crate::case::{CaseError, Workshop};
 use crate::study::{Study, StudyError};
+use crate::workshop::{CaseError, Workshop};
 
 /// Runs one case with its histories and writes the files of `jostle run` into a folder. `false` when it was stopped.
 ///

@@ -8,10 +8,10 @@ use jostle::Settings;
 use jostle_io::{Factor, FactorValues, InputError, ModelTree, MotionSource, PathError, StudyFile};
 use sha2::{Digest, Sha256};
 
-use crate::case::{CaseError, Workshop};
 use crate::design::{CaseDesign, Choice, DesignError, value_of};
 use crate::layout::{Layout, Named};
 use crate::measures::measures;
+use crate::workshop::{CaseError, Workshop};
 
 /// A study ready to be run.
 pub struct Study {

@@ -670,3 +670,31 @@ fn a_listed_record_that_is_not_there_is_shown_in_the_model() {
     let error = error.map(|error| error.to_string()).unwrap_or_default();
     assert!(error.contains("vary: is missing"), "{error}");
 }
+
+/// A single case leaves what a run of the same model leaves, its comparison with the run without contact included.
+#[test]
+fn a_case_leaves_the_files_of_a_run() {
+    let text =
+        "base = \"paper-inelastic\"\n[[vary]]\npath = \"motion.duration\"\nvalues = [\"5 s\"]\n";
+    let folder = temporary();
+    let written = jostle_study::run_case(&study(text), 0, folder.path(), &|| false);
+    assert!(written.unwrap_or_else(|error| panic!("{error}")));
+    let names: std::collections::BTreeSet<String> = std::fs::read_dir(folder.path())
+        .unwrap_or_else(|error| panic!("{error}"))
+        .flatten()
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    let expected = [
+        "hinges.parquet",
+        "history.parquet",
+        "impacts.parquet",
+        "report.html",
+        "summary.json",
+    ];
+    assert!(names.iter().eq(expected), "{names:?}");
+    let read = |name: &str| {
+        std::fs::read_to_string(folder.path().join(name)).unwrap_or_else(|error| panic!("{error}"))
+    };
+    assert!(read("summary.json").contains("\"closing_without_contact_m\": 0."));
+    assert!(read("report.html").contains("column section"));
+}

@@ -2,16 +2,15 @@
 
 use std::f64::consts::PI;
 
-use jostle::structure::StepEquations;
 use jostle::structure::{Discretization, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
-use jostle::{Damping, GroundMotion, Plan, RiccatiFactor, RiccatiSweep, State, System, Wave};
+use jostle::{Damping, GroundMotion, Plan, State, System, Wave};
 use serde_json::Value;
 
 use crate::data::{document, entries, number, numbers};
 use crate::frames;
 use crate::row::Row;
-use crate::structures::{oscillator, run, still, uniform};
+use crate::structures::{oscillator, run, static_answer, still, uniform};
 
 const SOURCE: &str = "theory/oracle_basic";
 
@@ -28,17 +27,6 @@ pub fn rows() -> Vec<Row> {
     rows.extend(rayleigh(&basic));
     rows.extend(equal_storeys(7));
     rows
-}
-
-/// Displacements of a building under a static load.
-pub(crate) fn static_answer(building: &BuildingSystem, mut load: Vec<f64>) -> Vec<f64> {
-    let sweep = RiccatiSweep::new(building);
-    let mut factor = RiccatiFactor::default();
-    sweep
-        .factorize(&jostle::linear::StepMatrix::STATIC, &[], &mut factor)
-        .expect("the structure is supported");
-    sweep.solve(&factor, &mut load);
-    load
 }
 
 fn node(x: f64, y: f64, support: Support) -> Node {

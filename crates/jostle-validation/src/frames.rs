@@ -5,10 +5,9 @@ use jostle::system::BuildingSystem;
 use jostle::{Plan, Solver, System};
 use serde_json::Value;
 
-use crate::closed_forms::static_answer;
 use crate::data::{at, document, entries, list, number, numbers};
 use crate::row::Row;
-use crate::structures::{explicit_frame, run, sampled, uniform};
+use crate::structures::{explicit_frame, run, sampled, static_answer, uniform};
 
 const SOURCE: &str = "theory/oracle_frames";
 const GRAVITY: f64 = 9.81;

@@ -5,9 +5,11 @@ use std::ops::ControlFlow;
 use jostle::contact::ForceLaw;
 use jostle::interface::Contact;
 use jostle::stepping::{ContactSteps, simulate_from};
+use jostle::structure::StepEquations;
 use jostle::structure::{Discretization, Hinge, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::{GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Solver, State, System};
+use jostle::{RiccatiFactor, RiccatiSweep};
 use serde_json::Value;
 
 use crate::data::{at, list, number};
@@ -178,4 +180,15 @@ pub(crate) fn run(
     });
     assert_eq!(outcome.end, RunEnd::Completed, "a validation run ends");
     outcome
+}
+
+/// Displacements of a building under a static load.
+pub(crate) fn static_answer(building: &BuildingSystem, mut load: Vec<f64>) -> Vec<f64> {
+    let sweep = RiccatiSweep::new(building);
+    let mut factor = RiccatiFactor::default();
+    sweep
+        .factorize(&jostle::linear::StepMatrix::STATIC, &[], &mut factor)
+        .expect("the structure is supported");
+    sweep.solve(&factor, &mut load);
+    load
 }

@@ -99,7 +99,7 @@ fn read_peaks(
     };
     let (text, line) = header.need(&key)?;
     let unit = match unit {
-        "mg" => ("mg".to_owned(), 1e-3 * crate::quantity::STANDARD_GRAVITY),
+        "mg" => ("mg".to_owned(), 1e-3 * jostle::statics::STANDARD_GRAVITY),
         _ => named_unit(unit).ok_or_else(|| header.bad(line, &key, "a unit", unit))?,
     };
     let peak = |name: &String| {

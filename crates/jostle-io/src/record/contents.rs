@@ -7,8 +7,8 @@ use super::header::malformed;
 use super::lines::LineMap;
 use super::units::{acceleration_unit, option_unit};
 use super::{Record, RecordOptions};
-use crate::motion_spec::GREATEST_ACCELERATION;
-use crate::quantity::STANDARD_GRAVITY;
+use crate::record::GREATEST_ACCELERATION;
+use jostle::statics::STANDARD_GRAVITY;
 
 /// Which numbers a channel has, and what may be said about them from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -34,6 +34,9 @@ pub(crate) use units::acceleration_unit;
 use crate::bounded::read_at_most;
 use contents::Contents;
 
+/// No earthquake comes near this; larger numbers are a mistaken unit \[m/s²\].
+pub(crate) const GREATEST_ACCELERATION: f64 = 100.0;
+
 /// Equally spaced ground accelerations; the first value is at time zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {

@@ -16,8 +16,8 @@ pub use recipe::{RECIPES, Recipe, recipe};
 pub use sines::{SineSettings, sine_wave, spectrum_compatible};
 pub use stochastic::{GroundFilter, StochasticSettings, stochastic};
 
+use crate::accelerogram::check_points;
 use crate::fault::{MotionFault, within};
-use crate::processing::check_points;
 
 /// Number of values of a motion of a duration, which must be at least ten steps \[s\].
 pub(crate) fn points(step: f64, duration: f64) -> Result<usize, MotionFault> {

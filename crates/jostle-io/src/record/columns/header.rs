@@ -1,10 +1,11 @@
 //! Metadata of columns of text: comments, and the row of names.
 
 use super::cells;
-use crate::quantity::{Dimension, STANDARD_GRAVITY, parse_quantity, shorten};
+use crate::quantity::{Dimension, parse_quantity, shorten};
 use crate::record::RecordOptions;
 use crate::record::error::RecordError;
 use crate::record::units::{acceleration_unit, option_unit};
+use jostle::statics::STANDARD_GRAVITY;
 
 /// Data of comments and the header row.
 #[derive(Default)]

@@ -226,7 +226,7 @@ fn check_length(line: usize, stated: f64, count: usize, step: f64) -> Result<(),
 
 /// The maximum of the text is in g, also where the values are in g/10.
 fn peak_in(peak: Peak, unit: &(String, f64)) -> Peak {
-    let to_unit = crate::quantity::STANDARD_GRAVITY / unit.1;
+    let to_unit = jostle::statics::STANDARD_GRAVITY / unit.1;
     Peak {
         value: peak.value * to_unit,
         digit: peak.digit * to_unit,

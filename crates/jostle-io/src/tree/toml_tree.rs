@@ -3,8 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::motion_spec::BACKSLASH;
-use crate::source::Span;
+use crate::source::{BACKSLASH, Span};
 use crate::tree::{Entry, Node, SyntaxError, Table, Value};
 
 /// Parses a whole text; reports every syntax error that the parser can distinguish.

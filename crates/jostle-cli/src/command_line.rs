@@ -1,0 +1,73 @@
+//! Commands and their arguments, as typed.
+
+use std::ffi::OsString;
+
+use clap::{Parser, Subcommand};
+
+use crate::args::{
+    CollideArgs, CompletionsArgs, MethodArgs, ModelArgs, ModesArgs, NewArgs, PushoverArgs, RunArgs,
+    SchemaArgs, SectionArgs,
+};
+
+/// Simulates neighbouring buildings that hit each other during an earthquake.
+#[derive(Debug, Parser)]
+#[command(
+    name = "jostle",
+    version,
+    about = "Simulates neighbouring buildings that hit each other during an earthquake",
+    after_help = "Quantities carry units: --pga 220cm/s2, --pga 0.35g, --gap 100mm.\n\
+                  Exit codes: 0 done, 1 the analysis failed or a set of motions does not meet its code,\n\
+                  2 the input is wrong, 130 stopped by Ctrl-C."
+)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+impl Args {
+    /// Parses the arguments, or prints the error (or the help for `--help`) and returns the exit code.
+    pub(crate) fn of(arguments: impl IntoIterator<Item = OsString>) -> Result<Self, u8> {
+        Self::try_parse_from(arguments).map_err(|error| {
+            // A closed pipe, as of `head`, is not an error.
+            let _ = error.print();
+            u8::try_from(error.exit_code()).unwrap_or(2)
+        })
+    }
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Analyse a model and write summary, histories, impacts and a report
+    Run(RunArgs),
+    /// Check a model and print masses, periods, contacts and expected work, without running it
+    Check(ModelArgs),
+    /// Print natural periods, participation and mode shapes
+    Modes(ModesArgs),
+    /// Collide two free masses under one contact law, or under all laws
+    Collide(Box<CollideArgs>),
+    /// Write the model as a script for another program, to compare results
+    Export(crate::export::ExportArgs),
+    /// Print how accurate each solver formulation is on your model
+    Method(MethodArgs),
+    /// Compute cracking and yield of reinforced-concrete sections, by formulas and by fibre analysis
+    Section(SectionArgs),
+    /// Show, convert, make and select ground motions
+    #[command(subcommand)]
+    Motion(Box<crate::motion::MotionCommand>),
+    /// Run many cases of one model; any key of the model file can vary
+    Study(crate::study::StudyArgs),
+    /// Find the smallest gap without pounding, and compare it with rules and codes
+    Gap(crate::gap::GapArgs),
+    /// Open a local page that runs the model after every change
+    Live(crate::live::LiveArgs),
+    /// Run a pushover analysis to a target drift or loss of strength
+    Pushover(PushoverArgs),
+    /// Write a commented starter file
+    New(NewArgs),
+    /// Print the JSON Schema of model files, or a page that explains every key
+    Schema(SchemaArgs),
+    /// Print a script that completes commands and options in a shell
+    Completions(CompletionsArgs),
+    /// Write manual pages for `man`
+    Man(crate::man::ManArgs),
+}

@@ -1,0 +1,151 @@
+//! What cases that follow each other share.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use jostle::{Gap, GroundMotion, Model, Plan, System};
+use jostle_io::{Input, InputError, MotionSource, MotionSpec, PathError, Scaling};
+use jostle_run::{Prepared, SharedShapes};
+
+/// Data shared by successive cases: assembled systems and records.
+#[derive(Default)]
+pub struct Workshop {
+    /// The last systems, the most recent at the end.
+    systems: Mutex<Vec<Assembled>>,
+    records: Mutex<Vec<(MotionSource, Arc<GroundMotion>)>>,
+}
+
+/// A model, its system, and the shapes for modal stepping.
+#[derive(Clone)]
+struct Assembled {
+    model: Arc<Model>,
+    system: Arc<System>,
+    shapes: SharedShapes,
+}
+
+/// Assembled systems that are kept.
+const SYSTEMS: usize = 32;
+/// Records that are kept.
+const RECORDS: usize = 256;
+
+/// Why a case cannot be stepped.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    /// A path leads nowhere.
+    #[error("{0}")]
+    Path(#[from] PathError),
+    /// The model is wrong.
+    #[error("{0}")]
+    Input(#[from] InputError),
+}
+
+impl Workshop {
+    /// Assembles a model that has been read, finds its motion, and plans its steps.
+    ///
+    /// # Errors
+    /// [`CaseError`] with the message of the reader of model files.
+    pub fn assemble(&self, mut input: Input) -> Result<Prepared, CaseError> {
+        let Assembled { system, shapes, .. } = self.assembled(&input)?;
+        input.note_system(&system);
+        let motion = self.motion(&input)?;
+        let plan = Plan::choose(&system, &motion, &input.model.analysis)
+            .map_err(|faults| input.faults(faults))?;
+        let shapes = shapes.find(&system, &plan);
+        let prepared = Prepared::new(Arc::new(input), system, motion, plan, shapes);
+        prepared.check_digits(None)?;
+        Ok(prepared)
+    }
+
+    fn assembled(&self, input: &Input) -> Result<Assembled, InputError> {
+        let kin = {
+            let systems = self.systems.lock().unwrap_or_else(PoisonError::into_inner);
+            let known = systems
+                .iter()
+                .find(|known| same(&known.model, &input.model));
+            if let Some(known) = known {
+                return Ok(known.clone());
+            }
+            let kin = systems
+                .iter()
+                .find(|known| kindred(&known.model, &input.model));
+            kin.cloned()
+        };
+        let assembled = match &kin {
+            Some(kin) => kin.system.with_widths_of(&input.model),
+            None => System::assemble(&input.model),
+        };
+        let assembled = Assembled {
+            model: Arc::new(input.model.clone()),
+            system: Arc::new(assembled.map_err(|faults| input.faults(faults))?),
+            shapes: kin.map_or_else(SharedShapes::default, |kin| kin.shapes),
+        };
+        let mut systems = self.systems.lock().unwrap_or_else(PoisonError::into_inner);
+        if systems.len() >= SYSTEMS {
+            systems.remove(0);
+        }
+        systems.push(assembled.clone());
+        Ok(assembled)
+    }
+
+    /// The motion of a case; a record is read once.
+    fn motion(&self, input: &Input) -> Result<GroundMotion, InputError> {
+        let Some(spec) = &input.motion else {
+            return input.ground_motion();
+        };
+        if !matches!(spec.source, MotionSource::Record { .. }) {
+            return input.ground_motion();
+        }
+        let known = {
+            let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
+            let found = records.iter().find(|(source, _)| *source == spec.source);
+            found.map(|(_, motion)| Arc::clone(motion))
+        };
+        let unscaled = match known {
+            Some(motion) => motion,
+            None => {
+                let plain = MotionSpec {
+                    scaling: Scaling::AsRecorded,
+                    reverse: false,
+                    duration: None,
+                    ..spec.clone()
+                };
+                // The error shows the line of the record.
+                let Ok(motion) = plain.resolve() else {
+                    return input.ground_motion();
+                };
+                let motion = Arc::new(motion);
+                let mut records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
+                if records.len() >= RECORDS {
+                    records.remove(0);
+                }
+                records.push((spec.source.clone(), Arc::clone(&motion)));
+                motion
+            }
+        };
+        let given = MotionSpec {
+            source: MotionSource::Given(GroundMotion::clone(&unscaled)),
+            ..spec.clone()
+        };
+        given.resolve().or_else(|_| input.ground_motion())
+    }
+}
+
+/// Whether two models make the same system: what is said about steps and the title makes no difference.
+fn same(a: &Model, b: &Model) -> bool {
+    a.buildings == b.buildings && a.gaps == b.gaps && a.links == b.links
+}
+
+/// Whether two models differ only in the widths of their gaps and in the differences that [`same`] allows.
+fn kindred(a: &Model, b: &Model) -> bool {
+    let alike = |(a, b): (&Gap, &Gap)| {
+        let widths = b.widths.clone();
+        a.widths.len() == widths.len()
+            && Gap {
+                widths,
+                ..a.clone()
+            } == *b
+    };
+    a.buildings == b.buildings
+        && a.links == b.links
+        && a.gaps.len() == b.gaps.len()
+        && a.gaps.iter().zip(&b.gaps).all(alike)
+}
