@@ -3,7 +3,9 @@
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, Member, Node, Skeleton, Spring, Support};
 use crate::hysteresis::Hysteresis;
-use crate::model::{Base, Building, Frame, FrameHinges, Hinges, Joint, Section, Shear, Structure};
+use crate::model::{
+    Base, Building, Frame, FrameHinges, Given, Hinges, Joint, Section, Shear, Structure,
+};
 
 /// A skeleton and where its floors and faces are.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +51,7 @@ impl Idealisation {
                 };
                 idealise_shear(shear, &building.base, springs)
             }
+            Structure::Given(given) => idealise_given(given),
         }
     }
 }
@@ -319,6 +322,39 @@ fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
         None => cuts.push(share),
     }
     cuts.sort_by(f64::total_cmp);
+}
+
+/// Springs between every two floors, and from every floor to the ground, make any stiffness matrix: off the diagonal
+/// stands −k of the spring between two floors, and the sum of a row is the spring to the ground. Some k are negative.
+fn idealise_given(given: &Given) -> Idealisation {
+    let mut skeleton = Skeleton::default();
+    let ground = skeleton.add_node(0.0, 0.0);
+    skeleton.nodes[ground].support = Support::Fixed;
+    let mut height = 0.0;
+    let mut floors = Vec::new();
+    let rows = given.stiffness.iter().zip(&given.mass);
+    for ((row, mass), storey_height) in rows.zip(&given.storey_heights) {
+        height += storey_height;
+        let floor = skeleton.add_node(0.0, height);
+        skeleton.nodes[floor].mass = *mass;
+        skeleton.nodes[floor].support = Support::Guided;
+        let to_ground = Spring::elastic([ground, floor], row.iter().sum());
+        let to_lower = floors.iter().zip(row);
+        let to_lower = to_lower.map(|(&lower, entry)| Spring::elastic([lower, floor], -entry));
+        let springs = std::iter::once(to_ground).chain(to_lower);
+        skeleton
+            .springs
+            .extend(springs.filter(|spring| spring.stiffness != 0.0));
+        floors.push(floor);
+    }
+    Idealisation {
+        skeleton,
+        foot: Some(ground),
+        left_face: floors.clone(),
+        right_face: floors.clone(),
+        floors,
+        spring_places: Vec::new(),
+    }
 }
 
 fn idealise_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Idealisation {
