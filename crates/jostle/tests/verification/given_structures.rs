@@ -1,5 +1,6 @@
 //! Buildings given by matrices against the same buildings made of storeys.
 
+use jostle::method::MethodSurvey;
 use jostle::{Damping, Given, LawKind, Model, Plan, Shear, Solver, Structure, System};
 
 use crate::support::{assembled, law, run, shaking, two_frames};
@@ -74,7 +75,7 @@ fn a_shear_building_given_by_its_matrices_gives_the_same_numbers() {
         }
         assert_eq!(found.lateral_modes().count(), 3);
     }
-    for solver in [Solver::Modal, Solver::Riccati] {
+    for solver in [Solver::Modal, Solver::Riccati, Solver::Stiffness] {
         let expected = outcome(&systems[0], &storeys, solver);
         let found = outcome(&systems[1], &matrices, solver);
         assert!(!expected.impacts.is_empty());
@@ -85,12 +86,11 @@ fn a_shear_building_given_by_its_matrices_gives_the_same_numbers() {
     }
 }
 
-/// Condensed at the floors, a cantilever of bending stiffness EI = 1 and unit storeys has the flexibility
-/// a² (3 b − a) / 6 for a ≤ b: its inverse has entries of both signs, and no storeys.
-#[test]
-fn a_condensed_cantilever_has_its_closed_form_periods() {
-    // Two floors at 1 and 2: F = [[2, 5], [5, 16]] / 6, so K = 6/7 [[16, −5], [−5, 2]].
-    let (mass, k) = (1e4, 6.0 / 7.0 * 1e7);
+const CANTILEVER_MASS: f64 = 1e4;
+const CANTILEVER_K: f64 = 6.0 / 7.0 * 1e7;
+
+fn cantilever() -> Model {
+    let (mass, k) = (CANTILEVER_MASS, CANTILEVER_K);
     let mut model = pair(Structure::Shear);
     model.buildings.truncate(1);
     model.gaps.clear();
@@ -99,7 +99,16 @@ fn a_condensed_cantilever_has_its_closed_form_periods() {
         stiffness: vec![vec![16.0 * k, -5.0 * k], vec![-5.0 * k, 2.0 * k]],
         storey_heights: vec![1.0, 1.0],
     });
-    let system = assembled(&model);
+    model
+}
+
+/// Condensed at the floors, a cantilever of bending stiffness EI = 1 and unit storeys has the flexibility
+/// a² (3 b − a) / 6 for a ≤ b: its inverse has entries of both signs, and no storeys.
+#[test]
+fn a_condensed_cantilever_has_its_closed_form_periods() {
+    // Two floors at 1 and 2: F = [[2, 5], [5, 16]] / 6, so K = 6/7 [[16, −5], [−5, 2]].
+    let (mass, k) = (CANTILEVER_MASS, CANTILEVER_K);
+    let system = assembled(&cantilever());
     // ω² m / k = 9 ∓ √74.
     let expected = [-1.0, 1.0].map(|sign| ((9.0 + sign * 74.0_f64.sqrt()) * k / mass).sqrt());
     let found: Vec<f64> = system.buildings[0]
@@ -109,6 +118,37 @@ fn a_condensed_cantilever_has_its_closed_form_periods() {
     assert_eq!(found.len(), 2);
     for (found, expected) in found.into_iter().zip(expected) {
         close(found, expected, "frequency");
+    }
+}
+
+#[test]
+fn storeys_of_a_condensed_cantilever_bear_the_forces_above_them() {
+    let system = assembled(&cantilever());
+    let building = &system.buildings[0];
+    let mut displacement = vec![0.0; building.equations.len()];
+    displacement[building.floor_dofs[0]] = 1.0;
+    // Forces 16 k at the lower and −5 k at the upper floor.
+    let expected = [(11.0, 6.0), (-5.0, -5.0)];
+    let mut storeys = 0;
+    building.storeys.for_each(
+        &displacement,
+        |_| 0.0,
+        |storey, found| {
+            close(found.shear, expected[storey].0 * CANTILEVER_K, "shear");
+            close(found.moment, expected[storey].1 * CANTILEVER_K, "moment");
+            storeys += 1;
+        },
+    );
+    assert_eq!(storeys, 2);
+}
+
+#[test]
+fn a_condensed_cantilever_has_no_transfer_path() {
+    let system = assembled(&cantilever());
+    let survey = MethodSurvey::of(&system.buildings[0]).expect("it resists");
+    assert_eq!(survey.product_unknowns, 0);
+    for step in &survey.accuracy {
+        assert!(step.riccati < 1e-9, "{step:?}");
     }
 }
 
