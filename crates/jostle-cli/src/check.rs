@@ -89,6 +89,9 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             Structure::Shear(shear) => {
                 format!("shear building, {}", counted(shear.mass.len(), "storey"))
             }
+            Structure::Given(given) => {
+                format!("given by matrices, {}", counted(given.mass.len(), "floor"))
+            }
         };
         let damping = &model.buildings[index].damping;
         describe_building(text, building, damping, &kind)?;

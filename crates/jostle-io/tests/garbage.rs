@@ -79,6 +79,10 @@ fn assert_finite(input: &Input) {
                 numbers.extend(&shear.mass);
                 numbers.extend(&shear.stiffness);
             }
+            Structure::Given(given) => {
+                numbers.extend(&given.mass);
+                numbers.extend(given.stiffness.iter().flatten());
+            }
         }
     }
     for gap in &input.model.gaps {

@@ -11,6 +11,7 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
         let (kind, spans) = match &building.structure {
             Structure::Frame(frame) => ("frame", frame.spans.clone()),
             Structure::Shear(_) => ("shear", Vec::new()),
+            Structure::Given(_) => ("given", Vec::new()),
         };
         let periods: Vec<f64> = assembled
             .lateral_modes()

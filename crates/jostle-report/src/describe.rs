@@ -63,6 +63,10 @@ fn building(
     match &building.structure {
         Structure::Frame(frame) => frame_facts(frame, &mut facts),
         Structure::Shear(shear) => shear_facts(shear, &mut facts),
+        Structure::Given(given) => {
+            facts.push(("floor mass", grouped(&given.mass, format::tonnes)));
+            facts.push(("stiffness", "given as a matrix".to_owned()));
+        }
     }
     let rayleigh = summary.map(|s| (s.rayleigh_alpha_per_s, s.rayleigh_beta_s));
     facts.push(("damping", damping(&building.damping, rayleigh)));

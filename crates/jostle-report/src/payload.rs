@@ -273,7 +273,7 @@ fn outline(building: &Building) -> Outline<'_> {
     const NOMINAL_WIDTH: f64 = 6.0;
     let (frame, spans) = match &building.structure {
         Structure::Frame(frame) => (true, frame.spans.clone()),
-        Structure::Shear(_) => (false, vec![NOMINAL_WIDTH]),
+        Structure::Shear(_) | Structure::Given(_) => (false, vec![NOMINAL_WIDTH]),
     };
     Outline {
         name: &building.name,

@@ -112,9 +112,9 @@ pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, floor_and_height};
 pub use model::{
-    Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Gravity, Hinges,
-    Integrator, Joint, Level, Link, MemberRequest, Model, ModelFault, Section, Shear, Solver,
-    Structure,
+    Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Given, Gravity,
+    Hinges, Integrator, Joint, Level, Link, MemberRequest, Model, ModelFault, Section, Shear,
+    Solver, Structure,
 };
 pub use motion::{GroundMotion, Wave};
 pub use results::summary::Summary;

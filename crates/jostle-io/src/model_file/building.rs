@@ -110,6 +110,7 @@ fn read(
         Structure::Shear(shear) => {
             stated.and_then(|field| hinges::read_storeys(reader, &field, shear))
         }
+        Structure::Given(_) => None,
         Structure::Frame(frame) => {
             let reinforced = reinforced::read(reader, &view, frame.storey_heights.len());
             let here = (reader.count_faults() == noted && is_sound(&building))

@@ -1,5 +1,6 @@
 //! Collects all faults of a model at once.
 
+mod given;
 mod members;
 mod neighbours;
 
@@ -112,12 +113,13 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
     match &building.structure {
         Structure::Frame(frame) => check_frame(faults, path, frame),
         Structure::Shear(shear) => check_shear(faults, path, shear),
+        Structure::Given(given) => given::check_given(faults, path, given, building),
     }
     check_base(
         faults,
         &format!("{path}.base"),
         &building.base,
-        matches!(building.structure, Structure::Shear(_)),
+        !matches!(building.structure, Structure::Frame(_)),
     );
     if let Some(hinges) = &building.hinges {
         check_hinges(

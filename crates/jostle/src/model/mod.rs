@@ -204,6 +204,8 @@ pub enum Structure {
     Frame(Frame),
     /// One mass per floor, one spring per storey.
     Shear(Shear),
+    /// Masses and a stiffness matrix condensed at the floors.
+    Given(Given),
 }
 
 /// Plane frame: `storey_heights.len()` storeys, `spans.len() + 1` column lines.
@@ -296,6 +298,19 @@ pub struct Shear {
     pub mass: Vec<f64>,
     /// Storey stiffnesses from the ground up, > 0 \[N/m\].
     pub stiffness: Vec<f64>,
+    /// Storey heights from the ground up, > 0 \[m\].
+    pub storey_heights: Vec<f64>,
+}
+
+/// A building described by matrices that were condensed at its floors, one horizontal displacement each.
+///
+/// It stays elastic on a fixed base, without gravity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Given {
+    /// Floor masses from the ground up, > 0 \[kg\].
+    pub mass: Vec<f64>,
+    /// Rows of the stiffness matrix: symmetric, positive definite \[N/m\].
+    pub stiffness: Vec<Vec<f64>>,
     /// Storey heights from the ground up, > 0 \[m\].
     pub storey_heights: Vec<f64>,
 }
@@ -635,6 +650,7 @@ impl Building {
         match &self.structure {
             Structure::Frame(frame) => &frame.storey_heights,
             Structure::Shear(shear) => &shear.storey_heights,
+            Structure::Given(given) => &given.storey_heights,
         }
     }
 

@@ -4,7 +4,9 @@ use super::member_forces::{FrameMember, MemberPlace};
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, Member, Node, Spring, StickModel, Support};
 use crate::hysteresis::Hysteresis;
-use crate::model::{Base, Building, Frame, FrameHinges, Hinges, Joint, Section, Shear, Structure};
+use crate::model::{
+    Base, Building, Frame, FrameHinges, Given, Hinges, Joint, Section, Shear, Structure,
+};
 
 /// A stick model and where its floors and faces are.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +54,7 @@ impl Discretization {
                 };
                 discretize_shear(shear, &building.base, springs)
             }
+            Structure::Given(given) => discretize_given(given),
         }
     }
 }
@@ -342,6 +345,40 @@ fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
         None => cuts.push(share),
     }
     cuts.sort_by(f64::total_cmp);
+}
+
+/// Springs between every two floors, and from every floor to the ground, make any stiffness matrix: off the diagonal
+/// stands −k of the spring between two floors, and the sum of a row is the spring to the ground. Some k are negative.
+fn discretize_given(given: &Given) -> Discretization {
+    let mut stick_model = StickModel::default();
+    let ground = stick_model.add_node(0.0, 0.0);
+    stick_model.nodes[ground].support = Support::Fixed;
+    let mut height = 0.0;
+    let mut floors = Vec::new();
+    let rows = given.stiffness.iter().zip(&given.mass);
+    for ((row, mass), storey_height) in rows.zip(&given.storey_heights) {
+        height += storey_height;
+        let floor = stick_model.add_node(0.0, height);
+        stick_model.nodes[floor].mass = *mass;
+        stick_model.nodes[floor].support = Support::Guided;
+        let to_ground = Spring::elastic([ground, floor], row.iter().sum());
+        let to_lower = floors.iter().zip(row);
+        let to_lower = to_lower.map(|(&lower, entry)| Spring::elastic([lower, floor], -entry));
+        let springs = std::iter::once(to_ground).chain(to_lower);
+        stick_model
+            .springs
+            .extend(springs.filter(|spring| spring.stiffness != 0.0));
+        floors.push(floor);
+    }
+    Discretization {
+        stick_model,
+        members: Vec::new(),
+        foot: Some(ground),
+        left_face: floors.clone(),
+        right_face: floors.clone(),
+        floors,
+        spring_places: Vec::new(),
+    }
 }
 
 fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discretization {

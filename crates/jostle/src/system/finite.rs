@@ -71,6 +71,15 @@ fn cause(building: &Building) -> String {
                     .collect::<Vec<_>>(),
             )
         }
+        Structure::Given(given) => {
+            let floors = || (1..).map(|floor| format!("floor {floor}"));
+            let diagonal = given.stiffness.iter().enumerate();
+            let diagonal = diagonal.filter_map(|(i, row)| row.get(i).copied());
+            (
+                floors().zip(diagonal).collect(),
+                floors().zip(given.mass.iter().copied()).collect(),
+            )
+        }
         Structure::Frame(frame) => {
             let lateral = |rigidity: f64, length: f64| 12.0 * rigidity / length.powi(3);
             let columns = frame.columns.iter().zip(&frame.storey_heights).enumerate();
@@ -107,6 +116,7 @@ fn cause(building: &Building) -> String {
     };
     let quantity = match &building.structure {
         Structure::Shear(_) => "stiffnesses k",
+        Structure::Given(_) => "stiffnesses on the diagonal",
         Structure::Frame(_) => "stiffnesses 12 EI/L^3",
     };
     format!(

@@ -26,7 +26,7 @@ fn monolith(model: &Model) -> Monolith {
         .iter()
         .map(|building| match &building.structure {
             Structure::Shear(shear) => shear,
-            Structure::Frame(_) => panic!("shear buildings only"),
+            _ => panic!("shear buildings only"),
         })
         .collect();
     let n = shears.iter().map(|shear| shear.mass.len()).sum();

@@ -8,6 +8,7 @@ mod direct_runs_refine_their_steps;
 mod energy_balances;
 mod extremes_are_survived;
 mod forces_never_pull;
+mod given_structures;
 mod links_and_walls;
 mod mirrored_model_mirrors_the_answer;
 mod modal_stepping;
