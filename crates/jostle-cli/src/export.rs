@@ -25,7 +25,7 @@ pub(crate) struct ExportArgs {
     force: bool,
 }
 
-/// What the head of every script says.
+/// First lines of every script.
 const SCRIPT: FileKind = FileKind {
     name: "script that jostle exported",
     marks: &[

@@ -29,7 +29,7 @@ use clap::CommandFactory;
 use command_line::{Args, Command};
 use failure::Failure;
 
-/// Does what the arguments say, the first of which names the program, and returns the exit code.
+/// Runs the command given by the arguments, of which the first is the program name, and returns the exit code.
 pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
     let args = match Args::of(arguments) {
         Ok(args) => args,

@@ -23,7 +23,7 @@ pub struct SelectionPage<'a> {
     pub periods: &'a [MainPeriod],
     /// The motions.
     pub set: &'a [Candidate],
-    /// What was found.
+    /// Result.
     pub check: &'a SelectionCheck,
 }
 
@@ -34,7 +34,7 @@ pub struct CheckedStructure {
     pub name: String,
     /// Its main periods.
     pub periods: Vec<MainPeriod>,
-    /// What was found.
+    /// Result.
     pub check: SelectionCheck,
 }
 

@@ -152,6 +152,6 @@ fn not_compared(without: &Outcome, duration: f64) -> Option<String> {
         RunEnd::Failed(error) => format!("failed: {error}"),
     };
     Some(format!(
-        "the run without contact {reason}; nothing is compared with it"
+        "the run without contact {reason}; there is no comparison with it"
     ))
 }

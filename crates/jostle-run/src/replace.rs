@@ -13,9 +13,9 @@ const LOOK: u64 = 8192;
 /// A kind of file that jostle writes.
 #[derive(Clone, Copy, Debug)]
 pub struct FileKind {
-    /// What it is, as in "is no summary of jostle".
+    /// Its type, as in "is no summary of jostle".
     pub name: &'static str,
-    /// All of this stands in its first or last kilobytes.
+    /// Texts that its first or last kilobytes contain.
     pub marks: &'static [&'static str],
 }
 

@@ -12,7 +12,7 @@ use crate::results::Results;
 pub struct Ran {
     /// What was run.
     pub prepared: Prepared,
-    /// What came out.
+    /// The result.
     pub outcome: Outcome,
     /// The same without contact, if that was run.
     pub without_contact: Option<Outcome>,

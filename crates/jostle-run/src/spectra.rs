@@ -15,7 +15,7 @@ pub type Inelastic = (f64, DuctilitySpectrum);
 /// between the samples as well.
 ///
 /// # Errors
-/// What is wrong with the motion or the numbers.
+/// An error in the motion or the numbers.
 pub fn spectrum_json(
     step: f64,
     acceleration: Vec<f64>,

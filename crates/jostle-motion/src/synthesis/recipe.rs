@@ -10,7 +10,7 @@ use crate::target::{Gb50011, GbGroup, GbIntensity, GbLevel, GbSite, TargetKind, 
 pub struct Recipe {
     /// Its name.
     pub name: &'static str,
-    /// One line for people.
+    /// Description, one line.
     pub description: &'static str,
     /// Spectrum it follows.
     spectrum: Gb50011,

@@ -81,7 +81,7 @@ impl TargetSpectrum {
         }
     }
 
-    /// One line for people.
+    /// Description, one line.
     #[must_use]
     pub fn name(&self) -> String {
         let name = match &self.kind {
