@@ -34,6 +34,8 @@ hinges = { rule = "normal" }
 stiffness = 1
 [analysis]
 integrator = { method = "hht" }
+[output]
+members = true
 "#,
     r#"
 building = []
