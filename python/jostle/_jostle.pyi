@@ -1,7 +1,7 @@
 """The compiled part of the package. It is internal and may change at any time."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, final
 
 import numpy as np
