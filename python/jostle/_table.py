@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from typing_extensions import CapsuleType
 
 
+#: Columns of texts, also where there are no rows.
+_TEXTS = frozenset({"gap", "member", "end"})
+
+
 class Table:
     """Columns of equal length; their names contain units.
 
@@ -70,7 +74,7 @@ class Table:
         values = self._core.column(at)
         if isinstance(values, np.ndarray):
             return values
-        if name == "gap":
+        if name in _TEXTS or any(isinstance(value, str) for value in values):
             return np.array(values, dtype=object)
         absent = [value is None for value in values]
         whole = [0 if value is None else value for value in values]

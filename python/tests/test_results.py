@@ -265,3 +265,28 @@ def test_lost_digits_are_refused_unless_forced() -> None:
             jostle.run(model, force=True)
         except jostle.AnalysisError as error:
             assert error.result is not None
+
+
+def test_forces_of_columns_and_beams() -> None:
+    frame = jostle.Frame(
+        "A",
+        storeys=2,
+        storey_height="3.2 m",
+        spans=["6 m"],
+        column={"width": "500 mm", "depth": "500 mm"},
+        beam={"width": "300 mm", "depth": "600 mm"},
+        elastic_modulus="30 GPa",
+        beam_mass="3600 kg/m",
+    )
+    motion = {"kind": "sine", "amplitude": "1 m/s2", "period": "0.6 s", "duration": "3 s"}
+    result = jostle.run(jostle.Model([frame], motion=motion, output={"members": ["A.column.1.1"]}))
+    greatest, history = result.members("A"), result.member_history
+    assert set(history["member"]) == {"A.column.1.1"}
+    # Two columns in each of two storeys, two beams, both ends of each.
+    assert len(greatest) == 12
+    own = [row for row, name in enumerate(greatest["member"]) if name == "A.column.1.1"]
+    peak = max(greatest["shear_peak_n"][row] for row in own)
+    assert np.abs(history["shear_n"]).max() == pytest.approx(peak, rel=1e-2)
+
+    with pytest.raises(ValueError, match=r'output=\{"members": True\}'):
+        jostle.run(jostle.Model([frame], motion=motion)).members()
