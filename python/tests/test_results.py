@@ -281,7 +281,7 @@ def test_forces_of_columns_and_beams() -> None:
     motion = {"kind": "sine", "amplitude": "1 m/s2", "period": "0.6 s", "duration": "3 s"}
     result = jostle.run(jostle.Model([frame], motion=motion, output={"members": ["A.column.1.1"]}))
     greatest, history = result.members("A"), result.member_history
-    assert set(history["member"]) == {"A.column.1.1"}
+    assert history is not None and set(history["member"]) == {"A.column.1.1"}
     # Two columns in each of two storeys, two beams, both ends of each.
     assert len(greatest) == 12
     own = [row for row, name in enumerate(greatest["member"]) if name == "A.column.1.1"]
