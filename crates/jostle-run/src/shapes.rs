@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use jostle::stepping::{ContactSteps, modal};
 use jostle::{Plan, Solver, System};
 
-/// Shapes for modal stepping, found on first use. Clones share them. They belong to one system, whatever the widths of
+/// Shapes for modal stepping, found on first use. Clones share them. They belong to one system, for any widths of
 /// its gaps.
 #[derive(Clone, Default)]
 pub struct SharedShapes(Arc<OnceLock<Option<Found>>>);

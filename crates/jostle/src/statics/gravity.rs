@@ -40,9 +40,9 @@ pub fn static_displacement(
 
 /// Axial compression of every member under gravity, zero in horizontal ones \[N\].
 ///
-/// By equilibrium of the column lines: a column carries the masses above on its line, and what the beams that
-/// end there hang on it, hinges cracked as the weight leaves them. So it is the same whether columns keep their length
-/// or not.
+/// By equilibrium of the column lines: a column carries the masses above on its line, and the loads of
+/// the beams that end there, with hinges cracked by the weight. It does not depend on whether columns keep their
+/// length.
 ///
 /// # Errors
 /// [`PathError`] when the building cannot carry its weight.
@@ -101,7 +101,7 @@ impl Collapse {
     }
 }
 
-/// Lets the weight lean on the columns and finds the displacements at rest, as far as each is asked for: the building
+/// Adds P-Delta and finds the displacements under self weight, as far as each is asked for: the building
 /// with P-Delta in its equations, where it is, and what it is at rest, empty where weight is left out.
 ///
 /// The compression of every member is that of the building standing straight (theory, Eq. K1): axial forces
@@ -128,7 +128,7 @@ pub fn under_gravity(
     Ok((leaning, rest))
 }
 
-/// The building with its weight leaning on the columns.
+/// The building with P-Delta in its equations.
 fn with_p_delta(building: &AssembledBuilding) -> Result<AssembledBuilding, Collapse> {
     let carried = compressions(building, STANDARD_GRAVITY).map_err(|_| Collapse::Overloaded)?;
     let mut discretization = building.discretization.clone();
@@ -139,7 +139,7 @@ fn with_p_delta(building: &AssembledBuilding) -> Result<AssembledBuilding, Colla
     let nodes = &stick_model.nodes;
     for spring in &mut stick_model.springs {
         let [a, b] = spring.ends.map(|end| nodes[end].y);
-        // The spring of a base has no height to lean on.
+        // The spring of a base has no height, so no P-Delta.
         if (a - b).abs() > SAME_LINE {
             let above = nodes.iter().filter(|node| node.y > a.max(b) - SAME_LINE);
             let weight = STANDARD_GRAVITY * above.map(|node| node.mass).sum::<f64>();

@@ -24,7 +24,7 @@ use crate::statics::STANDARD_GRAVITY;
 use crate::structure::StepEquations;
 use crate::system::System;
 
-/// Runs a system with the steps of the plan, whatever error they have.
+/// Runs a system with the steps of the plan, without an estimate of the error.
 pub(super) fn run_directly<E: StepEquations>(
     system: &System,
     motion: &GroundMotion,

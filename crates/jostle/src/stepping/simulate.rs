@@ -88,7 +88,7 @@ fn step_through(
     }
 }
 
-/// Runs a system from rest with the steps of the plan, whatever error they have.
+/// Runs a system from rest with the steps of the plan, without an estimate of the error.
 pub(super) fn simulate_once(
     system: &System,
     motion: &GroundMotion,

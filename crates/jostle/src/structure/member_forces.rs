@@ -370,7 +370,7 @@ impl<'a> Cuts<'a> {
         }
     }
 
-    /// By vertical equilibrium of the column line above: beams hang on it, and its masses.
+    /// By vertical equilibrium of the column line above: it carries the shears of its beams and its own masses.
     fn carried_by_column(&self, cut: &Element) -> LinearForm {
         let stick_model = &self.building.discretization.stick_model;
         let top = stick_model.nodes[cut.ends[1]];

@@ -100,7 +100,7 @@ impl BuildingSystem {
         }
     }
 
-    /// Lets the weight lean on the columns and sets the displacements at rest, as far as each is asked for.
+    /// Adds P-Delta and sets the displacements under self weight, as far as each is asked for.
     ///
     /// # Errors
     /// [`Collapse`]; the building is then as it was.

@@ -288,7 +288,7 @@ impl ModalStepper<'_> {
             .unwrap_or(planned)
     }
 
-    /// Records one of so many free steps: energies, peaks, and a row where one is due.
+    /// Records one free step: energies, peaks, and a row of the history if one is due.
     fn record_free_step(&mut self, run: &mut RunState<'_>, index: usize, free: usize) {
         let (free_steps, places) = (&self.free_steps, self.reduced.watched());
         let step = free_steps.step;
@@ -346,7 +346,7 @@ impl ModalStepper<'_> {
         run.work.solves += 1;
     }
 
-    /// Moves to the end of the last of so many steps.
+    /// Moves to the end of the last free step.
     fn move_to_last(&mut self, run: &mut RunState<'_>, steps: usize) {
         let (free_steps, places) = (&self.free_steps, self.reduced.watched());
         let modes = self.reduced.modes();

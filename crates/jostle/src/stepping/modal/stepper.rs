@@ -27,6 +27,7 @@ use crate::system::System;
 
 /// Most rows of a history in a step of free vibration.
 const MOST_ROWS: f64 = 64.0;
+
 /// Modal coordinates of all buildings, and how their steps are taken.
 pub(super) struct ModalStepper<'a> {
     pub(super) reduced: &'a Reduced,
@@ -35,7 +36,7 @@ pub(super) struct ModalStepper<'a> {
     divisions: Vec<u32>,
     /// Division of free vibration, so that histories have their rows.
     pub(super) least_division: u32,
-    /// How many times as many steps that are as the tolerance asks for.
+    /// Steps taken for each one that the tolerance needs \[–\].
     pub(super) rows_per_step: usize,
     pub(super) free_steps: FreeSteps,
     rules: Rules,
@@ -49,8 +50,8 @@ pub(super) struct ModalStepper<'a> {
     pub(super) scratch: Vec<f64>,
     /// ∫τq of the accepted step, where a contact is closed.
     moment: Vec<f64>,
-    /// What is watched now, and at the end of the tried step; its accelerations and what their rates are but for the
-    /// loads', now and a step ago.
+    /// Monitored displacements and velocities, now and at the end of the tried step. Monitored accelerations, and jerks
+    /// without the load term, now and a step ago.
     pub(super) u: [Vec<f64>; 2],
     pub(super) rate: [Vec<f64>; 2],
     pub(super) acceleration: [Vec<f64>; 2],
@@ -76,7 +77,7 @@ pub(super) struct ModalStepper<'a> {
     pub(super) doubtful_from: Option<f64>,
 }
 
-/// Share of the tolerance below which shapes are not what is to be mended.
+/// Share of the tolerance below which an error of shapes needs no further shapes.
 const LEAST_SHARE: f64 = 0.3;
 
 /// How much finer a run is than planned, and the work done before it.
@@ -337,7 +338,7 @@ impl<'a> ModalStepper<'a> {
         }
     }
 
-    /// Rates of modal accelerations now, but for those of the loads, in `jerk`; the accelerations stand in `scratch`.
+    /// Modal jerks now without the load term, into `jerk`; the modal accelerations are in `scratch`.
     fn jerks(&mut self) {
         let modes = self.scratch.iter().zip(&self.v[0]);
         let factors = self.reduced.damping.iter().zip(&self.reduced.stiffness);
@@ -347,7 +348,7 @@ impl<'a> ModalStepper<'a> {
     }
 
     /// Takes in the peaks of a step that was taken, whose modal accelerations at the end stand in `scratch` and whose
-    /// jerks, but for the ground's, in `jerk`.
+    /// jerks without the load term, in `jerk`.
     fn look(&mut self, run: &RunState<'_>, ground: [f64; 2], start: f64, step: f64) {
         let reduced = self.reduced;
         self.acceleration.swap(0, 1);

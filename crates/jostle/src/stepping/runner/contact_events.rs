@@ -347,7 +347,7 @@ pub(super) fn impact_of(contact: usize, episode: &Episode, finished: bool) -> Op
         peak_force_at: episode.peak_force_at,
         peak_indentation: episode.peak_indentation,
         impact_speed: episode.impact_speed,
-        // Bodies that still approach, or lean on each other, have not separated.
+        // Bodies that still approach, or rest against each other, have not separated.
         separation_speed: if finished {
             episode.separation_speed.max(0.0)
         } else {
