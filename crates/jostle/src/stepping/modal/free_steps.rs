@@ -318,7 +318,6 @@ impl ModalStepper<'_> {
             ground: [g0, g1],
             start,
             step,
-            struck: false,
         };
         self.peaks.after_step(run.system, self.reduced, &taken);
         let modes = self.reduced.modes();

@@ -281,6 +281,30 @@ impl MemberPeaks {
         self.ground = now.ground;
     }
 
+    /// Replaces velocities, accelerations and jerks of the last instant, after they have jumped.
+    pub(super) fn restart(&mut self, reduced: &Reduced, jumped: [&[f64]; 3]) {
+        for (index, own) in reduced.buildings.iter().enumerate() {
+            let own = &own.members;
+            let count = own.modes.len();
+            let kept = LISTS * own.modes.start + count..LISTS * own.modes.end;
+            let shares = own.passed.greatest.get(count..).unwrap_or_default();
+            let mut moved = 0.0;
+            let lists = self.modal[0][kept].chunks_mut(count.max(1));
+            for (list, (to, new)) in lists.zip(jumped).enumerate() {
+                let new = &new[own.modes.clone()];
+                if let Some(shares) = shares.get(list * count..) {
+                    let jumps = shares.iter().zip(&*to).zip(new);
+                    moved += jumps.map(|((s, a), b)| s * (b - a).abs()).sum::<f64>();
+                }
+                to.copy_from_slice(new);
+            }
+            self.watch_passed[index].moved += moved;
+            let stiffness = &reduced.stiffness[own.modes.clone()];
+            self.watch[index].rate =
+                simd::weighted_square(stiffness, &jumped[0][own.modes.clone()]).sqrt();
+        }
+    }
+
     fn follow_own(
         &mut self,
         reduced: &Reduced,

@@ -20,6 +20,7 @@ mod response;
 mod series;
 mod span;
 mod stepper;
+mod struck;
 mod unit_force;
 
 use std::f64::consts::PI;

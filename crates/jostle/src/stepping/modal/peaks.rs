@@ -68,8 +68,6 @@ pub(super) struct Taken<'a> {
     pub(super) ground: [f64; 2],
     pub(super) start: f64,
     pub(super) step: f64,
-    /// Whether velocities have jumped at its start or shortly before.
-    pub(super) struck: bool,
 }
 
 impl Peaks {
@@ -125,8 +123,27 @@ impl Peaks {
     /// Updates peaks with a step.
     pub(super) fn after_step(&mut self, system: &System, reduced: &Reduced, taken: &Taken<'_>) {
         if self.may_exceed(taken) {
-            self.look_at_buildings(system, reduced, taken);
+            self.look_at_buildings(system, reduced, taken, None);
         }
+        self.follow_closings(reduced, taken);
+    }
+
+    /// The same where velocities have jumped at the start or shortly before; `within` gives the greatest total acceleration of
+    /// every monitored point.
+    pub(super) fn after_struck_step<'w>(
+        &mut self,
+        system: &System,
+        reduced: &Reduced,
+        taken: &Taken<'_>,
+        within: impl FnOnce() -> &'w [f64],
+    ) {
+        if self.may_exceed(taken) {
+            self.look_at_buildings(system, reduced, taken, Some(within()));
+        }
+        self.follow_closings(reduced, taken);
+    }
+
+    fn follow_closings(&mut self, reduced: &Reduced, taken: &Taken<'_>) {
         for (contact, closing) in self.closing.iter_mut().enumerate() {
             let pair = |at: Watched<'_>| {
                 [
@@ -167,6 +184,17 @@ impl Peaks {
         *then = time;
         before.copy_from_slice(velocities);
         quickened.copy_from_slice(accelerations);
+    }
+
+    /// Replaces modal velocities, accelerations and jerks of the last evaluation of forces, after they have jumped: the next
+    /// step starts with the new ones.
+    pub(super) fn restart(&mut self, reduced: &Reduced, jumped: [&[f64]; 3]) {
+        let [velocities, accelerations, _] = jumped;
+        self.before.velocities.copy_from_slice(velocities);
+        self.before.accelerations.copy_from_slice(accelerations);
+        if let Some(members) = &mut self.members {
+            members.restart(reduced, jumped);
+        }
     }
 
     fn are_forces_near_peaks(&self, reduced: &Reduced) -> bool {
@@ -255,7 +283,13 @@ impl Peaks {
         })
     }
 
-    fn look_at_buildings(&mut self, system: &System, reduced: &Reduced, taken: &Taken<'_>) {
+    fn look_at_buildings(
+        &mut self,
+        system: &System,
+        reduced: &Reduced,
+        taken: &Taken<'_>,
+        within: Option<&[f64]>,
+    ) {
         let Taken {
             then,
             now,
@@ -303,10 +337,8 @@ impl Peaks {
                         now.unloaded_jerk[at] + slope,
                     ],
                 };
-                if taken.struck {
-                    // The reaction of a dashpot to a jump of velocity decays within the step, unlike a cubic.
-                    let ends = total.then[0].abs().max(total.now[0].abs());
-                    peaks.total_acceleration = peaks.total_acceleration.max(ends);
+                if let Some(within) = within {
+                    peaks.total_acceleration = peaks.total_acceleration.max(within[at]);
                 } else {
                     total.widen(&mut peaks.total_acceleration, step);
                 }

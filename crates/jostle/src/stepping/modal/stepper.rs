@@ -11,6 +11,7 @@ use super::members::Instant;
 use super::peaks::{Peaks, Taken, Watched};
 use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
 use super::reduced::{Reduced, StepEnergy, Table};
+use super::struck::{StruckStep, WithinStep};
 use crate::history::{Energy, Work};
 use crate::motion::GroundMotion;
 use crate::simd;
@@ -71,6 +72,7 @@ pub(super) struct ModalStepper<'a> {
     pub(super) checked_forces: Vec<f64>,
     /// Steps left in which accelerations may still follow a jump of velocities, unlike a cubic.
     pub(super) struck: u32,
+    within: WithinStep,
     /// How far every open contact has opened since it was closed; infinite before it ever was \[m\].
     pub(super) clearance: Vec<f64>,
     /// First instant at which a contact was made or missed by less than the tolerance \[s\].
@@ -210,6 +212,7 @@ impl<'a> ModalStepper<'a> {
             clearance: vec![f64::INFINITY; contacts],
             doubtful_from: None,
             struck: 0,
+            within: WithinStep::default(),
             reduced,
         }
     }
@@ -366,10 +369,25 @@ impl<'a> ModalStepper<'a> {
             ground,
             start,
             step,
-            struck: self.struck > 0,
         };
-        let was_struck = taken.struck;
-        self.peaks.after_step(run.system, reduced, &taken);
+        let was_struck = self.struck > 0;
+        if was_struck {
+            let struck = StruckStep {
+                q: &self.q[1],
+                v: &self.v[1],
+                loads: [&self.p[1], &self.p[0]],
+                bend: &self.bend,
+                ground,
+                step,
+            };
+            let within = &mut self.within;
+            self.peaks
+                .after_struck_step(run.system, reduced, &taken, || {
+                    within.greatest(reduced, &struck)
+                });
+        } else {
+            self.peaks.after_step(run.system, reduced, &taken);
+        }
         self.struck = self.struck.saturating_sub(1);
         let open = (0..run.phases.len()).all(|index| run.is_open(index));
         let now = Instant {
@@ -403,6 +421,8 @@ impl<'a> ModalStepper<'a> {
             }
         }
         self.show_accelerations();
+        let jumped = [&self.v[0][..], &self.scratch, &self.jerk];
+        self.peaks.restart(self.reduced, jumped);
     }
 
     /// What the ground put in and damping took; with closed contacts their work as well.
