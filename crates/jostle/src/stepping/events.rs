@@ -41,6 +41,12 @@ impl Cubic {
         c1 + at * (2.0 * c2 + at * 3.0 * c3)
     }
 
+    /// Second derivative times the squared step at a fraction of the step.
+    pub(crate) fn curvature(&self, at: f64) -> f64 {
+        let [_, _, c2, c3] = self.powers();
+        2.0 * c2 + 6.0 * c3 * at
+    }
+
     fn powers(&self) -> [f64; 4] {
         let jump = self.end - self.start;
         [

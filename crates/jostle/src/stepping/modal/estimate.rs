@@ -3,6 +3,7 @@
 use super::mode_kernels::{ROWS, Show};
 use super::peaks::{Peaks, Watched};
 use super::reduced::{Reduced, ReducedBuilding};
+use super::turning::NEAR_GREATEST;
 use crate::history::FloorPeaks;
 use crate::system::System;
 
@@ -192,6 +193,11 @@ impl Reached {
 /// Fraction of the tolerance above which the defect of a mode is added to the shapes.
 const WORTH_ADDING: f64 = 0.1;
 
+/// Margin of the estimate for omitted shapes, which takes them to follow without delay.
+const SHAPES_MARGIN: f64 = 1.5;
+/// Total accelerations among the kinds.
+const ACCELERATION: usize = 2;
+
 /// Estimated errors of peaks, each relative to the greatest of its kind in the building; the greatest of all \[–\].
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Estimate {
@@ -257,9 +263,13 @@ impl Estimate {
             for kind in 0..KINDS {
                 let floors = reached.floors[index].iter();
                 let off = floors.map(|floor| floor[kind].off()).fold(0.0, f64::max);
-                let raise = |to: &mut f64, value: f64| *to = to.max(value / scales[kind]);
-                raise(&mut worst.shapes, off);
-                raise(&mut worst.between, together * between[kind]);
+                worst.shapes = worst.shapes.max(SHAPES_MARGIN * off / scales[kind]);
+                let mut between = together * between[kind] / scales[kind];
+                if kind == ACCELERATION {
+                    // Turning points that a cubic does not miss by more than this are looked at exactly.
+                    between *= (between / (1.0 - NEAR_GREATEST)).min(1.0);
+                }
+                worst.between = worst.between.max(between);
             }
         }
         worst
@@ -281,7 +291,7 @@ fn scales(floors: &[FloorPeaks], shear: f64) -> [f64; KINDS] {
 
 impl ReducedBuilding {
     /// Value of one of its modes at a monitored point.
-    fn of_blocks(&self, blocks: &[[f64; ROWS]], place: usize, mode: usize) -> f64 {
+    pub(super) fn of_blocks(&self, blocks: &[[f64; ROWS]], place: usize, mode: usize) -> f64 {
         blocks[place / ROWS * self.modes.len() + mode][place % ROWS]
     }
 }

@@ -7,6 +7,7 @@ use super::mode_kernels::{Ahead, LANES, Lanes, Show, Sums};
 use super::peaks::{Taken, Watched};
 use super::reduced::{Reduced, Table};
 use super::stepper::ModalStepper;
+use super::turning::{Loads, StepMotion};
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::clock::Clock;
@@ -312,15 +313,24 @@ impl ModalStepper<'_> {
         let start = run.time;
         run.time = free_steps.ends[index].time();
         let now = free_steps.watched(places, index + 1);
+        let modes = self.reduced.modes();
         let taken = Taken {
             then: free_steps.watched(places, index),
             now,
             ground: [g0, g1],
             start,
             step,
+            motion: StepMotion {
+                start: match index {
+                    0 => [&self.q[0], &self.v[0]],
+                    _ => free_steps.state(modes, index),
+                },
+                loads: Loads::Ground,
+                ground: [g0, g1],
+                step,
+            },
         };
         self.peaks.after_step(run.system, self.reduced, &taken);
-        let modes = self.reduced.modes();
         let [q, v] = free_steps.state(modes, index + 1);
         let [a, jerk] = [2, 3]
             .map(|list| &free_steps.modal[list][index * free_steps.start[0].len()..][..modes]);

@@ -21,6 +21,7 @@ mod series;
 mod span;
 mod stepper;
 mod struck;
+mod turning;
 mod unit_force;
 
 use std::f64::consts::PI;

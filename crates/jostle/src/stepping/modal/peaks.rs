@@ -6,6 +6,7 @@ use pulp::Arch;
 use super::members::{Instant, MemberPeaks};
 use super::mode_kernels::{Exceeds, Limits, ROWS};
 use super::reduced::Reduced;
+use super::turning::{NEAR_GREATEST, StepMotion};
 use crate::history::{Energy, Extreme, FloorPeaks, History};
 use crate::stepping::events::Cubic;
 use crate::stepping::recorder::{columns, greatest_in_step};
@@ -68,6 +69,7 @@ pub(super) struct Taken<'a> {
     pub(super) ground: [f64; 2],
     pub(super) start: f64,
     pub(super) step: f64,
+    pub(super) motion: StepMotion<'a>,
 }
 
 impl Peaks {
@@ -340,11 +342,16 @@ impl Peaks {
                 if let Some(within) = within {
                     peaks.total_acceleration = peaks.total_acceleration.max(within[at]);
                 } else {
-                    total.widen(&mut peaks.total_acceleration, step);
+                    peaks.total_acceleration = taken.motion.greatest_acceleration(
+                        reduced,
+                        [index, at - own.watched.start],
+                        total,
+                        peaks.total_acceleration,
+                    );
                 }
                 self.limits.high[at] = peaks.displacement_max.value;
                 self.limits.low[at] = peaks.displacement_min.value;
-                self.limits.acceleration[at] = peaks.total_acceleration;
+                self.limits.acceleration[at] = NEAR_GREATEST * peaks.total_acceleration;
                 if at > own.watched.start {
                     // Slightly less, because the product is rounded.
                     let widest = peaks.storey_drift * floor.storey_height;
@@ -464,6 +471,12 @@ impl Ends {
         BEYOND * step * (self.then[1].abs() + self.now[1].abs())
     }
 
+    /// Whether a cubic may exceed a magnitude.
+    #[inline(always)]
+    pub(super) fn may_exceed(&self, magnitude: f64, step: f64) -> bool {
+        self.then[0].abs().max(self.now[0].abs()) + self.beyond(step) > magnitude
+    }
+
     /// Keeps the greatest value so far.
     #[inline(always)]
     fn raise(self, extreme: &mut Extreme, start: f64, step: f64) {
@@ -483,7 +496,7 @@ impl Ends {
     /// Keeps the greatest magnitude so far.
     #[inline(always)]
     fn widen(self, largest: &mut f64, step: f64) {
-        if self.then[0].abs().max(self.now[0].abs()) + self.beyond(step) > *largest {
+        if self.may_exceed(*largest, step) {
             *largest = self.largest(*largest, step);
         }
     }

@@ -662,7 +662,7 @@ impl Table {
 }
 
 /// Values of up to [`LANES`] modes, the last one repeated.
-fn filled(values: &[f64]) -> [f64; LANES] {
+pub(super) fn filled(values: &[f64]) -> [f64; LANES] {
     let mut lanes = [values[values.len() - 1]; LANES];
     lanes[..values.len()].copy_from_slice(values);
     lanes

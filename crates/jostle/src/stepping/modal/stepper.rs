@@ -12,6 +12,7 @@ use super::peaks::{Peaks, Taken, Watched};
 use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
 use super::reduced::{Reduced, StepEnergy, Table};
 use super::struck::{StruckStep, WithinStep};
+use super::turning::{Loads, StepMotion};
 use crate::history::{Energy, Work};
 use crate::motion::GroundMotion;
 use crate::simd;
@@ -369,6 +370,12 @@ impl<'a> ModalStepper<'a> {
             ground,
             start,
             step,
+            motion: StepMotion {
+                start: [&self.q[1], &self.v[1]],
+                loads: Loads::Parabolas([&self.p[1], &self.p[0], &self.bend]),
+                ground,
+                step,
+            },
         };
         let was_struck = self.struck > 0;
         if was_struck {
