@@ -283,7 +283,11 @@ impl<E: StepEquations> Direct<E> {
 }
 
 impl<E: StepEquations> Stepper for Direct<E> {
-    const ENDS_STEPS_AT_CORNERS: bool = false;
+    /// Where steps follow from the tolerance: without them, accelerations with a peak at a corner would be of first order. Not
+    /// where buildings yield, whose forces have corners of their own.
+    fn ends_steps_at_corners(&self, run: &RunState<'_>) -> bool {
+        run.plan.chooses_contact_steps() && self.state.springs.is_empty()
+    }
 
     fn record_start(&mut self, run: &mut RunState<'_>) {
         self.follow_members(run);

@@ -31,7 +31,8 @@ const FEW_IMPACTS: usize = 12;
 /// the contact floors if that is more, and the run is repeated. If reported peaks change by more than the
 /// tolerance, relative to the greatest of their kind in the building or gap, the first impact that differs by as
 /// much gives the instant. If a contact stays open and its closing is within the tolerance of the gap, the gap is
-/// made narrower instead, so that the contact is made. Other runs with at most twelve impacts, none of them
+/// made narrower instead, so that the contact is made. Where the tolerance is not met and impacts already differ between
+/// two step sizes, the first of these gives the instant. Other runs with at most twelve impacts, none of them
 /// doubtful, are not repeated; nor are those of buildings that yield.
 pub fn find_sensitivity(
     system: &System,
@@ -55,6 +56,12 @@ fn sensitive_from(
 ) -> Option<f64> {
     let tolerance = plan.tolerance();
     let doubtful = outcome.accuracy.and_then(|accuracy| accuracy.doubtful_from);
+    let unmet = outcome
+        .accuracy
+        .is_some_and(|accuracy| accuracy.residual > tolerance);
+    if unmet && doubtful.is_some() {
+        return doubtful;
+    }
     let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
     let near_misses: Vec<bool> = (0..system.contacts.len())
         .map(|contact| nearly_touches(system, outcome, contact, tolerance))
@@ -91,9 +98,7 @@ fn sensitive_from(
     if change_of_peaks(system, runs) <= tolerance {
         return None;
     }
-    let parted = (0..system.contacts.len())
-        .filter_map(|contact| parted_at(system, runs, contact, tolerance))
-        .min_by(f64::total_cmp);
+    let parted = first_parted(system, runs, tolerance);
     let first = outcome.impacts.iter().map(|impact| impact.start);
     parted.or(doubtful).or(first.min_by(f64::total_cmp))
 }
@@ -122,6 +127,14 @@ fn nearly_touches(system: &System, outcome: &Outcome, contact: usize, tolerance:
     );
     impacts(outcome, contact).next().is_none()
         && (width - closing).abs() < tolerance * width.max(closing)
+}
+
+/// Instant at which impacts of two runs first differ in force or impulse by more than the tolerance of the greatest of
+/// their gap.
+pub(super) fn first_parted(system: &System, runs: [&Outcome; 2], tolerance: f64) -> Option<f64> {
+    (0..system.contacts.len())
+        .filter_map(|contact| parted_at(system, runs, contact, tolerance))
+        .min_by(f64::total_cmp)
 }
 
 /// Instant at which impacts of a contact first differ in force or impulse by more than the tolerance of the

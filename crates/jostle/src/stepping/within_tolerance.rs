@@ -6,6 +6,7 @@ use super::direct::run_directly;
 use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings};
 use super::peak_change::change_of_peaks;
 use super::plan::Plan;
+use super::sensitivity::first_parted;
 use crate::motion::GroundMotion;
 use crate::state::State;
 use crate::structure::StepEquations;
@@ -13,31 +14,84 @@ use crate::system::System;
 
 /// Largest number of refinements.
 const MOST_REFINEMENTS: u64 = 4;
-/// Margin of the measured error: errors of single peaks fall less regularly than the square of the step.
+/// Margin of the measured error: errors of single peaks fall less regularly than a power of the step.
 const MARGIN: f64 = 1.5;
 /// Fraction of the tolerance that refined steps aim at.
 const AIM: f64 = 0.5;
 /// Least and greatest factors by which steps are refined at a time.
-const REFINEMENT: [f64; 2] = [1.4, 3.0];
+const REFINEMENT: [f64; 2] = [2.0, 3.0];
 /// Fraction of the error that may remain after a refinement; otherwise refinement stops.
 const LEFT_OVER: f64 = 0.8;
+/// Least and greatest order of convergence; average acceleration is of second order.
+const ORDERS: [f64; 2] = [0.75, 2.0];
 
 /// Weight of the energy imbalance in the error of a peak.
-const LOST: f64 = 0.25;
+const LOST: f64 = 0.1;
 
 /// Contribution of rounding to the error: motion with the energy of the imbalance, relative to all motion \[–\].
 ///
-/// Steps balance their energy exactly, apart from rounding. Very short steps lose digits, and two of them may lose
-/// them alike.
-fn rounding(outcome: &Outcome) -> f64 {
-    LOST * outcome.energy.imbalance().sqrt()
+/// Steps balance their energy exactly, apart from rounding and the quadrature of contact forces. The latter falls with
+/// the step; what rises is rounding. Very short steps lose digits, and two of them may lose them alike.
+fn rounding([coarse, fine]: [&Outcome; 2]) -> f64 {
+    let [before, after] = [coarse, fine].map(|outcome| outcome.energy.imbalance());
+    LOST * (after - before).max(0.0).sqrt()
+}
+
+/// Change of peaks between two runs, and the ratio of their steps.
+#[derive(Clone, Copy)]
+struct Change {
+    change: f64,
+    ratio: f64,
+}
+
+impl Change {
+    fn between(system: &System, runs: [&Outcome; 2], plans: [&Plan; 2]) -> Self {
+        let completed = runs.iter().all(|run| run.end == RunEnd::Completed);
+        Self {
+            change: if completed {
+                change_of_peaks(system, runs)
+            } else {
+                1.0
+            },
+            ratio: plans[0].step / plans[1].step,
+        }
+    }
+
+    /// Error of the finer run, if errors fall with this power of the step.
+    fn error(self, order: f64) -> f64 {
+        self.change / (self.ratio.powf(order) - 1.0)
+    }
+
+    /// Order of convergence, from this change and the next one of finer runs.
+    fn order(self, next: Self) -> f64 {
+        let errors_fit = |order: f64| {
+            let from_this = self.error(order);
+            let from_next = next.error(order) * next.ratio.powf(order);
+            from_this <= from_next
+        };
+        let [mut least, mut greatest] = ORDERS;
+        if !errors_fit(greatest) {
+            return greatest;
+        }
+        for _ in 0..30 {
+            let middle = 0.5 * (least + greatest);
+            *(if errors_fit(middle) {
+                &mut greatest
+            } else {
+                &mut least
+            }) = middle;
+        }
+        least
+    }
 }
 
 /// Runs an elastic system with automatic steps twice, the second time with steps half as long, and refines them
 /// further while the error of the finer run exceeds the tolerance. Other systems run once.
 ///
 /// Average acceleration is of second order: where steps shrink by the factor r, the error of the finer run is the difference
-/// of both over r² − 1 (L. F. Richardson, 1911, Phil. Trans. R. Soc. A 210, 307–357).
+/// of both over r² − 1 (L. F. Richardson, 1911, Phil. Trans. R. Soc. A 210, 307–357). Accelerations of modes that a step does
+/// not resolve fall more slowly. So two runs decide only if the error would be within the tolerance at first order too;
+/// otherwise a third one gives the order (P. J. Roache, 1994, J. Fluids Eng. 116, 405–413).
 pub(super) fn within_tolerance<E: StepEquations>(
     system: &System,
     motion: &GroundMotion,
@@ -64,8 +118,9 @@ pub(super) fn within_tolerance<E: StepEquations>(
     if before.end == RunEnd::Stopped {
         return before;
     }
-    let mut last = f64::INFINITY;
-    let mut refinements = 0;
+    let tolerance = plan.tolerance();
+    let mut known: Option<Change> = None;
+    let (mut last, mut refinements) = (f64::INFINITY, 0);
     loop {
         let mut outcome = run(&fine);
         outcome.work.repeated_runs = refinements;
@@ -73,34 +128,73 @@ pub(super) fn within_tolerance<E: StepEquations>(
             // If a refinement is stopped or fails, the previous run is kept.
             return if refinements > 0 { before } else { outcome };
         }
-        let ratio = coarse.step / fine.step;
-        let change = if before.end == RunEnd::Completed {
-            change_of_peaks(system, [&before, &outcome])
-        } else {
-            1.0
-        };
-        let rounding = rounding(&outcome);
-        let residual = MARGIN * change / (ratio * ratio - 1.0) + rounding;
-        let tolerance = plan.tolerance();
+        let change = Change::between(system, [&before, &outcome], [&coarse, &fine]);
+        let rounding = rounding([&before, &outcome]);
+        let first = MARGIN * change.error(ORDERS[1]) + rounding;
+        let in_doubt = first <= tolerance && change.error(1.0) + rounding > tolerance;
+        if known.is_none() && in_doubt {
+            let coarser = coarse.refined(0.5, motion);
+            let coarsest = run(&coarser);
+            outcome.work.repeated_runs += 1;
+            if coarsest.end == RunEnd::Completed && coarser.step > coarse.step {
+                known = Some(Change::between(
+                    system,
+                    [&coarsest, &before],
+                    [&coarser, &coarse],
+                ));
+            }
+        }
+        let order = known.map_or(ORDERS[1], |known| known.order(change));
+        let residual = MARGIN * change.error(order) + rounding;
         outcome.accuracy = Some(Accuracy {
             tolerance,
             residual,
-            doubtful_from: None,
+            // Impacts that differ between the two step sizes, and all that follows them, are not resolved.
+            doubtful_from: (residual > tolerance)
+                .then(|| first_parted(system, [&outcome, &before], tolerance))
+                .flatten(),
             sensitive_from: None,
         });
         let converges = residual < LEFT_OVER * last && rounding < AIM * tolerance;
         if residual <= tolerance || refinements == MOST_REFINEMENTS || !converges {
             return outcome;
         }
+        last = residual;
         let [least, most] = REFINEMENT;
-        let wanted = (residual / (AIM * tolerance)).sqrt().clamp(least, most);
-        let finer = fine.refined(wanted, motion);
+        let wanted = (residual / (AIM * tolerance)).powf(order.recip());
+        let finer = fine.refined(wanted.clamp(least, most), motion);
         // The product of transfer matrices loses its digits at short steps.
         if finer.check_digits(system).is_err() {
             return outcome;
         }
         refinements += 1;
-        last = residual;
+        known = Some(change);
         (before, coarse, fine) = (outcome, fine, finer);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_order_follows_from_three_runs() {
+        for order in [0.6, 1.0, 1.7, 2.0] {
+            let error = |step: f64| step.powf(order);
+            let change = |coarse: f64, fine: f64| Change {
+                change: error(coarse) - error(fine),
+                ratio: coarse / fine,
+            };
+            let (first, second) = (change(4.0, 2.0), change(2.0, 0.7));
+            assert!((first.order(second) - order).abs() < 1e-6);
+            assert!((second.error(order) - error(0.7)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_order_stays_within_its_bounds() {
+        let of = |change: f64| Change { change, ratio: 2.0 };
+        assert_eq!(of(1.0).order(of(1e-3)), ORDERS[1]);
+        assert!((of(1e-3).order(of(1.0)) - ORDERS[0]).abs() < 1e-6);
     }
 }

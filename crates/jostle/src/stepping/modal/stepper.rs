@@ -514,7 +514,9 @@ impl<'a> ModalStepper<'a> {
 const STEPS_AFTERWARDS: u32 = 4;
 
 impl Stepper for ModalStepper<'_> {
-    const ENDS_STEPS_AT_CORNERS: bool = true;
+    fn ends_steps_at_corners(&self, _: &RunState<'_>) -> bool {
+        true
+    }
 
     fn record_start(&mut self, run: &mut RunState<'_>) {
         let energy = self.balance();

@@ -74,7 +74,7 @@ impl<S: Stepper> Runner<'_, S> {
         for _ in 0..MOST_EVENTS_AT_ONCE {
             let (slot, next) = self.try_next_step()?;
             let event = self.first_event(next.length);
-            if S::ENDS_STEPS_AT_CORNERS {
+            if self.stepper.ends_steps_at_corners(&self.run) {
                 let before = event.map_or(1.0, |event| event.at);
                 if let Some(corner) = self.first_corner(next.length, before) {
                     self.run.work.repeated_steps += 1;

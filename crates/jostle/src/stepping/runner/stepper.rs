@@ -21,7 +21,7 @@ pub(in crate::stepping) struct Jump {
 /// free-vibration step.
 pub(in crate::stepping) trait Stepper {
     /// Whether steps end at corners of contact forces.
-    const ENDS_STEPS_AT_CORNERS: bool;
+    fn ends_steps_at_corners(&self, run: &RunState<'_>) -> bool;
 
     /// Records the start of the run.
     fn record_start(&mut self, run: &mut RunState<'_>);
