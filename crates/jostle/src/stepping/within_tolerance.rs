@@ -20,7 +20,7 @@ const MARGIN: f64 = 1.5;
 const AIM: f64 = 0.5;
 /// Least and greatest factors by which steps are refined at a time.
 const REFINEMENT: [f64; 2] = [2.0, 3.0];
-/// Fraction of the error that may remain after a refinement; otherwise refinement stops.
+/// Fraction of the error of second order that may remain after a refinement; otherwise refinement stops.
 const LEFT_OVER: f64 = 0.8;
 /// Least and greatest order of convergence; average acceleration is of second order.
 const ORDERS: [f64; 2] = [0.75, 2.0];
@@ -155,11 +155,11 @@ pub(super) fn within_tolerance<E: StepEquations>(
                 .flatten(),
             sensitive_from: None,
         });
-        let converges = residual < LEFT_OVER * last && rounding < AIM * tolerance;
+        let converges = first < LEFT_OVER * last && rounding < AIM * tolerance;
         if residual <= tolerance || refinements == MOST_REFINEMENTS || !converges {
             return outcome;
         }
-        last = residual;
+        last = first;
         let [least, most] = REFINEMENT;
         let wanted = (residual / (AIM * tolerance)).powf(order.recip());
         let finer = fine.refined(wanted.clamp(least, most), motion);

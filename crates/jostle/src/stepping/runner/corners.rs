@@ -39,8 +39,13 @@ impl<S: Stepper> Runner<'_, S> {
     /// The first corner within the tried step and before a share of it.
     pub(super) fn first_corner(&self, step: f64, before: f64) -> Option<Corner> {
         let mut first: Option<Corner> = None;
-        for closed in &self.run.coupling.closed {
-            let index = closed.contact;
+        let contacts = self.run.phases.len();
+        // Links follow the contacts.
+        let closed = self.run.coupling.closed.iter();
+        for index in closed
+            .map(|closed| closed.contact)
+            .filter(|index| *index < contacts)
+        {
             for kind in self.kinds(index).into_iter().flatten() {
                 let reached = first.map_or(before, |first| first.at);
                 // A closer corner is the one at which the last step ended.
