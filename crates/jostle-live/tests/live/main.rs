@@ -9,6 +9,8 @@
 #[path = "../../../jostle-report/tests/browser/opened.rs"]
 mod opened;
 
+mod exported;
+
 use std::path::Path;
 use std::time::{Duration, Instant};
 
