@@ -48,7 +48,14 @@ function showSteps() {
 function change(path, typed) {
   remember(path);
   edits.set(path, typed);
-  if (path !== curve.path) curveChanged();
+  if (path !== curve.path && path !== curve.across?.path) curveChanged();
+  ask();
+}
+
+/** Changes several keys in one step. */
+function changeAll(pairs) {
+  remember(pairs.map(([path]) => path).join());
+  for (const [path, typed] of pairs) edits.set(path, typed);
   ask();
 }
 

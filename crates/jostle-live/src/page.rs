@@ -5,10 +5,11 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("../assets/live.css");
 /// Scripts after those of the viewer, in the order of their dependence. The last one starts the page.
-const SCRIPTS: [&str; 3] = [
+const SCRIPTS: [&str; 4] = [
     include_str!("../assets/model.js"),
     include_str!("../assets/knobs.js"),
     include_str!("../assets/curve.js"),
+    include_str!("../assets/map.js"),
 ];
 const START: &str = include_str!("../assets/live.js");
 /// How messages reach the engine.
@@ -152,6 +153,7 @@ fn curve() -> Markup {
                     option value="3" { "Peak floor acceleration" }
                 } }
                 label { "over " select #over {} }
+                label { "and " select #across {} }
                 label { "from " input #from size="7" inputmode="decimal"; }
                 label { "to " input #to size="7" inputmode="decimal"; }
                 output #unit.quiet {}
