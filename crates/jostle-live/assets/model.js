@@ -87,7 +87,8 @@ function keepInAddress() {
     const pieces = [];
     for (let i = 0; i < bytes.length; i += 8192) pieces.push(String.fromCharCode(...bytes.subarray(i, i + 8192)));
     const text = btoa(pieces.join("")).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
-    history.replaceState(null, "", `${location.pathname}${location.search}#${text}`);
+    // A page inside another one has no address of its own.
+    if (parent === window) history.replaceState(null, "", `${location.pathname}${location.search}#${text}`);
   }, 400);
 }
 
@@ -175,6 +176,7 @@ function receive(data) {
     marks: () => addMarks(message),
     "no-curve": () => noCurve(message),
     file: () => keepFile(message),
+    model: () => replaceText(message.text),
   };
   answers[message.op]?.();
 }

@@ -32,4 +32,6 @@ pub use engine::Engine;
 pub use export::{ExportError, export};
 pub use local::Local;
 #[cfg(not(target_family = "wasm"))]
+pub use page::widget_page;
+#[cfg(not(target_family = "wasm"))]
 pub use server::{LiveError, Server};

@@ -14,6 +14,7 @@ const SCRIPTS: [&str; 4] = [
 const START: &str = include_str!("../assets/live.js");
 /// How messages reach the engine.
 const SOCKET: &str = include_str!("../assets/socket.js");
+const WIDGET: &str = include_str!("../assets/widget.js");
 const INSIDE: &str = include_str!("../assets/inside.js");
 
 /// What differs between a page of a server and others.
@@ -61,6 +62,21 @@ pub(crate) fn page_with_engine(name: &str, inside: Markup) -> String {
         nonce: None,
         inside,
         footer: "inside this page. Nothing is loaded from elsewhere, and nothing is sent elsewhere.",
+    })
+}
+
+/// The page of a notebook: it sits in a frame, and the notebook carries its messages.
+#[must_use]
+pub fn widget_page(name: &str) -> String {
+    document(&Around {
+        name,
+        link: WIDGET,
+        policy: Some(
+            "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'",
+        ),
+        nonce: None,
+        inside: html! {},
+        footer: "in this notebook. Nothing is loaded from elsewhere, and nothing is sent elsewhere.",
     })
 }
 
