@@ -87,7 +87,7 @@ class Values(MutableMapping[str, "str | None"]):
         return repr({path: value for path, value in self.items() if value is not None})
 
 
-class LiveWidget(anywidget.AnyWidget):  # type: ignore[misc]
+class LiveWidget(anywidget.AnyWidget):
     """The live page of a model: :meth:`Model.live` makes it."""
 
     _esm = _SCRIPT

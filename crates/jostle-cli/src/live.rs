@@ -51,7 +51,7 @@ pub(crate) fn live(args: &LiveArgs) -> Result<(), Failure> {
     let address = server.address();
     terminal::print(&format!("{address}\n"))?;
     terminal::remark(
-        "Ctrl-C ends it. The page is for this machine only; its address holds the key.",
+        "Press Ctrl-C to end. The page opens only on this machine, and only with this address.",
     );
     if !args.no_open && !open_browser(&address) {
         terminal::remark("No browser could be opened; open the address above yourself.");

@@ -41,7 +41,7 @@ function fillAcross() {
   const described = options.map((option) => option.value).join();
   if (select.dataset.entries !== described) {
     select.dataset.entries = described;
-    select.replaceChildren(new Option("nothing else", ""), ...options.map((option) => new Option(option.textContent, option.value)));
+    select.replaceChildren(new Option("no second value", ""), ...options.map((option) => new Option(option.textContent, option.value)));
   }
   // A key that is gone, or that has another unit now, leaves the curve.
   if (curve.across && knobOf(curve.across.path)?.unit !== curve.across.unit) curve.across = null;

@@ -17,7 +17,7 @@ function connect() {
   socket.onmessage = ({ data }) => receive(data);
   socket.onclose = () => {
     waiting = null;
-    showConnection("No connection to jostle. If it was ended, start it again. Trying to connect …");
+    showConnection("No connection to jostle. If it has ended, start it again. Reconnecting …");
     tries += 1;
     setTimeout(connect, Math.min(250 * 2 ** tries, 5000));
   };

@@ -248,7 +248,7 @@ impl Engine {
         let mut found = fault(
             path,
             format!(
-                "\"{name}\" lies outside the folder of the model, and a live page reads no other"
+                "\"{name}\" is outside the folder of the model, the only one that a live page reads"
             ),
         );
         found[0].remedy = Some(

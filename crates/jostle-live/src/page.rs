@@ -45,7 +45,7 @@ pub(crate) fn page(name: &str, port: u16, token: &str) -> (String, String) {
         policy: None,
         nonce: Some(token),
         inside: html! {},
-        footer: "on this machine. Nothing is loaded from elsewhere, and nothing is sent elsewhere.",
+        footer: "runs on this machine. This page uses no network.",
     });
     (page, policy)
 }
@@ -61,7 +61,7 @@ pub(crate) fn page_with_engine(name: &str, inside: Markup) -> String {
         ),
         nonce: None,
         inside,
-        footer: "inside this page. Nothing is loaded from elsewhere, and nothing is sent elsewhere.",
+        footer: "runs inside this page, without a network.",
     })
 }
 
@@ -76,7 +76,7 @@ pub fn widget_page(name: &str) -> String {
         ),
         nonce: None,
         inside: html! {},
-        footer: "in this notebook. Nothing is loaded from elsewhere, and nothing is sent elsewhere.",
+        footer: "runs in this notebook. This page uses no network.",
     })
 }
 
@@ -105,7 +105,7 @@ fn document(around: &Around) -> String {
                     div.buttons role="group" aria-label="This model" {
                         button #undo type="button" title="Undo (Ctrl+Z)" disabled { "Undo" }
                         button #redo type="button" title="Redo (Ctrl+Shift+Z)" disabled { "Redo" }
-                        button #pin type="button" aria-pressed="false" title="Keep this run to compare others with it" { "Pin" }
+                        button #pin type="button" aria-pressed="false" title="Keep this run for comparison" { "Pin" }
                         button #save-model type="button" { "Save model" }
                         button #save-report type="button" { "Save report" }
                         button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
