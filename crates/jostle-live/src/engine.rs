@@ -159,11 +159,13 @@ impl Engine {
     }
 
     /// Folder of the model.
+    #[cfg(not(target_family = "wasm"))]
     pub(crate) fn base(&self) -> &Path {
         &self.base
     }
 
     /// Files that the model names, in its words.
+    #[cfg(not(target_family = "wasm"))]
     pub(crate) fn named_files(&self) -> impl Iterator<Item = &str> {
         self.named.iter().map(|(_, name)| &name[..])
     }
