@@ -16,6 +16,7 @@ from ._tree import text_of
 from ._units import Quantity, RunUnits, argument, refuse
 
 if TYPE_CHECKING:
+    from ._live import LiveWidget
     from ._matrices import Matrices
     from typing_extensions import Unpack
 
@@ -257,6 +258,42 @@ class Model:
 
         at = position(building, self.buildings)
         return np.array(self.description["buildings"][at]["periods_s"])
+
+    def live(self) -> LiveWidget:
+        """The live page of this model as a widget of a Jupyter notebook.
+
+        The model runs at every change, in this process. ``widget.values["gap"] = "30 mm"`` changes a value from
+        Python, and ``widget.result`` is the :class:`Result` of the model as it now stands.
+
+        Raises:
+            ImportError: ``anywidget`` is missing; ``pip install "jostle[live]"`` installs it.
+            ModelError: the motion is an object and not a record that a model file can name.
+        """
+        from ._live import widget
+
+        return widget(self)
+
+    def _file(self) -> tuple[str, str, dict[str, str]]:
+        """Text of the model file, its folder, and the values that were changed since, by path."""
+        how, arguments, motion, gap, pga, record = self._recipe
+        if motion is not None:
+            raise ModelError(
+                "live() needs a motion that a model file can name: write its acceleration to a "
+                "record file, and name that file as the record",
+                [],
+            )
+        if isinstance(how, tuple):
+            text, folder, changes = _rebuild(*how)._file()
+        else:
+            text, changes = self._core.text, {}
+            folder = os.fspath(arguments[3]) if how == "read" else ""
+        if gap is not None:
+            changes["gap[*].width"] = f"{gap!r} m"
+        if pga is not None:
+            changes["motion.pga"] = f"{pga!r} m/s2"
+        if record is not None:
+            changes["motion.record"] = record
+        return text, folder, changes
 
     def __repr__(self) -> str:
         return f"<Model {self.title!r}: {', '.join(self.buildings)}>"

@@ -6,9 +6,10 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use jostle_live::{Engine, Server};
-use jostle_run::EXAMPLE;
+use jostle_run::{EXAMPLE, FileKind};
 
 use crate::failure::Failure;
+use crate::replace::Target;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
 
@@ -25,16 +26,32 @@ pub(crate) struct LiveArgs {
     /// Port on this machine; 0 takes any free one
     #[arg(long, default_value_t = 0)]
     port: u16,
+    /// Write the page with its engine inside to this file and end; it works without jostle and without a network
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["no_open", "port"])]
+    export: Option<PathBuf>,
+    /// Engine for the exported page, as packaging/wasm writes it; without this, jostle.wasm.gz beside the program
+    #[arg(long, value_name = "FILE", requires = "export")]
+    module: Option<PathBuf>,
+    /// Replace a file that jostle did not write
+    #[arg(long, requires = "export")]
+    force: bool,
 }
 
 pub(crate) fn live(args: &LiveArgs) -> Result<(), Failure> {
     let engine = Engine::open(args.model.as_deref().unwrap_or(Path::new(EXAMPLE)))?;
+    if let Some(path) = &args.export {
+        let target = Target::new(path, FileKind::LIVE_PAGE, args.force)?;
+        let module = module(args.module.as_deref())?;
+        let page = jostle_live::export(&engine, &module);
+        target.write(&page.map_err(|error| Failure::Input(error.to_string()))?)?;
+        return Ok(());
+    }
     let server =
         Server::start(engine, args.port).map_err(|error| Failure::Input(error.to_string()))?;
     let address = server.address();
     terminal::print(&format!("{address}\n"))?;
     terminal::remark(
-        "Ctrl-C ends it. The page is for this machine only; its address holds the key.",
+        "Press Ctrl-C to end. The page opens only on this machine, and only with this address.",
     );
     if !args.no_open && !open_browser(&address) {
         terminal::remark("No browser could be opened; open the address above yourself.");
@@ -42,6 +59,26 @@ pub(crate) fn live(args: &LiveArgs) -> Result<(), Failure> {
     let stop = stop_on_interrupt();
     server.wait(&|| stop.load(Ordering::Relaxed), PATIENCE);
     Ok(())
+}
+
+/// Name of the engine of exported pages.
+const MODULE: &str = "jostle.wasm.gz";
+
+/// The engine of exported pages: the file that was asked for, or the one beside the program.
+fn module(asked: Option<&Path>) -> Result<Vec<u8>, Failure> {
+    if let Some(path) = asked {
+        return std::fs::read(path).map_err(|error| {
+            Failure::Input(format!("--module: cannot read {}: {error}", path.display()))
+        });
+    }
+    let program = std::env::current_exe().and_then(|path| path.canonicalize());
+    let beside = program.map(|path| path.with_file_name(MODULE));
+    beside.and_then(std::fs::read).map_err(|error| {
+        Failure::Input(format!(
+            "--export needs the engine as WebAssembly, and {MODULE} beside the program cannot be read: {error}\n\
+             build it in a copy of the source with packaging/wasm, and name it with --module target/wasm/{MODULE}"
+        ))
+    })
 }
 
 /// Opens the address in the default browser; `false` if there is no way to try.

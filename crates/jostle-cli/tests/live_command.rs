@@ -70,6 +70,42 @@ fn it_prints_its_address_and_answers_there_until_ctrl_c() {
 }
 
 #[test]
+fn a_page_without_a_server_needs_its_engine() {
+    let folder = folder();
+    let page = folder.path().join("page.html");
+    let output = jostle(folder.path(), &["live", "--export", "page.html"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        complained(&output).contains("packaging/wasm"),
+        "{}",
+        complained(&output)
+    );
+    std::fs::write(folder.path().join("engine"), b"not a module").unwrap();
+    let arguments = ["live", "--export", "page.html", "--module", "engine"];
+    let output = jostle(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        complained(&output).contains("packed with gzip"),
+        "{}",
+        complained(&output)
+    );
+    assert!(!page.exists(), "it wrote a page");
+    // Whether the engine works is seen in the page.
+    std::fs::write(folder.path().join("engine"), [0x1f, 0x8b]).unwrap();
+    for _ in 0..2 {
+        let output = jostle(folder.path(), &arguments);
+        assert!(output.status.success(), "{}", complained(&output));
+    }
+    let text = std::fs::read_to_string(&page).unwrap();
+    assert!(text.contains("jostle live</title>") && text.contains("id=\"engine\""));
+    // A file of someone else stays.
+    std::fs::write(&page, "mine").unwrap();
+    let output = jostle(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(std::fs::read_to_string(&page).unwrap(), "mine");
+}
+
+#[test]
 fn a_file_that_cannot_be_read_is_said() {
     let folder = folder();
     let output = jostle(folder.path(), &["live", "--no-open", "missing.toml"]);

@@ -33,6 +33,8 @@ mod tree;
 mod unit;
 mod unusual;
 
+#[cfg(target_family = "wasm")]
+pub use bounded::provide_file;
 pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_record};
 pub use builtin_model::{builtin_model, model_names, model_text};
 pub use csv::csv_field;

@@ -335,7 +335,7 @@ fn find_record(
         return Ok(motion);
     }
     let path = base.join(name);
-    if !path.exists() {
+    if !crate::bounded::exists(&path) {
         return Err(MotionError::NotFound {
             name: name.to_owned(),
             nearest: similar_names(name, &path),

@@ -18,6 +18,8 @@ const curve = {
   /** Whether its ends were typed. */
   fixed: false,
   records: [],
+  /** Second key of a map, with its range; `null` for a curve. */
+  across: null,
   id: 0,
   of: 0,
   /** Points per record, rising. */
@@ -30,7 +32,7 @@ const curve = {
 };
 let restored = null;
 
-const curveState = () => ({ path: curve.path, from: curve.from, to: curve.to, fixed: curve.fixed, records: curve.records, measure: byId("measure").value });
+const curveState = () => ({ path: curve.path, from: curve.from, to: curve.to, fixed: curve.fixed, records: curve.records, across: curve.across?.path ?? null, measure: byId("measure").value });
 function restoreCurve(kept) {
   restored = kept ?? null;
   if (kept) byId("measure").value = kept.measure;
@@ -66,11 +68,13 @@ function fillOver() {
     Object.assign(curve, { path: restored.path, from: restored.from, to: restored.to, fixed: restored.fixed, records: restored.records ?? [] });
     const knob = knobs.find((one) => one.path === curve.path.replace("[*]", "[0]"));
     Object.assign(curve, { unit: knob.unit, whole: knob.kind === "count" });
+    if (restored.across) curve.across = axisAcross(restored.across);
   } else if (!known(curve.path)) chooseOver(entries[0]?.[0] ?? null);
   restored = null;
   const unit = knobs.find((one) => one.path === curve.path?.replace("[*]", "[0]"))?.unit;
   if (unit !== undefined && unit !== curve.unit) chooseOver(curve.path);
   select.value = curve.path;
+  fillAcross();
   byId("curve").hidden = !curve.path;
 }
 
@@ -80,14 +84,20 @@ function chooseOver(path) {
   const knob = knobs.find((one) => one.path === path?.replace("[*]", "[0]"));
   if (!knob) return;
   Object.assign(curve, { unit: knob.unit, whole: knob.kind === "count", fixed: false });
+  if (curve.across?.path === path) curve.across = null;
   fitRange(knob);
   curveChanged();
 }
 
+/** Values around the present one. */
+function rangeAround(knob) {
+  const range = sliderRange(knob) ?? { low: 0.5 * knob.number, high: 1.5 * knob.number };
+  return { from: range.log ? knob.number / 4 : range.low, to: range.log ? 4 * knob.number : range.high };
+}
+
 /** Ends of the curve that show what matters: for a gap, all that still pounds. */
 function fitRange(knob) {
-  const range = sliderRange(knob) ?? { low: 0.5 * knob.number, high: 1.5 * knob.number };
-  Object.assign(curve, { from: range.log ? knob.number / 4 : range.low, to: range.log ? 4 * knob.number : range.high });
+  Object.assign(curve, rangeAround(knob));
   const needed = Math.max(...(latest?.needed ?? []).map((width) => width ?? 0), 0);
   if (knob.path.startsWith("gap") && needed > 0) {
     const perUnit = { mm: 1e-3, cm: 1e-2, m: 1, "": 1 }[knob.unit];
@@ -98,7 +108,13 @@ function fitRange(knob) {
 /** Notes that the curve no longer belongs to the model. */
 function curveChanged() {
   curve.stale = true;
+  // What is still computed belongs to the model before.
+  if (curve.computing) send({ op: "stop-curve" });
+  curve.computing = false;
 }
+
+/** Whether the points that came are all. */
+const curveDone = () => curve.of > 0 && curve.lines.flat().length >= curve.of;
 
 let computing = 0;
 /** Computes the curve a moment after the last change. */
@@ -115,6 +131,7 @@ function computeCurve() {
     if (!curve.fixed) fitRange(knob);
     curve.id += 1;
     curve.fresh = false;
+    curve.computing = true;
     send(curveRequest("curve"));
     byId("from").value = written(curve.from);
     byId("to").value = written(curve.to);
@@ -125,6 +142,10 @@ function computeCurve() {
 function curveRequest(op) {
   const { path, unit, from, to, whole, records, id } = curve;
   const several = records.length > 1;
+  if (curve.across) {
+    const across = { ...curve.across, points: cellsAlong(curve.across) };
+    return { op, ...request(), id, path, unit, from, to, whole, across, points: cellsAlong(curve) };
+  }
   const points = whole ? Math.min(Math.round(to - from) + 1, curvePoints) : several ? pointsPerRecord : curvePoints;
   return { op, ...request(), id, path, unit, from, to, whole, records, points };
 }
@@ -142,8 +163,10 @@ function addPoints({ id, points, of }) {
   curve.of = of;
   for (const point of points) {
     const line = (curve.lines[point.record] ??= []);
-    line.splice(indexBefore(line.map((p) => p.x), point.x) + 1, 0, point);
+    if (curve.across) line.push(point);
+    else line.splice(indexBefore(line.map((p) => p.x), point.x) + 1, 0, point);
   }
+  if (curveDone()) curve.computing = false;
   drawCurve();
 }
 
@@ -185,6 +208,7 @@ function spread(lines, measure) {
 
 function drawCurve() {
   if (!curve.path) return;
+  if (curve.across) return drawMap();
   const host = byId("curve-picture");
   const measure = Number(byId("measure").value);
   const { name, unit } = results[measure];
@@ -293,6 +317,7 @@ function drawCursor(image) {
 }
 
 function moveCursor(x) {
+  if (curve.across) return map.cross && moveCross();
   const { handle, px, width } = picture;
   if (!handle) return;
   const seen = x !== null && x >= curve.from - 1e-9 && x <= curve.to * (1 + 1e-9);
@@ -330,6 +355,10 @@ function bindCurve() {
     if (event.button || !curve.path) return;
     event.preventDefault();
     host.setPointerCapture(event.pointerId);
+    if (curve.across) {
+      setBoth(...cellAt(event));
+      return map.cross.focus({ preventScroll: true });
+    }
     dragging = true;
     setPresent(at(event));
     picture.handle?.focus({ preventScroll: true });
@@ -337,6 +366,7 @@ function bindCurve() {
   host.addEventListener("pointermove", (event) => dragging && setPresent(at(event)));
   for (const end of ["pointerup", "pointercancel"]) host.addEventListener(end, () => (dragging = false));
   host.addEventListener("keydown", (event) => {
+    if (curve.across) return stepCross(event);
     const step = curve.whole ? 1 : (curve.to - curve.from) / (event.shiftKey ? 20 : 200);
     const moves = { ArrowLeft: -step, ArrowDown: -step, ArrowRight: step, ArrowUp: step, PageDown: -10 * step, PageUp: 10 * step };
     const x = present();
@@ -353,6 +383,7 @@ function bindCurve() {
     computeCurve();
     keepInAddress();
   });
+  byId("across").addEventListener("change", (event) => chooseAcross(event.target.value));
   for (const end of ["from", "to"]) {
     byId(end).addEventListener("change", (event) => {
       const typed = Number(event.target.value);

@@ -152,7 +152,7 @@ function showKnobs() {
       rows.set(knob.path, row);
       host.append(row.row);
     }
-    if (!wanted.length) html("p", "quiet", words.length ? "No key of the model file fits." : "", list);
+    if (!wanted.length) html("p", "quiet", words.length ? "No key of the model file matches." : "", list);
     const kept = focused && rows.get(focused[0]);
     if (kept) (onSlider && kept.slider ? kept.slider : kept.field).focus();
   } else {
@@ -187,7 +187,7 @@ function showFaults({ faults, knobs: taken }) {
     html("p", "", `${place}${[fault.path, fault.problem].filter(Boolean).join(": ")}`, host);
     if (fault.remedy) html("p", "quiet", fault.remedy, host);
   }
-  byId("headline").textContent = "The model has a fault. What is shown below belongs to the values before.";
+  byId("headline").textContent = "The model has a fault. The results below are for the previous values.";
 }
 
 function clearFaults() {

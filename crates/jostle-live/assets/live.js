@@ -60,7 +60,7 @@ function showProgress({ id, share }) {
 }
 
 function showStopped() {
-  byId("headline").textContent = "Stopped. What is shown below belongs to the values before.";
+  byId("headline").textContent = "Stopped. The results below are for the previous values.";
 }
 
 // --- Compare -------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-// The model on this page: its text, changes under way, undo, the address, and the connection to the server.
+// The model on this page: its text, changes under way, undo, the address, and what the engine is asked. How messages reach it is in a file of its own: `send` and `connect`.
 
 /** What is asked for: the text of the model file and which of its records to take. */
 const state = { text: "", record: 0 };
@@ -48,7 +48,14 @@ function showSteps() {
 function change(path, typed) {
   remember(path);
   edits.set(path, typed);
-  if (path !== curve.path) curveChanged();
+  if (path !== curve.path && path !== curve.across?.path) curveChanged();
+  ask();
+}
+
+/** Changes several keys in one step. */
+function changeAll(pairs) {
+  remember(pairs.map(([path]) => path).join());
+  for (const [path, typed] of pairs) edits.set(path, typed);
   ask();
 }
 
@@ -80,7 +87,8 @@ function keepInAddress() {
     const pieces = [];
     for (let i = 0; i < bytes.length; i += 8192) pieces.push(String.fromCharCode(...bytes.subarray(i, i + 8192)));
     const text = btoa(pieces.join("")).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
-    history.replaceState(null, "", `${location.pathname}${location.search}#${text}`);
+    // A page inside another one has no address of its own.
+    if (parent === window) history.replaceState(null, "", `${location.pathname}${location.search}#${text}`);
   }, 400);
 }
 
@@ -97,9 +105,8 @@ async function fromTheAddress() {
   }
 }
 
-// --- The server ----------------------------------------------------------------------------------------
+// --- The engine ----------------------------------------------------------------------------------------
 
-let socket = null;
 let asked = 0;
 /** The request that is not answered yet: its number, when it was sent, and its changes. */
 let waiting = null;
@@ -108,12 +115,6 @@ let again = false;
 /** A run that takes longer than this gives way to a newer one [ms]. */
 const patience = 300;
 let hurry = 0;
-
-function send(message) {
-  if (socket?.readyState !== WebSocket.OPEN) return false;
-  socket.send(JSON.stringify(message));
-  return true;
-}
 
 const request = () => ({ text: state.text, edits: [...edits], record: state.record });
 
@@ -160,39 +161,35 @@ function unpackMessage(buffer) {
   return [...json, new Float32Array(buffer, 4 + length)];
 }
 
-let tries = 0;
 let greeted = false;
-function connect() {
-  socket = new WebSocket(`ws://${location.host}/socket${location.search}`);
-  socket.binaryType = "arraybuffer";
-  socket.onmessage = ({ data }) => {
-    if (typeof data !== "string") return showFrame(...unpackMessage(data));
-    const message = JSON.parse(data);
-    const answers = {
-      hello: () => hello(message),
-      faults: () => settle(message.id, message.text) && showFaults(message),
-      progress: () => showProgress(message),
-      stopped: () => waiting?.id === message.id && settle(message.id) && showStopped(),
-      points: () => addPoints(message),
-      marks: () => addMarks(message),
-      "no-curve": () => noCurve(message),
-      file: () => keepFile(message),
-    };
-    answers[message.op]?.();
+
+/** Takes a message of the engine: text, or a frame with its numbers. */
+function receive(data) {
+  if (typeof data !== "string") return showFrame(...unpackMessage(data));
+  const message = JSON.parse(data);
+  const answers = {
+    hello: () => hello(message),
+    faults: () => settle(message.id, message.text) && showFaults(message),
+    progress: () => showProgress(message),
+    stopped: () => waiting?.id === message.id && settle(message.id) && showStopped(),
+    points: () => addPoints(message),
+    marks: () => addMarks(message),
+    "no-curve": () => noCurve(message),
+    file: () => keepFile(message),
+    model: () => replaceText(message.text),
   };
-  socket.onclose = () => {
-    waiting = null;
-    const status = byId("connection");
-    status.hidden = false;
-    status.textContent = "No connection to jostle. If it was ended, start it again. Trying to connect …";
-    tries += 1;
-    setTimeout(connect, Math.min(250 * 2 ** tries, 5000));
-  };
+  answers[message.op]?.();
+}
+
+/** Says above the page why nothing is computed; an empty text when all is well. */
+function showConnection(text) {
+  const status = byId("connection");
+  status.hidden = !text;
+  status.textContent = text;
 }
 
 async function hello({ name, text, records }) {
-  tries = 0;
-  byId("connection").hidden = true;
+  showConnection("");
   knownRecords = records;
   if (!greeted) {
     greeted = true;

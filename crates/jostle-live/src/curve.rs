@@ -1,73 +1,146 @@
-//! Results over the range of one key, on all cores, coarse to fine.
+//! Results over the range of one key, or of two, coarse to fine.
 
 use std::ops::ControlFlow;
+#[cfg(not(target_family = "wasm"))]
 use std::sync::mpsc::Sender;
 use std::sync::{Mutex, PoisonError};
 
 use jostle::{Settings, Summary};
 use jostle_io::{ModelTree, TreeValue};
-use jostle_study::{GapSettings, critical_gaps};
+use jostle_run::{GapSettings, critical_gaps};
+#[cfg(not(target_family = "wasm"))]
 use rayon::prelude::*;
-use serde::Serialize;
 
 use crate::engine::{Engine, Trouble};
-use crate::message::Curve;
+use crate::message::{Axis, Curve, Mark, Point};
 
 /// Most points of a curve, all records together.
 const MOST_POINTS: usize = 2000;
+/// Most values of each key of a map.
+const MOST_SIDE: usize = 48;
 
-/// Results at one value.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct Point {
-    /// Index of the record.
-    pub(crate) record: usize,
-    /// Value, in the unit of the curve.
-    pub(crate) x: f64,
-    /// Peak force \[kN\], impacts, storey drift \[%\], floor acceleration \[m/s²\]; `None` where the run failed.
-    pub(crate) y: Option<[f64; 4]>,
+/// The cases of a curve or a map, coarse to fine, and what they share.
+pub(crate) struct Cases {
+    tree: ModelTree,
+    curve: Curve,
+    /// Record, index along the curve, and index of the second key.
+    list: Vec<(usize, usize, usize)>,
+    /// Points along the curve and values of the second key.
+    counts: [usize; 2],
+    /// By record and value of the second key.
+    apart: Vec<Apart>,
 }
 
-/// A width on the axis of gaps.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct Mark {
-    name: String,
-    source: String,
-    /// Width \[m\].
-    width: f64,
-    /// Whether it is the smallest gap without pounding, and no rule.
-    needed: bool,
+impl Cases {
+    /// The cases of a curve over a model.
+    pub(crate) fn new(tree: ModelTree, curve: Curve) -> Self {
+        let records = curve.records.len().max(1);
+        let (counts, order) = match &curve.across {
+            None => {
+                let count = curve.axis.points.clamp(2, MOST_POINTS / records);
+                let along = coarse_to_fine(count).into_iter();
+                ([count, 1], along.map(|index| (index, 0)).collect())
+            }
+            Some(across) => {
+                let side = |axis: &Axis| axis.points.clamp(2, MOST_SIDE);
+                let counts = [side(&curve.axis), side(across)];
+                (counts, cells(counts))
+            }
+        };
+        let list = order
+            .into_iter()
+            .flat_map(|(x, z)| (0..records).map(move |record| (record, x, z)));
+        Self {
+            list: list.collect(),
+            apart: (0..records * counts[1]).map(|_| Mutex::new(None)).collect(),
+            tree,
+            curve,
+            counts,
+        }
+    }
+
+    /// Number of points, all records together.
+    pub(crate) fn count(&self) -> usize {
+        self.list.len()
+    }
+
+    /// What was asked for.
+    pub(crate) fn curve(&self) -> &Curve {
+        &self.curve
+    }
+
+    /// Runs one case.
+    pub(crate) fn point(
+        &self,
+        engine: &Engine,
+        case: usize,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Point {
+        let (record, index, row) = self.list[case];
+        let axis = &self.curve.axis;
+        let x = axis.value(index, self.counts[0]);
+        let across = self.curve.across.as_ref();
+        let z = across.map(|across| across.value(row, self.counts[1]));
+        let widens = axis.is_width();
+        let apart = &self.apart[record * self.counts[1] + row];
+        let known = widens.then(|| beyond(apart, x)).flatten();
+        let y = known.or_else(|| self.one(engine, record, x, z, stop));
+        if let Some(y) = y.filter(|y| widens && y[1] == 0.0) {
+            keep_apart(apart, x, y);
+        }
+        Point { record, x, z, y }
+    }
+
+    fn one(
+        &self,
+        engine: &Engine,
+        record: usize,
+        x: f64,
+        z: Option<f64>,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Option<[f64; 4]> {
+        let curve = &self.curve;
+        let mut tree = self.tree.clone();
+        tree.set(&curve.axis.path, &curve.axis.put(x)).ok()?;
+        if let Some((across, z)) = curve.across.as_ref().zip(z) {
+            tree.set(&across.path, &across.put(z)).ok()?;
+        }
+        if let Some(record) = curve.records.get(record) {
+            tree.set("motion.record", &TreeValue::Text(record.clone()))
+                .ok()?;
+        }
+        let prepared = engine.prepare(&tree, curve.run.record).ok()?;
+        let settings = Settings {
+            record_interval: None,
+            ..Settings::default()
+        };
+        let outcome = prepared.step(settings, |_| {
+            if stop() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        (outcome.end == jostle::RunEnd::Completed)
+            .then(|| measures(&prepared.summary(&outcome, None, 0.0)))
+    }
 }
 
-/// Computes a curve and sends its points as they come.
+/// Computes all cases on all cores and sends each as it comes.
+#[cfg(not(target_family = "wasm"))]
 pub(crate) fn points(
     engine: &Engine,
-    tree: &ModelTree,
-    curve: &Curve,
+    cases: &Cases,
     send: &Sender<Point>,
     stop: &(dyn Fn() -> bool + Sync),
 ) {
-    let records = curve.records.len().max(1);
-    let count = curve.points.clamp(2, MOST_POINTS / records);
-    let cases: Vec<(usize, usize)> = coarse_to_fine(count)
-        .into_iter()
-        .flat_map(|index| (0..records).map(move |record| (record, index)))
-        .collect();
-    let widens = curve.path.starts_with("gap") && curve.path.ends_with(".width");
-    let apart: Vec<Apart> = (0..records).map(|_| Mutex::new(None)).collect();
-    cases
+    (0..cases.count())
         .into_par_iter()
-        .for_each_with(send.clone(), |send, (record, index)| {
-            if stop() {
-                return;
+        .for_each_with(send.clone(), |send, case| {
+            if !stop() {
+                // A page that is gone wants no points.
+                let _ = send.send(cases.point(engine, case, stop));
             }
-            let x = value(curve, index, count);
-            let known = widens.then(|| beyond(&apart[record], x)).flatten();
-            let y = known.or_else(|| one(engine, tree, curve, record, x, stop));
-            if let Some(y) = y.filter(|y| widens && y[1] == 0.0) {
-                keep_apart(&apart[record], x, y);
-            }
-            // A page that is gone wants no points.
-            let _ = send.send(Point { record, x, y });
         });
 }
 
@@ -83,61 +156,6 @@ fn keep_apart(apart: &Apart, x: f64, y: [f64; 4]) {
     let mut known = apart.lock().unwrap_or_else(PoisonError::into_inner);
     if known.is_none_or(|(width, _)| x < width) {
         *known = Some((x, y));
-    }
-}
-
-/// Number of points that [`points`] computes.
-pub(crate) fn count(curve: &Curve) -> usize {
-    let records = curve.records.len().max(1);
-    curve.points.clamp(2, MOST_POINTS / records) * records
-}
-
-/// The value of a point, without digits that come from arithmetic.
-fn value(curve: &Curve, index: usize, count: usize) -> f64 {
-    let share = index as f64 / (count - 1) as f64;
-    let x = curve.from + share * (curve.to - curve.from);
-    let x = format!("{x:.9e}").parse().unwrap_or(x);
-    if curve.whole { x.round() } else { x }
-}
-
-fn one(
-    engine: &Engine,
-    tree: &ModelTree,
-    curve: &Curve,
-    record: usize,
-    x: f64,
-    stop: &(dyn Fn() -> bool + Sync),
-) -> Option<[f64; 4]> {
-    let mut tree = tree.clone();
-    tree.set(&curve.path, &put(curve, x)).ok()?;
-    if let Some(record) = curve.records.get(record) {
-        tree.set("motion.record", &TreeValue::Text(record.clone()))
-            .ok()?;
-    }
-    let prepared = engine.prepare(&tree, curve.run.record).ok()?;
-    let settings = Settings {
-        record_interval: None,
-        ..Settings::default()
-    };
-    let outcome = prepared.step(settings, |_| {
-        if stop() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    (outcome.end == jostle::RunEnd::Completed)
-        .then(|| measures(&prepared.summary(&outcome, None, 0.0)))
-}
-
-/// A value as the model file takes it.
-pub(crate) fn put(curve: &Curve, x: f64) -> TreeValue {
-    if curve.whole {
-        TreeValue::Integer(x as i64)
-    } else if curve.unit.is_empty() {
-        TreeValue::Number(x)
-    } else {
-        TreeValue::Text(format!("{x} {}", curve.unit))
     }
 }
 
@@ -184,14 +202,29 @@ fn coarse_to_fine(count: usize) -> Vec<usize> {
     order
 }
 
+/// The cells of a map, coarse to fine in both directions.
+fn cells(counts: [usize; 2]) -> Vec<(usize, usize)> {
+    let ranks = counts.map(|count| {
+        let mut ranks = vec![0; count];
+        for (rank, index) in coarse_to_fine(count).into_iter().enumerate() {
+            ranks[index] = rank;
+        }
+        ranks
+    });
+    let mut all: Vec<(usize, usize)> = (0..counts[0])
+        .flat_map(|x| (0..counts[1]).map(move |z| (x, z)))
+        .collect();
+    all.sort_by_key(|&(x, z)| ranks[0][x].max(ranks[1][z]));
+    all
+}
+
 /// The smallest gap without pounding, and those of rules, for the only gap of a model.
 pub(crate) fn marks(
     engine: &Engine,
-    tree: &ModelTree,
-    curve: &Curve,
+    cases: &Cases,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<Mark>, String> {
-    let prepared = match engine.prepare(tree, curve.run.record) {
+    let prepared = match engine.prepare(&cases.tree, cases.curve.run.record) {
         Ok(prepared) => prepared,
         Err(Trouble::Faults(faults)) => {
             return Err(faults
@@ -251,6 +284,17 @@ mod tests {
         keep_apart(&apart, 7.0, [0.0, 0.0, 9.0, 9.0]);
         assert_eq!(beyond(&apart, 4.9), None);
         assert_eq!(beyond(&apart, 5.0), Some([0.0, 0.0, 1.0, 2.0]));
+    }
+
+    #[test]
+    fn every_cell_comes_once_and_the_corners_first() {
+        let mut order = cells([24, 16]);
+        let mut corners = order[..4].to_vec();
+        corners.sort_unstable();
+        assert_eq!(corners, [(0, 0), (0, 15), (23, 0), (23, 15)]);
+        order.sort_unstable();
+        order.dedup();
+        assert_eq!(order.len(), 24 * 16);
     }
 
     #[test]

@@ -3,13 +3,13 @@
 use std::ops::ControlFlow;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+#[cfg(not(target_family = "wasm"))]
 use std::time::Instant;
 
 use jostle::stepping::Progress;
 use jostle::{GroundMotion, Model, Outcome, Pounding, RunEnd, Settings, Summary};
 use jostle_io::{Format, InputError, ModelTree, TreeValue};
-use jostle_run::{Prepared, Results};
-use jostle_study::{CaseError, Workshop};
+use jostle_run::{CaseError, Prepared, Results, Workshop};
 use serde::Serialize;
 
 use crate::message::{Fault, Run, fault, faults};
@@ -28,7 +28,9 @@ pub struct Engine {
     base: PathBuf,
     /// Folder of the model, without links.
     folder: PathBuf,
-    /// Files that the opened model names, without links.
+    /// Files that the opened model names: key, and name as in the model.
+    named: Vec<(&'static str, String)>,
+    /// The same without links.
     picked: Vec<PathBuf>,
     workshop: Workshop,
     /// The last runs without contact, the most recent at the end.
@@ -109,7 +111,19 @@ impl Engine {
     /// # Errors
     /// When the file cannot be read or is not TOML or JSON.
     pub fn open(model: &Path) -> Result<Self, InputError> {
-        let tree = ModelTree::find(model)?;
+        Ok(Self::new(ModelTree::find(model)?))
+    }
+
+    /// Takes a model from its text. Records are looked for in `base`.
+    ///
+    /// # Errors
+    /// When the text is not TOML or JSON.
+    pub fn from_text(name: &str, text: &str, base: &Path) -> Result<Self, InputError> {
+        let tree = ModelTree::parse(name, text, Format::of_text(text), base)?;
+        Ok(Self::new(tree))
+    }
+
+    fn new(tree: ModelTree) -> Self {
         let base = tree.base().to_owned();
         let here = if base.as_os_str().is_empty() {
             Path::new(".")
@@ -117,17 +131,19 @@ impl Engine {
             &base
         };
         let folder = here.canonicalize().unwrap_or_else(|_| here.to_owned());
-        let files = files(&tree).into_iter();
-        let picked = files.filter_map(|(_, name)| base.join(name).canonicalize().ok());
-        Ok(Self {
+        let named = files(&tree);
+        let picked = named.iter();
+        let picked = picked.filter_map(|(_, name)| base.join(name).canonicalize().ok());
+        Self {
             name: tree.name().to_owned(),
             text: tree.text().to_owned(),
             picked: picked.collect(),
+            named,
             base,
             folder,
             workshop: Workshop::default(),
             apart: Mutex::default(),
-        })
+        }
     }
 
     /// Name of the file.
@@ -140,6 +156,18 @@ impl Engine {
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// Folder of the model.
+    #[cfg(not(target_family = "wasm"))]
+    pub(crate) fn base(&self) -> &Path {
+        &self.base
+    }
+
+    /// Files that the model names, in its words.
+    #[cfg(not(target_family = "wasm"))]
+    pub(crate) fn named_files(&self) -> impl Iterator<Item = &str> {
+        self.named.iter().map(|(_, name)| &name[..])
     }
 
     /// Names of records to choose from: the built-in ones, and files of the model's folder.
@@ -163,7 +191,11 @@ impl Engine {
             .take(MOST_FILES)
             .map(|entry| entry.file_name().to_string_lossy().into_owned())
             .collect();
+        let named = self.named.iter();
+        let records = named.filter(|(path, _)| *path == "motion.record");
+        files.extend(records.map(|(_, name)| name.clone()));
         files.sort();
+        files.dedup();
         names.extend(files);
         names
     }
@@ -200,6 +232,10 @@ impl Engine {
 
     /// Refuses a file outside the folder of the model that the opened model does not name.
     fn confine(&self, path: &'static str, name: &str) -> Result<(), Trouble> {
+        if cfg!(target_family = "wasm") {
+            // There is no file system: only files that the page holds can be read.
+            return Ok(());
+        }
         let file = self.base.join(name);
         let within = match file.canonicalize() {
             Ok(file) => file.starts_with(&self.folder) || self.picked.contains(&file),
@@ -214,7 +250,7 @@ impl Engine {
         let mut found = fault(
             path,
             format!(
-                "\"{name}\" lies outside the folder of the model, and a live page reads no other"
+                "\"{name}\" is outside the folder of the model, the only one that a live page reads"
             ),
         );
         found[0].remedy = Some(
@@ -228,7 +264,7 @@ impl Engine {
         prepared: Prepared,
         watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
     ) -> Result<Solved, Trouble> {
-        let begun = Instant::now();
+        let clock = Clock::start();
         let compares = !prepared.system.contacts.is_empty();
         let apart = Settings {
             pounding: Pounding::Excluded,
@@ -241,11 +277,10 @@ impl Engine {
             kept.iter().find(same).map(|run| Arc::clone(&run.outcome))
         };
         let wanted = compares && known.is_none();
-        let (outcome, computed) = std::thread::scope(|scope| {
-            let computing = wanted.then(|| scope.spawn(|| prepared.step(apart, watch)));
-            let outcome = prepared.step(Settings::default(), watch);
-            (outcome, computing.and_then(|run| run.join().ok()))
-        });
+        let (outcome, computed) = together(
+            || prepared.step(Settings::default(), watch),
+            || wanted.then(|| prepared.step(apart, watch)),
+        );
         let without = known.or(computed.map(Arc::new));
         let stopped = |outcome: &Outcome| outcome.end == RunEnd::Stopped;
         if stopped(&outcome) || without.as_ref().is_some_and(|run| stopped(run)) {
@@ -263,7 +298,7 @@ impl Engine {
                 outcome: Arc::clone(run),
             });
         }
-        let wall = begun.elapsed().as_secs_f64();
+        let wall = clock.seconds();
         let summary = prepared.summary(&outcome, without.as_deref(), wall);
         Ok(Solved {
             prepared,
@@ -333,6 +368,49 @@ impl Solved {
             without_contact: self.without.as_deref().and_then(Results::comparable),
             methods: &[],
         }
+    }
+}
+
+/// Makes two runs at the same time.
+#[cfg(not(target_family = "wasm"))]
+fn together<A>(one: impl FnOnce() -> A, other: impl FnOnce() -> Option<A> + Send) -> (A, Option<A>)
+where
+    A: Send,
+{
+    std::thread::scope(|scope| {
+        let other = scope.spawn(other);
+        (one(), other.join().ok().flatten())
+    })
+}
+
+/// Makes two runs: WebAssembly has one thread.
+#[cfg(target_family = "wasm")]
+fn together<A>(one: impl FnOnce() -> A, other: impl FnOnce() -> Option<A>) -> (A, Option<A>) {
+    (one(), other())
+}
+
+/// Time that a run takes; none in WebAssembly, which has no clock.
+struct Clock {
+    #[cfg(not(target_family = "wasm"))]
+    begun: Instant,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Self {
+            #[cfg(not(target_family = "wasm"))]
+            begun: Instant::now(),
+        }
+    }
+
+    /// Seconds since the start.
+    fn seconds(&self) -> f64 {
+        #[cfg(not(target_family = "wasm"))]
+        {
+            self.begun.elapsed().as_secs_f64()
+        }
+        #[cfg(target_family = "wasm")]
+        0.0
     }
 }
 

@@ -1,6 +1,6 @@
 //! What page and server say to each other, as JSON. A frame alone is binary: see [`binary`].
 
-use jostle_io::{InputError, Knob};
+use jostle_io::{InputError, Knob, TreeValue};
 use serde::{Deserialize, Serialize};
 
 /// What the page asks.
@@ -41,6 +41,19 @@ pub(crate) struct Run {
 pub(crate) struct Curve {
     #[serde(flatten)]
     pub(crate) run: Run,
+    #[serde(flatten)]
+    pub(crate) axis: Axis,
+    /// Second key of a map.
+    #[serde(default)]
+    pub(crate) across: Option<Axis>,
+    /// Names of records; empty for that of the model.
+    #[serde(default)]
+    pub(crate) records: Vec<String>,
+}
+
+/// Values of one key at equal distances.
+#[derive(Clone, Debug, Deserialize)]
+pub(crate) struct Axis {
     /// Where the value goes.
     pub(crate) path: String,
     /// Unit of the values.
@@ -49,12 +62,35 @@ pub(crate) struct Curve {
     pub(crate) from: f64,
     pub(crate) to: f64,
     pub(crate) points: usize,
-    /// Names of records; empty for that of the model.
-    #[serde(default)]
-    pub(crate) records: Vec<String>,
     /// Whether values are whole numbers.
     #[serde(default)]
     pub(crate) whole: bool,
+}
+
+impl Axis {
+    /// Whether the values are widths of gaps.
+    pub(crate) fn is_width(&self) -> bool {
+        self.path.starts_with("gap") && self.path.ends_with(".width")
+    }
+
+    /// Value of a point, from 0, without digits that come from arithmetic.
+    pub(crate) fn value(&self, index: usize, count: usize) -> f64 {
+        let share = index as f64 / (count - 1) as f64;
+        let x = self.from + share * (self.to - self.from);
+        let x = format!("{x:.9e}").parse().unwrap_or(x);
+        if self.whole { x.round() } else { x }
+    }
+
+    /// A value as the model file takes it.
+    pub(crate) fn put(&self, x: f64) -> TreeValue {
+        if self.whole {
+            TreeValue::Integer(x as i64)
+        } else if self.unit.is_empty() {
+            TreeValue::Number(x)
+        } else {
+            TreeValue::Text(format!("{x} {}", self.unit))
+        }
+    }
 }
 
 /// What the server says.
@@ -65,6 +101,8 @@ pub(crate) enum Reply<'a> {
     Hello {
         name: &'a str,
         text: &'a str,
+        /// Version of the engine.
+        version: &'static str,
         /// Names of records to choose from.
         records: Vec<String>,
     },
@@ -76,22 +114,20 @@ pub(crate) enum Reply<'a> {
         knobs: Option<Vec<Knob>>,
         faults: Vec<Fault>,
     },
-    /// A long run: share done.
+    /// A long run: share done. A page with the engine inside hears it from its worker.
+    #[cfg(not(target_family = "wasm"))]
     Progress { id: u64, share: f64 },
     /// The run was stopped.
     Stopped { id: u64 },
     /// Points of a curve.
     Points {
         id: u64,
-        points: Vec<crate::curve::Point>,
+        points: Vec<Point>,
         /// Points of the whole curve.
         of: usize,
     },
     /// Gaps that rules ask for, and the smallest without pounding.
-    Marks {
-        id: u64,
-        marks: Vec<crate::curve::Mark>,
-    },
+    Marks { id: u64, marks: Vec<Mark> },
     /// Why a curve has no points, or no marks.
     NoCurve { id: u64, problem: String },
     /// A file to keep.
@@ -101,6 +137,31 @@ pub(crate) enum Reply<'a> {
         kind: &'a str,
         text: String,
     },
+}
+
+/// Results at one value, or at one value of each of two keys.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Point {
+    /// Index of the record.
+    pub(crate) record: usize,
+    /// Value, in the unit of the curve.
+    pub(crate) x: f64,
+    /// Value of the second key of a map, in its unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) z: Option<f64>,
+    /// Peak force \[kN\], impacts, storey drift \[%\], floor acceleration \[m/s²\]; `None` where the run failed.
+    pub(crate) y: Option<[f64; 4]>,
+}
+
+/// A width on the axis of gaps.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Mark {
+    pub(crate) name: String,
+    pub(crate) source: String,
+    /// Width \[m\].
+    pub(crate) width: f64,
+    /// Whether it is the smallest gap without pounding, and no rule.
+    pub(crate) needed: bool,
 }
 
 /// A fault beside its field.

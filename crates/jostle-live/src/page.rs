@@ -4,32 +4,95 @@ use jostle_report::Viewer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("../assets/live.css");
-/// Scripts after those of the viewer, in the order of their dependence.
+/// Scripts after those of the viewer, in the order of their dependence. The last one starts the page.
 const SCRIPTS: [&str; 4] = [
     include_str!("../assets/model.js"),
     include_str!("../assets/knobs.js"),
     include_str!("../assets/curve.js"),
-    include_str!("../assets/live.js"),
+    include_str!("../assets/map.js"),
 ];
+const START: &str = include_str!("../assets/live.js");
+/// How messages reach the engine.
+const SOCKET: &str = include_str!("../assets/socket.js");
+const WIDGET: &str = include_str!("../assets/widget.js");
+const INSIDE: &str = include_str!("../assets/inside.js");
 
-/// The page of a model, and its security policy.
+/// What differs between a page of a server and others.
+struct Around<'a> {
+    /// Name of the model.
+    name: &'a str,
+    /// Script with `send` and `connect`.
+    link: &'a str,
+    /// Security policy in the page itself.
+    policy: Option<&'a str>,
+    /// Mark of scripts that the policy allows.
+    nonce: Option<&'a str>,
+    /// Elements with the engine and the model.
+    inside: Markup,
+    footer: &'a str,
+}
+
+/// The page of a server, and its security policy.
 pub(crate) fn page(name: &str, port: u16, token: &str) -> (String, String) {
-    let viewer = Viewer::new();
-    let name = std::path::Path::new(name)
-        .file_name()
-        .unwrap_or_default()
-        .to_string_lossy();
     // The token is random and known to this page alone, so it also marks its scripts.
     let policy = format!(
         "default-src 'none'; script-src 'nonce-{token}'; style-src 'unsafe-inline'; img-src data:; \
          connect-src ws://127.0.0.1:{port} ws://localhost:{port}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     );
-    let script = format!("{}\n{}", viewer.script, SCRIPTS.concat());
+    let page = document(&Around {
+        name,
+        link: SOCKET,
+        policy: None,
+        nonce: Some(token),
+        inside: html! {},
+        footer: "runs on this machine. This page uses no network.",
+    });
+    (page, policy)
+}
+
+/// A page with its engine inside: `inside` are the elements that hold engine, worker and model.
+pub(crate) fn page_with_engine(name: &str, inside: Markup) -> String {
+    document(&Around {
+        name,
+        link: INSIDE,
+        policy: Some(
+            "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; \
+             style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'",
+        ),
+        nonce: None,
+        inside,
+        footer: "runs inside this page, without a network.",
+    })
+}
+
+/// The page of a notebook: it sits in a frame, and the notebook carries its messages.
+#[must_use]
+pub fn widget_page(name: &str) -> String {
+    document(&Around {
+        name,
+        link: WIDGET,
+        policy: Some(
+            "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'",
+        ),
+        nonce: None,
+        inside: html! {},
+        footer: "runs in this notebook. This page uses no network.",
+    })
+}
+
+fn document(around: &Around) -> String {
+    let viewer = Viewer::new();
+    let name = std::path::Path::new(around.name)
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy();
+    let script = [&viewer.script, "\n", &SCRIPTS.concat(), around.link, START].concat();
     let markup = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
+                @if let Some(policy) = around.policy { meta http-equiv="Content-Security-Policy" content=(policy); }
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (name) " – jostle live" }
                 link rel="icon" href="data:,";
@@ -42,7 +105,7 @@ pub(crate) fn page(name: &str, port: u16, token: &str) -> (String, String) {
                     div.buttons role="group" aria-label="This model" {
                         button #undo type="button" title="Undo (Ctrl+Z)" disabled { "Undo" }
                         button #redo type="button" title="Redo (Ctrl+Shift+Z)" disabled { "Redo" }
-                        button #pin type="button" aria-pressed="false" title="Keep this run to compare others with it" { "Pin" }
+                        button #pin type="button" aria-pressed="false" title="Keep this run for comparison" { "Pin" }
                         button #save-model type="button" { "Save model" }
                         button #save-report type="button" { "Save report" }
                         button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
@@ -66,14 +129,15 @@ pub(crate) fn page(name: &str, port: u16, token: &str) -> (String, String) {
                         }
                     }
                 }
-                footer { "jostle " (env!("CARGO_PKG_VERSION")) " on this machine. Nothing is loaded from elsewhere, and nothing is sent elsewhere." }
+                footer { "jostle " (env!("CARGO_PKG_VERSION")) " " (around.footer) }
+                (around.inside)
                 (PreEscaped(viewer.player))
                 noscript { p.note { "This page needs JavaScript." } }
-                script type="module" nonce=(token) { (PreEscaped(script)) }
+                script type="module" nonce=[around.nonce] { (PreEscaped(script)) }
             }
         }
     };
-    (markup.into_string(), policy)
+    markup.into_string()
 }
 
 fn knobs() -> Markup {
@@ -105,6 +169,7 @@ fn curve() -> Markup {
                     option value="3" { "Peak floor acceleration" }
                 } }
                 label { "over " select #over {} }
+                label { "and " select #across {} }
                 label { "from " input #from size="7" inputmode="decimal"; }
                 label { "to " input #to size="7" inputmode="decimal"; }
                 output #unit.quiet {}

@@ -188,7 +188,7 @@ fn answer(stream: &mut TcpStream, shared: &Shared) -> std::io::Result<()> {
         Ok(Wanted::Socket { key }) => {
             http::upgrade(stream, &key)?;
             shared.count_pages(true);
-            let served = session::serve(stream, shared);
+            let served = session::serve(stream, &shared.engine, &|| shared.is_ending());
             shared.count_pages(false);
             return served;
         }

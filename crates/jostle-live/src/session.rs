@@ -9,14 +9,13 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use jostle::stepping::Progress;
-use jostle_io::ModelTree;
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Error, Message, WebSocket};
 
-use crate::curve;
-use crate::engine::{Engine, Trouble};
+use crate::answer::{self, Answer};
+use crate::curve::{self, Cases};
+use crate::engine::Engine;
 use crate::message::{Curve, Reply, Request, Run};
-use crate::server::Shared;
 use crate::slot::Slot;
 
 /// Most bytes of a message from the page: a model of that size and what to change.
@@ -37,20 +36,26 @@ struct Writer(Mutex<WebSocket<TcpStream>>);
 
 impl Writer {
     /// Sends a message. A page that is gone is noticed by the reading side.
-    fn send(&self, message: Message) {
+    fn send(&self, answer: Answer) {
+        let message = match answer {
+            Answer::Text(text) => Message::text(text),
+            Answer::Binary(bytes) => Message::binary(bytes),
+        };
         let mut socket = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let _ = socket.send(message);
     }
 
     fn say(&self, reply: &Reply<'_>) {
-        self.send(Message::text(
-            serde_json::to_string(reply).unwrap_or_default(),
-        ));
+        self.send(answer::say(reply));
     }
 }
 
-/// Serves one page until it is gone.
-pub(crate) fn serve(stream: &TcpStream, shared: &Shared) -> std::io::Result<()> {
+/// Serves one page until it is gone, or until `ending` says that the server ends.
+pub(crate) fn serve(
+    stream: &TcpStream,
+    engine: &Engine,
+    ending: &dyn Fn() -> bool,
+) -> std::io::Result<()> {
     let config = || {
         WebSocketConfig::default()
             .max_message_size(Some(MOST_MESSAGE))
@@ -65,17 +70,12 @@ pub(crate) fn serve(stream: &TcpStream, shared: &Shared) -> std::io::Result<()> 
         Role::Server,
         Some(config()),
     )));
-    let engine = &shared.engine;
     let (runs, curves) = (Slot::new(), Slot::new());
     std::thread::scope(|scope| {
         scope.spawn(|| run_jobs(engine, &runs, &writer));
         scope.spawn(|| run_curves(engine, &curves, &writer));
-        writer.say(&Reply::Hello {
-            name: engine.name(),
-            text: engine.text(),
-            records: engine.records(),
-        });
-        while !shared.is_ending() {
+        writer.send(answer::hello(engine));
+        while !ending() {
             match reader.read() {
                 Ok(Message::Text(text)) => match serde_json::from_str::<Request>(&text) {
                     Ok(Request::Run(run)) => runs.put(Job::Frame(run)),
@@ -83,7 +83,7 @@ pub(crate) fn serve(stream: &TcpStream, shared: &Shared) -> std::io::Result<()> 
                     Ok(Request::Stop) => runs.cancel(),
                     Ok(Request::Curve(curve)) => curves.put(curve),
                     Ok(Request::StopCurve) => curves.cancel(),
-                    Ok(Request::Study(curve)) => send_study(engine, &curve, &writer),
+                    Ok(Request::Study(curve)) => writer.send(answer::study(engine, &curve)),
                     // Only a page of another version says something else.
                     Err(_) => break,
                 },
@@ -117,65 +117,31 @@ fn run_jobs(engine: &Engine, slot: &Slot<Job>, writer: &Writer) {
             }
             ControlFlow::Continue(())
         };
-        let tree = match engine.tree(run) {
-            Ok(tree) => tree,
-            Err(trouble) => {
-                say_trouble(run.id, trouble, None, writer);
-                continue;
-            }
-        };
-        let done = match &job {
-            Job::Frame(run) => engine
-                .frame(run.id, &tree, run.record, &watch)
-                .map(|bytes| writer.send(Message::binary(bytes))),
-            Job::Report(run) => engine.report(&tree, run.record, &watch).map(|text| {
-                let (id, kind) = (run.id, "text/html");
-                writer.say(&Reply::File {
-                    id,
-                    name: "report.html".into(),
-                    kind,
-                    text,
-                });
-            }),
-        };
-        if let Err(trouble) = done {
-            say_trouble(run.id, trouble, Some(&tree), writer);
-        }
+        writer.send(match &job {
+            Job::Frame(run) => answer::frame(engine, run, &watch),
+            Job::Report(run) => answer::report(engine, run, &watch),
+        });
     }
-}
-
-fn say_trouble(id: u64, trouble: Trouble, tree: Option<&ModelTree>, writer: &Writer) {
-    writer.say(&match trouble {
-        Trouble::Stopped => Reply::Stopped { id },
-        Trouble::Faults(faults) => Reply::Faults {
-            id,
-            text: tree.map(|tree| tree.text().to_owned()),
-            knobs: tree.map(ModelTree::knobs),
-            faults,
-        },
-    });
 }
 
 fn run_curves(engine: &Engine, slot: &Slot<Curve>, writer: &Writer) {
     while let Some((curve, number)) = slot.take() {
         let id = curve.run.id;
         let stop = || slot.is_stale(number);
-        let tree = match engine.tree(&curve.run) {
-            Ok(tree) => tree,
-            Err(Trouble::Faults(faults)) => {
-                let problem = faults
-                    .first()
-                    .map_or_else(String::new, |fault| fault.problem.clone());
-                writer.say(&Reply::NoCurve { id, problem });
+        let cases = match engine.tree(&curve.run) {
+            Ok(tree) => Cases::new(tree, curve),
+            Err(trouble) => {
+                if let Some(answer) = answer::no_curve(id, trouble) {
+                    writer.send(answer);
+                }
                 continue;
             }
-            Err(Trouble::Stopped) => continue,
         };
-        let of = curve::count(&curve);
+        let of = cases.count();
         let (send, points) = mpsc::channel();
         std::thread::scope(|scope| {
             let computing = scope.spawn(|| {
-                curve::points(engine, &tree, &curve, &send, &stop);
+                curve::points(engine, &cases, &send, &stop);
                 drop(send);
             });
             let mut waiting = Vec::new();
@@ -197,51 +163,11 @@ fn run_curves(engine: &Engine, slot: &Slot<Curve>, writer: &Writer) {
             // Its panic, if any, was printed; the page sees a curve with holes.
             let _ = computing.join();
         });
-        if !stop() && curve.path.starts_with("gap") && curve.path.ends_with(".width") {
-            match curve::marks(engine, &tree, &curve, &stop) {
-                Ok(marks) if !stop() => writer.say(&Reply::Marks { id, marks }),
-                Ok(_) => {}
-                Err(problem) => writer.say(&Reply::NoCurve { id, problem }),
-            }
+        if !stop()
+            && let Some(answer) = answer::marks(engine, &cases, &stop)
+            && !stop()
+        {
+            writer.send(answer);
         }
     }
-}
-
-/// The study that computes a curve in full, for the model file that is saved beside it.
-fn send_study(engine: &Engine, curve: &Curve, writer: &Writer) {
-    let name = std::path::Path::new(engine.name());
-    let stem = name
-        .file_stem()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
-    let quoted = |text: &str| serde_json::to_string(text).unwrap_or_default();
-    let value = |x: f64| match curve::put(curve, x) {
-        jostle_io::TreeValue::Text(text) => quoted(&text),
-        jostle_io::TreeValue::Number(number) => format!("{number:?}"),
-        other => other.to_string(),
-    };
-    let mut text = format!(
-        "# Results over {path}, as jostle live shows them.\n# jostle study study.toml, with the model file beside it\ntitle = {title}\nbase = {base}\n\n[[vary]]\npath = {quoted_path}\nrange = {{ from = {from}, to = {to}, count = {points} }}\n",
-        path = curve.path,
-        title = quoted(&format!("{stem}: {}", curve.path)),
-        base = quoted(&format!("{stem}.toml")),
-        quoted_path = quoted(&curve.path),
-        from = value(curve.from),
-        to = value(curve.to),
-        points = curve.points,
-    );
-    if !curve.records.is_empty() {
-        let records: Vec<String> = curve.records.iter().map(|name| quoted(name)).collect();
-        text += &format!(
-            "\n[[vary]]\npath = \"motion.record\"\nvalues = [{}]\n",
-            records.join(", ")
-        );
-    }
-    writer.say(&Reply::File {
-        id: curve.run.id,
-        name: "study.toml".into(),
-        kind: "text/plain",
-        text,
-    });
 }

@@ -6,6 +6,7 @@ mod collide;
 mod describe;
 mod error;
 mod histories;
+mod live;
 mod matrices;
 mod model;
 mod motion;
@@ -24,6 +25,8 @@ mod _jostle {
     use super::collide::{collide, contact_laws};
     #[pymodule_export]
     use super::command_line;
+    #[pymodule_export]
+    use super::live::{Live, live_page};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

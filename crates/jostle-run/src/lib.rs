@@ -5,6 +5,7 @@
 //! terminal is read.
 
 mod collide;
+mod critical_gap;
 mod error;
 mod files;
 mod modes;
@@ -20,8 +21,10 @@ mod shapes;
 mod spectra;
 mod style;
 mod summary_text;
+mod workshop;
 
 pub use collide::{CollideOptions, collide, collision_json};
+pub use critical_gap::{CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps};
 pub use error::RunError;
 pub use files::{Content, earlier_files};
 pub use modes::{ListedModes, floor_shape, list_modes, modes_json};
@@ -37,3 +40,4 @@ pub use shapes::SharedShapes;
 pub use spectra::{Inelastic, spectra_json, spectrum_json};
 pub use style::{BOLD, DIM, LOUD, styled};
 pub use summary_text::{describe_summary, summary_text};
+pub use workshop::{CaseError, Workshop};

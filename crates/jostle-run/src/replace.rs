@@ -35,6 +35,11 @@ impl FileKind {
         name: "report of jostle",
         marks: &["<html", " – jostle</title>"],
     };
+    /// Live pages with their engine inside.
+    pub const LIVE_PAGE: Self = Self {
+        name: "live page of jostle",
+        marks: &["<html", " – jostle live</title>"],
+    };
     /// Pages of sections.
     pub const SECTIONS: Self = Self {
         name: "page of sections that jostle wrote",

@@ -1,22 +1,21 @@
 //! One case: from the values of its factors to a row.
 
 use jostle::{RunEnd, StepError};
-use jostle_run::{Prepared, Ran};
+use jostle_run::{CaseError, Prepared, Ran, Workshop};
 
 use crate::design::value_of;
 use crate::measures::measures;
 use crate::row::{Row, Status};
 use crate::study::Study;
-use crate::workshop::{CaseError, Workshop};
 
-impl Workshop {
-    /// Reads a case, finds its system and its motion, and plans its steps.
+impl Study {
+    /// Reads a case, finds its system and its motion among those kept, and plans its steps.
     ///
     /// # Errors
     /// [`CaseError`] with the message of the reader of model files.
-    pub fn prepare(&self, study: &Study, case: u64) -> Result<Prepared, CaseError> {
-        let tree = study.tree(&study.design.choices(case, &study.file.factors))?;
-        self.assemble(tree.input()?)
+    pub fn prepare(&self, workshop: &Workshop, case: u64) -> Result<Prepared, CaseError> {
+        let tree = self.tree(&self.design.choices(case, &self.file.factors))?;
+        workshop.assemble(tree.input()?)
     }
 }
 

@@ -5,7 +5,6 @@
 //! case alone: not on threads, order, processes or interruptions.
 
 mod case;
-mod critical_gap;
 pub mod dataset;
 mod design;
 mod layout;
@@ -19,11 +18,12 @@ mod single;
 pub mod statistics;
 mod study;
 mod varied;
-mod workshop;
 
-pub use critical_gap::{CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps};
 pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};
+pub use jostle_run::{
+    CaseError, CriticalGap, GapError, GapProgress, GapSettings, RuleGap, Workshop, critical_gaps,
+};
 pub use layout::{Column, Kind, Layout, Named};
 pub use ready_made::{ready_made, ready_made_names};
 pub use results::finish;
@@ -32,4 +32,3 @@ pub use runner::{Done, Progress, RunSettings, run, run_folder};
 pub use single::run_case;
 pub use study::{Study, StudyError};
 pub use varied::{Varied, varied};
-pub use workshop::{CaseError, Workshop};

@@ -17,7 +17,7 @@ use crate::dataset::{
 use crate::row::{Row, Status};
 use crate::single::{run_until, write_run};
 use crate::study::{Study, StudyError};
-use crate::workshop::Workshop;
+use jostle_run::Workshop;
 
 /// Which part of a study this process computes, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -497,7 +497,7 @@ fn compute(
     number: u64,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Row>, StudyError> {
-    let prepared = match workshop.prepare(study, number) {
+    let prepared = match study.prepare(workshop, number) {
         Ok(prepared) => prepared,
         Err(error) => return Ok(Some(case::failed(study, number, &error.to_string()))),
     };

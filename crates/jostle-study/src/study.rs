@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 use crate::design::{CaseDesign, Choice, DesignError, value_of};
 use crate::layout::{Layout, Named};
 use crate::measures::measures;
-use crate::workshop::{CaseError, Workshop};
+use jostle_run::{CaseError, Workshop};
 
 /// A study ready to be run.
 pub struct Study {

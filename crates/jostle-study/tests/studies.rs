@@ -539,7 +539,7 @@ values = ["5 mm", "10 mm", "20 mm", "40 mm"]
 fn shared_and_alone(study: &Study, cases: u64) -> [Vec<(u64, u64, u64)>; 2] {
     let shared = Workshop::default();
     let numbers = |workshop: &Workshop, case: u64| {
-        let prepared = workshop.prepare(study, case);
+        let prepared = study.prepare(workshop, case);
         let prepared = prepared.unwrap_or_else(|error| panic!("{error}"));
         let settings = Settings {
             record_interval: None,

@@ -9,6 +9,8 @@
 #[path = "../../../jostle-report/tests/browser/opened.rs"]
 mod opened;
 
+mod exported;
+
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -392,6 +394,81 @@ fn the_curve_shows_the_smallest_gap_and_its_line_can_be_moved() {
 }
 
 #[test]
+fn two_keys_make_a_map_and_a_click_sets_both() {
+    let server = serve("paper");
+    let Some(page) = open(&server, 1400, 1000) else {
+        return;
+    };
+    let cells = "document.querySelectorAll('.cells rect').length";
+    page.value("{ const a = document.getElementById('across'); a.value = 'motion.pga'; a.dispatchEvent(new Event('change')); }");
+    page.wait("document.getElementById('curve-note').textContent.includes('cells.')");
+    // A knob that is neither of the two cancels it: no cell comes until the new one begins.
+    page.value("{ window.few = 0; window.sent = []; const send = WebSocket.prototype.send; WebSocket.prototype.send = function (text) { window.sent.push(JSON.parse(text).op); send.call(this, text); }; }");
+    page.search("ratio");
+    page.type_into("building[1].damping.ratio", "0.03");
+    page.wait("window.sent.includes('curve')");
+    assert!(
+        page.text("window.sent.join()")
+            .starts_with("stop-curve,run"),
+        "{}",
+        page.text("window.sent.join()")
+    );
+    page.wait(&format!("{cells} === 24 * 24"));
+    assert_eq!(
+        page.value("document.querySelector('.cells .failed') === null"),
+        true
+    );
+    page.glance("live-map");
+    // A cell says the result of a run with its values.
+    let click = "(event) => { const box = document.querySelector('.cells').getBoundingClientRect(); const host = document.getElementById('curve-picture'); host.setPointerCapture = () => {}; host.dispatchEvent(new PointerEvent('pointerdown', { clientX: box.left + 2, clientY: box.top + 2, bubbles: true })); }";
+    page.value(&format!("({click})()"));
+    page.settled();
+    let title = page.text("[...document.querySelectorAll('.cells rect')].reduce((a, b) => (b.getBBox().x + b.getBBox().y < a.getBBox().x + a.getBBox().y ? b : a)).querySelector('title').textContent");
+    assert!(title.starts_with("0 mm, "), "{title}");
+    assert!(
+        page.model().contains("width = \"0 mm\""),
+        "{}",
+        page.model()
+    );
+    let pga = title.split(", ").nth(1).unwrap().split(':').next().unwrap();
+    assert!(
+        page.model().contains(&format!("pga = \"{}\"", pga.trim())),
+        "{pga}: {}",
+        page.model()
+    );
+    let force = title.rsplit(": ").next().unwrap().trim_end_matches(" kN");
+    let shown: f64 = force.replace(['\u{202f}', ','], "").parse().unwrap();
+    page.click("pin");
+    let row = page.text("[...document.querySelectorAll('#comparison tr')].find((r) => r.textContent.startsWith('Peak force')).children[1].textContent");
+    let exact: f64 = row
+        .trim_end_matches(" kN")
+        .replace(['\u{202f}', ','], "")
+        .parse()
+        .unwrap();
+    assert!((shown / exact - 1.0).abs() < 2e-3, "{title}, {row}");
+    // One step of Undo takes both back; arrow keys move both.
+    page.click("undo");
+    assert!(
+        page.model().contains("width = \"100 mm\""),
+        "{}",
+        page.model()
+    );
+    page.value("document.querySelector('.cross').focus()");
+    page.key("ArrowUp");
+    page.key("ArrowLeft");
+    page.settled();
+    assert!(!page.model().contains("width = \"100 mm\""));
+    assert_eq!(
+        page.value("document.activeElement.classList.contains('cross')"),
+        true
+    );
+    // The curve again.
+    page.value("{ const a = document.getElementById('across'); a.value = ''; a.dispatchEvent(new Event('change')); }");
+    page.wait("document.querySelectorAll('.curve-line').length === 1");
+    page.assert_content();
+}
+
+#[test]
 fn a_lost_connection_is_said_and_the_page_still_plays() {
     let server = serve("paper");
     let Some(page) = open(&server, 1400, 1000) else {
@@ -403,6 +480,35 @@ fn a_lost_connection_is_said_and_the_page_still_plays() {
     assert!(status.contains("No connection"), "{status}");
     page.value("document.getElementById('next').click()");
     page.glance("live-lost");
+}
+
+#[test]
+fn a_page_connects_again_and_goes_on() {
+    let server = serve("paper");
+    let Some(page) = open(&server, 1400, 1000) else {
+        return;
+    };
+    page.value("{ window.sockets = []; const send = WebSocket.prototype.send; WebSocket.prototype.send = function (text) { if (window.sockets.at(-1) !== this) window.sockets.push(this); send.call(this, text); }; }");
+    page.type_into("gap[0].width", "60 mm");
+    let frames = page.frames();
+    page.value("window.sockets[0].close()");
+    page.wait("!document.getElementById('connection').hidden");
+    page.glance("live-connecting");
+    page.wait("document.getElementById('connection').hidden && window.sockets.length === 2");
+    page.wait(&format!("Number(document.body.dataset.frames) > {frames}"));
+    // The model is the one of before, not that of the file.
+    assert!(
+        page.model().contains("width = \"60 mm\""),
+        "{}",
+        page.model()
+    );
+    page.type_into("gap[0].width", "300 mm");
+    assert!(
+        page.headline().contains("No contact"),
+        "{}",
+        page.headline()
+    );
+    page.assert_content();
 }
 
 #[test]
@@ -595,6 +701,57 @@ fn files_are_kept() {
     page.wait("window.files.length === 3");
     let report = page.text("window.files[2]");
     assert!(report.starts_with("<!DOCTYPE html>") && report.contains("Seismic pounding report"));
+    page.assert_content();
+}
+
+/// The page of a notebook, in a frame like that of the widget; the engine answers by messages.
+#[test]
+fn a_page_in_a_frame_sends_its_requests_to_the_notebook() {
+    let inner = jostle_live::widget_page("paper");
+    let quoted = serde_json::to_string(&inner)
+        .unwrap()
+        .replace('<', "\\u003c");
+    let outer = format!(
+        "<!DOCTYPE html><title>notebook</title><body><script>window.asked = []; addEventListener('message', (event) => window.asked.push(JSON.parse(event.data.jostle))); const frame = document.createElement('iframe'); frame.setAttribute('sandbox', 'allow-scripts allow-downloads'); frame.style = 'width: 1200px; height: 820px'; frame.srcdoc = {quoted}; document.body.append(frame); window.tell = (text, binary) => frame.contentWindow.postMessage({{ answer: binary ? Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer : text }}, '*');</script></body>"
+    );
+    let Some(page) = opened::open_page(&outer, 1300, 900) else {
+        return;
+    };
+    let mut local = jostle_live::Local::new(Engine::open(Path::new("paper")).unwrap());
+    let tell = |answer: jostle_live::Answer| match answer {
+        jostle_live::Answer::Text(text) => page.value(&format!(
+            "window.tell({}, false)",
+            serde_json::to_string(&text).unwrap()
+        )),
+        jostle_live::Answer::Binary(bytes) => {
+            use base64::Engine as _;
+            let text = base64::engine::general_purpose::STANDARD.encode(bytes);
+            page.value(&format!("window.tell('{text}', true)"))
+        }
+    };
+    page.wait("window.asked[0]?.op === 'hello'");
+    tell(local.hello());
+    page.wait("window.asked[1]?.op === 'run'");
+    let request = page.text("JSON.stringify(window.asked[1])");
+    let watch = |_| std::ops::ControlFlow::Continue(());
+    tell(local.answer(&request, &watch).unwrap().unwrap());
+    // After the frame the page asks for its curve, so it has drawn the run.
+    page.wait("window.asked[2]?.op === 'curve'");
+    let request = page.text("JSON.stringify(window.asked[2])");
+    assert!(local.answer(&request, &watch).unwrap().is_none());
+    while let Some(answer) = local.more() {
+        tell(answer);
+    }
+    std::thread::sleep(Duration::from_millis(200));
+    page.glance("live-notebook");
+    // A value that Python sets.
+    local.set("gap[0].width", "30 mm").unwrap();
+    assert!(local.text().contains("width = \"30 mm\""));
+    let text = serde_json::json!({ "op": "model", "text": local.text() }).to_string();
+    tell(jostle_live::Answer::Text(text));
+    page.wait(
+        "window.asked.some((one) => one.op === 'run' && one.text.includes('width = \"30 mm\"'))",
+    );
     page.assert_content();
 }
 

@@ -4,7 +4,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use jostle::{Gap, GroundMotion, Model, Plan, System};
 use jostle_io::{Input, InputError, MotionSource, MotionSpec, PathError, Scaling};
-use jostle_run::{Prepared, SharedShapes};
+
+use crate::prepared::Prepared;
+use crate::shapes::SharedShapes;
 
 /// Data shared by successive cases: assembled systems and records.
 #[derive(Default)]

@@ -1,0 +1,64 @@
+// Messages to the engine inside this page: WebAssembly in a worker.
+
+const inside = JSON.parse(byId("inside").textContent);
+let worker = null;
+let compiled = null;
+/** Runs and reports that the worker has not finished. */
+let busy = 0;
+
+const fromBase64 = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+
+function send(message) {
+  if (!worker) return false;
+  const long = message.op === "run" || message.op === "report";
+  if (message.op === "stop") {
+    restart();
+    if (waiting) receive(JSON.stringify({ op: "stopped", id: waiting.id }));
+    return true;
+  }
+  // A run cannot be interrupted from outside: a newer one starts a new worker.
+  if (message.op === "run" && busy) restart();
+  if (long) busy += 1;
+  worker.postMessage({ request: JSON.stringify(message) });
+  return true;
+}
+
+/** Ends the worker and what it computes, and starts another one. */
+function restart() {
+  worker?.terminate();
+  busy = 0;
+  curveChanged();
+  const source = new Blob([byId("worker").textContent], { type: "text/javascript" });
+  const address = URL.createObjectURL(source);
+  worker = new Worker(address);
+  worker.onmessage = ({ data }) => take(data);
+  worker.postMessage({ compiled, inside, greet: !greeted });
+}
+
+function take({ data, share, done, failed }) {
+  if (data !== undefined) receive(data);
+  if (share !== undefined && waiting) showProgress({ id: waiting.id, share });
+  if (done) busy = Math.max(busy - 1, 0);
+  if (failed !== undefined) {
+    const id = waiting?.id;
+    restart();
+    if (id !== undefined) settle(id);
+    showFaults({ faults: [{ path: "", problem: failed }] });
+  }
+}
+
+async function connect() {
+  if (typeof DecompressionStream === "undefined" || typeof WebAssembly === "undefined") {
+    showConnection("This page needs a browser with WebAssembly and DecompressionStream: Chrome or Edge from 80, Firefox from 113, Safari from 16.4.");
+    return;
+  }
+  try {
+    const bytes = await through(fromBase64(byId("engine").textContent), new DecompressionStream("gzip"));
+    compiled = await WebAssembly.compile(bytes);
+  } catch (error) {
+    showConnection(`The engine of this page cannot be started: ${error.message}`);
+    return;
+  }
+  byId("engine").remove();
+  restart();
+}

@@ -1,0 +1,24 @@
+// Messages to the server of this page, over a WebSocket.
+
+let socket = null;
+/** Attempts to connect since the last connection. */
+let tries = 0;
+
+function send(message) {
+  if (socket?.readyState !== WebSocket.OPEN) return false;
+  socket.send(JSON.stringify(message));
+  return true;
+}
+
+function connect() {
+  socket = new WebSocket(`ws://${location.host}/socket${location.search}`);
+  socket.binaryType = "arraybuffer";
+  socket.onopen = () => (tries = 0);
+  socket.onmessage = ({ data }) => receive(data);
+  socket.onclose = () => {
+    waiting = null;
+    showConnection("No connection to jostle. If it has ended, start it again. Reconnecting …");
+    tries += 1;
+    setTimeout(connect, Math.min(250 * 2 ** tries, 5000));
+  };
+}

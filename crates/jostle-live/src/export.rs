@@ -1,0 +1,108 @@
+//! A live page as one file, with its engine inside.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use maud::{PreEscaped, html};
+
+use crate::engine::Engine;
+use crate::page;
+
+const WORKER: &str = include_str!("../assets/worker.js");
+/// First bytes of a gzip file.
+const GZIP: [u8; 2] = [0x1f, 0x8b];
+/// First bytes of a WebAssembly module.
+const WASM: [u8; 4] = *b"\0asm";
+
+/// Why there is no page.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// The engine is something else.
+    #[error(
+        "the engine is not a WebAssembly module packed with gzip{0}; packaging/wasm writes one"
+    )]
+    NoModule(&'static str),
+    /// A file that the model names cannot be read.
+    #[error("cannot read {name}, which the model names: {error}")]
+    File {
+        /// Name in the model.
+        name: String,
+        /// What the system says.
+        error: std::io::Error,
+    },
+}
+
+/// The page of a model as one HTML file that works without a server and without a network. `module` is the file that
+/// `packaging/wasm` writes. Files that the model names go into the page.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn export(engine: &Engine, module: &[u8]) -> Result<String, ExportError> {
+    if module.starts_with(&WASM) {
+        return Err(ExportError::NoModule(", but an unpacked one"));
+    }
+    if !module.starts_with(&GZIP) {
+        return Err(ExportError::NoModule(""));
+    }
+    let mut files = Vec::new();
+    for name in engine.named_files() {
+        let path = engine.base().join(name);
+        let bytes = std::fs::read(path).map_err(|error| ExportError::File {
+            name: name.to_owned(),
+            error,
+        })?;
+        files.push((name, STANDARD.encode(bytes)));
+    }
+    let inside = serde_json::json!({
+        "name": engine.name(),
+        "text": engine.text(),
+        "files": files,
+    });
+    // No text of the model ends the element that holds it.
+    let inside = inside.to_string().replace('<', "\\u003c");
+    let markup = html! {
+        script #inside type="application/json" { (PreEscaped(inside)) }
+        script #worker type="text/plain" { (PreEscaped(WORKER)) }
+        script #engine type="text/plain" { (PreEscaped(STANDARD.encode(module))) }
+    };
+    Ok(page::page_with_engine(engine.name(), markup))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn what_is_no_packed_module_is_refused_with_the_remedy() {
+        let engine = Engine::open(Path::new("paper")).unwrap_or_else(|error| panic!("{error}"));
+        for (bytes, word) in [
+            (&b"\0asm\x01"[..], "unpacked"),
+            (b"<html>", "gzip"),
+            (b"", "gzip"),
+        ] {
+            match export(&engine, bytes) {
+                Err(error) => {
+                    let error = error.to_string();
+                    assert!(
+                        error.contains(word) && error.contains("packaging/wasm"),
+                        "{error}"
+                    );
+                }
+                Ok(_) => panic!("accepted"),
+            }
+        }
+    }
+
+    #[test]
+    fn a_model_cannot_end_the_element_that_holds_it() {
+        let text = format!(
+            "# </script><script>alert(1)</script>\n{}",
+            jostle_io::model_text("paper").unwrap_or_default()
+        );
+        let engine = Engine::from_text("m.toml", &text, Path::new(""))
+            .unwrap_or_else(|error| panic!("{error}"));
+        let page = export(&engine, &GZIP).unwrap_or_else(|error| panic!("{error}"));
+        assert!(!page.contains("alert(1)</script>"));
+        assert!(page.contains("alert(1)\\u003c/script>"));
+    }
+}

@@ -1,0 +1,142 @@
+//! Pages with their engine inside. They need the engine that `packaging/wasm` builds, so these tests run only when asked
+//! for: `cargo test --workspace --test live exported -- --ignored`.
+
+use std::path::{Path, PathBuf};
+
+use jostle_live::{Engine, export};
+
+use crate::opened::{Opened, open_page};
+
+/// Greatest size of the page of the built-in example \[bytes\].
+const MOST_BYTES: usize = 1_600_000;
+
+fn exported(model: &Path) -> String {
+    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/wasm/jostle.wasm.gz");
+    let module = std::fs::read(module).expect("packaging/wasm builds the engine");
+    export(&Engine::open(model).unwrap(), &module).unwrap()
+}
+
+fn open_exported(model: &Path) -> Option<Opened> {
+    let page = open_page(&exported(model), 1400, 1000)?;
+    page.wait("Number(document.body.dataset.frames) >= 1");
+    Some(page)
+}
+
+/// Peak force of the first gap \[kN\], computed here.
+fn native_peak(text: &str) -> f64 {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("model.toml");
+    std::fs::write(&file, text).unwrap();
+    let input = jostle_io::read_model_file(&file).unwrap();
+    let prepared = jostle_run::Workshop::default().assemble(input).unwrap();
+    let outcome = prepared.step(jostle::Settings::default(), |_| {
+        std::ops::ControlFlow::Continue(())
+    });
+    1e-3 * prepared.summary(&outcome, None, 0.0).gaps[0].peak_force_n
+}
+
+/// Keeps the heads of frames that come from now on.
+const LISTEN: &str = "{ const parse = JSON.parse; JSON.parse = (text) => { const value = parse(text); if (Array.isArray(value) && value[0]?.numbers) window.head = value[0]; return value; }; }";
+
+#[test]
+#[ignore = "needs the engine that packaging/wasm builds"]
+fn exported_page_has_the_numbers_of_the_program_and_its_knobs_work() {
+    let page = exported(Path::new("paper"));
+    assert!(page.len() <= MOST_BYTES, "{} bytes", page.len());
+    let Some(page) = open_exported(Path::new("paper")) else {
+        return;
+    };
+    page.value(LISTEN);
+    for width in ["30 mm", "100 mm"] {
+        page.type_into("gap[0].width", width);
+        page.settled();
+        let found = page.number("window.head.numbers.find((n) => n.name === 'Peak force').value");
+        let expected = native_peak(&page.model());
+        assert!(page.model().contains(&format!("width = \"{width}\"")));
+        assert!(
+            (found / expected - 1.0).abs() <= 1e-12,
+            "{width}: {found} in the page, {expected} here"
+        );
+    }
+    page.wait("document.querySelector('.curve-line')?.getAttribute('d').split('L').length > 100");
+    page.wait("document.getElementById('curve-note').textContent.includes('Smallest gap')");
+    page.glance("exported");
+    // A fault, and back.
+    page.type_into("gap[0].width", "3 kg");
+    assert!(page.fault_of("gap[0].width").contains("expected a length"));
+    page.click("undo");
+    assert!(page.headline().contains("hit"), "{}", page.headline());
+    // The report is made inside too.
+    page.value("window.kept = []; URL.createObjectURL = (blob) => { blob.text().then((text) => window.kept.push(text)); return 'blob:none'; }; HTMLAnchorElement.prototype.click = () => {}");
+    page.value("document.getElementById('save-report').click()");
+    page.wait("window.kept.length === 1 && window.kept[0].includes('– jostle</title>')");
+    page.assert_content();
+}
+
+#[test]
+#[ignore = "needs the engine that packaging/wasm builds"]
+fn exported_page_holds_the_records_of_its_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut record = "# unit = m/s2\n".to_owned();
+    record.extend((0..400).map(|i| {
+        format!(
+            "{:.2} {:.6}\n",
+            0.02 * f64::from(i),
+            (0.5 * f64::from(i)).sin()
+        )
+    }));
+    std::fs::write(folder.path().join("own.csv"), record).unwrap();
+    let text = jostle_io::model_text("paper").unwrap();
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("record"))
+        .unwrap();
+    let text = text.replacen(line, "record = \"own.csv\"", 1);
+    let model: PathBuf = folder.path().join("model.toml");
+    std::fs::write(&model, text).unwrap();
+    let page = exported(&model);
+    // Not where the record is.
+    drop(folder);
+    let Some(page) = open_page(&page, 1400, 1000) else {
+        return;
+    };
+    page.wait(
+        "Number(document.body.dataset.frames) >= 1 || document.body.classList.contains('faulty')",
+    );
+    assert_eq!(
+        page.value("document.body.classList.contains('faulty')"),
+        false,
+        "{}",
+        page.text("document.querySelector('.knobs').textContent")
+    );
+    assert!(page.model().contains("own.csv"));
+    page.search("record");
+    page.type_into("motion.record", "other.csv");
+    let fault = page.fault_of("motion.record");
+    assert!(fault.contains("there is no record"), "{fault}");
+    page.assert_content();
+}
+
+#[test]
+#[ignore = "needs the engine that packaging/wasm builds"]
+fn exported_page_stops_long_runs() {
+    let Some(page) = open_exported(Path::new("paper-inelastic")) else {
+        return;
+    };
+    page.search("duration");
+    page.value("{ const l = [...document.querySelectorAll('.knob-name')].find((l) => l.title.startsWith('motion.duration:')); const f = document.getElementById(l.htmlFor); f.value = '2000 s'; f.dispatchEvent(new Event('change')); }");
+    page.wait("!document.getElementById('working').hidden && document.getElementById('progress').value > 0");
+    page.click("stop");
+    assert!(
+        page.headline().starts_with("Stopped"),
+        "{}",
+        page.headline()
+    );
+    page.type_into("motion.duration", "10 s");
+    assert!(
+        !page.headline().starts_with("Stopped"),
+        "{}",
+        page.headline()
+    );
+    page.assert_content();
+}
