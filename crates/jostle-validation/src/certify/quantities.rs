@@ -4,6 +4,9 @@ use jostle::{Summary, System};
 
 use super::reference::Peaks;
 
+/// Share of the greatest displacement of the neighbours that counts as closing at least.
+const SWAY: f64 = 0.1;
+
 /// One promised number.
 #[derive(Clone, Debug)]
 pub struct Quantity {
@@ -58,7 +61,16 @@ pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
                 .iter()
                 .zip(values)
                 .filter(|(c, _)| c.gap == contact.gap);
-            let scale = of_gap.fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
+            let mut scale = of_gap.fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
+            if kind == "closing" {
+                // A difference of displacements, which vanishes where neighbours move together.
+                let neighbours = contact.ports.buildings().into_iter().flatten();
+                let sways = neighbours.map(|building| {
+                    let own = &peaks.buildings[building];
+                    most(&own.most).max(most(&own.least))
+                });
+                scale = sways.fold(scale, |m, sway| m.max(SWAY * sway));
+            }
             list.push(Quantity {
                 kind,
                 name: format!("gap {} at {:.2} m", contact.gap + 1, contact.height),

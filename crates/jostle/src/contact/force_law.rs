@@ -94,6 +94,8 @@ const SLOWEST: f64 = 1e-9;
 
 /// A force that grows with this power of the indentation, or a higher one, ends without a noticeable corner.
 const SMOOTH_ONSET: f64 = 1.5;
+/// Exponent of a bumper above which its force stiffens steeply.
+const STEEP_EXPONENT: f64 = 2.0;
 
 impl ForceLaw {
     /// The memory of an impact that begins at a closing rate ≥ 0 \[m/s\].
@@ -204,6 +206,12 @@ impl ForceLaw {
                 | Self::Rubber(_)
                 | Self::Bilinear(_)
         )
+    }
+
+    /// Whether the stiffness grows so steeply that most of an impact happens in a small part of it.
+    #[must_use]
+    pub(crate) fn stiffens_steeply(&self) -> bool {
+        matches!(self, Self::Rubber(rubber) if rubber.exponent > STEEP_EXPONENT)
     }
 
     /// Whether the force starts as a root of time, which no step can resolve.

@@ -517,7 +517,7 @@ fn notes(run: &Run) -> Vec<String> {
             law.restitution_is == RestitutionIs::Input && law.kind.has_published_damping();
         if published && (free - asked).abs() > 0.005 {
             notes.push(format!(
-                "{} with restitution {asked} lets free masses rebound with {free:.3}; restitution_is = \"realised\" makes it {asked}",
+                "{} with restitution {asked}: two free masses would separate with {free:.3} of their impact speed; restitution_is = \"realised\" makes it {asked}",
                 law.kind.name()
             ));
         }

@@ -58,6 +58,8 @@ const MODAL_CONTACT_SHARE: f64 = 0.05;
 /// Least steps per half cycle of a weak contact, relative to those of an impact, and in absolute number.
 const FEWEST_ADAPTED: f64 = 1.0 / 6.0;
 const FEWEST_OF_ALL: f64 = 4.0;
+/// Factor on them where the stiffness grows steeply within a step.
+const STIFFENING: f64 = 3.0;
 /// Refinement at the start of steep forces.
 const STEEP_START: f64 = 32.0;
 /// Free-vibration step without other limits \[s\].
@@ -304,7 +306,12 @@ impl Plan {
             return 1;
         };
         let half_cycle = std::f64::consts::PI * (contact.effective_mass() / slope).sqrt();
-        (self.step * self.fewest_in_contact(steps) / half_cycle)
+        let more = if contact.law.stiffens_steeply() {
+            STIFFENING
+        } else {
+            1.0
+        };
+        (self.step * more * self.fewest_in_contact(steps) / half_cycle)
             .ceil()
             .clamp(1.0, f64::from(FINEST)) as u32
     }
