@@ -306,12 +306,7 @@ impl Plan {
             return 1;
         };
         let half_cycle = std::f64::consts::PI * (contact.effective_mass() / slope).sqrt();
-        let more = if contact.law.stiffens_steeply() {
-            STIFFENING
-        } else {
-            1.0
-        };
-        (self.step * more * self.fewest_in_contact(steps) / half_cycle)
+        (self.step * more_steps(contact) * self.fewest_in_contact(steps) / half_cycle)
             .ceil()
             .clamp(1.0, f64::from(FINEST)) as u32
     }
@@ -325,7 +320,7 @@ impl Plan {
                 let duration = contact
                     .law
                     .elastic_duration(contact.effective_mass(), impact_speed.max(1e-3));
-                let wanted = (self.step * steps / duration).ceil();
+                let wanted = (self.step * more_steps(contact) * steps / duration).ceil();
                 if wanted >= f64::from(FINEST) {
                     FINEST
                 } else {
@@ -333,6 +328,15 @@ impl Plan {
                 }
             }
         }
+    }
+}
+
+/// Factor on the steps of an impact.
+fn more_steps(contact: &Contact) -> f64 {
+    if contact.law.stiffens_steeply() {
+        STIFFENING
+    } else {
+        1.0
     }
 }
 
