@@ -237,6 +237,19 @@ fn accelerations_between_free_steps_meet_the_reference() {
     assert_within(27, 99, Solver::Modal, 1e-3);
 }
 
+/// Krylov vectors of the second frame are dependent apart from rounding; all natural modes are taken then.
+#[test]
+fn a_building_with_dependent_shapes_takes_all_modes() {
+    assert_within(52, 42, Solver::Modal, 1e-4);
+}
+
+/// Bumpers whose stiffness grows steeply.
+#[test]
+fn steep_bumpers_meet_the_reference() {
+    assert_within(52, 89, Solver::Modal, 1e-3);
+    assert_within(58, 8, Solver::Modal, 1e-3);
+}
+
 /// The greatest acceleration is at a corner of a contact force.
 #[test]
 fn accelerations_at_corners_of_forces_meet_the_reference() {

@@ -47,6 +47,11 @@ impl Basis {
         if massive(building).count() <= ALL_MODES {
             return Self::complete(building);
         }
+        // Many Krylov vectors of a building with very stiff parts may depend on each other but for rounding.
+        Self::grown(building, demand).or_else(|_| Self::complete(building))
+    }
+
+    fn grown(building: &BuildingSystem, demand: &Demand<'_>) -> Result<Self, NotPositive> {
         let mut growing = Growing::of(building, demand)?;
         while !growing.is_close()? && growing.extend() {}
         growing.finished()
