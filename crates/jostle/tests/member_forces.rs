@@ -316,7 +316,9 @@ fn every_joint_and_struck_point_is_in_equilibrium() {
         ("P-Delta", under_weight(true)),
         ("links", linked),
     ];
-    for (name, model) in models {
+    for (name, mut model) in models {
+        // Rounding of accelerations grows as steps shrink, and automatic steps would be refined.
+        model.analysis.step = Some(2e-3);
         let mut light = model.clone();
         for building in &mut light.buildings {
             building.gravity = Gravity::default();

@@ -65,7 +65,13 @@ pub(super) struct Direct<E: StepEquations> {
     pub(super) jump: JumpScratch,
     pub(super) audit: EnergyAudit,
     recorder: Recorder,
+    /// Short steps left after a jump of velocities.
+    struck_steps: u32,
 }
+
+/// Parts of a free-vibration step after a jump of velocities, and the number of such steps. Average acceleration turns
+/// what dashpots take within a step into an oscillation of accelerations from step to step, which decays slowly.
+const AFTER_JUMP: u32 = 64;
 
 /// Storey drift from which a building that yields or leans has collapsed \[–\].
 const COLLAPSE_DRIFT: f64 = 0.25;
@@ -97,6 +103,7 @@ impl<E: StepEquations> Direct<E> {
             yielding: YieldingSprings::starting_from(system, &state),
             recorder,
             state,
+            struck_steps: 0,
         }
     }
 
@@ -306,11 +313,11 @@ impl<E: StepEquations> Stepper for Direct<E> {
 
     fn division(&self, run: &RunState<'_>) -> u32 {
         let closed = run.phases.iter().zip(&run.contact_division);
+        let after_jump = if self.struck_steps > 0 { AFTER_JUMP } else { 1 };
         closed
             .filter(|(phase, _)| matches!(phase, ContactPhase::Closed(_)))
             .map(|(_, d)| *d)
-            .max()
-            .unwrap_or(1)
+            .fold(after_jump, u32::max)
     }
 
     fn prepare(&mut self, run: &mut RunState<'_>, next: &NextStep) -> Result<usize, StepError> {
@@ -440,6 +447,7 @@ impl<E: StepEquations> Stepper for Direct<E> {
         was_closed: bool,
     ) -> Result<(), StepError> {
         let ground = run.ground[0];
+        self.struck_steps = self.struck_steps.saturating_sub(1);
         self.recorder
             .after_step(run.system, &self.state, step, ground);
         self.follow_members(run);
@@ -461,6 +469,9 @@ impl<E: StepEquations> Stepper for Direct<E> {
         restitution: f64,
         rate: f64,
     ) -> Jump {
+        if run.plan.chooses_contact_steps() {
+            self.struck_steps = AFTER_JUMP;
+        }
         self.strike(run, contact, restitution, rate)
     }
 
