@@ -31,8 +31,8 @@ const FEW_IMPACTS: usize = 12;
 /// the contact floors if that is more, and the run is repeated. If reported peaks change by more than the
 /// tolerance, relative to the greatest of their kind in the building or gap, the first impact that differs by as
 /// much gives the instant. If a contact stays open and its closing is within the tolerance of the gap, the gap is
-/// made narrower instead, so that the contact is made. Where the tolerance is not met and impacts already differ between
-/// two step sizes, the first of these gives the instant. Other runs with at most twelve impacts, none of them
+/// made narrower instead, so that the contact is made. Where the tolerance is not met and impacts differ between two step
+/// sizes, the instant is not later than the first of these. Other runs with at most twelve impacts, none of them
 /// doubtful, are not repeated; nor are those of buildings that yield.
 pub fn find_sensitivity(
     system: &System,
@@ -59,9 +59,7 @@ fn sensitive_from(
     let unmet = outcome
         .accuracy
         .is_some_and(|accuracy| accuracy.residual > tolerance);
-    if unmet && doubtful.is_some() {
-        return doubtful;
-    }
+    let unresolved = doubtful.filter(|_| unmet);
     let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
     let near_misses: Vec<bool> = (0..system.contacts.len())
         .map(|contact| nearly_touches(system, outcome, contact, tolerance))
@@ -71,7 +69,7 @@ fn sensitive_from(
         || system.buildings.iter().any(yields)
         || (!near_misses.contains(&true) && (outcome.impacts.is_empty() || few))
     {
-        return None;
+        return unresolved;
     }
     let mut changed = system.clone();
     let contacts = changed.contacts.iter_mut().zip(&outcome.closing);
@@ -92,15 +90,16 @@ fn sensitive_from(
         observer,
     );
     if other.end != RunEnd::Completed {
-        return None;
+        return unresolved;
     }
     let runs = [outcome, &other];
     if change_of_peaks(system, runs) <= tolerance {
-        return None;
+        return unresolved;
     }
     let parted = first_parted(system, runs, tolerance);
     let first = outcome.impacts.iter().map(|impact| impact.start);
-    parted.or(doubtful).or(first.min_by(f64::total_cmp))
+    let earliest = parted.into_iter().chain(unresolved).min_by(f64::total_cmp);
+    earliest.or(doubtful).or(first.min_by(f64::total_cmp))
 }
 
 /// Greatest displacement of the floors of a contact, or of their buildings if it lies between floors \[m\].
