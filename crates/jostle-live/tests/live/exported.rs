@@ -123,20 +123,6 @@ fn exported_page_stops_long_runs() {
     let Some(page) = open_exported(Path::new("paper-inelastic")) else {
         return;
     };
-    page.search("duration");
-    page.value("{ const l = [...document.querySelectorAll('.knob-name')].find((l) => l.title.startsWith('motion.duration:')); const f = document.getElementById(l.htmlFor); f.value = '2000 s'; f.dispatchEvent(new Event('change')); }");
-    page.wait("!document.getElementById('working').hidden && document.getElementById('progress').value > 0");
-    page.click("stop");
-    assert!(
-        page.headline().starts_with("Stopped"),
-        "{}",
-        page.headline()
-    );
-    page.type_into("motion.duration", "10 s");
-    assert!(
-        !page.headline().starts_with("Stopped"),
-        "{}",
-        page.headline()
-    );
+    page.stops_a_long_run();
     page.assert_content();
 }

@@ -10,6 +10,7 @@
 mod opened;
 
 mod exported;
+mod notebook;
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -78,6 +79,19 @@ impl Opened {
     fn click(&self, id: &str) {
         self.value(&format!("document.getElementById({id:?}).click()"));
         self.settled();
+    }
+
+    /// Makes the run long, stops it, and lets a newer change take the place of the long run.
+    fn stops_a_long_run(&self) {
+        self.search("duration");
+        self.value("{ const l = [...document.querySelectorAll('.knob-name')].find((l) => l.title.startsWith('motion.duration:')); const f = document.getElementById(l.htmlFor); f.value = '2000 s'; f.dispatchEvent(new Event('change')); }");
+        self.wait("!document.getElementById('working').hidden && document.getElementById('progress').value > 0");
+        self.glance("live-working");
+        self.click("stop");
+        let stopped = || self.headline().starts_with("Stopped");
+        assert!(stopped(), "{}", self.headline());
+        self.type_into("motion.duration", "10 s");
+        assert!(!stopped(), "{}", self.headline());
     }
 
     fn key(&self, key: &str) {
@@ -244,23 +258,7 @@ fn a_long_run_shows_how_far_it_is_and_can_be_stopped() {
     let Some(page) = open(&server, 1400, 1000) else {
         return;
     };
-    page.search("duration");
-    page.value("{ const l = [...document.querySelectorAll('.knob-name')].find((l) => l.title.startsWith('motion.duration:')); const f = document.getElementById(l.htmlFor); f.value = '2000 s'; f.dispatchEvent(new Event('change')); }");
-    page.wait("!document.getElementById('working').hidden && document.getElementById('progress').value > 0");
-    page.glance("live-working");
-    page.click("stop");
-    assert!(
-        page.headline().starts_with("Stopped"),
-        "{}",
-        page.headline()
-    );
-    // A newer change takes the place of a long run.
-    page.type_into("motion.duration", "10 s");
-    assert!(
-        !page.headline().starts_with("Stopped"),
-        "{}",
-        page.headline()
-    );
+    page.stops_a_long_run();
     page.assert_content();
 }
 
@@ -701,57 +699,6 @@ fn files_are_kept() {
     page.wait("window.files.length === 3");
     let report = page.text("window.files[2]");
     assert!(report.starts_with("<!DOCTYPE html>") && report.contains("Seismic pounding report"));
-    page.assert_content();
-}
-
-/// The page of a notebook, in a frame like that of the widget; the engine answers by messages.
-#[test]
-fn a_page_in_a_frame_sends_its_requests_to_the_notebook() {
-    let inner = jostle_live::widget_page("paper");
-    let quoted = serde_json::to_string(&inner)
-        .unwrap()
-        .replace('<', "\\u003c");
-    let outer = format!(
-        "<!DOCTYPE html><title>notebook</title><body><script>window.asked = []; addEventListener('message', (event) => window.asked.push(JSON.parse(event.data.jostle))); const frame = document.createElement('iframe'); frame.setAttribute('sandbox', 'allow-scripts allow-downloads'); frame.style = 'width: 1200px; height: 820px'; frame.srcdoc = {quoted}; document.body.append(frame); window.tell = (text, binary) => frame.contentWindow.postMessage({{ answer: binary ? Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer : text }}, '*');</script></body>"
-    );
-    let Some(page) = opened::open_page(&outer, 1300, 900) else {
-        return;
-    };
-    let mut local = jostle_live::Local::new(Engine::open(Path::new("paper")).unwrap());
-    let tell = |answer: jostle_live::Answer| match answer {
-        jostle_live::Answer::Text(text) => page.value(&format!(
-            "window.tell({}, false)",
-            serde_json::to_string(&text).unwrap()
-        )),
-        jostle_live::Answer::Binary(bytes) => {
-            use base64::Engine as _;
-            let text = base64::engine::general_purpose::STANDARD.encode(bytes);
-            page.value(&format!("window.tell('{text}', true)"))
-        }
-    };
-    page.wait("window.asked[0]?.op === 'hello'");
-    tell(local.hello());
-    page.wait("window.asked[1]?.op === 'run'");
-    let request = page.text("JSON.stringify(window.asked[1])");
-    let watch = |_| std::ops::ControlFlow::Continue(());
-    tell(local.answer(&request, &watch).unwrap().unwrap());
-    // After the frame the page asks for its curve, so it has drawn the run.
-    page.wait("window.asked[2]?.op === 'curve'");
-    let request = page.text("JSON.stringify(window.asked[2])");
-    assert!(local.answer(&request, &watch).unwrap().is_none());
-    while let Some(answer) = local.more() {
-        tell(answer);
-    }
-    std::thread::sleep(Duration::from_millis(200));
-    page.glance("live-notebook");
-    // A value that Python sets.
-    local.set("gap[0].width", "30 mm").unwrap();
-    assert!(local.text().contains("width = \"30 mm\""));
-    let text = serde_json::json!({ "op": "model", "text": local.text() }).to_string();
-    tell(jostle_live::Answer::Text(text));
-    page.wait(
-        "window.asked.some((one) => one.op === 'run' && one.text.includes('width = \"30 mm\"'))",
-    );
     page.assert_content();
 }
 

@@ -256,6 +256,12 @@ fn accelerations_at_corners_of_forces_meet_the_reference() {
     assert_within(41, 60, Solver::Riccati, 1e-4);
 }
 
+/// After a blow, accelerations must not oscillate from step to step.
+#[test]
+fn direct_accelerations_after_blows_meet_the_reference() {
+    assert_within(57, 20, Solver::Riccati, 1e-2);
+}
+
 #[test]
 fn a_pulse_has_its_velocity_and_leaves_none() {
     let pulse = Pulse {

@@ -120,10 +120,10 @@ pub(super) fn within_tolerance<E: StepEquations>(
     }
     let tolerance = plan.tolerance();
     let mut known: Option<Change> = None;
-    let (mut last, mut refinements) = (f64::INFINITY, 0);
+    let (mut last, mut refinements, mut further_runs) = (f64::INFINITY, 0, 0);
     loop {
         let mut outcome = run(&fine);
-        outcome.work.repeated_runs = refinements;
+        outcome.work.repeated_runs = further_runs;
         if outcome.end != RunEnd::Completed {
             // If a refinement is stopped or fails, the previous run is kept.
             return if refinements > 0 { before } else { outcome };
@@ -135,7 +135,8 @@ pub(super) fn within_tolerance<E: StepEquations>(
         if known.is_none() && in_doubt {
             let coarser = coarse.refined(0.5, motion);
             let coarsest = run(&coarser);
-            outcome.work.repeated_runs += 1;
+            further_runs += 1;
+            outcome.work.repeated_runs = further_runs;
             if coarsest.end == RunEnd::Completed && coarser.step > coarse.step {
                 known = Some(Change::between(
                     system,
@@ -168,6 +169,7 @@ pub(super) fn within_tolerance<E: StepEquations>(
             return outcome;
         }
         refinements += 1;
+        further_runs += 1;
         known = Some(change);
         (before, coarse, fine) = (outcome, fine, finer);
     }

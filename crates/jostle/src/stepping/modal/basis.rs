@@ -47,7 +47,7 @@ impl Basis {
         if massive(building).count() <= ALL_MODES {
             return Self::complete(building);
         }
-        // Many Krylov vectors of a building with very stiff parts may depend on each other but for rounding.
+        // Rounding may be all that tells many Krylov vectors of a very stiff building apart.
         Self::grown(building, demand).or_else(|_| Self::complete(building))
     }
 

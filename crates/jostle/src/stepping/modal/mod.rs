@@ -8,6 +8,7 @@
 mod basis;
 mod damped;
 mod defects;
+mod energy;
 mod estimate;
 mod forces;
 mod free_steps;

@@ -547,14 +547,6 @@ pub(super) struct Table {
     answers: Vec<UnitResponse>,
 }
 
-/// Energies of all modes over a step \[J\].
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct StepEnergy {
-    pub(super) damped: f64,
-    /// ∫ Σ Γ q̇ a_g dt, negative.
-    pub(super) input: f64,
-}
-
 impl Table {
     pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rules: Option<&Rules>) {
         self.step = step;

@@ -4,23 +4,22 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use super::damped::Rules;
+use super::energy::Audit;
 use super::estimate::{Estimate, Reached};
 use super::forces::ForceEquations;
 use super::free_steps::FreeSteps;
 use super::members::Instant;
 use super::peaks::{Peaks, Taken, Watched};
 use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
-use super::reduced::{Reduced, StepEnergy, Table};
+use super::reduced::{Reduced, Table};
 use super::struck::{StruckStep, WithinStep};
 use super::turning::{Loads, StepMotion};
 use crate::history::{Energy, Work};
 use crate::motion::GroundMotion;
-use crate::simd;
-use crate::state::{ContactPhase, Episode, State};
+use crate::state::{Episode, State};
 use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::control::{Observed, next_division};
-use crate::stepping::energy::Imbalance;
 use crate::stepping::events::Cubic;
 use crate::stepping::outcome::{Outcome, Progress, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
@@ -51,7 +50,7 @@ pub(super) struct ModalStepper<'a> {
     /// ∫q of the accepted step, then anything else that needs a list of modes.
     pub(super) scratch: Vec<f64>,
     /// ∫τq of the accepted step, where a contact is closed.
-    moment: Vec<f64>,
+    pub(super) moment: Vec<f64>,
     /// Monitored displacements and velocities, now and at the end of the tried step. Monitored accelerations, and jerks
     /// without the load term, now and a step ago.
     pub(super) u: [Vec<f64>; 2],
@@ -109,31 +108,6 @@ fn rows_per_step(plan: &Plan, settings: Settings) -> u32 {
         let rows = (plan.step / interval * (1.0 - 1e-9)).clamp(1.0, MOST_ROWS);
         (rows.ceil() as u32).next_power_of_two()
     })
-}
-
-/// Sums that must balance; every one is exact for loads that are parabolas over a step.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Audit {
-    pub(super) input: f64,
-    pub(super) damped: f64,
-    pub(super) contact: f64,
-    imbalance: Imbalance,
-}
-
-impl Audit {
-    /// The balance with these energies of the buildings.
-    pub(super) fn balance(&mut self, kinetic: f64, strain: f64) -> Energy {
-        self.imbalance.watch(Energy {
-            input: self.input,
-            kinetic,
-            strain,
-            damped: self.damped,
-            links: 0.0,
-            hysteretic: 0.0,
-            contact: self.contact,
-            worst_imbalance: 0.0,
-        })
-    }
 }
 
 /// A run in modal coordinates, about to begin.
@@ -432,59 +406,6 @@ impl<'a> ModalStepper<'a> {
         self.peaks.restart(self.reduced, jumped);
     }
 
-    /// What the ground put in and damping took; with closed contacts their work as well.
-    fn step_energy(&mut self, run: &mut RunState<'_>, slot: usize, was_closed: bool) -> StepEnergy {
-        let table = &self.tables[slot];
-        let [p0, p1] = &self.p;
-        let of = [&self.q[0][..], &self.v[0], p0, p1, &self.bend];
-        let arch = self.reduced.arch();
-        table.area(arch, of, &mut self.scratch);
-        if was_closed {
-            table.moment(arch, of, &mut self.moment);
-        }
-        let end = [&self.q[1][..], &self.v[1]];
-        let damped = table.damped(self.reduced, of, end, [&self.scratch, &self.moment]);
-        let step = table.step;
-        let slope = (run.ground[1] - run.ground[0]) / step;
-        // ∫ a_g q̇ dt by parts.
-        let driven = |list: &[f64]| simd::dot(&self.reduced.participation, list);
-        let [before, after] = [0, 1].map(|time| run.ground[time] * driven(&self.q[time]));
-        let input = slope * driven(&self.scratch) - (after - before);
-        if was_closed {
-            self.contact_work(run, step);
-        }
-        StepEnergy { damped, input }
-    }
-
-    /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch` and ∫τq in `moment`.
-    fn contact_work(&mut self, run: &mut RunState<'_>, step: f64) {
-        for closed in &run.coupling.closed {
-            let index = closed.contact;
-            let ContactPhase::Closed(episode) = &mut run.phases[index] else {
-                continue;
-            };
-            let width = run.system.contacts[index].width;
-            let closing = self.reduced.closing_of_modes(index, &self.scratch);
-            let leaning = 2.0 * self.reduced.closing_of_modes(index, &self.moment) - closing;
-            let before = self.reduced.closing(index, &self.u[0]) - width;
-            let (first, last) = (episode.force, run.trials[index].force);
-            let bent = self.predicted[index].bend(first, last);
-            let work = last * run.trials[index].indentation
-                - first * before
-                - (last - first) * (closing / step - width)
-                - bent * leaning / step;
-            episode.work += work;
-            self.energy.contact += work;
-        }
-    }
-
-    /// The balance now.
-    pub(super) fn balance(&mut self) -> Energy {
-        let kinetic = 0.5 * simd::dot(&self.v[0], &self.v[0]);
-        let strain = 0.5 * simd::weighted_square(&self.reduced.stiffness, &self.q[0]);
-        self.energy.balance(kinetic, strain)
-    }
-
     /// Adds a row to the history where one is due.
     fn take_row(&mut self, run: &RunState<'_>, wanted: bool, energy: &Energy) {
         if self.peaks.is_due(run.time, wanted) {
@@ -510,8 +431,6 @@ impl<'a> ModalStepper<'a> {
     }
 }
 
-/// Margin of the error of contact forces that stiffen steeply: a step back in time sees little of the stiffness ahead.
-const STEEP_MARGIN: f64 = 8.0;
 /// Steps of a size after an impact.
 const STEPS_AFTERWARDS: u32 = 4;
 
@@ -686,12 +605,7 @@ impl Stepper for ModalStepper<'_> {
         let (contact, trial) = (&run.system.contacts[index], &run.trials[index]);
         let law = &contact.law;
         let response = law.follow(trial.indentation, trial.rate, &episode.memory);
-        let margin = if law.stiffens_steeply() {
-            STEEP_MARGIN
-        } else {
-            1.0
-        };
-        let missed = margin * (trial.force - self.predicted[index].end).abs();
+        let missed = (trial.force - self.predicted[index].end).abs();
         let observed = Observed {
             step,
             stiffness: response.by_indentation,

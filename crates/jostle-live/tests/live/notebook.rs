@@ -1,0 +1,59 @@
+//! The page in the frame of a notebook.
+
+use std::path::Path;
+use std::time::Duration;
+
+use jostle_live::Engine;
+
+use crate::opened;
+
+/// The page of a notebook, in a frame like that of the widget; the engine answers by messages.
+#[test]
+fn a_page_in_a_frame_sends_its_requests_to_the_notebook() {
+    let inner = jostle_live::widget_page("paper");
+    let quoted = serde_json::to_string(&inner)
+        .unwrap()
+        .replace('<', "\\u003c");
+    let outer = format!(
+        "<!DOCTYPE html><title>notebook</title><body><script>window.asked = []; addEventListener('message', (event) => window.asked.push(JSON.parse(event.data.jostle))); const frame = document.createElement('iframe'); frame.setAttribute('sandbox', 'allow-scripts allow-downloads'); frame.style = 'width: 1200px; height: 820px'; frame.srcdoc = {quoted}; document.body.append(frame); window.tell = (text, binary) => frame.contentWindow.postMessage({{ answer: binary ? Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer : text }}, '*');</script></body>"
+    );
+    let Some(page) = opened::open_page(&outer, 1300, 900) else {
+        return;
+    };
+    let mut local = jostle_live::Local::new(Engine::open(Path::new("paper")).unwrap());
+    let tell = |answer: jostle_live::Answer| match answer {
+        jostle_live::Answer::Text(text) => page.value(&format!(
+            "window.tell({}, false)",
+            serde_json::to_string(&text).unwrap()
+        )),
+        jostle_live::Answer::Binary(bytes) => {
+            use base64::Engine as _;
+            let text = base64::engine::general_purpose::STANDARD.encode(bytes);
+            page.value(&format!("window.tell('{text}', true)"))
+        }
+    };
+    page.wait("window.asked[0]?.op === 'hello'");
+    tell(local.hello());
+    page.wait("window.asked[1]?.op === 'run'");
+    let request = page.text("JSON.stringify(window.asked[1])");
+    let watch = |_| std::ops::ControlFlow::Continue(());
+    tell(local.answer(&request, &watch).unwrap().unwrap());
+    // After the frame the page asks for its curve, so it has drawn the run.
+    page.wait("window.asked[2]?.op === 'curve'");
+    let request = page.text("JSON.stringify(window.asked[2])");
+    assert!(local.answer(&request, &watch).unwrap().is_none());
+    while let Some(answer) = local.more() {
+        tell(answer);
+    }
+    std::thread::sleep(Duration::from_millis(200));
+    page.glance("live-notebook");
+    // A value that Python sets.
+    local.set("gap[0].width", "30 mm").unwrap();
+    assert!(local.text().contains("width = \"30 mm\""));
+    let text = serde_json::json!({ "op": "model", "text": local.text() }).to_string();
+    tell(jostle_live::Answer::Text(text));
+    page.wait(
+        "window.asked.some((one) => one.op === 'run' && one.text.includes('width = \"30 mm\"'))",
+    );
+    page.assert_content();
+}

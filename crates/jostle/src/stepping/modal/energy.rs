@@ -1,0 +1,101 @@
+//! The energy balance of modal stepping (theory, Eq. E1): sums over steps that balance if every step is exact.
+
+use super::stepper::ModalStepper;
+use crate::history::Energy;
+use crate::simd;
+use crate::state::ContactPhase;
+use crate::stepping::energy::Imbalance;
+use crate::stepping::runner::RunState;
+
+/// Energies of all modes over a step \[J\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StepEnergy {
+    pub(super) damped: f64,
+    /// ∫ Σ Γ q̇ a_g dt, negative.
+    pub(super) input: f64,
+}
+
+/// Sums that must balance; every one is exact for loads that are parabolas over a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Audit {
+    pub(super) input: f64,
+    pub(super) damped: f64,
+    pub(super) contact: f64,
+    imbalance: Imbalance,
+}
+
+impl Audit {
+    /// The balance with these energies of the buildings.
+    pub(super) fn balance(&mut self, kinetic: f64, strain: f64) -> Energy {
+        self.imbalance.watch(Energy {
+            input: self.input,
+            kinetic,
+            strain,
+            damped: self.damped,
+            links: 0.0,
+            hysteretic: 0.0,
+            contact: self.contact,
+            worst_imbalance: 0.0,
+        })
+    }
+}
+
+impl ModalStepper<'_> {
+    /// What the ground put in and damping took; with closed contacts their work as well.
+    pub(super) fn step_energy(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+        was_closed: bool,
+    ) -> StepEnergy {
+        let table = &self.tables[slot];
+        let [p0, p1] = &self.p;
+        let of = [&self.q[0][..], &self.v[0], p0, p1, &self.bend];
+        let arch = self.reduced.arch();
+        table.area(arch, of, &mut self.scratch);
+        if was_closed {
+            table.moment(arch, of, &mut self.moment);
+        }
+        let end = [&self.q[1][..], &self.v[1]];
+        let damped = table.damped(self.reduced, of, end, [&self.scratch, &self.moment]);
+        let step = table.step;
+        let slope = (run.ground[1] - run.ground[0]) / step;
+        // ∫ a_g q̇ dt by parts.
+        let driven = |list: &[f64]| simd::dot(&self.reduced.participation, list);
+        let [before, after] = [0, 1].map(|time| run.ground[time] * driven(&self.q[time]));
+        let input = slope * driven(&self.scratch) - (after - before);
+        if was_closed {
+            self.contact_work(run, step);
+        }
+        StepEnergy { damped, input }
+    }
+
+    /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch` and ∫τq in `moment`.
+    fn contact_work(&mut self, run: &mut RunState<'_>, step: f64) {
+        for closed in &run.coupling.closed {
+            let index = closed.contact;
+            let ContactPhase::Closed(episode) = &mut run.phases[index] else {
+                continue;
+            };
+            let width = run.system.contacts[index].width;
+            let closing = self.reduced.closing_of_modes(index, &self.scratch);
+            let leaning = 2.0 * self.reduced.closing_of_modes(index, &self.moment) - closing;
+            let before = self.reduced.closing(index, &self.u[0]) - width;
+            let (first, last) = (episode.force, run.trials[index].force);
+            let bent = self.predicted[index].bend(first, last);
+            let work = last * run.trials[index].indentation
+                - first * before
+                - (last - first) * (closing / step - width)
+                - bent * leaning / step;
+            episode.work += work;
+            self.energy.contact += work;
+        }
+    }
+
+    /// The balance now.
+    pub(super) fn balance(&mut self) -> Energy {
+        let kinetic = 0.5 * simd::dot(&self.v[0], &self.v[0]);
+        let strain = 0.5 * simd::weighted_square(&self.reduced.stiffness, &self.q[0]);
+        self.energy.balance(kinetic, strain)
+    }
+}
