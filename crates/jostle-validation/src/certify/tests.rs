@@ -259,7 +259,15 @@ fn accelerations_at_corners_of_forces_meet_the_reference() {
 /// After a blow, accelerations must not oscillate from step to step.
 #[test]
 fn direct_accelerations_after_blows_meet_the_reference() {
-    assert_within(57, 20, Solver::Riccati, 1e-2);
+    let certified = certify(57, 20, &[(Solver::Riccati, 1e-2)]);
+    let run = &certified.runs[0];
+    let mut quantities = run.truth.quantities.iter().zip(&run.errors);
+    let error = quantities
+        .find(|(quantity, _)| quantity.kind == "acceleration" && quantity.name == "B2 floor 5")
+        .and_then(|(_, error)| *error)
+        .expect("compared");
+    // It was a third too large.
+    assert!(error <= 1e-2, "{error:e}");
 }
 
 #[test]
