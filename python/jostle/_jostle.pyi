@@ -10,6 +10,7 @@ from typing_extensions import CapsuleType
 
 __version__: str
 __all__ = [
+    "Live",
     "Model",
     "Motion",
     "Run",
@@ -20,6 +21,7 @@ __all__ = [
     "command_line",
     "contact_laws",
     "critical_gaps",
+    "live_page",
     "quantity",
     "run",
 ]
@@ -110,7 +112,7 @@ class Live:
     def set(self, path: str, typed: str) -> None: ...
 
 def live_page(name: str) -> str: ...
-
+@final
 class Model:
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Model: ...

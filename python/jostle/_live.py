@@ -14,10 +14,10 @@ from ._run import run
 try:
     import anywidget
     import traitlets
-except ImportError as error:
+except ImportError:
     raise ImportError(
         "model.live() needs the package anywidget; install it with: pip install \"jostle[live]\""
-    ) from error
+    ) from None
 
 if TYPE_CHECKING:
     from ._result import Result
@@ -87,7 +87,7 @@ class Values(MutableMapping[str, "str | None"]):
         return repr({path: value for path, value in self.items() if value is not None})
 
 
-class LiveWidget(anywidget.AnyWidget):
+class LiveWidget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
     """The live page of a model: :meth:`Model.live` makes it."""
 
     _esm = _SCRIPT
