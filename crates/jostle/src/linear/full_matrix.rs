@@ -17,6 +17,13 @@ impl FullMatrix {
         }
     }
 
+    /// Makes it a matrix of zeros, in the storage it has.
+    pub(crate) fn reset(&mut self, rows: usize, columns: usize) {
+        self.columns = columns;
+        self.entries.clear();
+        self.entries.resize(rows * columns, 0.0);
+    }
+
     pub(crate) fn rows(&self) -> usize {
         self.entries.len().checked_div(self.columns).unwrap_or(0)
     }
@@ -61,7 +68,7 @@ impl IndexMut<(usize, usize)> for FullMatrix {
 }
 
 /// P A = L U of a square matrix, L with a unit diagonal. Solutions of a singular matrix are not finite.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct PivotedLu {
     factors: FullMatrix,
     /// The row of A that each row of L U comes from.
@@ -69,9 +76,30 @@ pub(crate) struct PivotedLu {
 }
 
 impl PivotedLu {
-    pub(crate) fn new(mut matrix: FullMatrix) -> Self {
+    pub(crate) fn new(matrix: FullMatrix) -> Self {
+        let mut lu = Self {
+            factors: matrix,
+            source: Vec::new(),
+        };
+        lu.eliminate();
+        lu
+    }
+
+    /// Factorises the matrix that `fill` writes over n rows of zeros, in the storage at hand.
+    pub(crate) fn refactor(&mut self, n: usize, fill: impl FnOnce(&mut FullMatrix)) {
+        self.factors.reset(n, n);
+        fill(&mut self.factors);
+        self.eliminate();
+    }
+
+    fn eliminate(&mut self) {
+        let Self {
+            factors: matrix,
+            source,
+        } = self;
         let n = matrix.rows();
-        let mut source: Vec<usize> = (0..n).collect();
+        source.clear();
+        source.extend(0..n);
         for step in 0..n {
             let mut pivot = step;
             for row in step + 1..n {
@@ -95,24 +123,27 @@ impl PivotedLu {
                 }
             }
         }
-        Self {
-            factors: matrix,
-            source,
-        }
     }
 
     /// Solves A x = b.
     pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
-        let mut x: Vec<f64> = self.source.iter().map(|row| right[*row]).collect();
+        let mut x = Vec::with_capacity(right.len());
+        self.solve_into(right, &mut x);
+        x
+    }
+
+    /// Solves A x = b into a list.
+    pub(crate) fn solve_into(&self, right: &[f64], x: &mut Vec<f64>) {
+        x.clear();
+        x.extend(self.source.iter().map(|row| right[*row]));
         let sum = |row: &[f64], x: &[f64]| row.iter().zip(x).map(|(a, b)| a * b).sum::<f64>();
         for i in 0..x.len() {
-            x[i] -= sum(&self.factors.row(i)[..i], &x);
+            x[i] -= sum(&self.factors.row(i)[..i], x);
         }
         for i in (0..x.len()).rev() {
             let row = self.factors.row(i);
             x[i] = (x[i] - sum(&row[i + 1..], &x[i + 1..])) / row[i];
         }
-        x
     }
 }
 

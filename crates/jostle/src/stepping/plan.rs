@@ -80,6 +80,8 @@ const LONGEST_MODAL_STEP: f64 = 0.05;
 const MODAL_STEPS_PER_IMPACT: f64 = 36.0;
 /// Least steps per half cycle of a weak contact, relative to these.
 const MODAL_FEWEST_ADAPTED: f64 = 0.7;
+/// Shortest regular step with which modal stepping is faster than direct steps \[s\].
+const SHORTEST_FOR_LINKS: f64 = 2e-4;
 /// Finest division of a free-vibration step.
 const FINEST: u32 = 1 << 20;
 
@@ -347,7 +349,9 @@ fn solver_for(system: &System, analysis: &Analysis) -> Solver {
         let automatic = analysis.step.is_none() && analysis.contact_step.is_none();
         let mut buildings = system.buildings.iter();
         if buildings.any(|building| building.modal_damping.is_some())
-            || automatic && modal::refusals(system, analysis.integrator).is_empty()
+            || automatic
+                && modal::refusals(system, analysis.integrator).is_empty()
+                && resolves_links(system, analysis.tolerance)
         {
             Solver::Modal
         } else {
@@ -355,6 +359,11 @@ fn solver_for(system: &System, analysis: &Analysis) -> Solver {
         }
     };
     analysis.solver.unwrap_or_else(usual)
+}
+
+/// Whether modal stepping can afford the steps that links need: stiff ones are for direct steps, which need not resolve them.
+fn resolves_links(system: &System, tolerance: f64) -> bool {
+    modal::longest_step_of_links(system) * (tolerance / 1e-3).powf(0.25) > SHORTEST_FOR_LINKS
 }
 
 /// The unsupported feature of the solver.

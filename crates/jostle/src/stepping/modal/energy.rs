@@ -27,12 +27,22 @@ pub(super) struct Audit {
 impl Audit {
     /// The balance with these energies of the buildings.
     pub(super) fn balance(&mut self, kinetic: f64, strain: f64) -> Energy {
+        self.balance_with_links(kinetic, strain, [0.0; 2])
+    }
+
+    /// The same with what links have taken, and what damping that couples modes has \[J\].
+    fn balance_with_links(
+        &mut self,
+        kinetic: f64,
+        strain: f64,
+        [links, damped]: [f64; 2],
+    ) -> Energy {
         self.imbalance.watch(Energy {
             input: self.input,
             kinetic,
             strain,
-            damped: self.damped,
-            links: 0.0,
+            damped: self.damped + damped + links,
+            links,
             hysteretic: 0.0,
             contact: self.contact,
             worst_imbalance: 0.0,
@@ -53,7 +63,8 @@ impl ModalStepper<'_> {
         let of = [&self.q[0][..], &self.v[0], p0, p1, &self.bend];
         let arch = self.reduced.arch();
         table.area(arch, of, &mut self.scratch);
-        if was_closed {
+        let linked = !self.reduced.links.is_empty();
+        if was_closed || linked {
             table.moment(arch, of, &mut self.moment);
         }
         let end = [&self.q[1][..], &self.v[1]];
@@ -66,6 +77,9 @@ impl ModalStepper<'_> {
         let input = slope * driven(&self.scratch) - (after - before);
         if was_closed {
             self.contact_work(run, step);
+        }
+        if linked {
+            self.work_of_links(step);
         }
         StepEnergy { damped, input }
     }
@@ -96,6 +110,12 @@ impl ModalStepper<'_> {
     pub(super) fn balance(&mut self) -> Energy {
         let kinetic = 0.5 * simd::dot(&self.v[0], &self.v[0]);
         let strain = 0.5 * simd::weighted_square(&self.reduced.stiffness, &self.q[0]);
-        self.energy.balance(kinetic, strain)
+        if self.reduced.links.is_empty() {
+            return self.energy.balance(kinetic, strain);
+        }
+        let stored = self.strain_of_links();
+        let taken = [self.links.work - stored, self.links.damped];
+        self.energy
+            .balance_with_links(kinetic, strain + stored, taken)
     }
 }

@@ -122,7 +122,7 @@ impl Reached {
             let (known, missed) = (&forces[own_forces.clone()], &self.forces_missed[own_forces]);
             let storeys = system.buildings[index].storeys.len();
             let (u, a) = (&watched.u[places.clone()], &watched.acceleration[places]);
-            let mut below = (0.0, 0.0);
+            let mut below = own.foot.map_or((0.0, 0.0), |foot| (u[foot], slow[foot]));
             let shear = own.shear - own.watched.start;
             for (at, widened) in self.floors[index].iter_mut().enumerate() {
                 let height = system.buildings[index].floors[at].storey_height;
@@ -155,7 +155,7 @@ impl Reached {
             let floors = &system.buildings[index].floors;
             let share = |mode: usize| {
                 let missed = |place: usize| own.of_blocks(&own.missed, place, mode);
-                let (mut most, mut below) = (0.0_f64, 0.0);
+                let (mut most, mut below) = (0.0_f64, own.foot.map_or(0.0, missed));
                 for (place, floor) in floors.iter().enumerate() {
                     let missed = missed(place);
                     let drift = (missed - below) / floor.storey_height;
@@ -236,10 +236,9 @@ impl Estimate {
             let mut between = [0.0_f64; KINDS];
             for (place, floor) in building.floors.iter().enumerate() {
                 let drift = |mode: usize| {
-                    let below = if place == 0 {
-                        0.0
-                    } else {
-                        shape(place - 1, mode)
+                    let below = match place.checked_sub(1).or(own.foot) {
+                        Some(below) => shape(below, mode),
+                        None => 0.0,
                     };
                     (shape(place, mode) - below) / floor.storey_height
                 };

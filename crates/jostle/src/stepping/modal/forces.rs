@@ -131,9 +131,13 @@ impl ModalStepper<'_> {
             let answer = self.tables[slot].answer(closed.contact);
             let [modes, watched] = [&push.modes, &push.watched];
             let [q, v] = &answer.modal;
+            let [p1, bends] = answer.loads(push);
+            for (bend, by_force) in self.links.bends.iter_mut().zip(&answer.links) {
+                *bend += closed.force * by_force[1];
+            }
             reduced.arch().dispatch(AddUp {
                 factor: closed.force,
-                of: [q, v, &push.loads, &push.loads],
+                of: [q, v, p1, bends],
                 to: [
                     &mut self.q[1][modes.clone()],
                     &mut self.v[1][modes.clone()],

@@ -169,7 +169,10 @@ impl ModalStepper<'_> {
     /// is to be taken by itself.
     pub(super) fn take_free(&mut self, run: &mut RunState<'_>) -> bool {
         let quiet = |phase: &ContactPhase| *phase == ContactPhase::Open;
-        if !run.phases.iter().all(quiet) || run.contact_division.iter().any(|d| *d > 1) {
+        if !self.reduced.links.is_empty()
+            || !run.phases.iter().all(quiet)
+            || run.contact_division.iter().any(|d| *d > 1)
+        {
             return false;
         }
         let planned = self.plan_ahead(run);
@@ -349,7 +352,7 @@ impl ModalStepper<'_> {
         }
         if self.peaks.is_due(run.time, false) {
             self.peaks
-                .record(run.system, self.reduced, instant, now, &energy);
+                .record(run.system, self.reduced, instant, now, &[], &energy);
         }
         run.work.steps += 1;
         run.work.solves += 1;

@@ -12,6 +12,7 @@ mod energy;
 mod estimate;
 mod forces;
 mod free_steps;
+mod links;
 mod members;
 mod mode_kernels;
 mod peaks;
@@ -35,6 +36,7 @@ use crate::model::Integrator;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::system::System;
+pub(super) use links::longest_step as longest_step_of_links;
 use reduced::{Rates, Reduced};
 use stepper::{Refinement, finish, runner};
 
@@ -42,19 +44,12 @@ use stepper::{Refinement, finish, runner};
 #[must_use]
 pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
     let mut reasons = Vec::new();
-    if !system.links.is_empty() {
-        reasons.push("links join the buildings, so that none has modes of its own".to_owned());
-    }
     for building in &system.buildings {
         let name = &building.name;
         if !building.equations.springs.is_empty() {
             reasons.push(format!("\"{name}\" can yield: leave out its hinges"));
         }
-        if !building.equations.plain {
-            reasons.push(format!(
-                "\"{name}\" leans on P-Delta or stands on springs, which Rayleigh damping does not act on: its modes do not damp alone"
-            ));
-        }
+        reasons.extend(links::refusal(building));
         if !building.rest.displacement.is_empty() {
             reasons.push(format!(
                 "\"{name}\" starts under its weight: leave out gravity"

@@ -307,9 +307,15 @@ impl Peaks {
             if !self.seen[blocks].contains(&true) {
                 continue;
             }
+            let foot = |of: Watched<'_>| {
+                own.foot.map_or([0.0; 2], |foot| {
+                    let at = own.watched.start + foot;
+                    [of.u[at], of.rate[at]]
+                })
+            };
             let mut below = Ends {
-                then: [0.0; 2],
-                now: [0.0; 2],
+                then: foot(then),
+                now: foot(now),
             };
             let floors = self.floors[index].iter_mut().zip(&building.floors);
             for (at, (peaks, floor)) in (own.watched.start..).zip(floors) {
@@ -349,8 +355,10 @@ impl Peaks {
                         peaks.total_acceleration,
                     );
                 }
-                self.limits.high[at] = peaks.displacement_max.value;
-                self.limits.low[at] = peaks.displacement_min.value;
+                if at > own.watched.start || own.foot.is_none() {
+                    self.limits.high[at] = peaks.displacement_max.value;
+                    self.limits.low[at] = peaks.displacement_min.value;
+                }
                 self.limits.acceleration[at] = NEAR_GREATEST * peaks.total_acceleration;
                 if at > own.watched.start {
                     // Slightly less, because the product is rounded.
@@ -374,13 +382,14 @@ impl Peaks {
         self.history.is_some() && (wanted || time >= self.due)
     }
 
-    /// Adds a row: the instant and monitored quantities.
+    /// Adds a row: the instant, monitored quantities, and forces of links.
     pub(super) fn record(
         &mut self,
         system: &System,
         reduced: &Reduced,
         now: Instant<'_>,
         watched: Watched<'_>,
+        links: &[f64],
         energy: &Energy,
     ) {
         let Some(history) = &mut self.history else {
@@ -413,6 +422,7 @@ impl Peaks {
             }
         }
         phases.iter().for_each(|phase| put(phase.force()));
+        links.iter().for_each(|force| put(*force));
         [
             energy.input,
             energy.kinetic,
@@ -434,7 +444,7 @@ const BEYOND: f64 = 0.15;
 
 impl Limits {
     /// No peaks so far; other contact points have no peaks, and the drift of the lowest storey is the displacement
-    /// of its floor.
+    /// of its floor. Where the base gives way as well, that floor is always looked at.
     fn none(reduced: &Reduced) -> Self {
         let watched = reduced.watched();
         let mut limits = Self {

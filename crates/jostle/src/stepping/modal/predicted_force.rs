@@ -87,8 +87,11 @@ impl ModalStepper<'_> {
         self.open_steps[index] = 0;
         let dissipated = before - self.v[0].iter().map(|v| 0.5 * v * v).sum::<f64>();
         self.energy.contact += dissipated;
-        let watched = [&mut self.u[0][..], &mut self.rate[0][..]];
+        let [rate, before] = &mut self.rate;
+        before.copy_from_slice(rate);
+        let watched = [&mut self.u[0][..], &mut rate[..]];
         self.reduced.show([&self.q[0], &self.v[0]], watched);
+        self.jump_links();
         Jump {
             impulse,
             dissipated,

@@ -8,6 +8,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::basis::{self, Basis, Demand};
 use super::damped::{Damped, Rules};
 use super::defects::Defects;
+use super::links::{LinkTable, ModalLink, own_dashpots};
 use super::members::{FormRows, MemberRows};
 use super::mode_kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
 use super::response::{INPUTS, PRODUCTS, Responses};
@@ -33,6 +34,8 @@ pub(super) struct Reduced {
     pub(super) ports: Vec<[Option<Shown>; 2]>,
     /// What a force at every contact makes of modal loads.
     pub(super) unit_forces: Vec<UnitForce>,
+    /// Links of the system, then damping of buildings that couples their modes.
+    pub(super) links: Vec<ModalLink>,
 }
 
 /// A contact point: its building, and its index among all monitored displacements.
@@ -52,8 +55,9 @@ pub(super) struct ReducedBuilding {
     /// Shears of its storeys from the ground up, then their overturning moments, among all \[N, N·m\], and padding
     /// to a whole block.
     pub(super) forces: Range<usize>,
-    /// Number of floors, and the index of the base shear.
+    /// Number of floors, the place of the foot where the base gives way sideways, and the index of the base shear.
     pub(super) floors: usize,
+    pub(super) foot: Option<usize>,
     pub(super) shear: usize,
     /// Shapes at a block of monitored displacements, mode by mode; padding rows are zero \[kg^−½\].
     pub(super) blocks: Vec<[f64; ROWS]>,
@@ -184,6 +188,7 @@ impl Reduced {
             arch: Arch::new(),
             ports: vec![[None; 2]; system.contacts.len()],
             unit_forces: Vec::new(),
+            links: Vec::new(),
         };
         for (index, basis) in bases.into_iter().enumerate() {
             let added = reduced.add_building(system, index, basis, work);
@@ -192,11 +197,60 @@ impl Reduced {
         if reduced.modes() < FEW_MODES {
             reduced.arch = Arch::Scalar;
         }
+        reduced.add_links(system);
         let contacts = 0..system.contacts.len();
         reduced.unit_forces = contacts
             .map(|contact| UnitForce::of(&reduced, contact))
             .collect();
         Ok(reduced)
+    }
+
+    fn add_links(&mut self, system: &System) {
+        let shown = |building: usize, dof: usize| {
+            let Watched { places, .. } = Watched::of(system, building);
+            let place = places.iter().position(|own| *own == dof)?;
+            Some(Shown {
+                building,
+                watched: self.buildings[building].watched.start + place,
+            })
+        };
+        let mut links = Vec::new();
+        for (index, link) in system.links.iter().enumerate() {
+            let ports = link.ports.0.map(|port| {
+                let port = port?;
+                shown(
+                    port.building,
+                    port.dof - system.buildings[port.building].offset,
+                )
+            });
+            let factors = [link.stiffness, link.damping];
+            links.push(ModalLink::new(self, Some(index), ports, factors));
+        }
+        for (index, building) in system.buildings.iter().enumerate() {
+            for (dofs, damping) in own_dashpots(building) {
+                let ports = dofs.map(|dof| shown(index, dof?));
+                links.push(ModalLink::new(self, None, ports, [0.0, damping]));
+            }
+        }
+        self.links = links;
+    }
+
+    /// Buildings that links join with one, itself included; neighbours in the row.
+    pub(super) fn linked_with(&self, building: usize) -> Range<usize> {
+        let mut group = building..building + 1;
+        loop {
+            let before = group.clone();
+            for link in &self.links {
+                if link.buildings().any(|own| group.contains(&own)) {
+                    for own in link.buildings() {
+                        group = group.start.min(own)..group.end.max(own + 1);
+                    }
+                }
+            }
+            if group == before {
+                return group;
+            }
+        }
     }
 
     fn add_building(
@@ -295,6 +349,7 @@ impl Reduced {
             forces_off,
             members: member_rows,
             floors: building.floors.len(),
+            foot: building.foot.map(|_| building.floors.len()),
             shear: watching + shown.len() - 1,
             blocks,
             missed,
@@ -422,8 +477,8 @@ impl Reduced {
     }
 }
 
-/// Monitored degrees of freedom of a building: its floors from the ground up, then other contact points; and those
-/// of contacts.
+/// Monitored degrees of freedom of a building: its floors from the ground up, then other points of contacts, links and
+/// dashpots; and those of contacts, links and dashpots.
 struct Watched {
     places: Vec<usize>,
     ports: Vec<usize>,
@@ -434,10 +489,15 @@ impl Watched {
         let building = &system.buildings[index];
         let floors = building.floors.iter();
         let mut places: Vec<usize> = floors.map(|floor| floor.dof - building.offset).collect();
+        places.extend(building.foot.map(|dof| dof - building.offset));
         let mut ports = Vec::new();
-        let all = system.contacts.iter().flat_map(|contact| contact.ports.0);
-        for port in all.flatten().filter(|port| port.building == index) {
-            let dof = port.dof - building.offset;
+        let contacts = system.contacts.iter().map(|contact| contact.ports.0);
+        let links = system.links.iter().map(|link| link.ports.0);
+        let all = contacts.chain(links).flatten().flatten();
+        let joined = all.filter(|port| port.building == index);
+        let damped = own_dashpots(building).into_iter();
+        let damped = damped.flat_map(|(dofs, _)| dofs).flatten();
+        for dof in joined.map(|port| port.dof - building.offset).chain(damped) {
             for list in [&mut places, &mut ports] {
                 if !list.contains(&dof) {
                     list.push(dof);
@@ -543,8 +603,9 @@ pub(super) struct Table {
     moment: [Vec<f64>; INPUTS],
     /// Of the products of these in the energy lost by damping: upper triangle row by row; empty without rules.
     pub(super) damped: [Vec<f64>; PRODUCTS],
-    /// What unit end forces at the contacts do.
+    /// What unit end forces at the contacts do, and those of links.
     answers: Vec<UnitResponse>,
+    pub(super) links: LinkTable,
 }
 
 impl Table {
@@ -591,6 +652,7 @@ impl Table {
                 }
             }
         }
+        self.set_links(reduced);
     }
 
     /// q₁ and q̇₁ of all modes.
@@ -644,7 +706,7 @@ impl Table {
             let [.., line, bend] = factors;
             [&line[..], bend]
         });
-        self.answers[contact].find(contact, ends, reduced);
+        self.answers[contact].find(contact, ends, &self.links, reduced);
     }
 
     /// What a unit end force of a contact does, once found.

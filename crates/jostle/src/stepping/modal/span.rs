@@ -76,6 +76,9 @@ impl<'a> Span<'a> {
         vector.iter_mut().for_each(|value| *value /= rest);
         let mut stiff = vec![0.0; vector.len()];
         equations.stiffness.multiply_add(&vector, &mut stiff);
+        if !equations.plain {
+            equations.undamped.multiply_add(&vector, &mut stiff);
+        }
         self.driven.push(simd::dot(&equations.driven_mass, &vector));
         self.vectors.push(vector);
         let mut row = vec![0.0; self.vectors.len()];

@@ -8,6 +8,7 @@ use super::energy::Audit;
 use super::estimate::{Estimate, Reached};
 use super::forces::ForceEquations;
 use super::free_steps::FreeSteps;
+use super::links::{LinkMotion, longest_step};
 use super::members::Instant;
 use super::peaks::{Peaks, Taken, Watched};
 use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
@@ -63,6 +64,7 @@ pub(super) struct ModalStepper<'a> {
     pub(super) equations: ForceEquations,
     /// Forces of closed contacts over the tried step as they could be predicted.
     pub(super) predicted: Vec<PredictedForce>,
+    pub(super) links: LinkMotion,
     pub(super) energy: Audit,
     pub(super) peaks: Peaks,
     pub(super) reached: Reached,
@@ -110,6 +112,16 @@ fn rows_per_step(plan: &Plan, settings: Settings) -> u32 {
     })
 }
 
+/// Into how many parts free steps are divided so that the forces of links follow a cubic over each.
+fn division_for_links(system: &System, plan: &Plan) -> u32 {
+    let longest = longest_step(system) * (plan.tolerance() / 1e-3).powf(0.25);
+    let parts = (plan.step / longest - 1e-9).ceil().clamp(1.0, MOST_PARTS);
+    (parts as u32).next_power_of_two()
+}
+
+/// Most parts of a free step.
+const MOST_PARTS: f64 = 65536.0;
+
 /// A run in modal coordinates, about to begin.
 pub(super) fn runner<'a>(
     system: &'a System,
@@ -141,6 +153,7 @@ impl<'a> ModalStepper<'a> {
     fn new(run: &RunState<'a>, settings: Settings, reduced: &'a Reduced, division: u32) -> Self {
         let (system, motion, plan) = (run.system, run.motion, run.plan);
         let ground = run.ground[0];
+        let division = division * division_for_links(system, plan);
         let (modes, watched) = (reduced.modes(), reduced.watched());
         let pair = |n: usize| [vec![0.0; n], vec![0.0; n]];
         let mut p = pair(modes);
@@ -179,6 +192,7 @@ impl<'a> ModalStepper<'a> {
             open_steps: vec![0; contacts],
             equations: ForceEquations::default(),
             predicted: vec![PredictedForce::default(); contacts],
+            links: LinkMotion::new(system, reduced),
             energy: Audit::default(),
             peaks,
             reached: Reached::new(reduced),
@@ -196,7 +210,8 @@ impl<'a> ModalStepper<'a> {
         let tolerance = run.plan.tolerance();
         let struck = !run.impacts.is_empty();
         let (reduced, system) = (self.reduced, run.system);
-        let estimate = Estimate::of(reduced, system, &self.reached, &self.peaks, struck);
+        let mut estimate = Estimate::of(reduced, system, &self.reached, &self.peaks, struck);
+        estimate.between = estimate.between.hypot(self.links.error());
         let lacking = if estimate.both() > tolerance && estimate.shapes > LEAST_SHARE * tolerance {
             self.reached
                 .lacking(reduced, system, &self.peaks, tolerance)
@@ -235,7 +250,7 @@ impl<'a> ModalStepper<'a> {
             history: self.peaks.into_history(),
             spring_events: Vec::new(),
             springs: Vec::new(),
-            links: Vec::new(),
+            links: self.links.totals,
             energy,
             work: run.work,
             free_step: Some(step_of(self.least_division)),
@@ -308,7 +323,8 @@ impl<'a> ModalStepper<'a> {
 
     /// Sets the trials to the end of the tried step.
     pub(super) fn read_trials(&self, run: &mut RunState<'_>) {
-        for (index, trial) in run.trials.iter_mut().enumerate() {
+        let contacts = run.system.contacts.len();
+        for (index, trial) in run.trials[..contacts].iter_mut().enumerate() {
             let width = run.system.contacts[index].width;
             trial.indentation = self.reduced.closing(index, &self.u[1]) - width;
             trial.rate = self.reduced.closing(index, &self.rate[1]);
@@ -395,6 +411,7 @@ impl<'a> ModalStepper<'a> {
     fn start_anew(&mut self, run: &RunState<'_>) {
         self.accelerations();
         self.jerks();
+        self.add_link_slopes();
         for index in 0..run.phases.len() {
             let slope = self.slope_from_here(run, index);
             if slope != 0.0 {
@@ -425,8 +442,14 @@ impl<'a> ModalStepper<'a> {
                 phases: &run.phases,
                 smooth: true,
             };
-            self.peaks
-                .record(run.system, self.reduced, instant, watched, energy);
+            self.peaks.record(
+                run.system,
+                self.reduced,
+                instant,
+                watched,
+                &self.links.forces,
+                energy,
+            );
         }
     }
 }
@@ -490,6 +513,9 @@ impl Stepper for ModalStepper<'_> {
         }
         self.predict_forces(run, self.tables[slot].step);
         self.advance_modes(slot);
+        if !self.reduced.links.is_empty() {
+            self.press_links(slot);
+        }
         run.work.solves += 1;
         self.follow(run);
         if run
@@ -552,6 +578,7 @@ impl Stepper for ModalStepper<'_> {
         let free = (slot != 0 && !run.in_contact()).then_some(self.tables[slot].step);
         self.checks_errors = self.reached.widen(&self.scratch, free);
         self.jerks();
+        self.add_link_slopes();
     }
 
     fn end_slope(
@@ -647,6 +674,9 @@ impl Stepper for ModalStepper<'_> {
         was_closed: bool,
     ) -> Result<(), StepError> {
         self.look(run, ground, start, step);
+        if !self.reduced.links.is_empty() {
+            self.follow_links(start, step);
+        }
         if self.checks_errors {
             let watched = Watched {
                 u: &self.u[0],

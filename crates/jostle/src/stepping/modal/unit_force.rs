@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::links::{LinkTable, closings};
 use super::reduced::{Reduced, Shown};
 
 /// A force that pushes the faces of a contact apart, as the modes of the buildings on both sides feel it.
@@ -15,11 +16,34 @@ pub(super) struct UnitForce {
 }
 
 impl UnitForce {
+    /// Of a contact, over all buildings that links join with its own.
     pub(super) fn of(reduced: &Reduced, contact: usize) -> Self {
-        let [left, right] = reduced.ports[contact];
+        let ports = reduced.ports[contact];
+        let mut linked = 0..0;
+        for port in ports.into_iter().flatten() {
+            let group = reduced.linked_with(port.building);
+            linked = if linked.is_empty() {
+                group
+            } else {
+                linked.start.min(group.start)..linked.end.max(group.end)
+            };
+        }
+        Self::between(reduced, ports, linked)
+    }
+
+    /// Between two monitored points, over at least these buildings.
+    pub(super) fn between(
+        reduced: &Reduced,
+        [left, right]: [Option<Shown>; 2],
+        at_least: Range<usize>,
+    ) -> Self {
         let sides = [left.map(|port| (port, -1.0)), right.map(|port| (port, 1.0))];
         let sides = || sides.into_iter().flatten();
-        let touched = || sides().map(|(port, _)| port.building);
+        let touched = || {
+            sides()
+                .map(|(port, _)| port.building)
+                .chain(at_least.clone())
+        };
         let first = touched().min().unwrap_or(0);
         let buildings = first..touched().max().map_or(first, |last| last + 1);
         let joined = &reduced.buildings[buildings.clone()];
@@ -36,7 +60,7 @@ impl UnitForce {
                 .iter_mut()
                 .enumerate()
             {
-                *load = sign * reduced.shape(port, mode);
+                *load += sign * reduced.shape(port, mode);
             }
         }
         Self {
@@ -56,6 +80,19 @@ pub(super) struct UnitResponse {
     pub(super) modal: [Vec<f64>; 2],
     /// Monitored displacements and velocities there \[m/N, m/(N s)\].
     pub(super) watched: [Vec<f64>; 2],
+    /// What links do then: force at the end and bend of every link per unit force, and the end values and bends of modal
+    /// loads of the contact and the links together; empty without links.
+    pub(super) links: Vec<[f64; 2]>,
+    with_links: [Vec<f64>; 2],
+}
+
+impl UnitForce {
+    /// Adds the modal loads of a force to a list of all modes.
+    pub(super) fn add(&self, force: f64, loads: &mut [f64]) {
+        for (value, load) in loads[self.modes.clone()].iter_mut().zip(&self.loads) {
+            *value += force * load;
+        }
+    }
 }
 
 impl UnitResponse {
@@ -66,7 +103,13 @@ impl UnitResponse {
 
     /// Computes it, if necessary, from the responses of displacements and velocities to linear loads and to
     /// curvature terms.
-    pub(super) fn find(&mut self, contact: usize, ends: [[&[f64]; 2]; 2], reduced: &Reduced) {
+    pub(super) fn find(
+        &mut self,
+        contact: usize,
+        ends: [[&[f64]; 2]; 2],
+        links: &LinkTable,
+        reduced: &Reduced,
+    ) {
         if self.known {
             return;
         }
@@ -78,11 +121,52 @@ impl UnitResponse {
             list.clear();
             list.extend(factors.map(|((line, bend), load)| (line + bend) * load));
         }
+        if !reduced.links.is_empty() {
+            self.add_links(contact, links, reduced);
+        }
         let [u, rate] = &mut self.watched;
         u.resize(push.watched.len(), 0.0);
         rate.resize(push.watched.len(), 0.0);
         let [q, v] = &self.modal;
         reduced.show_of(push.buildings.clone(), [q, v], [u, rate]);
+    }
+
+    /// Adds the answer of all links to that of the modes.
+    fn add_links(&mut self, contact: usize, table: &LinkTable, reduced: &Reduced) {
+        let push = &reduced.unit_forces[contact];
+        let [q, v] = &mut self.modal;
+        let mut right = Vec::with_capacity(2 * reduced.links.len());
+        for link in &reduced.links {
+            let end = closings(reduced, link, [q, v], Some(&push.loads), &push.modes);
+            right.extend(link.unknowns(end, table.step()));
+        }
+        let mut unknowns = Vec::with_capacity(right.len());
+        table.solve(&right, &mut unknowns);
+        for list in &mut self.with_links {
+            list.clone_from(&push.loads);
+        }
+        let [p1, bends] = &mut self.with_links;
+        self.links.clear();
+        for (index, link) in reduced.links.iter().enumerate() {
+            let found = [unknowns[2 * index], unknowns[2 * index + 1]];
+            self.links.push(found);
+            if link
+                .buildings()
+                .any(|building| push.buildings.contains(&building))
+            {
+                let lists = [&mut q[..], &mut v[..], &mut p1[..], &mut bends[..]];
+                table.add(reduced, index, found, push.modes.start, lists);
+            }
+        }
+    }
+
+    /// End values and bends of modal loads.
+    pub(super) fn loads<'a>(&'a self, push: &'a UnitForce) -> [&'a [f64]; 2] {
+        if self.links.is_empty() {
+            [&push.loads, &push.loads]
+        } else {
+            self.with_links.each_ref().map(|list| &list[..])
+        }
     }
 
     /// Opening and opening rate of a contact due to the force at contact `from` \[m/N, m/(N s)\].
