@@ -73,13 +73,15 @@ pub(crate) struct PivotedLu {
     factors: FullMatrix,
     /// The row of A that each row of L U comes from.
     source: Vec<usize>,
+    /// Columns of every row of L U, outside of which it is zero.
+    envelope: Vec<[usize; 2]>,
 }
 
 impl PivotedLu {
     pub(crate) fn new(matrix: FullMatrix) -> Self {
         let mut lu = Self {
             factors: matrix,
-            source: Vec::new(),
+            ..Self::default()
         };
         lu.eliminate();
         lu
@@ -96,6 +98,7 @@ impl PivotedLu {
         let Self {
             factors: matrix,
             source,
+            envelope,
         } = self;
         let n = matrix.rows();
         source.clear();
@@ -115,14 +118,27 @@ impl PivotedLu {
             }
             let (done, below) = matrix.entries.split_at_mut((step + 1) * n);
             let top = &done[step * n + step..];
+            let end = top.len() - top.iter().rev().take_while(|value| **value == 0.0).count();
             for row in below.chunks_exact_mut(n) {
+                if row[step] == 0.0 {
+                    continue;
+                }
                 let factor = row[step] / top[0];
                 row[step] = factor;
-                for (value, above) in row[step + 1..].iter_mut().zip(&top[1..]) {
+                let above = &top[1.min(end)..end];
+                for (value, above) in row[step + 1..].iter_mut().zip(above) {
                     *value -= factor * above;
                 }
             }
         }
+        envelope.clear();
+        envelope.extend((0..n).map(|index| {
+            let row = matrix.row(index);
+            let filled = |value: &f64| *value != 0.0;
+            let first = row.iter().position(filled).unwrap_or(index);
+            let last = row.iter().rposition(filled).unwrap_or(index);
+            [first.min(index), last.max(index) + 1]
+        }));
     }
 
     /// Solves A x = b.
@@ -138,10 +154,11 @@ impl PivotedLu {
         x.extend(self.source.iter().map(|row| right[*row]));
         let sum = |row: &[f64], x: &[f64]| row.iter().zip(x).map(|(a, b)| a * b).sum::<f64>();
         for i in 0..x.len() {
-            x[i] -= sum(&self.factors.row(i)[..i], x);
+            let first = self.envelope[i][0];
+            x[i] -= sum(&self.factors.row(i)[first..i], &x[first..]);
         }
         for i in (0..x.len()).rev() {
-            let row = self.factors.row(i);
+            let row = &self.factors.row(i)[..self.envelope[i][1]];
             x[i] = (x[i] - sum(&row[i + 1..], &x[i + 1..])) / row[i];
         }
     }

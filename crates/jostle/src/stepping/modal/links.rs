@@ -74,8 +74,8 @@ impl ModalLink {
 }
 
 fn overlap(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
-    let start = a.start.max(b.start);
-    start..a.end.min(b.end).max(start)
+    let (start, end) = (a.start.max(b.start), a.end.min(b.end));
+    if start < end { start..end } else { 0..0 }
 }
 
 /// A range of all modes in a list that begins with the mode `first`.
