@@ -4,6 +4,7 @@
 //! field by field; what it does a little differently is said in the head of the script and in
 //! [`Exported::remarks`].
 
+pub mod matrices;
 pub mod openseespy;
 
 use jostle::{GroundMotion, Model, System};

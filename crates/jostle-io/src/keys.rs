@@ -19,6 +19,12 @@ pub(crate) enum Section {
     Frame,
     /// Further keys of `kind = "shear"`.
     Shear,
+    /// Further keys of `kind = "given"`.
+    Given,
+    /// Files of its matrices.
+    Matrices,
+    /// A floor of it.
+    Port,
     /// Cross-section of a column.
     Column,
     /// Cross-section of a beam.
@@ -116,6 +122,12 @@ pub(crate) enum Kind {
     PerContact(Dimension),
     /// A grade, or a strength.
     GradeOr(&'static [&'static str]),
+    /// A table of tables with names of their own.
+    Named(Section),
+    /// A list of lists of numbers.
+    NumberLists,
+    /// The name of a file, or its numbers.
+    TextOrNumbers,
     /// Any value that the varied key of the model file accepts.
     Any,
 }
@@ -147,7 +159,10 @@ pub(crate) const SAMPLINGS: &[&str] = &["latin-hypercube", "sobol", "random"];
 pub(crate) const DISTRIBUTIONS: &[&str] = &["uniform", "normal", "lognormal"];
 pub(crate) const SPACINGS: &[&str] = &["linear", "log"];
 pub(crate) const FRAGILITY_METHODS: &[&str] = &["stripes", "cloud", "modified-cloud"];
-pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear"];
+pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear", "given"];
+/// Units of force and length of given matrices.
+pub(crate) const MATRIX_UNITS: &[&str] =
+    &["N, m", "kN, m", "N, mm", "kN, mm", "kip, ft", "kip, in"];
 /// Spellings of the contact laws.
 pub const LAW_NAMES: [&str; LawKind::NAMES.len()] = LawKind::NAMES;
 pub(crate) const LAWS: &[&str] = &LAW_NAMES;
@@ -244,7 +259,7 @@ use Section as S;
 pub(crate) const KEYS: &[Key] = &[
     default(S::Root, "title", Text, "\"Untitled\"", "Printed on summaries and reports."),
     optional(S::Root, "motion", Kind::Table(S::Motion), "The ground motion."),
-    required(S::Root, "building", Tables(&[S::Building, S::Frame, S::Shear]), "The buildings, from left to right."),
+    required(S::Root, "building", Tables(&[S::Building, S::Frame, S::Shear, S::Given]), "The buildings, from left to right."),
     optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps between neighbours, and between the ends of the row and walls there."),
     optional(S::Root, "link", Tables(&[S::Link]), "Springs and dampers that join neighbours."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
@@ -287,7 +302,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Spectrum, "factor", Quantity(D::Dimensionless), "1", "Factor on the spectrum."),
 
     default(S::Building, "name", Text, "\"B1\", \"B2\", …", "Name of the building, used by gaps and links."),
-    default(S::Building, "kind", Choice(BUILDING_KINDS), "\"frame\"", "Frame of beams and columns, or shear building with storey springs."),
+    default(S::Building, "kind", Choice(BUILDING_KINDS), "\"frame\"", "Frame of beams and columns, shear building with storey springs, or matrices of another program."),
     optional(S::Building, "storeys", Count, "Number of storeys; not needed with a list per storey."),
     optional(S::Building, "floors", Count, "The same as storeys."),
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings."),
@@ -317,6 +332,22 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::Shear, "mass", PerStorey(D::Mass), "Floor masses from the ground up. A weight is converted."),
     required(S::Shear, "stiffness", PerStorey(D::Stiffness), "Storey stiffnesses from the ground up."),
     optional(S::Shear, "hinges", Kind::Table(S::StoreyHinges), "Cracking and yield of the storeys; without it they are elastic."),
+
+    optional(S::Given, "matrices", TextOrTable(S::Matrices), "NumPy archive (.npz) with the arrays K and M, or a table of Matrix Market files, relative to this file. C is the damping matrix, r the displacements when the ground moves by 1, h their heights."),
+    default(S::Given, "units", Choice(MATRIX_UNITS), "\"N, m\"", "Force and length of the matrices; masses are force × s² / length. With mm, ft or in all displacements must be lengths."),
+    optional(S::Given, "ports", Kind::Named(S::Port), "Floors by name, such as `{ \"1\" = { dof = 1, height = \"3 m\" } }`; they can be hit, linked and reported."),
+    optional(S::Given, "mass", PerStorey(D::Mass), "Floor masses from the ground up, of a building given by its modes. A weight is converted."),
+    optional(S::Given, "periods", Quantities(D::Time), "Periods of the modes, of a building given by them."),
+    optional(S::Given, "shapes", Kind::NumberLists, "Displacements of all floors in every mode, from the ground up, of any scale."),
+    default(S::Given, "remainder_period", Quantity(D::Time), "a third of the last period", "Period of all that the modes leave out."),
+
+    optional(S::Matrices, "stiffness", Kind::TextOrNumbers, "Stiffness matrix K: symmetric, positive definite."),
+    optional(S::Matrices, "mass", Kind::TextOrNumbers, "Mass matrix M: diagonal, as a matrix or as a list."),
+    optional(S::Matrices, "damping", Kind::TextOrNumbers, "Damping matrix C: symmetric; takes the place of damping."),
+    optional(S::Matrices, "influence", Kind::TextOrNumbers, "r: 1 for displacements that move with the ground, 0 for rotations and vertical ones; not needed if all are floors."),
+    optional(S::Matrices, "heights", Kind::TextOrNumbers, "h: height of every displacement above the base; not needed if only floors carry mass that moves with the ground."),
+    required(S::Port, "dof", Count, "Row of its horizontal displacement in the matrices, counted from 1."),
+    required(S::Port, "height", Quantity(D::Length), "Height above the base."),
 
     optional(S::Column, "width", Quantity(D::Length), "Width, across the direction of bending."),
     optional(S::Column, "depth", Quantity(D::Length), "Depth, in the direction of bending."),

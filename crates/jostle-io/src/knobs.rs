@@ -82,13 +82,14 @@ fn table(node: Option<&Node>, sections: &[Section], path: &str, at: At<'_>, into
         // A fault that the reader reports.
         Some(_) => return,
     };
-    let shear = matches!(table.get("kind").map(|node| &node.value), Some(Value::Text(kind)) if kind == "shear");
-    let other = if shear {
-        Section::Frame
-    } else {
-        Section::Shear
+    let own = match table.get("kind").map(|node| &node.value) {
+        Some(Value::Text(kind)) if kind == "shear" => Section::Shear,
+        Some(Value::Text(kind)) if kind == "given" => Section::Given,
+        _ => Section::Frame,
     };
-    let sections: Vec<Section> = sections.iter().copied().filter(|s| *s != other).collect();
+    let kinds = [Section::Frame, Section::Shear, Section::Given];
+    let is_own = |section: &Section| *section == own || !kinds.contains(section);
+    let sections: Vec<Section> = sections.iter().copied().filter(is_own).collect();
     for key in keys_of(&sections) {
         let node = table.get(key.name);
         entry(key, node, &sections, &join(path, key.name), at, into);

@@ -10,6 +10,7 @@ mod csv;
 mod fault;
 mod keys;
 mod knobs;
+mod matrices;
 mod model_file;
 mod model_tree;
 mod motion_spec;
@@ -43,6 +44,7 @@ pub use fault::{Fault, InputError};
 pub use jostle::statics::STANDARD_GRAVITY;
 pub use keys::LAW_NAMES;
 pub use knobs::{Knob, KnobKind};
+pub use matrices::numpy_archive;
 pub use model_file::{
     Input, OverrideError, Overrides, ReinforcedMember, read_model_file, read_model_text,
 };

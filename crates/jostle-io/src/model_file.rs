@@ -8,6 +8,7 @@ mod between;
 mod building;
 mod frame;
 mod gap;
+mod given;
 mod hinges;
 mod link;
 mod matching;
@@ -379,7 +380,7 @@ fn read_root(
         None => None,
     };
     let buildings = match reader.get(&view, "building") {
-        Some(field) => building::read_all(reader, &field),
+        Some(field) => building::read_all(reader, &field, base),
         None => {
             reader.missing(
                 &view,

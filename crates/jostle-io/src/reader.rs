@@ -85,6 +85,22 @@ impl<'n> Field<'n> {
         }
     }
 
+    /// The entries of a table whose keys are names; `None` for any other value.
+    pub(crate) fn named_entries(&self) -> Option<Vec<(&'n str, Field<'n>)>> {
+        let Value::Table(table) = &self.node.value else {
+            return None;
+        };
+        let entries = table.entries.iter().map(|entry| {
+            let field = Field {
+                node: &entry.node,
+                path: join(&self.path, &shorten(&entry.key)),
+                range: None,
+            };
+            (&*entry.key, field)
+        });
+        Some(entries.collect())
+    }
+
     pub(crate) fn as_text(&self) -> Option<&'n str> {
         match &self.node.value {
             Value::Text(text) => Some(text),
@@ -429,7 +445,11 @@ impl<'s> Reader<'s> {
 
 /// Suggestion for an unknown key.
 fn suggest(key: &str, sections: &'static [Section]) -> String {
-    let other_kinds = [(Section::Frame, "frame"), (Section::Shear, "shear")];
+    let other_kinds = [
+        (Section::Frame, "frame"),
+        (Section::Shear, "shear"),
+        (Section::Given, "given"),
+    ];
     for (section, kind) in other_kinds {
         if sections.contains(&Section::Building) && keys_of(&[section]).any(|k| k.name == key) {
             return format!("this key belongs to buildings of kind = \"{kind}\"");

@@ -28,6 +28,13 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::Frame, "`[[building]]` with `kind = \"frame\"`", ""),
     (Section::Shear, "`[[building]]` with `kind = \"shear\"`", ""),
     (
+        Section::Given,
+        "`[[building]]` with `kind = \"given\"`",
+        "By matrices and ports, or by mass, periods and shapes; see [how-to/from-etabs.md](how-to/from-etabs.md).",
+    ),
+    (Section::Matrices, "`matrices` of a given building", ""),
+    (Section::Port, "`ports` of a given building, each", ""),
+    (
         Section::Column,
         "`column` of a frame",
         "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`.",
@@ -183,6 +190,9 @@ fn value(key: &Key) -> String {
         Kind::Component => "text or number".into(),
         Kind::Count => "whole number".into(),
         Kind::Any => "value or list".into(),
+        Kind::Named(_) => "table of tables".into(),
+        Kind::NumberLists => "list of lists of numbers".into(),
+        Kind::TextOrNumbers => "Matrix Market file, or lists of numbers".into(),
         Kind::FlagOrTexts => "`true` or `false`, or a list of texts".into(),
         Kind::Flag => "`true` or `false`".into(),
         Kind::Quantity(dimension) => quantity(dimension),

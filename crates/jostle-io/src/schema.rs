@@ -46,12 +46,15 @@ fn building() -> Value {
     let of_kind = |section, kind: &str, named: bool| {
         let mut schema = table(&[Section::Building, section]);
         schema["properties"]["kind"] = json!({ "const": kind });
-        if named && let Some(required) = schema["required"].as_array_mut() {
-            required.push(json!("kind"));
+        if named {
+            match schema["required"].as_array_mut() {
+                Some(required) => required.push(json!("kind")),
+                None => schema["required"] = json!(["kind"]),
+            }
         }
         schema
     };
-    json!({ "oneOf": [of_kind(Section::Frame, "frame", false), of_kind(Section::Shear, "shear", true)] })
+    json!({ "oneOf": [of_kind(Section::Frame, "frame", false), of_kind(Section::Shear, "shear", true), of_kind(Section::Given, "given", true)] })
 }
 
 fn property(key: &Key) -> Value {
@@ -78,6 +81,13 @@ fn kind(kind: Kind) -> Value {
         }
         Kind::Count => count,
         Kind::Any => json!({}),
+        Kind::Named(section) => {
+            json!({ "type": "object", "additionalProperties": table(&[section]) })
+        }
+        Kind::TextOrNumbers => json!({ "anyOf": [{ "type": "string" }, { "type": "array" }] }),
+        Kind::NumberLists => {
+            json!({ "type": "array", "items": { "type": "array", "items": { "type": "number" } } })
+        }
         Kind::FlagOrTexts => json!({ "anyOf": [
             { "type": "boolean" },
             { "type": "array", "items": { "type": "string" } },

@@ -81,7 +81,7 @@ fn assert_finite(input: &Input) {
             }
             Structure::Given(given) => {
                 numbers.extend(&given.mass);
-                numbers.extend(given.stiffness.iter().flatten());
+                numbers.extend(given.stiffness.iter().map(|entry| &entry.2));
             }
         }
     }

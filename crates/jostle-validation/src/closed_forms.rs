@@ -61,6 +61,7 @@ fn building(
         members,
         springs,
         hinges: Vec::new(),
+        ..StickModel::default()
     };
     let discretization = Discretization {
         foot: None,

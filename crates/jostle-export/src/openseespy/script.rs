@@ -310,6 +310,21 @@ impl<'a> Script<'a> {
                 self.lean(first, last, -spring.softening);
             }
         }
+        for coupling in &stick_model.couplings {
+            let [(first, a), (last, b)] = coupling.ends;
+            if a != 0 || b != 0 {
+                return Err(
+                    "has matrices with rotations or vertical displacements, between which OpenSees has no springs; export the model they came from",
+                );
+            }
+            let [first, last] = [first, last].map(|node| self.tag(index, node));
+            let materials = self.spring_materials(coupling.stiffness, None, coupling.dashpot)?;
+            let directions: Vec<(usize, usize)> = materials
+                .into_iter()
+                .map(|material| (1, material))
+                .collect();
+            self.spring(first, last, &directions, true);
+        }
         Ok(())
     }
 

@@ -29,6 +29,7 @@ pub(super) fn is_held_by(support: Support, component: usize) -> bool {
         Support::Free => false,
         Support::Fixed => true,
         Support::Guided => component != 0,
+        Support::Turning => component != 2,
     }
 }
 

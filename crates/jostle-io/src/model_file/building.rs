@@ -3,9 +3,10 @@
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{FrameHinges, Hinges};
 use jostle::{Analysis, Base, Building, Damping, Gravity, Model, Structure};
+use std::path::Path;
 
 use super::reinforced::{self, ReinforcedMember};
-use super::{frame, hinges, shear};
+use super::{frame, given, hinges, shear};
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -21,7 +22,11 @@ const MOST_STOREYS: usize = 200;
 pub(super) type Buildings = (Vec<Building>, Vec<ReinforcedMember>);
 
 /// Reads the list of buildings; `None` if it is not a list.
-pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Buildings> {
+pub(super) fn read_all(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    base: &Path,
+) -> Option<Buildings> {
     let Some(entries) = field.entries() else {
         let found = field.node.describe();
         *reader.bad(
@@ -42,7 +47,7 @@ pub(super) fn read_all(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Bui
     let buildings = entries
         .iter()
         .enumerate()
-        .map(|(i, entry)| read(reader, entry, i, &mut members))
+        .map(|(i, entry)| read(reader, entry, i, base, &mut members))
         .collect::<Vec<_>>();
     // If a building is not a table, the positions of the others in the row are unknown.
     let buildings: Option<Vec<_>> = buildings.into_iter().collect();
@@ -53,14 +58,15 @@ fn read(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     index: usize,
+    base: &Path,
     members: &mut Vec<ReinforcedMember>,
 ) -> Option<Building> {
     let noted = reader.count_faults();
-    let is_shear = looks_like_shear(field);
-    let view = if is_shear {
-        reader.open(field, &[Section::Building, Section::Shear])
-    } else {
-        reader.open(field, &[Section::Building, Section::Frame])
+    let kind = kind_of(field);
+    let view = match kind {
+        Kind::Shear => reader.open(field, &[Section::Building, Section::Shear]),
+        Kind::Frame => reader.open(field, &[Section::Building, Section::Frame]),
+        Kind::Given => reader.open(field, &[Section::Building, Section::Given]),
     }?;
     let name = reader
         .get(&view, "name")
@@ -69,19 +75,29 @@ fn read(
         Some(kind) => {
             reader.choice(&kind, BUILDING_KINDS, &[]);
         }
-        None if is_shear => {
-            reader.missing(
+        None => match kind {
+            Kind::Shear => reader.missing(
                 &view,
                 "kind",
                 "add kind = \"shear\" for masses on storey springs",
-            );
-        }
-        None => {}
+            ),
+            Kind::Given => reader.missing(
+                &view,
+                "kind",
+                "add kind = \"given\" for matrices or modes of another program",
+            ),
+            Kind::Frame => {}
+        },
     }
-    let structure = if is_shear {
-        Structure::Shear(shear::read(reader, &view))
-    } else {
-        Structure::Frame(frame::read(reader, &view))
+    let mut damped = None;
+    let structure = match kind {
+        Kind::Shear => Structure::Shear(shear::read(reader, &view)),
+        Kind::Frame => Structure::Frame(frame::read(reader, &view)),
+        Kind::Given => {
+            let read = given::read(reader, &view, base);
+            damped = read.damping;
+            Structure::Given(read.given)
+        }
     };
     let mut building = Building {
         name: name.unwrap_or_else(|| format!("B{}", index + 1)),
@@ -94,7 +110,10 @@ fn read(
         gravity: Gravity::default(),
         hinges: None,
     };
-    building.base = read_base(reader, &view, is_shear);
+    let is_shear = kind == Kind::Shear;
+    if kind != Kind::Given {
+        building.base = read_base(reader, &view, is_shear);
+    }
     let mut flag = |key| {
         reader
             .get(&view, key)
@@ -104,8 +123,19 @@ fn read(
         preload: flag("gravity"),
         p_delta: flag("p_delta"),
     };
-    building.damping = read_damping(reader, &view, building.floors(), is_shear);
-    let stated = reader.get(&view, "hinges");
+    building.damping = match (damped, reader.get(&view, "damping")) {
+        (Some(damping), None) => damping,
+        (Some(damping), Some(field)) => {
+            *reader.bad(&field, "cannot stand beside a damping matrix") =
+                Some("leave out damping, or the matrix C".into());
+            damping
+        }
+        (None, _) => read_damping(reader, &view, building.floors(), is_shear),
+    };
+    let stated = match kind {
+        Kind::Given => None,
+        Kind::Frame | Kind::Shear => reader.get(&view, "hinges"),
+    };
     building.hinges = match &building.structure {
         Structure::Shear(shear) => {
             stated.and_then(|field| hinges::read_storeys(reader, &field, shear))
@@ -183,18 +213,27 @@ fn is_sound(building: &Building) -> bool {
     alone.check().is_ok()
 }
 
-/// Whether the building is a shear building. If `kind` is absent or misspelt, the other keys decide, so that one
-/// mistake gives one fault.
-fn looks_like_shear(field: &Field<'_>) -> bool {
+/// Kind of a building.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Frame,
+    Shear,
+    Given,
+}
+
+/// The kind of a building. If `kind` is absent or misspelt, the other keys decide, so that one mistake gives one fault.
+fn kind_of(field: &Field<'_>) -> Kind {
     let Value::Table(table) = &field.node.value else {
-        return false;
+        return Kind::Frame;
     };
+    let has = |key| table.get(key).is_some();
     match table.get("kind").map(|kind| &kind.value) {
-        Some(Value::Text(kind)) if BUILDING_KINDS.contains(&kind.as_str()) => kind == "shear",
-        _ => {
-            let has = |key| table.get(key).is_some();
-            (has("mass") || has("stiffness")) && !has("spans") && !has("column")
-        }
+        Some(Value::Text(kind)) if kind == "shear" => Kind::Shear,
+        Some(Value::Text(kind)) if kind == "given" => Kind::Given,
+        Some(Value::Text(kind)) if kind == "frame" => Kind::Frame,
+        _ if has("matrices") || has("ports") || has("shapes") => Kind::Given,
+        _ if (has("mass") || has("stiffness")) && !has("spans") && !has("column") => Kind::Shear,
+        _ => Kind::Frame,
     }
 }
 

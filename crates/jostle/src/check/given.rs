@@ -1,87 +1,143 @@
 //! Faults of a building given by matrices.
 
 use super::{Faults, each};
-use crate::linear::cholesky::Cholesky;
-use crate::model::{Base, Building, Given};
+use crate::linear::sparse_cholesky::{NoPivot, Pattern, SparseFactor};
+use crate::model::{Base, Building, Given, MatrixEntry};
 
-/// Greatest difference of two entries that should be equal, as a share of the greatest entry.
-const SYMMETRY: f64 = 1e-9;
+/// Most displacements of a building given by matrices.
+const MOST: usize = 2000;
 
 pub(super) fn check_given(faults: &mut Faults, path: &str, given: &Given, building: &Building) {
-    let floors = given.mass.len();
-    faults.require(floors >= 1, format!("{path}.mass"), || {
+    let n = given.len();
+    let at = |field: &str| format!("{path}.{field}");
+    faults.require((1..=MOST).contains(&n), at("matrices"), || {
+        format!(
+            "has {n} displacements; between 1 and {MOST} are possible: condense the model at fewer"
+        )
+    });
+    let floors = given.floors.len();
+    faults.require(floors >= 1, at("ports"), || {
         "a building given by matrices needs at least one floor".into()
     });
     let heights = given.storey_heights.len();
-    faults.require(heights == floors, format!("{path}.storey_height"), || {
+    faults.require(heights == floors, at("storey_height"), || {
         format!("has {heights} entries for {floors} floors; give one per storey from the ground up")
     });
-    for (field, mass) in each(&given.mass, &format!("{path}.mass")) {
-        faults.positive(*mass, field, "kg");
+    for (what, count) in [
+        ("influence", given.influence.len()),
+        ("heights", given.heights.len()),
+    ] {
+        faults.require(count == n, at("matrices"), || {
+            format!("the {what} of {count} displacements stand beside the masses of {n}")
+        });
     }
-    if let Err(problem) = check_stiffness(&given.stiffness, floors) {
-        faults.add(format!("{path}.stiffness"), problem);
+    for (field, mass) in each(&given.mass, &at("mass")) {
+        faults.require(mass.is_finite() && *mass >= 0.0, field, || {
+            format!("must be zero or greater, found {mass} kg")
+        });
     }
-    faults.require(
-        building.base == Base::default(),
-        format!("{path}.base"),
-        || "is not possible for a building given by matrices; make the base part of its stiffness matrix".into(),
-    );
+    for value in given.influence.iter().chain(&given.heights) {
+        faults.require(value.is_finite(), at("matrices"), || {
+            format!("influence and heights must be finite, found {value}")
+        });
+    }
+    if given.influence.len() == n && given.heights.len() == n {
+        check_floors(faults, path, given);
+    }
+    match check_matrix(&given.stiffness, n) {
+        Err(problem) => faults.add(at("stiffness"), problem),
+        Ok(()) if (1..=MOST).contains(&n) => check_definite(faults, at("stiffness"), given),
+        Ok(()) => {}
+    }
+    if let Err(problem) = check_matrix(&given.damping, n) {
+        faults.add(at("damping"), problem);
+    }
+    faults.require(building.base == Base::default(), at("base"), || {
+        "is not possible for a building given by matrices; make the base part of its stiffness matrix".into()
+    });
     for (key, asked) in [
         ("gravity", building.gravity.preload),
         ("p_delta", building.gravity.p_delta),
     ] {
-        faults.require(!asked, format!("{path}.{key}"), || {
+        faults.require(!asked, at(key), || {
             "is not possible for a building given by matrices; make P-Delta part of its stiffness matrix".into()
         });
     }
 }
 
-/// What is wrong with a stiffness matrix; rows and columns count from 1, as floors do.
-fn check_stiffness(rows: &[Vec<f64>], floors: usize) -> Result<(), String> {
-    if rows.len() != floors {
-        return Err(format!(
-            "has {} rows for {floors} floors; condense the matrix at the floors",
-            rows.len()
-        ));
+fn check_floors(faults: &mut Faults, path: &str, given: &Given) {
+    let mut height = 0.0;
+    for (index, (&dof, storey)) in given.floors.iter().zip(&given.storey_heights).enumerate() {
+        let floor = index + 1;
+        height += storey;
+        let field = || format!("{path}.ports");
+        if dof >= given.len() {
+            faults.add(
+                field(),
+                format!(
+                    "floor {floor} is displacement {}, of {}",
+                    dof + 1,
+                    given.len()
+                ),
+            );
+            continue;
+        }
+        faults.require(!given.floors[..index].contains(&dof), field(), || {
+            format!(
+                "floor {floor} is displacement {}, as a floor below it is",
+                dof + 1
+            )
+        });
+        faults.require(given.influence[dof] == 1.0, field(), || {
+            format!(
+                "floor {floor} is displacement {}, which moves by {} when the ground moves by 1; a floor must move with the ground",
+                dof + 1,
+                given.influence[dof]
+            )
+        });
+        faults.require(given.mass[dof] > 0.0, field(), || {
+            format!("floor {floor} is displacement {}, which has no mass; a floor that can be hit needs mass", dof + 1)
+        });
+        faults.require((given.heights[dof] - height).abs() <= 1e-6 * height.abs(), field(), || {
+            format!("floor {floor} is {height} m high by the storeys, and {} m by the heights of the displacements", given.heights[dof])
+        });
     }
-    let mut greatest = 0.0_f64;
-    for (i, row) in rows.iter().enumerate() {
-        if row.len() != floors {
+}
+
+fn check_matrix(entries: &[MatrixEntry], n: usize) -> Result<(), String> {
+    for &(row, column, value) in entries {
+        if row >= n || column > row {
             return Err(format!(
-                "has {} entries in row {} for {floors} floors; the matrix must be square",
-                row.len(),
-                i + 1
+                "has an entry in row {}, column {}; rows up to {n} and the lower triangle are possible",
+                row + 1,
+                column + 1
             ));
         }
-        for (j, entry) in row.iter().enumerate() {
-            if !entry.is_finite() {
-                return Err(format!(
-                    "must be finite, found {entry} in row {}, column {}",
-                    i + 1,
-                    j + 1
-                ));
-            }
-            greatest = greatest.max(entry.abs());
+        if !value.is_finite() {
+            return Err(format!(
+                "must be finite, found {value} in row {}, column {}",
+                row + 1,
+                column + 1
+            ));
         }
     }
-    for (i, row) in rows.iter().enumerate() {
-        for (j, entry) in row[..i].iter().enumerate() {
-            let mirrored = rows[j][i];
-            if (entry - mirrored).abs() > SYMMETRY * greatest {
-                let (i, j) = (i + 1, j + 1);
-                return Err(format!(
-                    "must be symmetric, found {entry:e} N/m in row {i}, column {j} and {mirrored:e} N/m in row {j}, column {i}"
-                ));
-            }
-        }
-    }
-    let lower = rows.iter().enumerate();
-    let lower = lower.map(|(i, row)| row[..=i].to_vec()).collect();
-    match Cholesky::new(lower) {
-        Some(_) => Ok(()),
-        None => Err(
-            "must be positive definite: some displacement of the floors meets no resistance; hold the base of the model before its matrix is condensed".into(),
-        ),
+    Ok(())
+}
+
+fn check_definite(faults: &mut Faults, path: String, given: &Given) {
+    // Rows without entries need a place on the diagonal.
+    let diagonal = (0..given.len()).map(|dof| (dof, dof, 0.0));
+    let entries: Vec<MatrixEntry> = given.stiffness.iter().copied().chain(diagonal).collect();
+    let places: Vec<(usize, usize)> = entries.iter().map(|entry| (entry.0, entry.1)).collect();
+    let pattern = Pattern::new(given.len(), &places);
+    let mut factor = SparseFactor::default();
+    if let Err(NoPivot(dof)) = pattern.factorize(entries.iter().map(|entry| entry.2), &mut factor) {
+        faults.add(
+            path,
+            format!(
+                "must be positive definite: displacement {} can move without resistance; hold the base of the model before its matrices are written, and leave out displacements without stiffness",
+                dof + 1
+            ),
+        );
     }
 }

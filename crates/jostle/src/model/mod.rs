@@ -3,12 +3,14 @@
 //! Everything here is plain data in SI units. [`Model::check`] reports every fault at once, each with the
 //! path of the field it concerns, so that a reader can point at the line of the file.
 
+mod given;
 mod integrator;
 mod members;
 
 use crate::contact::ContactLaw;
 use crate::hysteresis::Hysteresis;
 
+pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
 pub use members::MemberRequest;
 
@@ -204,7 +206,7 @@ pub enum Structure {
     Frame(Frame),
     /// One mass per floor, one spring per storey.
     Shear(Shear),
-    /// Masses and a stiffness matrix condensed at the floors.
+    /// Masses, damping and stiffness as matrices.
     Given(Given),
 }
 
@@ -298,19 +300,6 @@ pub struct Shear {
     pub mass: Vec<f64>,
     /// Storey stiffnesses from the ground up, > 0 \[N/m\].
     pub stiffness: Vec<f64>,
-    /// Storey heights from the ground up, > 0 \[m\].
-    pub storey_heights: Vec<f64>,
-}
-
-/// A building described by matrices that were condensed at its floors, one horizontal displacement each.
-///
-/// It stays elastic on a fixed base, without gravity.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Given {
-    /// Floor masses from the ground up, > 0 \[kg\].
-    pub mass: Vec<f64>,
-    /// Rows of the stiffness matrix: symmetric, positive definite \[N/m\].
-    pub stiffness: Vec<Vec<f64>>,
     /// Storey heights from the ground up, > 0 \[m\].
     pub storey_heights: Vec<f64>,
 }

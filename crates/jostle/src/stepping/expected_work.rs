@@ -79,6 +79,7 @@ fn relevant_period(building: &BuildingSystem) -> Option<f64> {
 /// The greatest stiffness of a building in words.
 fn stiffest(stick_model: &StickModel) -> String {
     let springs = stick_model.springs.iter().map(|spring| spring.stiffness);
+    let springs = springs.chain(stick_model.couplings.iter().map(|c| c.stiffness));
     let members = stick_model
         .members
         .iter()

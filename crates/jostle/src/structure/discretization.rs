@@ -1,8 +1,9 @@
 //! From a building as described to lumped masses and massless elements.
 
+use super::element::{THETA, X};
 use super::member_forces::{FrameMember, MemberPlace};
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
-use super::stick_model::{Hinge, Member, Node, Spring, StickModel, Support};
+use super::stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Support};
 use crate::hysteresis::Hysteresis;
 use crate::model::{
     Base, Building, Frame, FrameHinges, Given, Hinges, Joint, Section, Shear, Structure,
@@ -347,29 +348,54 @@ fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
     cuts.sort_by(f64::total_cmp);
 }
 
-/// Springs between every two floors, and from every floor to the ground, make any stiffness matrix: off the diagonal
-/// stands −k of the spring between two floors, and the sum of a row is the spring to the ground. Some k are negative.
+/// Couplings between displacements, and from each to the ground, make any symmetric matrix: off the diagonal stands −k of the
+/// coupling between two, and the sum of a row is the coupling to the ground. Some k are negative.
 fn discretize_given(given: &Given) -> Discretization {
     let mut stick_model = StickModel::default();
     let ground = stick_model.add_node(0.0, 0.0);
     stick_model.nodes[ground].support = Support::Fixed;
-    let mut height = 0.0;
-    let mut floors = Vec::new();
-    let rows = given.stiffness.iter().zip(&given.mass);
-    for ((row, mass), storey_height) in rows.zip(&given.storey_heights) {
-        height += storey_height;
-        let floor = stick_model.add_node(0.0, height);
-        stick_model.nodes[floor].mass = *mass;
-        stick_model.nodes[floor].support = Support::Guided;
-        let to_ground = Spring::elastic([ground, floor], row.iter().sum());
-        let to_lower = floors.iter().zip(row);
-        let to_lower = to_lower.map(|(&lower, entry)| Spring::elastic([lower, floor], -entry));
-        let springs = std::iter::once(to_ground).chain(to_lower);
-        stick_model
-            .springs
-            .extend(springs.filter(|spring| spring.stiffness != 0.0));
-        floors.push(floor);
+    let place = |dof: usize| {
+        let component = if given.influence[dof] == 0.0 {
+            THETA
+        } else {
+            X
+        };
+        (ground + 1 + dof, component)
+    };
+    for dof in 0..given.len() {
+        let node = stick_model.add_node(0.0, given.heights[dof]);
+        let node = &mut stick_model.nodes[node];
+        let mass = given.mass[dof] * given.scale(dof).powi(2);
+        if place(dof).1 == X {
+            (node.support, node.mass) = (Support::Guided, mass);
+        } else {
+            (node.support, node.rotary_inertia) = (Support::Turning, mass);
+        }
     }
+    let lists = [&given.stiffness, &given.damping];
+    let mut rows = vec![[0.0; 2]; given.len()];
+    for (part, &(row, column, value)) in lists
+        .into_iter()
+        .enumerate()
+        .flat_map(|(part, list)| list.iter().map(move |entry| (part, entry)))
+    {
+        let value = value * given.scale(row) * given.scale(column);
+        rows[row][part] += value;
+        if row != column {
+            rows[column][part] += value;
+            stick_model
+                .couplings
+                .push(coupling([place(row), place(column)], part, -value));
+        }
+    }
+    for (dof, sums) in rows.into_iter().enumerate() {
+        for (part, sum) in sums.into_iter().enumerate() {
+            stick_model
+                .couplings
+                .push(coupling([(ground, X), place(dof)], part, sum));
+        }
+    }
+    let floors: Vec<usize> = given.floors.iter().map(|dof| ground + 1 + dof).collect();
     Discretization {
         stick_model,
         members: Vec::new(),
@@ -378,6 +404,18 @@ fn discretize_given(given: &Given) -> Discretization {
         right_face: floors.clone(),
         floors,
         spring_places: Vec::new(),
+    }
+}
+
+/// A coupling with a stiffness, or with a dashpot.
+fn coupling(ends: [(usize, usize); 2], part: usize, value: f64) -> Coupling {
+    let mut own = [0.0; 2];
+    own[part] = value;
+    let [stiffness, dashpot] = own;
+    Coupling {
+        ends,
+        stiffness,
+        dashpot,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Stiffness of the massless elements between lumped masses, in global axes.
 
 use crate::linear::StepMatrix;
-use crate::structure::{Hinge, Member, Node, Spring, StickModel};
+use crate::structure::{Coupling, Hinge, Member, Node, Spring, StickModel};
 
 /// Displacement of a node: horizontal, vertical, rotation.
 pub(crate) const X: usize = 0;
@@ -49,6 +49,7 @@ pub(crate) fn stiffnesses(stick_model: &StickModel) -> impl Iterator<Item = Elem
     members
         .chain(stick_model.hinges.iter().map(of_hinge))
         .chain(stick_model.springs.iter().map(of_spring))
+        .chain(stick_model.couplings.iter().map(of_coupling))
 }
 
 impl Member {
@@ -146,6 +147,15 @@ pub(crate) fn of_spring(spring: &Spring) -> ElementStiffness {
     }
     stiffness.couple(Part::Undamped, (i, X), (j, X), -spring.softening);
     stiffness.couple(Part::Dashpot, (i, X), (j, X), spring.dashpot);
+    stiffness
+}
+
+/// Entry of a given matrix.
+fn of_coupling(coupling: &Coupling) -> ElementStiffness {
+    let [a, b] = coupling.ends;
+    let mut stiffness = ElementStiffness::default();
+    stiffness.couple(Part::Elastic, a, b, coupling.stiffness);
+    stiffness.couple(Part::Dashpot, a, b, coupling.dashpot);
     stiffness
 }
 

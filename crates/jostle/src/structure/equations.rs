@@ -99,6 +99,8 @@ impl Equations {
         }
         let mut triplets = [Vec::new(), Vec::new(), Vec::new()];
         let mut base_shear = Vec::new();
+        // What couplings leave of a row at the ground is no force there: the base shear is the sum of all rows.
+        let of_supports = stick_model.couplings.is_empty();
         for (part, a, b, value) in
             element::stiffnesses(stick_model).flat_map(|element| element.entries)
         {
@@ -107,11 +109,21 @@ impl Equations {
                     triplets[part as usize].push((row, column, value));
                 }
                 // Forces of the supports on the building.
-                (None, Some(column)) if a.1 == X && part != Part::Dashpot => {
+                (None, Some(column)) if of_supports && a.1 == X && part != Part::Dashpot => {
                     base_shear.push((column, -value));
                 }
                 _ => {}
             }
+            if let (false, Some(_), Some(column)) = (
+                of_supports || a.1 != X || part == Part::Dashpot,
+                path.dof(a.0, a.1),
+                path.dof(b.0, b.1),
+            ) {
+                base_shear.push((column, value));
+            }
+        }
+        if !of_supports {
+            base_shear = summed(&base_shear, n);
         }
         let [stiffness, undamped, dashpots] =
             triplets.map(|triplets| SparseSymmetric::from_triplets(n, &triplets));
@@ -201,6 +213,18 @@ impl Equations {
             .map(|(dof, stiffness)| stiffness * displacement[*dof])
             .sum()
     }
+}
+
+/// Entries of one degree of freedom added up.
+fn summed(entries: &[(usize, f64)], count: usize) -> Vec<(usize, f64)> {
+    let mut sums = vec![0.0; count];
+    for (dof, value) in entries {
+        sums[*dof] += value;
+    }
+    sums.into_iter()
+        .enumerate()
+        .filter(|(_, value)| *value != 0.0)
+        .collect()
 }
 
 fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {

@@ -24,5 +24,5 @@ pub use member_forces::{
 };
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
-pub use stick_model::{Hinge, Member, Node, Spring, StickModel, Support};
+pub use stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Support};
 pub use storey_forces::{StoreyForce, StoreyForces};

@@ -75,6 +75,7 @@ impl Ties {
                 Support::Free => &[],
                 Support::Fixed => &[X, Y, THETA],
                 Support::Guided => &[Y, THETA],
+                Support::Turning => &[X, Y],
             };
             for &component in held {
                 ties.merge(Self::place(node, component), GROUND);

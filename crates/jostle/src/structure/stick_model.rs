@@ -13,6 +13,8 @@ pub struct StickModel {
     pub hinges: Vec<Hinge>,
     /// Horizontal springs.
     pub springs: Vec<Spring>,
+    /// Entries of given matrices.
+    pub couplings: Vec<Coupling>,
 }
 
 /// A point that moves by x (right), y (up) and θ (counter-clockwise).
@@ -39,6 +41,8 @@ pub enum Support {
     Fixed,
     /// Guided horizontally: neither rises nor turns.
     Guided,
+    /// Only turns.
+    Turning,
 }
 
 /// Massless beam between two nodes at the same height or on the same vertical.
@@ -131,4 +135,16 @@ impl Spring {
             proportional_damping: true,
         }
     }
+}
+
+/// A spring and dashpot between any two displacements, as an entry of a given matrix off its diagonal stands for one. Its
+/// stiffness and its dashpot may be negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// Node and displacement there, twice: 0 horizontal, 1 vertical, 2 rotation.
+    pub ends: [(usize, usize); 2],
+    /// Force per difference of both \[N/m, N, N·m\].
+    pub stiffness: f64,
+    /// Force per difference of their rates \[N·s/m, N·s, N·m·s\].
+    pub dashpot: f64,
 }

@@ -72,12 +72,12 @@ fn cause(building: &Building) -> String {
             )
         }
         Structure::Given(given) => {
-            let floors = || (1..).map(|floor| format!("floor {floor}"));
-            let diagonal = given.stiffness.iter().enumerate();
-            let diagonal = diagonal.filter_map(|(i, row)| row.get(i).copied());
+            let name = |dof: usize| format!("displacement {}", dof + 1);
+            let diagonal = given.stiffness.iter().filter(|entry| entry.0 == entry.1);
+            let masses = given.mass.iter().enumerate();
             (
-                floors().zip(diagonal).collect(),
-                floors().zip(given.mass.iter().copied()).collect(),
+                diagonal.map(|entry| (name(entry.0), entry.2)).collect(),
+                masses.map(|(dof, mass)| (name(dof), *mass)).collect(),
             )
         }
         Structure::Frame(frame) => {

@@ -197,6 +197,11 @@ impl Layout {
     }
 
     fn check_all_found(&self, elements: &[(Link, [usize; 2])]) -> Result<(), NotAFrame> {
+        if !self.stick_model.couplings.is_empty() {
+            return Err(NotAFrame::LooseElement {
+                element: "an entry of a given matrix".into(),
+            });
+        }
         let mut met = vec![false; self.stick_model.nodes.len()];
         let mut passed = Vec::new();
         let columns = self.columns.iter().map(|line| (&line.nodes, &line.links));
@@ -227,7 +232,7 @@ impl Layout {
             };
             let guided = node.support == Support::Guided;
             let sound = match node.support {
-                Support::Fixed => true,
+                Support::Fixed | Support::Turning => true,
                 Support::Guided => !elements.iter().any(at_other),
                 Support::Free => !elements.iter().any(at_spring),
             };

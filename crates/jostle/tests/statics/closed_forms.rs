@@ -239,6 +239,7 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
             .map(|ends| Hinge::yielding(ends, plastic(1e9, moment)))
             .collect(),
         springs: Vec::new(),
+        ..StickModel::default()
     };
     let discretization = Discretization {
         stick_model,

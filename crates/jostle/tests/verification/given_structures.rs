@@ -30,11 +30,7 @@ fn given(shear: &Shear) -> Given {
             stiffness[storey][storey - 1] -= k;
         }
     }
-    Given {
-        mass: shear.mass.clone(),
-        stiffness,
-        storey_heights: shear.storey_heights.clone(),
-    }
+    Given::condensed(shear.mass.clone(), &stiffness, shear.storey_heights.clone())
 }
 
 fn pair(structure: impl Fn(Shear) -> Structure) -> Model {
@@ -94,11 +90,11 @@ fn cantilever() -> Model {
     let mut model = pair(Structure::Shear);
     model.buildings.truncate(1);
     model.gaps.clear();
-    model.buildings[0].structure = Structure::Given(Given {
-        mass: vec![mass; 2],
-        stiffness: vec![vec![16.0 * k, -5.0 * k], vec![-5.0 * k, 2.0 * k]],
-        storey_heights: vec![1.0, 1.0],
-    });
+    model.buildings[0].structure = Structure::Given(Given::condensed(
+        vec![mass; 2],
+        &[vec![16.0 * k, -5.0 * k], vec![-5.0 * k, 2.0 * k]],
+        vec![1.0, 1.0],
+    ));
     model
 }
 

@@ -1,5 +1,5 @@
 //! Springs and dashpots that couple modes: links between buildings, and what damps a base unlike the rest of its building
-//! (theory, Eqs. Q8 and Q9).
+//! (theory, Eqs. Q9 and Q10).
 //!
 //! Over a step such a force is a parabola with the mean and the ends of the cubic through its values and slopes at both
 //! ends. Values and slopes at the end follow from one linear system per step size. A dashpot on a mass is then advanced by

@@ -1,0 +1,100 @@
+//! A matrix as read from a file.
+
+use std::collections::BTreeMap;
+
+/// A matrix by its entries that are not zero.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Matrix {
+    pub(crate) rows: usize,
+    pub(crate) columns: usize,
+    entries: BTreeMap<(usize, usize), f64>,
+}
+
+/// Greatest difference of two entries that should be equal, in parts of the greatest of their row and column.
+const SYMMETRY: f64 = 1e-9;
+
+impl Matrix {
+    pub(crate) fn new(rows: usize, columns: usize) -> Self {
+        Self {
+            rows,
+            columns,
+            entries: BTreeMap::new(),
+        }
+    }
+
+    /// Sets an entry; a value given several times is summed.
+    pub(crate) fn add(&mut self, row: usize, column: usize, value: f64) {
+        if value != 0.0 {
+            *self.entries.entry((row, column)).or_default() += value;
+        }
+    }
+
+    pub(crate) fn at(&self, row: usize, column: usize) -> f64 {
+        self.entries.get(&(row, column)).copied().unwrap_or(0.0)
+    }
+
+    /// A row or a column of `count` values, or the diagonal of a square matrix that has no other entries.
+    ///
+    /// # Errors
+    /// The problem in words.
+    pub(crate) fn diagonal(&self, count: usize) -> Result<Vec<f64>, String> {
+        if self.rows == 1 && self.columns == count {
+            return Ok((0..count).map(|column| self.at(0, column)).collect());
+        }
+        if self.columns == 1 && self.rows == count {
+            return Ok((0..count).map(|row| self.at(row, 0)).collect());
+        }
+        self.is_square(count)?;
+        let off = self.entries.iter().find(|((row, column), _)| row != column);
+        match off {
+            Some(((row, column), value)) => Err(format!(
+                "has {value:e} in row {}, column {}; masses must stand on the diagonal: lump them, as with the sums of the rows",
+                row + 1,
+                column + 1
+            )),
+            None => Ok((0..count).map(|row| self.at(row, row)).collect()),
+        }
+    }
+
+    /// The lower triangle of a symmetric matrix.
+    ///
+    /// # Errors
+    /// The problem in words.
+    pub(crate) fn lower_triangle(&self, count: usize) -> Result<Vec<(usize, usize, f64)>, String> {
+        self.is_square(count)?;
+        let mut sizes = vec![0.0_f64; count];
+        for (&(row, column), value) in &self.entries {
+            for place in [row, column] {
+                sizes[place] = sizes[place].max(value.abs());
+            }
+        }
+        for (&(row, column), value) in &self.entries {
+            let mirrored = self.at(column, row);
+            let size = sizes[row].max(sizes[column]);
+            if !value.is_finite() || (value - mirrored).abs() > SYMMETRY * size {
+                let (i, j) = (row + 1, column + 1);
+                return Err(format!(
+                    "must be symmetric, found {value:e} in row {i}, column {j} and {mirrored:e} in row {j}, column {i}"
+                ));
+            }
+        }
+        let lower = self
+            .entries
+            .iter()
+            .filter(|((row, column), _)| row >= column);
+        Ok(lower
+            .map(|(&(row, column), value)| (row, column, *value))
+            .collect())
+    }
+
+    fn is_square(&self, count: usize) -> Result<(), String> {
+        if self.rows == count && self.columns == count {
+            Ok(())
+        } else {
+            Err(format!(
+                "has {} rows and {} columns; {count} of each are needed, as many as the stiffness matrix has",
+                self.rows, self.columns
+            ))
+        }
+    }
+}

@@ -1,0 +1,585 @@
+//! `kind = "given"`: a building by the matrices of another program, or by its modes.
+
+use std::path::{Path, PathBuf};
+
+use jostle::{Damping, Given};
+
+use super::building::{per_storey, storeys};
+use super::shear::DEFAULT_STOREY_HEIGHT;
+use crate::keys::{MATRIX_UNITS, Section};
+use crate::matrices::{ARRAYS, Matrices, Matrix, read_archive, read_matrix_market};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// Factors from the units of [`MATRIX_UNITS`] to SI: of a force per length and a mass alike, and of a length. Where lengths
+/// are not metres, all displacements must be lengths.
+const UNITS: [[f64; 2]; MATRIX_UNITS.len()] = [
+    [1.0, 1.0],
+    [1e3, 1.0],
+    [1e3, 1e-3],
+    [1e6, 1e-3],
+    [4_448.221_615_260_5 / 0.3048, 0.3048],
+    [4_448.221_615_260_5 / 0.0254, 0.0254],
+];
+
+/// A building, and its damping if its matrices say it.
+pub(super) struct Read {
+    pub(super) given: Given,
+    pub(super) damping: Option<Damping>,
+}
+
+/// Reads the keys of a given building; after a fault, harmless values are used.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Read {
+    let by_modes = view.has("periods") || view.has("shapes");
+    let read = if by_modes {
+        from_modes(reader, view).map(|given| Read {
+            given,
+            damping: None,
+        })
+    } else {
+        from_matrices(reader, view, base)
+    };
+    read.unwrap_or_else(|| Read {
+        given: Given::condensed(vec![1.0], &[vec![1.0]], vec![DEFAULT_STOREY_HEIGHT]),
+        damping: None,
+    })
+}
+
+fn from_matrices(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<Read> {
+    for key in ["mass", "remainder_period"] {
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, "belongs to a building given by its modes") =
+                Some("keep either matrices and ports, or mass, periods and shapes".into());
+        }
+    }
+    for key in ["storeys", "floors", "storey_height"] {
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, "is not for a building given by matrices") =
+                Some("leave it out; ports say how high the floors are".into());
+        }
+    }
+    let unit = match reader.get(view, "units") {
+        Some(field) => {
+            let word = reader.choice(&field, MATRIX_UNITS, &[])?;
+            MATRIX_UNITS.iter().position(|known| *known == word)?
+        }
+        None => 0,
+    };
+    let Some(field) = reader.get(view, "matrices") else {
+        reader.missing(
+            view,
+            "matrices",
+            "add matrices = \"model.npz\" with the arrays K and M, or the mass, periods and shapes of its modes",
+        );
+        return None;
+    };
+    let matrices = read_matrices(reader, &field, base);
+    let ports = match reader.get(view, "ports") {
+        Some(ports) => read_ports(reader, &ports),
+        None => {
+            reader.missing(
+                view,
+                "ports",
+                "add ports = { \"1\" = { dof = 1, height = \"3 m\" }, … }, with the displacement of every floor, counted from 1",
+            );
+            None
+        }
+    };
+    let (matrices, ports) = (matrices?, ports?);
+    match assemble(&matrices, &ports, UNITS[unit]) {
+        Ok(read) => Some(read),
+        Err(problem) => {
+            reader.bad(&field, format!("the matrices: {problem}"));
+            None
+        }
+    }
+}
+
+/// One file for all matrices, one for each, or lists of numbers.
+fn read_matrices(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> Option<Matrices> {
+    let beside = |name: &str| -> PathBuf { base.join(name) };
+    if let Some(name) = field.as_text() {
+        let found = read_archive(&beside(name));
+        return match found {
+            Ok(matrices) => Some(matrices),
+            Err(problem) => {
+                *reader.bad(field, format!("\"{name}\" {problem}")) = Some(
+                    "paths are relative to the model file; Matrix Market files stand in a table, matrices = { stiffness = \"k.mtx\", mass = \"m.mtx\" }".into(),
+                );
+                None
+            }
+        };
+    }
+    let view = reader.open(field, &[Section::Matrices])?;
+    let mut matrices = Matrices::default();
+    let mut sound = true;
+    for ([_, key], place) in ARRAYS.into_iter().zip(matrices.places()) {
+        let Some(field) = reader.get(&view, key) else {
+            continue;
+        };
+        if field.entries().is_some() {
+            *place = read_lists(reader, &field);
+            sound &= place.is_some();
+            continue;
+        }
+        let Some(name) = reader.text(&field) else {
+            sound = false;
+            continue;
+        };
+        match read_matrix_market(&beside(&name)) {
+            Ok(matrix) => *place = Some(matrix),
+            Err(problem) => {
+                reader.bad(&field, format!("\"{name}\" {problem}"));
+                sound = false;
+            }
+        }
+    }
+    sound.then_some(matrices)
+}
+
+/// A matrix as a list of rows, or a list of numbers.
+fn read_lists(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Matrix> {
+    let entries = field.entries()?;
+    let rows: Vec<Vec<Field<'_>>> = match entries.iter().map(Field::entries).collect() {
+        Some(rows) => rows,
+        None => vec![entries],
+    };
+    let columns = rows.first().map_or(0, Vec::len);
+    if columns == 0 || rows.iter().any(|row| row.len() != columns) {
+        reader.bad(
+            field,
+            "must be a list of rows of one length, or a list of numbers",
+        );
+        return None;
+    }
+    let mut matrix = Matrix::new(rows.len(), columns);
+    let mut sound = true;
+    for (row, values) in rows.iter().enumerate() {
+        for (column, value) in values.iter().enumerate() {
+            match reader.quantity(value, Dimension::Dimensionless) {
+                Some(value) => matrix.add(row, column, value),
+                None => sound = false,
+            }
+        }
+    }
+    sound.then_some(matrix)
+}
+
+/// A floor: its name in the file, its displacement from 0 and its height \[m\].
+struct Port {
+    name: String,
+    dof: usize,
+    height: f64,
+}
+
+/// Floors from the ground up.
+fn read_ports(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<Port>> {
+    let Some(entries) = field.named_entries() else {
+        let found = field.node.describe();
+        *reader.bad(field, format!("expected a table of floors, found {found}")) =
+            Some("write ports = { \"1\" = { dof = 1, height = \"3 m\" } }".into());
+        return None;
+    };
+    let mut ports = Vec::with_capacity(entries.len());
+    let mut sound = true;
+    for (name, entry) in &entries {
+        let port = read_port(reader, name, entry);
+        sound &= port.is_some();
+        ports.extend(port);
+    }
+    if entries.is_empty() {
+        reader.bad(field, "names no floor");
+    }
+    ports.sort_by(|a, b| a.height.total_cmp(&b.height));
+    for pair in ports.windows(2) {
+        if pair[0].height == pair[1].height {
+            let [a, b] = [&pair[0].name, &pair[1].name];
+            reader.bad(
+                field,
+                format!(
+                    "\"{a}\" and \"{b}\" lie at one height; a building has one floor at a height"
+                ),
+            );
+            return None;
+        }
+    }
+    for (index, port) in ports.iter().enumerate() {
+        let number = port.name.parse::<usize>();
+        if sound && number.is_ok_and(|number| number != index + 1) {
+            *reader.bad(
+                field,
+                format!("\"{}\" is floor {} from the ground up", port.name, index + 1),
+            ) = Some("floors count from the lowest port; number ports so, or give them names such as \"roof\"".into());
+            return None;
+        }
+    }
+    (sound && !ports.is_empty()).then_some(ports)
+}
+
+fn read_port(reader: &mut Reader<'_>, name: &str, entry: &Field<'_>) -> Option<Port> {
+    let view = reader.open(entry, &[Section::Port])?;
+    let dof = match reader.get(&view, "dof") {
+        Some(field) => match reader.count(&field) {
+            Some(0) => {
+                reader.bad(&field, "displacements count from 1");
+                None
+            }
+            count => count,
+        },
+        None => {
+            reader.missing(&view, "dof", "add dof = 1, the row of its horizontal displacement in the matrices, counted from 1");
+            None
+        }
+    };
+    let height = match reader.get(&view, "height") {
+        Some(field) => reader.positive(&field, Dimension::Length),
+        None => {
+            reader.missing(&view, "height", "add height = \"3 m\", above the base");
+            None
+        }
+    };
+    Some(Port {
+        name: name.to_owned(),
+        dof: dof? - 1,
+        height: height?,
+    })
+}
+
+/// The building of matrices in units with these factors.
+fn assemble(
+    matrices: &Matrices,
+    ports: &[Port],
+    [factor, length]: [f64; 2],
+) -> Result<Read, String> {
+    let named = |name: &str, problem: String| format!("{name} {problem}");
+    let missing = |name: &str| format!("have no {name}");
+    let stiffness = matrices
+        .stiffness
+        .as_ref()
+        .ok_or_else(|| missing("stiffness matrix K"))?;
+    let mass = matrices
+        .mass
+        .as_ref()
+        .ok_or_else(|| missing("mass matrix M"))?;
+    let n = stiffness.rows;
+    let scaled = |mut entries: Vec<(usize, usize, f64)>| {
+        entries.iter_mut().for_each(|entry| entry.2 *= factor);
+        entries
+    };
+    let stiffness = stiffness.lower_triangle(n).map_err(|p| named("K", p))?;
+    let mass = mass.diagonal(n).map_err(|p| named("M", p))?;
+    let damping = match &matrices.damping {
+        Some(matrix) => matrix.lower_triangle(n).map_err(|p| named("C", p))?,
+        None => Vec::new(),
+    };
+    if let Some(port) = ports.iter().find(|port| port.dof >= n) {
+        return Err(format!(
+            "have {n} rows, and port \"{}\" is displacement {}",
+            port.name,
+            port.dof + 1
+        ));
+    }
+    let influence = match &matrices.influence {
+        Some(matrix) => matrix.diagonal(n).map_err(|p| named("r", p))?,
+        None if ports.len() == n => vec![1.0; n],
+        None => {
+            return Err(format!(
+                "have {n} displacements and {} ports; add the vector r: 1 for displacements that move with the ground, 0 for rotations and vertical ones",
+                ports.len()
+            ));
+        }
+    };
+    let mut heights = match &matrices.heights {
+        Some(matrix) => {
+            let heights = matrix.diagonal(n).map_err(|p| named("h", p))?;
+            heights.into_iter().map(|height| height * length).collect()
+        }
+        None => {
+            let carried = (0..n).find(|dof| {
+                mass[*dof] > 0.0 && influence[*dof] != 0.0 && ports.iter().all(|p| p.dof != *dof)
+            });
+            if let Some(dof) = carried {
+                return Err(format!(
+                    "have a mass at displacement {}, which moves with the ground and is no port; add the vector h, the height of every displacement, for storey shears",
+                    dof + 1
+                ));
+            }
+            vec![0.0; n]
+        }
+    };
+    for port in ports {
+        heights[port.dof] = port.height;
+    }
+    let mut below = 0.0;
+    let storey_heights = ports
+        .iter()
+        .map(|port| port.height - std::mem::replace(&mut below, port.height))
+        .collect();
+    let rayleigh = (!damping.is_empty())
+        .then(|| rayleigh(&mass, &stiffness, &damping))
+        .flatten();
+    let stated = !damping.is_empty();
+    let [alpha, beta] = rayleigh.unwrap_or_default();
+    Ok(Read {
+        damping: stated.then_some(Damping::Rayleigh { alpha, beta }),
+        given: Given {
+            mass: mass.into_iter().map(|mass| factor * mass).collect(),
+            stiffness: scaled(stiffness),
+            damping: if rayleigh.is_some() {
+                Vec::new()
+            } else {
+                scaled(damping)
+            },
+            influence,
+            heights,
+            floors: ports.iter().map(|port| port.dof).collect(),
+            storey_heights,
+        },
+    })
+}
+
+/// α and β if C = α M + β K, both ≥ 0: modes then stay apart, which is many times faster. Least squares of entries, each in
+/// parts of √(K_ii K_jj), so that units do not matter.
+fn rayleigh(
+    mass: &[f64],
+    stiffness: &[(usize, usize, f64)],
+    damping: &[(usize, usize, f64)],
+) -> Option<[f64; 2]> {
+    /// Greatest remainder, in parts of the greatest entry.
+    const REMAINDER: f64 = 1e-9;
+    let n = mass.len();
+    let mut sizes = vec![0.0; n];
+    for (row, column, value) in stiffness {
+        if row == column {
+            sizes[*row] = value.sqrt();
+        }
+    }
+    let mut entries: std::collections::BTreeMap<(usize, usize), [f64; 3]> = (0..n)
+        .map(|dof| ((dof, dof), [mass[dof], 0.0, 0.0]))
+        .collect();
+    for (place, list) in [(1, stiffness), (2, damping)] {
+        for (row, column, value) in list {
+            entries.entry((*row, *column)).or_default()[place] += value;
+        }
+    }
+    let mut sums = [[0.0; 3]; 2];
+    let weighted: Vec<[f64; 3]> = entries
+        .iter()
+        .map(|((row, column), own)| own.map(|value| value / (sizes[*row] * sizes[*column])))
+        .collect();
+    for own in &weighted {
+        for i in 0..2 {
+            for j in 0..3 {
+                sums[i][j] += own[i] * own[j];
+            }
+        }
+    }
+    let [[mm, mk, mc], [_, kk, kc]] = sums;
+    let determinant = mm * kk - mk * mk;
+    let alpha = (mc * kk - mk * kc) / determinant;
+    let beta = (mm * kc - mk * mc) / determinant;
+    // Coefficients that are rounding.
+    let alpha = if alpha.abs() * mm.sqrt() < REMAINDER * (kk.sqrt() * beta).abs() {
+        0.0
+    } else {
+        alpha
+    };
+    let beta = if beta.abs() * kk.sqrt() < REMAINDER * (mm.sqrt() * alpha).abs() {
+        0.0
+    } else {
+        beta
+    };
+    let greatest = weighted
+        .iter()
+        .fold(0.0_f64, |most, own| most.max(own[2].abs()));
+    let fits = weighted
+        .iter()
+        .all(|[m, k, c]| (c - alpha * m - beta * k).abs() <= REMAINDER * greatest);
+    (fits && alpha >= 0.0 && beta >= 0.0).then_some([alpha, beta])
+}
+
+/// Greatest product of two shapes of unit mass that should be orthogonal.
+const ORTHOGONAL: f64 = 0.05;
+/// The last period over that of what the modes leave out.
+const REMAINDER_PERIOD: f64 = 3.0;
+
+/// Floor masses, periods and shapes: K = M (Σ ω² φφᵀ + ω_r² (M⁻¹ − Σ φφᵀ)) M, with one frequency ω_r for all that the modes
+/// leave out.
+fn from_modes(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Given> {
+    for key in ["matrices", "ports", "units"] {
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, "belongs to a building given by matrices") =
+                Some("keep either matrices and ports, or mass, periods and shapes".into());
+        }
+    }
+    let count = storeys(reader, view, &["mass", "storey_height"]);
+    let mass = match reader.get(view, "mass") {
+        Some(field) => per_storey(reader, &field, Dimension::Mass, count),
+        None => {
+            reader.missing(
+                view,
+                "mass",
+                "add mass = [\"40 t\", …], of every floor from the ground up",
+            );
+            None
+        }
+    };
+    let storey_heights = match reader.get(view, "storey_height") {
+        Some(field) => per_storey(reader, &field, Dimension::Length, count),
+        None => count.map(|count| vec![DEFAULT_STOREY_HEIGHT; count]),
+    };
+    let periods = match reader.get(view, "periods") {
+        Some(field) => read_periods(reader, &field),
+        None => {
+            reader.missing(
+                view,
+                "periods",
+                "add periods = [\"0.8 s\", \"0.27 s\"], the longest first",
+            );
+            None
+        }
+    };
+    let shapes = match reader.get(view, "shapes") {
+        Some(field) => Some((read_shapes(reader, &field, count), field)),
+        None => {
+            reader.missing(view, "shapes", "add shapes = [[0.3, 0.7, 1.0], …], one list for each period, floors from the ground up");
+            None
+        }
+    };
+    let remainder = reader
+        .get(view, "remainder_period")
+        .and_then(|field| reader.positive(&field, Dimension::Time));
+    let (mass, storey_heights, periods) = (mass?, storey_heights?, periods?);
+    let (shapes, field) = shapes?;
+    let shapes = shapes?;
+    if mass.iter().any(|mass| *mass <= 0.0) {
+        reader.missing(view, "mass", "every floor needs a mass greater than zero");
+        return None;
+    }
+    if shapes.len() != periods.len() || periods.len() > mass.len() {
+        reader.bad(
+            &field,
+            format!(
+                "has {} shapes for {} periods of a building with {} floors; give one shape for each period, and at most one for each floor",
+                shapes.len(),
+                periods.len(),
+                mass.len()
+            ),
+        );
+        return None;
+    }
+    let shapes = match orthonormal(&mass, &shapes) {
+        Ok(shapes) => shapes,
+        Err(problem) => {
+            reader.bad(&field, problem);
+            return None;
+        }
+    };
+    let square = |period: f64| (std::f64::consts::TAU / period).powi(2);
+    let last = periods
+        .iter()
+        .fold(f64::INFINITY, |least, period| least.min(*period));
+    let rest = square(remainder.unwrap_or(last / REMAINDER_PERIOD));
+    let rows: Vec<Vec<f64>> = (0..mass.len())
+        .map(|i| {
+            (0..mass.len())
+                .map(|j| {
+                    let own = if i == j { rest * mass[i] } else { 0.0 };
+                    let modes = shapes.iter().zip(&periods);
+                    let of_modes =
+                        modes.map(|(shape, period)| (square(*period) - rest) * shape[i] * shape[j]);
+                    own + mass[i] * mass[j] * of_modes.sum::<f64>()
+                })
+                .collect()
+        })
+        .collect();
+    Some(Given::condensed(mass, &rows, storey_heights))
+}
+
+fn read_periods(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<f64>> {
+    let Some(entries) = field.entries() else {
+        reader.bad(field, "must be a list, such as [\"0.8 s\", \"0.27 s\"]");
+        return None;
+    };
+    let periods: Vec<_> = entries
+        .iter()
+        .map(|e| reader.positive(e, Dimension::Time))
+        .collect();
+    periods.into_iter().collect()
+}
+
+fn read_shapes(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    floors: Option<usize>,
+) -> Option<Vec<Vec<f64>>> {
+    let Some(entries) = field.entries() else {
+        reader.bad(field, "must be a list of shapes, such as [[0.3, 0.7, 1.0]]");
+        return None;
+    };
+    let mut shapes = Vec::new();
+    let mut sound = true;
+    for entry in &entries {
+        let Some(values) = entry.entries() else {
+            reader.bad(
+                entry,
+                "must be a list of the displacements of all floors, from the ground up",
+            );
+            sound = false;
+            continue;
+        };
+        let read: Vec<_> = values
+            .iter()
+            .map(|value| reader.quantity(value, Dimension::Dimensionless))
+            .collect();
+        if floors.is_some_and(|floors| floors != read.len()) {
+            reader.bad(
+                entry,
+                format!(
+                    "has {} values for {} floors",
+                    read.len(),
+                    floors.unwrap_or(0)
+                ),
+            );
+            sound = false;
+        }
+        match read.into_iter().collect() {
+            Some(shape) => shapes.push(shape),
+            None => sound = false,
+        }
+    }
+    sound.then_some(shapes)
+}
+
+/// Shapes of unit mass, orthogonal to each other: those of programs are rounded.
+fn orthonormal(mass: &[f64], shapes: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, String> {
+    let product = |a: &[f64], b: &[f64]| -> f64 {
+        a.iter().zip(b).zip(mass).map(|((a, b), m)| a * b * m).sum()
+    };
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    for (index, shape) in shapes.iter().enumerate() {
+        let mut own = shape.clone();
+        let size = product(&own, &own).sqrt();
+        if size.is_nan() || size == 0.0 {
+            return Err(format!("shape {} is zero", index + 1));
+        }
+        own.iter_mut().for_each(|value| *value /= size);
+        for (other, known) in found.iter().enumerate() {
+            let shared = product(&own, known);
+            if shared.abs() > ORTHOGONAL {
+                return Err(format!(
+                    "shapes {} and {} are not orthogonal with these masses (their product is {shared:.3}); check that shapes are of this direction, floors from the ground up, and that masses are those of the program",
+                    other + 1,
+                    index + 1
+                ));
+            }
+            for (value, known) in own.iter_mut().zip(known) {
+                *value -= shared * known;
+            }
+        }
+        let size = product(&own, &own).sqrt();
+        own.iter_mut().for_each(|value| *value /= size);
+        found.push(own);
+    }
+    Ok(found)
+}
