@@ -11,7 +11,7 @@ Examples:
 """
 
 from ._animation import Animation
-from ._builders import Frame, Gap, Link, Shear
+from ._builders import Frame, Gap, Given, Link, Shear
 from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
 from ._errors import (
     AnalysisError,
@@ -50,6 +50,7 @@ __all__ = [
     "Floor",
     "Frame",
     "Gap",
+    "Given",
     "InterruptedWarning",
     "JostleError",
     "JostleWarning",

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Union
 
 from ._units import (
     FrameUnits,
     GapUnits,
+    GivenUnits,
     LinkUnits,
     Quantities,
     Quantity,
@@ -18,6 +20,7 @@ from ._units import (
 )
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     from typing_extensions import Unpack
 
     #: Contact laws of model files.
@@ -38,6 +41,8 @@ if TYPE_CHECKING:
     _RestitutionIs = Literal["input", "realised"]
     #: Damping of the law ``modified-kelvin``.
     _Variant = Literal["ye", "mahmoud-jankowski"]
+    #: Force and length of given matrices.
+    _MatrixUnits = Literal["N, m", "kN, m", "N, mm", "kN, mm", "kip, ft", "kip, in"]
     #: Whether members change their length, or shear deforms them.
     _Flexibility = Literal["rigid", "flexible"]
 
@@ -231,6 +236,71 @@ class Shear(Part):
         )
 
 
+class Given(Part):
+    """A building by the matrices of another program, or by its modes. It is elastic.
+
+    By matrices, give ``matrices`` and ``ports``; by modes, ``mass``, ``periods`` and ``shapes``.
+
+    Args:
+        name: name of the building, used by gaps and links; ``"B1"``, ``"B2"``, … by default.
+        matrices: a NumPy archive with the arrays ``K`` and ``M`` and, where wanted, ``C``, ``r`` and ``h``, or a mapping with
+            ``"stiffness"`` and ``"mass"`` and, where wanted, ``"damping"``, ``"influence"`` and ``"heights"``: arrays, lists
+            or Matrix Market files. n rows each; the mass matrix is diagonal, and a list of n masses will do.
+            ``"influence"`` is 1 for displacements that move with the ground and 0 for rotations and vertical ones.
+        ports: floors by name, ``{"1": {"dof": 1, "height": "3 m"}}``; ``dof`` counts rows from 1.
+        units: force and length of the matrices, ``"N, m"`` by default; ``"kN, m"``, ``"N, mm"``, ``"kN, mm"``, ``"kip, ft"``,
+            ``"kip, in"``.
+        mass: floor masses from the ground up.
+        periods: periods of the modes.
+        shapes: displacements of all floors in every mode, from the ground up, of any scale, shape ``(modes, floors)``.
+        remainder_period: period of all that the modes leave out; a third of the last one by default.
+        storeys: number of storeys of a building given by modes; not needed with a list of masses.
+        storey_height: one length, or a list from the ground up, of a building given by modes; 3 m by default.
+        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default; not beside a damping
+            matrix.
+        **units_in_names: the same with units in names, as in ``storey_height_m=3.2``.
+
+    Raises:
+        TypeError: an unknown keyword, with the nearest known one.
+    """
+
+    _with_units = tuple(GivenUnits.__annotations__)
+
+    def __init__(
+        self,
+        name: str | None = None,
+        *,
+        matrices: str | os.PathLike[str] | Mapping[str, object] | None = None,
+        ports: Mapping[str, Mapping[str, object]] | None = None,
+        units: _MatrixUnits | None = None,
+        mass: Quantities | None = None,
+        periods: Quantities | None = None,
+        shapes: npt.ArrayLike | None = None,
+        remainder_period: Quantity | None = None,
+        storeys: int | None = None,
+        storey_height: Quantities | None = None,
+        damping: Table | None = None,
+        **units_in_names: Unpack[GivenUnits],
+    ) -> None:
+        super().__init__(
+            {
+                "name": name,
+                "kind": "given",
+                "matrices": matrices,
+                "ports": ports,
+                "units": units,
+                "mass": mass,
+                "periods": periods,
+                "shapes": shapes,
+                "remainder_period": remainder_period,
+                "storeys": storeys,
+                "storey_height": storey_height,
+                "damping": damping,
+            },
+            units_in_names,
+        )
+
+
 class Gap(Part):
     """The gap between two neighbours, or beside a rigid wall, and its contact law.
 
@@ -343,7 +413,7 @@ class Link(Part):
 
 
 #: A building as a part, or as the table of the model file.
-Building = Union[Frame, Shear, Table]
+Building = Union[Frame, Shear, Given, Table]
 
 _SECTION = ("width", "depth", "mass")
 

@@ -93,6 +93,16 @@ class ShearUnits(HeightUnits, total=False):
     stiffness_mn_m: Numbers
 
 
+class GivenUnits(HeightUnits, total=False):
+    """Keywords with units in their names."""
+
+    mass_kg: Numbers
+    mass_t: Numbers
+    mass_kn: Numbers
+    periods_s: Iterable[float]
+    remainder_period_s: float
+
+
 class LinkUnits(TypedDict, total=False):
     """Keywords with units in their names."""
 

@@ -259,14 +259,42 @@ def test_every_key_of_the_model_file_is_a_keyword() -> None:
     def keywords(part: type) -> set[str]:
         return set(inspect.signature(part).parameters) - {"units"}
 
-    frame, shear = schema["building"]["items"]["oneOf"]
+    frame, shear, given = schema["building"]["items"]["oneOf"]
     assert keywords(Frame) == keys(frame)
     assert keywords(Shear) == keys(shear)
+    # "units" is a key of its own there; floors is another name of storeys, and gravity is part of the matrices.
+    without = {"floors", "gravity", "p_delta", "units"}
+    assert keywords(jostle.Given) - {"units_in_names"} == keys(given) - without
     assert keywords(Gap) == keys(schema["gap"]["items"])
     assert keywords(jostle.Link) == keys(schema["link"]["items"])
     laws = set(schema["gap"]["items"]["properties"]["law"]["enum"])
     literal = inspect.getsource(_builders).split("_Law = Literal[")[1].split("]")[0]
     assert set(re.findall(r'"([^"]+)"', literal)) == laws
+
+
+def test_given_buildings_are_those_of_their_matrices() -> None:
+    shear = Shear("a", mass=[4e4, 3e4], stiffness=[6e7, 5e7], storey_height=3)
+    matrices = {"stiffness": np.array([[11e7, -5e7], [-5e7, 5e7]]), "mass": np.diag([4e4, 3e4])}
+    ports = {"1": {"dof": 1, "height": 3}, "2": {"dof": 2, "height": "6 m"}}
+    given = jostle.Given("a", matrices=matrices, ports=ports)
+    stiff = Shear("b", mass=[4e4, 4e4], stiffness=[9e7, 9e7], storey_height=3)
+    motion = jostle.Motion.el_centro().lasting("6 s")
+    law = {"law": "kelvin", "stiffness": "100 MN/m"}
+    runs = [
+        jostle.run(Model([own, stiff], Gap("5 mm", **law), motion=motion), record_interval=None)
+        for own in (shear, given)
+    ]
+    forces = [run.summary["gaps"][0]["peak_force_n"] for run in runs]
+    assert forces[0] > 0
+    assert forces[1] == pytest.approx(forces[0], rel=1e-9)
+    modes = jostle.modes(Model([shear]))["a"]
+    by_modes = jostle.Given(
+        "a", mass=[4e4, 3e4], periods=modes.periods, shapes=modes.floor_shapes, storey_height_m=3
+    )
+    again = jostle.modes(Model([by_modes]))["a"]
+    assert again.periods == pytest.approx(modes.periods, rel=1e-9)
+    with pytest.raises(jostle.ModelError, match="symmetric"):
+        Model([jostle.Given(matrices={**matrices, "stiffness": [[2, 1], [0, 2]]}, ports=ports)])
 
 
 def test_keywords_reach_the_model() -> None:

@@ -90,7 +90,11 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
                 format!("shear building, {}", counted(shear.mass.len(), "storey"))
             }
             Structure::Given(given) => {
-                format!("given by matrices, {}", counted(given.mass.len(), "floor"))
+                format!(
+                    "given by matrices of {}, {}",
+                    counted(given.len(), "displacement"),
+                    counted(given.floors.len(), "floor")
+                )
             }
         };
         let damping = &model.buildings[index].damping;

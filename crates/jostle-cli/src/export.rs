@@ -77,7 +77,7 @@ fn export_matrices(args: &ExportArgs) -> Result<(), Failure> {
     });
     let buildings = buildings.map_err(|faults| opened.input.faults(faults))?;
     let mut text = format!(
-        "# Buildings by their matrices, written by jostle {} from {}. Add [motion], [[gap]] and [[link]].\n",
+        "# Buildings by their matrices, written by jostle {} from \"{}\". Add [motion], [[gap]] and [[link]].\n",
         env!("CARGO_PKG_VERSION"),
         opened.input.model.title
     );

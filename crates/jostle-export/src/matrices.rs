@@ -100,7 +100,8 @@ fn of_building(building: &BuildingSystem) -> BuildingMatrices {
             "\"{}\" = {{ dof = {}, height = \"{} m\" }}",
             floor + 1,
             dof + 1,
-            place.height
+            // Sums of storey heights have rounding errors.
+            (place.height * 1e9).round() / 1e9
         );
     }
     BuildingMatrices {

@@ -513,7 +513,7 @@ fn warnings(model: &Model, root: &Node) -> Vec<String> {
                     building.name
                 ));
             }
-            if table.get("storey_height").is_none() {
+            if table.get("storey_height").is_none() && table.get("ports").is_none() {
                 warnings.push(format!(
                     "\"{}\" has no storey_height: storeys of {} m are assumed, for drifts and for floors at equal height",
                     building.name,

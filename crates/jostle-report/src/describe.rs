@@ -64,8 +64,11 @@ fn building(
         Structure::Frame(frame) => frame_facts(frame, &mut facts),
         Structure::Shear(shear) => shear_facts(shear, &mut facts),
         Structure::Given(given) => {
-            facts.push(("floor mass", grouped(&given.mass, format::tonnes)));
-            facts.push(("stiffness", "given as a matrix".to_owned()));
+            let floors = given.floors.iter().map(|dof| given.mass[*dof]);
+            let floors: Vec<f64> = floors.collect();
+            facts.push(("mass at the floors", grouped(&floors, format::tonnes)));
+            let size = given.len();
+            facts.push(("stiffness", format!("given as a matrix of {size} rows")));
         }
     }
     let rayleigh = summary.map(|s| (s.rayleigh_alpha_per_s, s.rayleigh_beta_s));

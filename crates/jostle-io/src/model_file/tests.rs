@@ -10,7 +10,7 @@ use crate::source::Source;
 use crate::tree::{Format, parse};
 
 /// Models that together have every table of a file.
-const ALL_TABLES: [&str; 3] = [
+const ALL_TABLES: [&str; 4] = [
     r#"
 [motion]
 record = "el-centro"
@@ -46,6 +46,17 @@ motion = { kind = "ricker" }
 column = { width = 1, depth = 1, bars = { top = "4 d20" } }
 beam = { EI = 1 }
 hinges = { rule = "normal", from = "section" }
+"#,
+    r#"
+[[building]]
+kind = "given"
+matrices = { stiffness = [[2.0]], mass = [1.0] }
+ports = { "1" = { dof = 1, height = 3 } }
+[[building]]
+kind = "given"
+mass = [1.0]
+periods = [1.0]
+shapes = [[1.0]]
 "#,
 ];
 

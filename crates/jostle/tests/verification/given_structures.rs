@@ -160,27 +160,44 @@ fn bad_matrices_are_refused() {
     };
     for (change, expected) in [
         (
-            (|g| g.stiffness[0][1] *= 1.1) as fn(&mut Given),
-            "must be symmetric",
+            (|g| g.stiffness[5].2 = -1.0) as fn(&mut Given),
+            "must be positive definite: displacement",
         ),
-        (|g| g.stiffness[2][2] = -1.0, "must be positive definite"),
-        (|g| g.stiffness[1][1] = f64::NAN, "must be finite"),
-        (|g| g.stiffness[1].truncate(2), "must be square"),
-        (|g| g.stiffness.truncate(2), "has 2 rows for 3 floors"),
-        (|g| g.mass[0] = 0.0, "building[1].mass[0]"),
+        (|g| g.stiffness[2].2 = f64::NAN, "must be finite"),
+        (
+            |g| g.stiffness[1].1 = 2,
+            "rows up to 3 and the lower triangle",
+        ),
+        (
+            |g| g.damping.push((3, 0, 1.0)),
+            "building[1].damping: has an entry in row 4",
+        ),
+        (
+            |g| g.mass[0] = 0.0,
+            "floor 1 is displacement 1, which has no mass",
+        ),
+        (|g| g.mass[1] = -1.0, "building[1].mass[1]"),
+        (
+            |g| g.floors[1] = 0,
+            "floor 2 is displacement 1, as a floor below it is",
+        ),
+        (|g| g.floors[2] = 7, "floor 3 is displacement 8, of 3"),
+        (
+            |g| g.influence[2] = 0.0,
+            "a floor must move with the ground",
+        ),
+        (
+            |g| g.heights[2] = 1.0,
+            "by the heights of the displacements",
+        ),
+        (|g| g.heights.truncate(1), "the heights of 1 displacements"),
         (
             |g| g.storey_heights.truncate(1),
             "has 1 entries for 3 floors",
         ),
         (
-            |g| {
-                *g = Given {
-                    mass: vec![],
-                    stiffness: vec![],
-                    storey_heights: vec![],
-                }
-            },
-            "at least one floor",
+            |g| *g = Given::condensed(vec![], &[], vec![]),
+            "has 0 displacements",
         ),
     ] {
         let found = problem(change);
@@ -203,4 +220,119 @@ fn gravity_and_springs_under_the_base_are_refused() {
         text[1].contains("make the base part of its stiffness matrix"),
         "{text:?}"
     );
+}
+
+/// A frame by its full matrices, rotations and vertical displacements included, in another order and with horizontal
+/// displacements that are measured in other lengths: the same impact forces, storey forces and base shear.
+#[test]
+fn a_frame_given_by_all_its_displacements_gives_the_same_numbers() {
+    let mut frames = two_frames(0.01, law(LawKind::HertzDamp, 0.6));
+    for building in &mut frames.buildings {
+        building.damping = DAMPING;
+    }
+    let system = assembled(&frames);
+    let mut model = frames.clone();
+    for (own, building) in model.buildings.iter_mut().zip(&system.buildings) {
+        let equations = &building.equations;
+        let n = equations.len();
+        let mut heights = vec![0.0; n];
+        let mut influence = vec![0.0; n];
+        for (node, place) in building.discretization.stick_model.nodes.iter().enumerate() {
+            if let Some(dof) = equations.horizontal(node) {
+                (heights[dof], influence[dof]) = (place.y, 1.0);
+            }
+        }
+        // The first displacement that is no floor, in halves.
+        let halved = (0..n)
+            .find(|dof| influence[*dof] == 1.0 && !building.floor_dofs.contains(dof))
+            .expect("inside a column");
+        influence[halved] = 2.0;
+        let scale = |dof: usize| if dof == halved { 0.5 } else { 1.0 };
+        let place = |dof: usize| n - 1 - dof;
+        let entry = |row: usize, column: usize, value: f64| {
+            let (a, b) = (place(row), place(column));
+            (a.max(b), a.min(b), value * scale(row) * scale(column))
+        };
+        let k = &equations.stiffness;
+        let mut stiffness: Vec<_> = (0..n).map(|dof| entry(dof, dof, k.diagonal[dof])).collect();
+        for (column, bounds) in k.starts.windows(2).enumerate() {
+            for at in bounds[0]..bounds[1] {
+                stiffness.push(entry(k.rows[at] as usize, column, k.values[at]));
+            }
+        }
+        let mut reversed = [equations.mass.clone(), heights, influence];
+        reversed[0][halved] *= 0.25;
+        reversed.iter_mut().for_each(|list| list.reverse());
+        let [mass, heights, influence] = reversed;
+        own.structure = Structure::Given(Given {
+            mass,
+            stiffness,
+            damping: Vec::new(),
+            influence,
+            heights,
+            floors: building.floor_dofs.iter().map(|dof| place(*dof)).collect(),
+            storey_heights: own.storey_heights().to_vec(),
+        });
+    }
+    let matrices = assembled(&model);
+    for solver in [Solver::Modal, Solver::Stiffness] {
+        let expected = outcome(&system, &frames, solver);
+        let found = outcome(&matrices, &model, solver);
+        assert!(expected.impacts.len() > 2);
+        assert_eq!(found.impacts.len(), expected.impacts.len());
+        for (found, expected) in found.impacts.iter().zip(&expected.impacts) {
+            close(found.peak_force, expected.peak_force, "impact force");
+        }
+        for (found, expected) in found
+            .floors
+            .iter()
+            .flatten()
+            .zip(expected.floors.iter().flatten())
+        {
+            close(found.storey_shear, expected.storey_shear, "storey shear");
+            close(
+                found.overturning_moment,
+                expected.overturning_moment,
+                "moment",
+            );
+            close(
+                found.total_acceleration,
+                expected.total_acceleration,
+                "acceleration",
+            );
+        }
+        for (found, expected) in found.base_shear.iter().zip(&expected.base_shear) {
+            close(*found, *expected, "base shear");
+        }
+    }
+}
+
+/// A damping matrix that modes do not share: direct steps take it whole, and modal stepping as dashpots.
+#[test]
+fn a_damping_matrix_acts_as_dashpots() {
+    let stiffness = vec![vec![9e7, -4e7], vec![-4e7, 4e7]];
+    let mut own = Given::condensed(vec![5e4, 4e4], &stiffness, vec![3.0; 2]);
+    own.damping = vec![(0, 0, 9e5), (1, 0, -2e5), (1, 1, 3e5)];
+    let mut model = pair(Structure::Shear);
+    model.buildings.truncate(1);
+    model.gaps.clear();
+    model.buildings[0].structure = Structure::Given(own);
+    model.buildings[0].damping = Damping::Rayleigh {
+        alpha: 0.0,
+        beta: 0.0,
+    };
+    let system = assembled(&model);
+    let [modal, direct] = [Solver::Modal, Solver::Riccati].map(|solver| {
+        let mut analysis = model.analysis.clone();
+        (analysis.solver, analysis.tolerance) = (Some(solver), 1e-5);
+        let motion = shaking(3.0);
+        let plan = Plan::choose(&system, &motion, &analysis).expect("steps are found");
+        run(&system, &motion, &plan)
+    });
+    for (found, expected) in modal.floors[0].iter().zip(&direct.floors[0]) {
+        let off = found.displacement_max.value / expected.displacement_max.value - 1.0;
+        assert!(off.abs() < 2e-5, "{off:e}");
+        let off = found.total_acceleration / expected.total_acceleration - 1.0;
+        assert!(off.abs() < 2e-5, "{off:e}");
+    }
 }

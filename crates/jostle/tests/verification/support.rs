@@ -300,7 +300,7 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
             .map(|stiffness| Spring::elastic([0, 1], stiffness))
             .into_iter()
             .collect(),
-        ..StickModel::default()..StickModel::default()
+        ..StickModel::default()
     };
     let discretization = Discretization {
         foot: None,
