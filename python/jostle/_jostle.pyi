@@ -39,6 +39,7 @@ def run(
     record_interval: float | None = None,
     force: bool = False,
     observer: Callable[[float, float], object] | None = None,
+    sensitivity: bool = False,
 ) -> Run: ...
 @final
 class Motion:

@@ -30,6 +30,7 @@ _KEYWORDS = (
     "pga",
     "pounding",
     "without_contact",
+    "sensitivity",
     "record_interval",
     "progress",
     "force",
@@ -44,6 +45,7 @@ def run(
     pga: Quantity | None = None,
     pounding: bool = True,
     without_contact: bool = False,
+    sensitivity: bool = False,
     record_interval: Quantity | None = 0.005,
     progress: bool | Observer = False,
     force: bool = False,
@@ -63,6 +65,8 @@ def run(
         pounding: false runs the buildings without contact.
         without_contact: adds a second run without contact, as the command line does for its report; the summary
             then includes the smallest gap without pounding.
+        sensitivity: runs the model with half and twice the contact stiffness and with restitution ± 0.15 as well;
+            ``result.summary["contact_sensitivity"]`` then has the spread of forces and the greatest changes of every building.
         record_interval: least time between recorded instants in free vibration, zero for every step (every step of a
             closed contact is recorded); ``None`` records no histories. Rows are additional steps of modal stepping, so
             its last digits depend on them.
@@ -85,7 +89,9 @@ def run(
     interval = None if record_interval is None else in_si("record_interval", record_interval, "time")
     if interval is not None and interval < 0.0:
         raise ValueError(f"record_interval: must not be negative, found {interval} s")
-    core = _walk(model, bool(pounding), interval, progress, bool(force), "pounding  ")
+    core = _walk(
+        model, bool(pounding), interval, progress, bool(force), "pounding  ", bool(sensitivity)
+    )
     result = Result._of(model, core, interval)
     if core.warning is not None:
         warnings.warn(core.warning, JostleWarning, stacklevel=2)
@@ -104,12 +110,18 @@ def run(
 
 
 def _walk(
-    model: Model, pounding: bool, interval: float | None, progress: Any, force: bool, label: str
+    model: Model,
+    pounding: bool,
+    interval: float | None,
+    progress: Any,
+    force: bool,
+    label: str,
+    sensitivity: bool = False,
 ) -> _jostle.Run:
     line = ProgressLine(label) if progress is True else contextlib.nullcontext()
     with line as shown:
         observer = shown or (progress if callable(progress) else None)
-        return _jostle.run(model._core, pounding, interval, force, observer)
+        return _jostle.run(model._core, pounding, interval, force, observer, sensitivity)
 
 
 def _interrupted(result: Result) -> None:

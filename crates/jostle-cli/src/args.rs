@@ -57,6 +57,9 @@ pub(crate) struct RunArgs {
     /// Add the greatest axial force, shear and moment of every column and beam of frames
     #[arg(long)]
     pub(crate) members: bool,
+    /// Run with half and twice the contact stiffness and with restitution ± 0.15 as well, and report the spread
+    #[arg(long)]
+    pub(crate) sensitivity: bool,
     /// Use this solver instead of that of the model
     #[arg(long, value_enum)]
     pub(crate) solver: Option<SolverName>,

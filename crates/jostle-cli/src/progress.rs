@@ -71,6 +71,7 @@ impl StageBar {
                 Stage::Pounding => "pounding       ",
                 Stage::Sensitivity => "sensitivity    ",
                 Stage::WithoutContact => "without contact",
+                Stage::ContactSensitivity => "other contacts",
             };
             self.0 = Some((stage, TimeBar::new(prefix)));
         }

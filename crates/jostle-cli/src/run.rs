@@ -74,8 +74,15 @@ fn analyse(
         ran.run_without_contact(settings, &mut observer);
         summary = ran.summary();
     }
+    if args.sensitivity {
+        ran.run_other_contacts(&mut observer);
+        summary = ran.summary();
+    }
     drop(observer);
     bar.finish();
+    if let Some(out) = out.filter(|_| args.no_report && args.sensitivity) {
+        ran.results(&summary).write(out, Content::TABLES)?;
+    }
     if let Some(out) = out.filter(|_| !args.no_report) {
         let methods = surveys(args, &ran)?;
         let results = Results {

@@ -34,7 +34,7 @@ pub(crate) struct Run {
 
 /// Runs a model from rest. `observer` is called with the current and the final time, a few times per second.
 #[pyfunction]
-#[pyo3(signature = (model, pounding=true, record_interval=None, force=false, observer=None))]
+#[pyo3(signature = (model, pounding=true, record_interval=None, force=false, observer=None, sensitivity=false))]
 pub(crate) fn run(
     py: Python<'_>,
     model: &Model,
@@ -42,6 +42,7 @@ pub(crate) fn run(
     record_interval: Option<f64>,
     force: bool,
     observer: Option<Py<PyAny>>,
+    sensitivity: bool,
 ) -> PyResult<Run> {
     let prepared = py.detach(|| model.prepare(force))?;
     let settings = Settings {
@@ -59,8 +60,10 @@ pub(crate) fn run(
             return ControlFlow::Continue(());
         }
         looked = Instant::now();
-        // The time of the run for sensitivity would begin at zero again.
-        let observer = observer.as_ref().filter(|_| stage != Stage::Sensitivity);
+        // The time of the runs for sensitivity would begin at zero again.
+        let observer = observer.as_ref();
+        let observer =
+            observer.filter(|_| !matches!(stage, Stage::Sensitivity | Stage::ContactSensitivity));
         match Python::attach(|py| heed(py, observer, progress)) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
@@ -69,7 +72,13 @@ pub(crate) fn run(
             }
         }
     };
-    let mut ran = py.detach(|| prepared.run(settings, &mut look_up));
+    let mut ran = py.detach(|| {
+        let mut ran = prepared.run(settings, &mut look_up);
+        if sensitivity && pounding {
+            ran.run_other_contacts(&mut look_up);
+        }
+        ran
+    });
     let interrupted = match stopped {
         Some(error) if error.is_instance_of::<PyKeyboardInterrupt>(py) => true,
         Some(error) => return Err(error),
@@ -100,7 +109,9 @@ impl Run {
             wall,
             ..
         } = &self.ran;
-        prepared.summary(outcome, without_contact, *wall)
+        let mut summary = prepared.summary(outcome, without_contact, *wall);
+        self.ran.add_contact_sensitivity(&mut summary);
+        summary
     }
 
     /// Shows what the files of the run are written from to a function, with the interpreter free for others.

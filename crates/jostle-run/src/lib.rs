@@ -5,6 +5,7 @@
 //! terminal is read.
 
 mod collide;
+mod contact_sensitivity;
 mod critical_gap;
 mod error;
 mod files;

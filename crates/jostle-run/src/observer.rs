@@ -14,6 +14,8 @@ pub enum Stage {
     Sensitivity,
     /// The run in which the buildings pass through each other.
     WithoutContact,
+    /// A run with another contact stiffness or restitution.
+    ContactSensitivity,
 }
 
 /// Called with the stage, the time reached and the time to reach; stops the run with `ControlFlow::Break`.

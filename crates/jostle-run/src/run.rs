@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::{Outcome, Pounding, Settings, Summary};
 
 use crate::observer::{Observer, Stage};
@@ -18,6 +19,8 @@ pub struct Ran {
     pub without_contact: Option<Outcome>,
     /// Time that the run with contact took \[s\].
     pub wall: f64,
+    /// The same with other contacts, or why not, if these were run.
+    pub contact_sensitivity: Option<Result<ContactSensitivity, String>>,
 }
 
 impl Prepared {
@@ -41,6 +44,7 @@ impl Prepared {
             outcome,
             without_contact: None,
             wall,
+            contact_sensitivity: None,
         }
     }
 }
@@ -59,7 +63,9 @@ impl Ran {
     #[must_use]
     pub fn summary(&self) -> Summary {
         let without = self.without_contact.as_ref();
-        self.prepared.summary(&self.outcome, without, self.wall)
+        let mut summary = self.prepared.summary(&self.outcome, without, self.wall);
+        self.add_contact_sensitivity(&mut summary);
+        summary
     }
 
     /// What the files of the run are written from.

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::summary::{
     BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, LinkSummary,
     Summary,
@@ -53,6 +54,9 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     write_hinges(text, &summary.buildings)?;
     for gap in &summary.gaps {
         write_gap(text, gap, summary)?;
+    }
+    if let Some(spread) = &summary.contact_sensitivity {
+        write_spread(text, spread)?;
     }
     for link in &summary.links {
         write_link(text, link)?;
@@ -277,6 +281,39 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
         )?;
     }
     write_code_joint(text, gap, summary)
+}
+
+fn write_spread(text: &mut String, spread: &ContactSensitivity) -> std::fmt::Result {
+    let heading = "With half and twice the contact stiffness, and restitution ± 0.15";
+    writeln!(text, "\n{}", styled(BOLD, heading))?;
+    for gap in &spread.gaps {
+        let [left, right] = &gap.between;
+        let (fewest, most) = (gap.impact_count_min, gap.impact_count_max);
+        let impacts = if fewest == most {
+            counted(most, "impact")
+        } else {
+            format!("{fewest} to {most} impacts")
+        };
+        writeln!(
+            text,
+            "{left} ↔ {right}: peak {} to {} kN, {impacts}",
+            kn(gap.peak_force_min_n),
+            kn(gap.peak_force_max_n)
+        )?;
+    }
+    for building in &spread.buildings {
+        let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+        writeln!(
+            text,
+            "{}: displacements change by up to {}, drifts {}, storey shears {}, accelerations {}",
+            building.name,
+            percent(building.displacement),
+            percent(building.storey_drift),
+            percent(building.storey_shear),
+            percent(building.total_acceleration)
+        )?;
+    }
+    Ok(())
 }
 
 fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {

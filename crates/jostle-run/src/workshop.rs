@@ -72,7 +72,7 @@ impl Workshop {
             kin.cloned()
         };
         let assembled = match &kin {
-            Some(kin) => kin.system.with_widths_of(&input.model),
+            Some(kin) => kin.system.with_gaps_of(&input.model),
             None => System::assemble(&input.model),
         };
         let assembled = Assembled {

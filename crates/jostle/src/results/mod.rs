@@ -1,5 +1,6 @@
 //! Results of a run as numbers to report.
 
+pub mod contact_sensitivity;
 mod counted_impact;
 mod members;
 mod summarise;

@@ -110,6 +110,7 @@ impl Summary {
             energy: energy_summary(outcome),
             promise: promise_summary(run),
             work: work_summary(run),
+            contact_sensitivity: None,
             ended_early: match &outcome.end {
                 RunEnd::Completed => None,
                 RunEnd::Stopped => Some(format!(

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::contact_sensitivity::ContactSensitivity;
+
 /// Results of a run without histories.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct Summary {
@@ -21,6 +23,9 @@ pub struct Summary {
     pub energy: EnergySummary,
     /// Whether the errors of reported peaks are within the tolerance.
     pub promise: PromiseSummary,
+    /// How results depend on the contact; absent unless asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_sensitivity: Option<ContactSensitivity>,
     /// Work done.
     pub work: WorkSummary,
     /// Reason if the run did not reach the end of the motion.

@@ -55,12 +55,12 @@ impl System {
         }
     }
 
-    /// The same buildings with the gaps of another model, which may differ from that of this system in the widths of
-    /// its gaps only: nothing is assembled anew.
+    /// The same buildings with the gaps of another model, which may differ from that of this system in the widths and laws
+    /// of its gaps only: nothing is assembled anew.
     ///
     /// # Errors
     /// As [`System::assemble`].
-    pub fn with_widths_of(&self, model: &Model) -> Result<Self, Vec<ModelFault>> {
+    pub fn with_gaps_of(&self, model: &Model) -> Result<Self, Vec<ModelFault>> {
         model.check()?;
         let mut system = Self {
             buildings: self.buildings.clone(),
