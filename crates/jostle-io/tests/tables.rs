@@ -126,6 +126,7 @@ fn summary() -> Summary {
         energy: EnergySummary::default(),
         promise: Default::default(),
         work: WorkSummary::default(),
+        contact_sensitivity: None,
         ended_early: None,
         warnings: Vec::new(),
         notes: Vec::new(),
