@@ -2,11 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use super::direct::run_directly;
+use super::direct::{run_directly, within_tolerance};
 use super::modal;
 use super::outcome::{Outcome, Progress, Settings, StepError};
 use super::plan::Plan;
-use super::within_tolerance::within_tolerance;
 use crate::model::Solver;
 use crate::motion::GroundMotion;
 use crate::state::State;

@@ -1,13 +1,13 @@
 //! Links: springs and dashpots between buildings, in every step (theory, Eqs. L1 to L3).
 
-use super::band::Band;
-use super::coupling::{Closed, scaled_band};
-use super::direct::Direct;
-use super::runner::RunState;
+use super::Direct;
 use crate::contact::ForceLaw;
 use crate::history::{Extreme, LinkTotals};
 use crate::interface::LinkElement;
 use crate::state::State;
+use crate::stepping::band::Band;
+use crate::stepping::coupling::{Closed, scaled_band};
+use crate::stepping::runner::RunState;
 use crate::structure::StepEquations;
 use crate::system::System;
 

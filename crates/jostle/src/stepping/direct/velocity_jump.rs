@@ -1,10 +1,10 @@
 //! Sudden changes of velocity under the momentum law (docs/contact.md, N1 and N2).
 
-use super::direct::Direct;
-use super::runner::{Jump, RunState};
+use super::Direct;
 use crate::contact::momentum;
 use crate::interface::Port;
 use crate::linear::StepMatrix;
+use crate::stepping::runner::{Jump, RunState};
 use crate::structure::StepEquations;
 use crate::system::{BuildingSystem, System};
 

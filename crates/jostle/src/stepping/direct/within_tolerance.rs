@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use super::direct::run_directly;
-use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings};
-use super::peak_change::change_of_peaks;
-use super::plan::Plan;
-use super::sensitivity::first_parted;
+use super::run_directly;
 use crate::motion::GroundMotion;
 use crate::state::State;
+use crate::stepping::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings};
+use crate::stepping::peak_change::change_of_peaks;
+use crate::stepping::plan::Plan;
+use crate::stepping::sensitivity::first_parted;
 use crate::structure::StepEquations;
 use crate::system::System;
 
@@ -92,7 +92,7 @@ impl Change {
 /// of both over r² − 1 (L. F. Richardson, 1911, Phil. Trans. R. Soc. A 210, 307–357). Accelerations of modes that a step does
 /// not resolve fall more slowly. So two runs decide only if the error would be within the tolerance at first order too;
 /// otherwise a third one gives the order (P. J. Roache, 1994, J. Fluids Eng. 116, 405–413).
-pub(super) fn within_tolerance<E: StepEquations>(
+pub(in crate::stepping) fn within_tolerance<E: StepEquations>(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,

@@ -5,12 +5,12 @@
 //! with. Forces increase with deformation, so the step has one solution; the number of lines is finite, so it is
 //! reached exactly.
 
-use super::direct::Direct;
-use super::outcome::StepError;
-use super::runner::RunState;
+use super::Direct;
 use crate::history::{SpringEvent, SpringTotals};
 use crate::hysteresis::{HysteresisMemory, Stage};
 use crate::state::State;
+use crate::stepping::outcome::StepError;
+use crate::stepping::runner::RunState;
 use crate::structure::StepEquations;
 use crate::system::{BuildingSystem, System};
 

@@ -1,13 +1,13 @@
 //! A trial step.
 
-use super::clock::Clock;
-use super::coupling::Closed;
-use super::direct::Direct;
+use super::Direct;
 use super::kernels::Loads;
-use super::outcome::StepError;
-use super::runner::RunState;
 use crate::simd;
 use crate::state::ContactPhase;
+use crate::stepping::clock::Clock;
+use crate::stepping::coupling::Closed;
+use crate::stepping::outcome::StepError;
+use crate::stepping::runner::RunState;
 use crate::structure::StepEquations;
 
 impl<E: StepEquations> Direct<E> {

@@ -1,28 +1,40 @@
 //! Stepping of all degrees of freedom, building by building (theory, Eqs. N2 to N4).
 
+mod factors;
+mod integrator;
+mod joints;
+mod kernels;
+mod links;
+mod springs;
+mod trial;
+mod velocity_jump;
+mod within_tolerance;
+
+pub(super) use within_tolerance::within_tolerance;
+
 use std::ops::ControlFlow;
 
-use super::clock::{Clock, NextStep};
-use super::control::{Observed, half_cycle, next_division};
-use super::energy::EnergyAudit;
-use super::events::Cubic;
-use super::factors::StepFactors;
-use super::joints::Joints;
-use super::kernels::Advance;
-use super::links::Links;
-use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
-use super::plan::Plan;
-use super::recorder::{Instant, Recorder};
-use super::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
-use super::springs::YieldingSprings;
-use super::velocity_jump::{JumpFactor, JumpScratch};
 use crate::model::Integrator;
 use crate::motion::GroundMotion;
 use crate::simd;
 use crate::state::{ContactPhase, Episode, State};
 use crate::statics::STANDARD_GRAVITY;
+use crate::stepping::clock::{Clock, NextStep};
+use crate::stepping::control::{Observed, half_cycle, next_division};
+use crate::stepping::energy::EnergyAudit;
+use crate::stepping::events::Cubic;
+use crate::stepping::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
+use crate::stepping::plan::Plan;
+use crate::stepping::recorder::{Instant, Recorder};
+use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::structure::StepEquations;
 use crate::system::System;
+use factors::StepFactors;
+use joints::Joints;
+use kernels::Advance;
+use links::Links;
+use springs::YieldingSprings;
+use velocity_jump::{JumpFactor, JumpScratch};
 
 /// Runs a system with the steps of the plan, without an estimate of the error.
 pub(super) fn run_directly<E: StepEquations>(
@@ -45,25 +57,25 @@ pub(super) fn run_directly<E: StepEquations>(
 
 /// All degrees of freedom of all buildings, and how their steps are solved.
 pub(super) struct Direct<E: StepEquations> {
-    pub(super) equations: Vec<E>,
+    equations: Vec<E>,
     /// The first serves steps off the grid, the others one division of the free-vibration step each.
-    pub(super) factors: Vec<StepFactors<E>>,
+    factors: Vec<StepFactors<E>>,
     divisions: Vec<u32>,
     /// Displacements, velocities, accelerations and springs; time and contacts are those of the run.
-    pub(super) state: State,
+    state: State,
     /// Load that the initial state leaves unbalanced; empty once it has been applied.
-    pub(super) unbalanced: Vec<f64>,
+    unbalanced: Vec<f64>,
     /// The tried step: first the load, then y, then the displacement over the step.
-    pub(super) increment: Vec<f64>,
+    increment: Vec<f64>,
     /// D′ of one building, for what K′ and C′ make of it.
-    pub(super) rate_term: Vec<f64>,
-    pub(super) yielding: YieldingSprings,
-    pub(super) joints: Joints,
-    pub(super) links: Links,
+    rate_term: Vec<f64>,
+    yielding: YieldingSprings,
+    joints: Joints,
+    links: Links,
     /// For sudden changes of velocity, factorised when first needed.
-    pub(super) jump_factors: Vec<Option<JumpFactor<E>>>,
-    pub(super) jump: JumpScratch,
-    pub(super) audit: EnergyAudit,
+    jump_factors: Vec<Option<JumpFactor<E>>>,
+    jump: JumpScratch,
+    audit: EnergyAudit,
     recorder: Recorder,
     /// Short steps left after a jump of velocities.
     struck_steps: u32,
