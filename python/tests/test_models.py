@@ -275,18 +275,21 @@ def test_every_key_of_the_model_file_is_a_keyword() -> None:
 def test_given_buildings_are_those_of_their_matrices() -> None:
     shear = Shear("a", mass=[4e4, 3e4], stiffness=[6e7, 5e7], storey_height=3)
     matrices = {"stiffness": np.array([[11e7, -5e7], [-5e7, 5e7]]), "mass": np.diag([4e4, 3e4])}
-    ports = {"1": {"dof": 1, "height": 3}, "2": {"dof": 2, "height": "6 m"}}
+    ports: dict[str, dict[str, object]] = {
+        "1": {"dof": 1, "height": 3},
+        "2": {"dof": 2, "height": "6 m"},
+    }
     given = jostle.Given("a", matrices=matrices, ports=ports)
     stiff = Shear("b", mass=[4e4, 4e4], stiffness=[9e7, 9e7], storey_height=3)
     motion = jostle.Motion.el_centro().lasting("6 s")
-    law = {"law": "kelvin", "stiffness": "100 MN/m"}
-    runs = [
-        jostle.run(Model([own, stiff], Gap("5 mm", **law), motion=motion), record_interval=None)
-        for own in (shear, given)
-    ]
+    gap = Gap("5 mm", law="kelvin", stiffness="100 MN/m")
+    models = [Model([shear, stiff], gap, motion=motion), Model([given, stiff], gap, motion=motion)]
+    runs = [jostle.run(model, record_interval=None, sensitivity=True) for model in models]
     forces = [run.summary["gaps"][0]["peak_force_n"] for run in runs]
     assert forces[0] > 0
     assert forces[1] == pytest.approx(forces[0], rel=1e-9)
+    spread = runs[0].summary["contact_sensitivity"]["gaps"][0]
+    assert spread["peak_force_min_n"] < forces[0] < spread["peak_force_max_n"]
     modes = jostle.modes(Model([shear]))["a"]
     by_modes = jostle.Given(
         "a", mass=[4e4, 3e4], periods=modes.periods, shapes=modes.floor_shapes, storey_height_m=3
