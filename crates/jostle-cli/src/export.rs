@@ -17,7 +17,7 @@ pub(crate) struct ExportArgs {
     /// Program to write for
     #[arg(long, value_enum)]
     to: Target,
-    /// File to write, or folder for matrices; without it, a script is printed
+    /// File for a script, or folder for matrices. A script without a file is printed
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Replace the file even if jostle did not write it
@@ -39,7 +39,7 @@ const SCRIPT: FileKind = FileKind {
 enum Target {
     /// A Python script for OpenSeesPy
     Openseespy,
-    /// K, M, C, r and h of every building as NumPy archives, and the buildings of a model file that reads them
+    /// NumPy archives with the matrices of every building, and a list of buildings for a model file
     Matrices,
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use jostle::method::MethodSurvey;
 use jostle::{RunEnd, Solver};
@@ -101,6 +101,11 @@ fn analyse(
         terminal::print(&describe_summary(&summary, report.as_deref()))?;
     }
     ending(&ran.outcome.end, out)?;
+    let sensitivity = ran.contact_sensitivity.as_ref();
+    if stop.load(Ordering::Relaxed) && sensitivity.is_some_and(Result::is_err) {
+        terminal::remark("stopped in the runs with other contacts; the run itself is complete");
+        return Err(Failure::Stopped);
+    }
     match ran.without_contact.map(|run| run.end) {
         Some(RunEnd::Stopped) => {
             let kept = out.map_or_else(String::new, |out| format!(" and is in {}", out.display()));

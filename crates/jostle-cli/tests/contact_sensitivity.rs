@@ -131,3 +131,17 @@ fn elastic_laws_vary_in_stiffness_only_and_the_text_says_the_spread() {
             .contains("contact_sensitivity")
     );
 }
+
+#[test]
+fn without_a_gap_the_run_says_that_there_is_nothing_to_vary() {
+    let text = model("kelvin", 2e8, 0.6);
+    let (before, rest) = text.split_once("[[building]]").expect("buildings");
+    let (first, _) = rest.split_once("[[building]]").expect("two");
+    let own = run(
+        &format!("{before}[[building]]{first}"),
+        &["--sensitivity", "--no-report"],
+    );
+    let warnings = own["warnings"].to_string();
+    assert!(warnings.contains("the model has no gap"), "{warnings}");
+    assert!(own.get("contact_sensitivity").is_none());
+}

@@ -336,9 +336,9 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Given, "matrices", TextOrTable(S::Matrices), "NumPy archive (.npz) with the arrays K and M, or a table of Matrix Market files, relative to this file. C is the damping matrix, r the displacements when the ground moves by 1, h their heights."),
     default(S::Given, "units", Choice(MATRIX_UNITS), "\"N, m\"", "Force and length of the matrices; masses are force × s² / length. With mm, ft or in all displacements must be lengths."),
     optional(S::Given, "ports", Kind::Named(S::Port), "Floors by name, such as `{ \"1\" = { dof = 1, height = \"3 m\" } }`; they can be hit, linked and reported."),
-    optional(S::Given, "mass", PerStorey(D::Mass), "Floor masses from the ground up, of a building given by its modes. A weight is converted."),
-    optional(S::Given, "periods", Quantities(D::Time), "Periods of the modes, of a building given by them."),
-    optional(S::Given, "shapes", Kind::NumberLists, "Displacements of all floors in every mode, from the ground up, of any scale."),
+    optional(S::Given, "mass", PerStorey(D::Mass), "Floor masses from the ground up, with periods and shapes. A weight is converted."),
+    optional(S::Given, "periods", Quantities(D::Time), "Periods of the modes."),
+    optional(S::Given, "shapes", Kind::NumberLists, "One list for each period: displacements of the floors from the ground up, of any scale."),
     default(S::Given, "remainder_period", Quantity(D::Time), "a third of the last period", "Period of all that the modes leave out."),
 
     optional(S::Matrices, "stiffness", Kind::TextOrNumbers, "Stiffness matrix K: symmetric, positive definite."),

@@ -13,11 +13,13 @@ use crate::prepared::Prepared;
 use crate::run::Ran;
 
 impl Ran {
-    /// Runs the model with other contacts, if there is a gap and the run came to its end.
+    /// Runs the model with other contacts, if the run came to its end.
     pub fn run_other_contacts(&mut self, observer: &mut Observer<'_>) {
-        if self.prepared.compares(&self.outcome) {
+        if self.prepared.system.contacts.is_empty() {
+            self.contact_sensitivity = Some(Err("the model has no gap".to_owned()));
+        } else if self.prepared.compares(&self.outcome) {
             let summary = self.prepared.summary(&self.outcome, None, self.wall);
-            self.contact_sensitivity = self.other_contacts(&summary, observer).transpose();
+            self.contact_sensitivity = Some(self.other_contacts(&summary, observer));
         }
     }
 
@@ -32,12 +34,11 @@ impl Ran {
         }
     }
 
-    /// `None` if a run was stopped.
     fn other_contacts(
         &self,
         summary: &Summary,
         observer: &mut Observer<'_>,
-    ) -> Result<Option<ContactSensitivity>, String> {
+    ) -> Result<ContactSensitivity, String> {
         let mut others = Vec::new();
         for variant in ContactVariant::USUAL {
             let Some(prepared) = self.prepared.with_contact(variant)? else {
@@ -48,12 +49,12 @@ impl Ran {
             });
             match &outcome.end {
                 RunEnd::Completed => {}
-                RunEnd::Stopped => return Ok(None),
+                RunEnd::Stopped => return Err("they were interrupted".to_owned()),
                 RunEnd::Failed(error) => return Err(format!("{}: {error}", in_words(variant))),
             }
             others.push((variant, prepared.summary(&outcome, None, 0.0)));
         }
-        Ok(Some(compare(summary, &others)))
+        Ok(compare(summary, &others))
     }
 }
 

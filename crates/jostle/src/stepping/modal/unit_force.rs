@@ -84,6 +84,8 @@ pub(super) struct UnitResponse {
     /// loads of the contact and the links together; empty without links.
     pub(super) links: Vec<[f64; 2]>,
     with_links: [Vec<f64>; 2],
+    /// Scratch space: both sides of the equations of the links.
+    equations: [Vec<f64>; 2],
 }
 
 impl UnitForce {
@@ -135,13 +137,13 @@ impl UnitResponse {
     fn add_links(&mut self, contact: usize, table: &LinkTable, reduced: &Reduced) {
         let push = &reduced.unit_forces[contact];
         let [q, v] = &mut self.modal;
-        let mut right = Vec::with_capacity(2 * reduced.links.len());
+        let [right, unknowns] = &mut self.equations;
+        right.clear();
         for link in &reduced.links {
             let end = closings(reduced, link, [q, v], Some(&push.loads), &push.modes);
             right.extend(link.unknowns(end, table.step()));
         }
-        let mut unknowns = Vec::with_capacity(right.len());
-        table.solve(&right, &mut unknowns);
+        table.solve(right, unknowns);
         for list in &mut self.with_links {
             list.clone_from(&push.loads);
         }
