@@ -1,4 +1,4 @@
-//! Digests of the results of many models: what a change of structure must leave as it is, bit by bit.
+//! Digests of the results of many models. A change of structure must not change them.
 
 use std::fmt::Write;
 use std::ops::ControlFlow;
