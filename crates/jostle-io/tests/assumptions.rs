@@ -120,3 +120,13 @@ fn beams_without_mass_between_their_ends_are_named() {
         Vec::<String>::new()
     );
 }
+
+#[test]
+fn buildings_that_share_an_assumption_share_its_line() {
+    let two = format!("{FRAME}{}", FRAME.replace("\"A\"", "\"B\""));
+    assert_one(
+        &assumptions(&two),
+        "\"A\", \"B\": columns and beams have",
+        "stiffness_factor = {",
+    );
+}

@@ -15,6 +15,8 @@ use crate::style::{BOLD, DIM, LOUD, styled};
 
 /// Contacts listed at most.
 const LISTED: usize = 10;
+/// The name of a wall beside a gap.
+const WALL: &str = "wall";
 
 /// The summary of a run on one screen, as `jostle run` prints it, without colours.
 #[must_use]
@@ -254,13 +256,16 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
         )?;
     }
     for contact in hit.iter().take(LISTED) {
-        let floor = |side: usize| {
-            contact.floors[side].map_or_else(|| "–".to_owned(), |floor| floor.to_string())
+        // Neither a floor nor a wall: a column between its floors.
+        let point = |side: usize| match contact.floors[side] {
+            Some(floor) => floor.to_string(),
+            None if gap.between[side] == WALL => WALL.to_owned(),
+            None => "–".to_owned(),
         };
         writeln!(
             text,
-            "  {:>7}  {:7}  {:>8} kN  {:>5.1} kN·s  {:>5} mm  {:>7.3} s",
-            format!("{} | {}", floor(0), floor(1)),
+            "{:>9}  {:7}  {:>8} kN  {:>5.1} kN·s  {:>5} mm  {:>7.3} s",
+            format!("{} | {}", point(0), point(1)),
             contact.impact_count,
             kn(contact.peak_force_n),
             contact.impulse_n_s * 1e-3,

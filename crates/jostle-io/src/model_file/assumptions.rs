@@ -27,7 +27,7 @@ fn of_model(model: &Model, root: &Node) -> Vec<String> {
         Some(Value::List(list)) => list.iter().filter_map(as_table).collect(),
         _ => Vec::new(),
     };
-    let mut found = Vec::new();
+    let mut found: Vec<(String, Vec<&str>)> = Vec::new();
     for (building, table) in model.buildings.iter().zip(tables) {
         let Structure::Frame(frame) = &building.structure else {
             continue;
@@ -37,10 +37,16 @@ fn of_model(model: &Model, root: &Node) -> Vec<String> {
             massless_beams(frame),
         ];
         for text in assumptions.into_iter().flatten() {
-            found.push(format!("\"{}\": {text}", building.name));
+            match found.iter_mut().find(|(known, _)| *known == text) {
+                Some((_, names)) => names.push(&building.name),
+                None => found.push((text, vec![&building.name])),
+            }
         }
     }
     found
+        .into_iter()
+        .map(|(text, names)| format!("\"{}\": {text}", names.join("\", \"")))
+        .collect()
 }
 
 fn gross_sections(building: &Table, hinges: Option<&Hinges>) -> Option<String> {
