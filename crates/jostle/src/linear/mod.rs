@@ -3,6 +3,7 @@
 pub(crate) mod cholesky;
 pub(crate) mod counting_sort;
 pub(crate) mod diagonal_runs;
+pub(crate) mod envelope;
 pub(crate) mod full_matrix;
 pub(crate) mod sparse_cholesky;
 mod sparse_symmetric;

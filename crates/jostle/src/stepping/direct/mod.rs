@@ -91,7 +91,7 @@ const COLLAPSE_DRIFT: f64 = 0.25;
 impl<E: StepEquations> Direct<E> {
     fn new(run: &RunState<'_>, settings: Settings, state: State) -> Self {
         let (system, motion, plan) = (run.system, run.motion, run.plan);
-        let joints = Joints::of(system);
+        let joints = Joints::new(system);
         let links = Links::starting_from(system, &state);
         let steps = motion.duration / plan.step;
         let mut recorder = Recorder::new(system, motion.duration, settings.record_interval);
@@ -471,7 +471,11 @@ impl<E: StepEquations> Stepper for Direct<E> {
     /// Changes the accelerations of the two faces (theory, Eq. H2).
     fn change_force(&mut self, run: &RunState<'_>, contact: usize, change: f64) {
         for (port, sign) in run.system.contacts[contact].ports.sides() {
-            self.state.acceleration[port.dof] += sign * change / port.mass;
+            let building = &run.system.buildings[port.building];
+            for &(dof, share) in port.row.entries() {
+                let mass = building.equations.mass[dof - building.offset];
+                self.state.acceleration[dof] += share * sign * change / mass;
+            }
         }
     }
 

@@ -117,7 +117,7 @@ impl ModalStepper<'_> {
     pub(super) fn predict_forces(&mut self, run: &mut RunState<'_>, step: f64) {
         self.bend.fill(0.0);
         run.coupling.clear();
-        for index in 0..run.phases.len() {
+        for (place, &index) in self.reduced.graph.order.iter().enumerate() {
             let ContactPhase::Closed(episode) = &run.phases[index] else {
                 continue;
             };
@@ -138,6 +138,7 @@ impl ModalStepper<'_> {
             let bend = predicted.bend(episode.force, 0.0);
             self.reduced.push_apart(index, bend, &mut self.bend);
             run.coupling.closed.push(closed);
+            run.coupling.places.push(place);
             self.predicted[index] = predicted;
         }
     }
