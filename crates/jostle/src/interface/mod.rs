@@ -1,4 +1,4 @@
-//! What stands between buildings: contacts and links, and the points they act on.
+//! Contacts and links between buildings, and the points they act on.
 
 mod contact;
 pub(crate) mod contact_points;

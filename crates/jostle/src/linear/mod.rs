@@ -1,4 +1,4 @@
-//! Matrices and vectors: what every solver stands on.
+//! Matrices and vectors that every solver uses.
 
 pub(crate) mod cholesky;
 pub(crate) mod counting_sort;

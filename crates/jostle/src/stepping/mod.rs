@@ -12,6 +12,7 @@ mod energy;
 mod episode;
 mod events;
 mod expected_work;
+mod gap_forces;
 mod member_peaks;
 pub mod modal;
 mod outcome;

@@ -17,6 +17,23 @@ use crate::transfer::riccati::RiccatiSweep;
 /// Runs a system from rest through a ground motion. `observer` is called now and then and may stop the run.
 ///
 /// The answer depends on nothing but the arguments, bit for bit.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Settings, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// assert!(!outcome.impacts.is_empty());
+/// assert!(outcome.energy.worst_imbalance < 1e-9);
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 pub fn simulate(
     system: &System,
     motion: &GroundMotion,

@@ -1,4 +1,4 @@
-//! Places where buildings meet.
+//! Contacts between buildings.
 
 use faer::c64;
 use jostle::System;

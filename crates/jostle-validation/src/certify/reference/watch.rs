@@ -1,4 +1,4 @@
-//! What is watched of the buildings of a component.
+//! Outputs of the buildings of a component that are followed.
 
 use faer::c64;
 use jostle::System;

@@ -135,6 +135,7 @@ impl<E: StepEquations> Direct<E> {
             impacts: run.impacts,
             floors: std::mem::take(&mut self.recorder.floors),
             closing: std::mem::take(&mut self.recorder.closing),
+            gap_forces: run.gap_forces.peaks,
             base_shear: std::mem::take(&mut self.recorder.base_shear),
             acceleration_parts: std::mem::take(&mut self.recorder.parts),
             spring_history: self.recorder.springs.take(),

@@ -29,7 +29,7 @@ const LOST: f64 = 0.1;
 /// Contribution of rounding to the error: motion with the energy of the imbalance, relative to all motion \[–\].
 ///
 /// Steps balance their energy exactly, apart from rounding and the quadrature of contact forces. The latter falls with
-/// the step; what rises is rounding. Very short steps lose digits, and two of them may lose them alike.
+/// the step; what rises is rounding. Very short steps lose digits, and two runs may lose the same ones.
 fn rounding([coarse, fine]: [&Outcome; 2]) -> f64 {
     let [before, after] = [coarse, fine].map(|outcome| outcome.energy.imbalance());
     LOST * (after - before).max(0.0).sqrt()

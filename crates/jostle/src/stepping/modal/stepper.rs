@@ -242,6 +242,7 @@ impl<'a> ModalStepper<'a> {
             acceleration_parts: AccelerationParts::default(),
             floors: std::mem::take(&mut self.peaks.floors),
             closing: std::mem::take(&mut self.peaks.closing),
+            gap_forces: run.gap_forces.peaks,
             base_shear: std::mem::take(&mut self.peaks.base_shear),
             spring_history: None,
             members,
@@ -340,7 +341,7 @@ impl<'a> ModalStepper<'a> {
         }
     }
 
-    /// Takes in the peaks of a step that was taken, whose modal accelerations at the end stand in `scratch` and whose
+    /// Adds the peaks of an accepted step, whose modal accelerations at the end are in `scratch` and whose
     /// jerks without the load term, in `jerk`.
     fn look(&mut self, run: &RunState<'_>, ground: [f64; 2], start: f64, step: f64) {
         let reduced = self.reduced;

@@ -1,4 +1,4 @@
-//! A run: from one accepted step to the next, however the buildings are stepped.
+//! A run: from one accepted step to the next, the same for every stepper.
 
 mod contact_events;
 mod corners;
