@@ -168,8 +168,8 @@ mod tests {
         assert_eq!(firsts(&graph, &[0, 1, 2]), [0, 0, 1]);
     }
 
-    /// Buildings in five rows and five columns, numbered at random: in every row only those that share a building come
-    /// first, and the envelope is a third of the full matrix.
+    /// Buildings in five rows and five columns, numbered at random: every row begins with the first that shares a building,
+    /// and the envelope leaves out more than a third of the lower half.
     #[test]
     fn a_block_of_buildings_has_a_small_envelope() {
         let name = |at: usize| (7 * at + 3) % 25;
