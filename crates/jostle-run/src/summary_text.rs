@@ -4,10 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use jostle::results::contact_sensitivity::ContactSensitivity;
-use jostle::results::summary::{
-    BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, LinkSummary,
-    Summary,
-};
+use jostle::results::response::FloorResponse;
+use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, LinkSummary, Summary};
 use jostle::separation::gb50011_frame_joint;
 
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
@@ -114,11 +112,6 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
         let Some(roof) = building.floors.last() else {
             continue;
         };
-        let drift = building
-            .floors
-            .iter()
-            .map(|floor| floor.storey_drift_peak)
-            .fold(0.0, f64::max);
         writeln!(
             text,
             "{:width$}  {:6}  {:5.0} t  {:15} s  {:>+6.1} / {:>+5.1} mm  {:4.2} %  {:>7} kN",
@@ -126,10 +119,10 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
             building.floors.len(),
             building.mass_kg * 1e-3,
             periods.join(" "),
-            roof.displacement_max_m * 1e3,
-            roof.displacement_min_m * 1e3,
-            drift * 100.0,
-            kn(building.base_shear_peak_n)
+            roof.response.displacement_max_m * 1e3,
+            roof.response.displacement_min_m * 1e3,
+            building.response.drift_peak * 100.0,
+            kn(building.response.base_shear_peak_n)
         )?;
     }
     Ok(())
@@ -143,28 +136,15 @@ fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
         .fold(20, usize::max);
     let mut rows = String::new();
     for building in buildings {
-        type Peak = (
-            fn(&FloorSummary) -> f64,
-            fn(&FloorWithoutContact) -> f64,
-            &'static str,
-        );
-        let kinds: [Peak; 3] = [
-            (|f| f.storey_drift_peak, |f| f.storey_drift_peak, "storey"),
-            (
-                |f| f.storey_shear_peak_n,
-                |f| f.storey_shear_peak_n,
-                "storey",
-            ),
-            (
-                |f| f.total_acceleration_peak_m_s2,
-                |f| f.total_acceleration_peak_m_s2,
-                "floor",
-            ),
+        let kinds: [(fn(&FloorResponse) -> f64, &str); 3] = [
+            (|f| f.storey_drift_peak, "storey"),
+            (|f| f.storey_shear_peak_n, "storey"),
+            (|f| f.total_acceleration_peak_m_s2, "floor"),
         ];
-        let cells = kinds.map(|(with, without, place)| {
+        let cells = kinds.map(|(of, place)| {
             let ratios = building.floors.iter().filter_map(|floor| {
-                let before = without(&floor.without_contact?);
-                (before > 0.0).then(|| (with(floor) / before, floor.floor))
+                let before = of(&floor.without_contact?);
+                (before > 0.0).then(|| (of(&floor.response) / before, floor.floor))
             });
             let least = ratios.clone().min_by(|a, b| a.0.total_cmp(&b.0))?;
             let (most, at) = ratios.max_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -362,16 +342,8 @@ mod tests {
     fn building(name: &str, hinges: HingeSummary) -> BuildingSummary {
         BuildingSummary {
             name: name.to_owned(),
-            mass_kg: 0.0,
-            periods_s: Vec::new(),
-            rayleigh_alpha_per_s: 0.0,
-            rayleigh_beta_s: 0.0,
-            floors: Vec::new(),
-            base_shear_peak_n: 0.0,
-            without_contact: None,
-            residual_roof_displacement_m: 0.0,
             hinges,
-            members: Vec::new(),
+            ..BuildingSummary::default()
         }
     }
 
