@@ -491,6 +491,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Study, "vary", Tables(&[S::Vary]), "Keys that vary; needed unless the base model lists several records."),
     optional(S::Study, "design", Kind::Table(S::Design), "Design of the cases; by default every combination."),
     optional(S::Study, "histories", Kind::Any, "Numbers of the cases whose histories are kept, from 0."),
+    default(S::Study, "without_contact", Flag, "false", "Run every case without contact as well; columns with those results, and with amplifications by contact."),
     optional(S::Study, "fragility", Tables(&[S::Fragility]), "Fragility curves to fit."),
     optional(S::Study, "ida", Tables(&[S::Ida]), "Curves of demand over intensity."),
     optional(S::Study, "sensitivity", Kind::Table(S::Sensitivity), "Results to rank."),

@@ -36,6 +36,8 @@ pub struct StudyFile {
     pub design: Design,
     /// Cases whose histories are kept, from 0.
     pub histories: Vec<u64>,
+    /// Whether every case is also run without contact, and compared with that run.
+    pub without_contact: bool,
     /// Fragility curves to fit.
     pub fragilities: Vec<FragilityWanted>,
     /// Curves of demand over intensity.
@@ -268,6 +270,8 @@ fn read_root(
     let design = design_of(reader, design.as_ref(), factors.as_deref(), &names);
     let histories = reader.get(&view, "histories");
     let histories = histories.map_or(Some(Vec::new()), |field| case_numbers(reader, &field));
+    let without_contact = reader.get(&view, "without_contact");
+    let without_contact = without_contact.is_some_and(|field| reader.flag(&field) == Some(true));
     let fragilities = wanted::fragilities(reader, &view);
     let idas = wanted::idas(reader, &view);
     let responses = reader.get(&view, "sensitivity");
@@ -291,6 +295,7 @@ fn read_root(
             quantiles: [0.1, 0.9],
         }),
         histories: histories.unwrap_or_default(),
+        without_contact,
         fragilities,
         idas,
         responses: responses.unwrap_or_default(),

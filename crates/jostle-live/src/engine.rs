@@ -479,26 +479,24 @@ fn numbers(summary: &Summary) -> Vec<Number> {
     }
     for building in &summary.buildings {
         let name = &building.name;
-        let floors = || building.floors.iter();
-        let most = |of: fn(&jostle::results::summary::FloorSummary) -> f64| {
-            floors().map(of).fold(0.0, f64::max)
-        };
-        let sway = most(|f| f.displacement_max_m.max(-f.displacement_min_m));
+        let floors = building.floors.iter();
+        let sway = floors.map(|f| f.response.displacement_peak_m());
+        let sway = sway.fold(0.0, f64::max);
         add(format!("Displacement of {name}"), "mm", 1e3 * sway);
         add(
             format!("Storey drift of {name}"),
             "%",
-            100.0 * most(|f| f.storey_drift_peak),
+            100.0 * building.response.drift_peak,
         );
         add(
             format!("Floor acceleration of {name}"),
             "m/s²",
-            most(|f| f.total_acceleration_peak_m_s2),
+            building.response.total_acceleration_peak_m_s2,
         );
         add(
             format!("Base shear of {name}"),
             "kN",
-            1e-3 * building.base_shear_peak_n,
+            1e-3 * building.response.base_shear_peak_n,
         );
     }
     add(

@@ -75,10 +75,13 @@ fn building(
     facts.push(("damping", damping(&building.damping, rayleigh)));
     if let Some(summary) = summary {
         facts.push(("vibrating mass", format::tonnes(summary.mass_kg)));
-        facts.push(("peak base shear", format::force(summary.base_shear_peak_n)));
+        facts.push((
+            "peak base shear",
+            format::force(summary.response.base_shear_peak_n),
+        ));
         facts.push((
             "roof displacement at the end",
-            format::millimetres(summary.residual_roof_displacement_m),
+            format::millimetres(summary.response.residual_roof_displacement_m),
         ));
         if summary.hinges.cracked + summary.hinges.yielded > 0 {
             facts.push((

@@ -208,11 +208,11 @@ pub(crate) fn tiles(page: &Page) -> Markup {
         if let Some(roof) = building.floors.last() {
             tile(
                 &format!("Roof of {}", building.name),
-                format::millimetres(roof.displacement_max_m.max(-roof.displacement_min_m)),
+                format::millimetres(roof.response.displacement_peak_m()),
                 format!(
                     "{} / +{}",
-                    format::fixed(roof.displacement_min_m * 1e3, 1),
-                    format::millimetres(roof.displacement_max_m)
+                    format::fixed(roof.response.displacement_min_m * 1e3, 1),
+                    format::millimetres(roof.response.displacement_max_m)
                 ),
             );
         }

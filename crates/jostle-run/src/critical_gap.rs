@@ -516,7 +516,7 @@ fn peak_at(run: &Tried, building: usize, height: f64) -> f64 {
     let floors = &run.summary.buildings[building].floors;
     let (mut below, mut peak_below) = (0.0, 0.0);
     for floor in floors {
-        let peak = floor.displacement_max_m.max(-floor.displacement_min_m);
+        let peak = floor.response.displacement_peak_m();
         if height <= floor.height_m + 1e-3 {
             let share = ((height - below) / (floor.height_m - below)).clamp(0.0, 1.0);
             return peak_below + share * (peak - peak_below);

@@ -4,10 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use jostle::results::contact_sensitivity::ContactSensitivity;
-use jostle::results::summary::{
-    BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, LinkSummary,
-    Summary,
-};
+use jostle::results::response::FloorResponse;
+use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, LinkSummary, Summary};
 use jostle::separation::gb50011_frame_joint;
 
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
@@ -116,11 +114,6 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
         let Some(roof) = building.floors.last() else {
             continue;
         };
-        let drift = building
-            .floors
-            .iter()
-            .map(|floor| floor.storey_drift_peak)
-            .fold(0.0, f64::max);
         writeln!(
             text,
             "{:width$}  {:6}  {:5.0} t  {:15} s  {:>+6.1} / {:>+5.1} mm  {:4.2} %  {:>7} kN",
@@ -128,10 +121,10 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
             building.floors.len(),
             building.mass_kg * 1e-3,
             periods.join(" "),
-            roof.displacement_max_m * 1e3,
-            roof.displacement_min_m * 1e3,
-            drift * 100.0,
-            kn(building.base_shear_peak_n)
+            roof.response.displacement_max_m * 1e3,
+            roof.response.displacement_min_m * 1e3,
+            building.response.drift_peak * 100.0,
+            kn(building.response.base_shear_peak_n)
         )?;
     }
     Ok(())
@@ -181,19 +174,15 @@ type Extremes = [(f64, usize); 2];
 
 /// Ratios of storey drift, storey shear and acceleration; `None` without a run without contact.
 fn changes(building: &BuildingSummary) -> [Option<Extremes>; 3] {
-    type Peak = (fn(&FloorSummary) -> f64, fn(&FloorWithoutContact) -> f64);
-    let kinds: [Peak; 3] = [
-        (|f| f.storey_drift_peak, |f| f.storey_drift_peak),
-        (|f| f.storey_shear_peak_n, |f| f.storey_shear_peak_n),
-        (
-            |f| f.total_acceleration_peak_m_s2,
-            |f| f.total_acceleration_peak_m_s2,
-        ),
+    let kinds: [fn(&FloorResponse) -> f64; 3] = [
+        |f| f.storey_drift_peak,
+        |f| f.storey_shear_peak_n,
+        |f| f.total_acceleration_peak_m_s2,
     ];
-    kinds.map(|(with, without)| {
+    kinds.map(|peak| {
         let ratios = building.floors.iter().filter_map(|floor| {
-            let before = without(&floor.without_contact?);
-            (before > 0.0).then(|| (with(floor) / before, floor.floor))
+            let before = peak(&floor.without_contact?);
+            (before > 0.0).then(|| (peak(&floor.response) / before, floor.floor))
         });
         let greatest = ratios.clone().max_by(|a, b| a.0.total_cmp(&b.0))?;
         let least = ratios.min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -378,35 +367,24 @@ fn write_code_joint(text: &mut String, gap: &GapSummary, summary: &Summary) -> s
 
 #[cfg(test)]
 mod tests {
-    use jostle::results::summary::HingeSummary;
+    use jostle::results::summary::{FloorSummary, HingeSummary};
 
     use super::*;
 
     /// A floor with peaks `with` contact and one without: drift, shear, acceleration.
     fn floor(number: usize, with: [f64; 3], without: [f64; 3]) -> FloorSummary {
-        let peaks = |peaks: [f64; 3]| FloorWithoutContact {
-            displacement_max_m: 0.0,
-            displacement_max_at_s: 0.0,
-            displacement_min_m: 0.0,
-            displacement_min_at_s: 0.0,
+        let response = |peaks: [f64; 3]| FloorResponse {
             storey_drift_peak: peaks[0],
             storey_shear_peak_n: peaks[1],
             total_acceleration_peak_m_s2: peaks[2],
-            overturning_moment_peak_n_m: 0.0,
+            ..FloorResponse::default()
         };
         FloorSummary {
             floor: number,
             height_m: 3.0 * number as f64,
-            displacement_max_m: 0.0,
-            displacement_max_at_s: 0.0,
-            displacement_min_m: 0.0,
-            displacement_min_at_s: 0.0,
-            storey_drift_peak: with[0],
-            storey_shear_peak_n: with[1],
-            total_acceleration_peak_m_s2: with[2],
-            overturning_moment_peak_n_m: 0.0,
-            residual_drift: 0.0,
-            without_contact: Some(peaks(without)),
+            response: response(with),
+            without_contact: Some(response(without)),
+            amplification: None,
         }
     }
 
@@ -441,16 +419,8 @@ mod tests {
     fn building(name: &str, hinges: HingeSummary) -> BuildingSummary {
         BuildingSummary {
             name: name.to_owned(),
-            mass_kg: 0.0,
-            periods_s: Vec::new(),
-            rayleigh_alpha_per_s: 0.0,
-            rayleigh_beta_s: 0.0,
-            floors: Vec::new(),
-            base_shear_peak_n: 0.0,
-            without_contact: None,
-            residual_roof_displacement_m: 0.0,
             hinges,
-            members: Vec::new(),
+            ..BuildingSummary::default()
         }
     }
 
