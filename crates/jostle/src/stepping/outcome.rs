@@ -152,9 +152,7 @@ pub struct Accuracy {
 /// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
 /// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
 ///
-/// let stopped = simulate(&system, &motion, &plan, Settings::default(), |progress| {
-///     if progress.time > 1.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-/// });
+/// let stopped = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Break(()));
 /// assert_eq!(stopped.end, RunEnd::Stopped);
 /// # Ok::<(), jostle::ModelFault>(())
 /// ```
