@@ -1,6 +1,8 @@
 //! Settings and results of a run.
 
 use super::acceleration_parts::AccelerationParts;
+use std::ops::ControlFlow;
+
 use crate::history::{
     Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, MemberHistory, SpringEvent,
     SpringHistory, SpringTotals, Work,
@@ -53,6 +55,10 @@ pub struct Progress {
     /// Final time \[s\].
     pub duration: f64,
 }
+
+/// Is called now and then, and may stop a run. A trait object keeps stepping out of generic code, which every crate that
+/// runs a simulation would compile again, without inlining the functions of this one.
+pub(super) type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
 
 /// Results of a run.
 ///

@@ -12,8 +12,6 @@ mod within_tolerance;
 
 pub(super) use within_tolerance::within_tolerance;
 
-use std::ops::ControlFlow;
-
 use crate::model::Integrator;
 use crate::motion::GroundMotion;
 use crate::simd;
@@ -23,7 +21,7 @@ use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::control::{Observed, half_cycle, next_division};
 use crate::stepping::energy::EnergyAudit;
 use crate::stepping::events::Cubic;
-use crate::stepping::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
+use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::recorder::{Instant, Recorder};
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
@@ -43,7 +41,7 @@ pub(super) fn run_directly<E: StepEquations>(
     plan: &Plan,
     settings: Settings,
     state: State,
-    observer: impl FnMut(Progress) -> ControlFlow<()>,
+    observer: &mut Observer<'_>,
 ) -> Outcome {
     let mut run = RunState::new(system, motion, plan, settings);
     (run.time, run.phases) = (state.time, state.contacts.clone());

@@ -1,11 +1,9 @@
 //! Direct runs at two step sizes, whose difference measures the error of every reported peak.
 
-use std::ops::ControlFlow;
-
 use super::run_directly;
 use crate::motion::GroundMotion;
 use crate::state::State;
-use crate::stepping::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings};
+use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings};
 use crate::stepping::peak_change::change_of_peaks;
 use crate::stepping::plan::Plan;
 use crate::stepping::sensitivity::first_parted;
@@ -98,11 +96,10 @@ pub(in crate::stepping) fn within_tolerance<E: StepEquations>(
     plan: &Plan,
     settings: Settings,
     state: State,
-    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
+    observer: &mut Observer<'_>,
 ) -> Outcome {
-    let mut run = |plan: &Plan| {
-        run_directly::<E>(system, motion, plan, settings, state.clone(), &mut observer)
-    };
+    let mut run =
+        |plan: &Plan| run_directly::<E>(system, motion, plan, settings, state.clone(), observer);
     if !plan.is_automatic(system, motion) || plan.frequency_error(system, motion).is_none() {
         return run(plan);
     }
