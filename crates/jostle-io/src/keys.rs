@@ -4,7 +4,9 @@ use jostle::Solver;
 use jostle::contact::{LawKind, ModifiedKelvin, RestitutionIs};
 use jostle::hysteresis::HysteresisRule;
 
+use crate::choices::{DesignKind, FragilityMethod, IntegratorMethod, Sampling, names};
 use crate::quantity::Dimension;
+use crate::record::RecordFormat;
 
 /// The table of the file that contains a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -145,20 +147,11 @@ pub(crate) struct Key {
     pub(crate) doc: &'static str,
 }
 
-pub(crate) const DESIGNS: &[&str] = &[
-    "factorial",
-    "zipped",
-    "latin-hypercube",
-    "sobol",
-    "random",
-    "saltelli",
-    "morris",
-    "one-at-a-time",
-];
-pub(crate) const SAMPLINGS: &[&str] = &["latin-hypercube", "sobol", "random"];
+pub(crate) const DESIGNS: &[&str] = names!(DesignKind);
+pub(crate) const SAMPLINGS: &[&str] = names!(Sampling);
 pub(crate) const DISTRIBUTIONS: &[&str] = &["uniform", "normal", "lognormal"];
 pub(crate) const SPACINGS: &[&str] = &["linear", "log"];
-pub(crate) const FRAGILITY_METHODS: &[&str] = &["stripes", "cloud", "modified-cloud"];
+pub(crate) const FRAGILITY_METHODS: &[&str] = names!(FragilityMethod);
 pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear", "given"];
 /// Units of force and length of given matrices.
 pub(crate) const MATRIX_UNITS: &[&str] =
@@ -166,8 +159,7 @@ pub(crate) const MATRIX_UNITS: &[&str] =
 /// Spellings of the contact laws.
 pub const LAW_NAMES: [&str; LawKind::NAMES.len()] = LawKind::NAMES;
 pub(crate) const LAWS: &[&str] = &LAW_NAMES;
-pub(crate) const LAW_VARIANTS: &[&str] =
-    &[ModifiedKelvin::ALL[0].name(), ModifiedKelvin::ALL[1].name()];
+pub(crate) const LAW_VARIANTS: &[&str] = names!(ModifiedKelvin);
 pub(crate) const SOLVERS: &[&str] = &[
     "auto",
     Solver::ALL[0].name(),
@@ -175,24 +167,10 @@ pub(crate) const SOLVERS: &[&str] = &[
     Solver::ALL[2].name(),
     Solver::ALL[3].name(),
 ];
-pub(crate) const INTEGRATORS: &[&str] = &[
-    "average-acceleration",
-    "newmark",
-    "hht",
-    "generalized-alpha",
-];
+pub(crate) const INTEGRATORS: &[&str] = names!(IntegratorMethod);
 pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
-pub(crate) const RESTITUTION_IS: &[&str] =
-    &[RestitutionIs::ALL[0].name(), RestitutionIs::ALL[1].name()];
-pub(crate) const RULES: &[&str] = &{
-    let mut names = [""; HysteresisRule::ALL.len()];
-    let mut rule = 0;
-    while rule < names.len() {
-        names[rule] = HysteresisRule::ALL[rule].name();
-        rule += 1;
-    }
-    names
-};
+pub(crate) const RESTITUTION_IS: &[&str] = names!(RestitutionIs);
+pub(crate) const RULES: &[&str] = names!(HysteresisRule);
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
@@ -200,9 +178,7 @@ pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
 pub(crate) const SECTION_CONCRETES: &[&str] = &jostle_section::CONCRETE_GRADES;
 pub(crate) const STEELS: &[&str] = &jostle_section::STEEL_GRADES;
 pub(crate) const STRENGTHS: &[&str] = &jostle_section::StrengthLevel::NAMES;
-pub(crate) const RECORD_FORMATS: &[&str] = &[
-    "at2", "columns", "cosmos", "csmip", "knet", "esm", "smc", "geonet", "afad", "miniseed", "sac",
-];
+pub(crate) const RECORD_FORMATS: &[&str] = names!(RecordFormat, key);
 pub(crate) const CONCRETES: &[&str] = &[
     "C20", "C25", "C30", "C35", "C40", "C45", "C50", "C55", "C60", "C65", "C70", "C75", "C80",
 ];

@@ -6,6 +6,7 @@
 mod bounded;
 mod builtin;
 mod builtin_model;
+mod choices;
 mod csv;
 mod fault;
 mod keys;

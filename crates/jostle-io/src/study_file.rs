@@ -11,9 +11,10 @@ use std::sync::Arc;
 pub use distribution::{Distribution, Shape};
 pub use factor::{Factor, FactorValues, Level};
 pub use selection::{SelectionScaling, SelectionWanted};
-pub use wanted::{FragilityMethod, FragilityWanted, IdaWanted};
+pub use wanted::{FragilityWanted, IdaWanted};
 
 use crate::builtin_model;
+pub use crate::choices::{DesignKind, FragilityMethod, Sampling};
 use crate::fault::{Fault, InputError};
 use crate::keys::{DESIGNS, SAMPLINGS, Section, nearest};
 use crate::model_file;
@@ -66,38 +67,6 @@ pub struct Design {
     pub correlations: Vec<Correlation>,
     /// Quantiles of one-at-a-time designs, each between 0 and 1.
     pub quantiles: [f64; 2],
-}
-
-/// Rules that make cases.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DesignKind {
-    /// Every combination of the lists; distributions are drawn `samples` times for each.
-    Factorial,
-    /// The lists side by side, entry by entry; distributions are drawn `samples` times for each.
-    Zipped,
-    /// Latin hypercube.
-    LatinHypercube,
-    /// Sobol sequence.
-    Sobol,
-    /// Independent draws.
-    Random,
-    /// Two samples and their mixtures, for Sobol indices.
-    Saltelli,
-    /// Trajectories of elementary effects.
-    Morris,
-    /// The middle, and each factor low and high.
-    OneAtATime,
-}
-
-/// How distributions are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sampling {
-    /// Latin hypercube.
-    LatinHypercube,
-    /// Sobol sequence with a random shift of its digits.
-    Sobol,
-    /// Independent draws.
-    Random,
 }
 
 /// A correlation of the normal scores of two factors.
@@ -401,23 +370,10 @@ fn design_of(
     };
     let view = reader.open(field, &[Section::Design])?;
     if let Some(field) = reader.get(&view, "kind") {
-        design.kind = match reader.choice(&field, DESIGNS, &[])? {
-            "zipped" => DesignKind::Zipped,
-            "latin-hypercube" => DesignKind::LatinHypercube,
-            "sobol" => DesignKind::Sobol,
-            "random" => DesignKind::Random,
-            "saltelli" => DesignKind::Saltelli,
-            "morris" => DesignKind::Morris,
-            "one-at-a-time" => DesignKind::OneAtATime,
-            _ => DesignKind::Factorial,
-        };
+        design.kind = DesignKind::from_name(reader.choice(&field, DESIGNS, &[])?)?;
     }
     if let Some(field) = reader.get(&view, "sampling") {
-        design.sampling = match reader.choice(&field, SAMPLINGS, &[])? {
-            "sobol" => Sampling::Sobol,
-            "random" => Sampling::Random,
-            _ => Sampling::LatinHypercube,
-        };
+        design.sampling = Sampling::from_name(reader.choice(&field, SAMPLINGS, &[])?)?;
     }
     if let Some(field) = reader.get(&view, "samples") {
         let samples = reader.count(&field)? as u64;

@@ -1,6 +1,6 @@
 //! Errors of records.
 
-use super::format::RecordFormat;
+use super::formats::RecordFormat;
 
 /// An error of a record. Displays as `:line: problem`, to follow the name of the file.
 #[derive(Debug, thiserror::Error)]
