@@ -1,6 +1,6 @@
 //! Widths of seismic joints by national codes, from displacements, heights and factors.
 //!
-//! Every formula is confirmed by two independent sources, which `docs/how-to/required-gap.md` lists.
+//! `docs/how-to/required-gap.md` lists the sources that confirm every formula.
 
 use super::{EN1998_ALIGNED_FLOORS, absolute_sum, srss};
 

@@ -13,7 +13,7 @@ pub use codes::{
 pub use rules::{
     BuildingCodes, Code, CodeInputs, HazardZone, LeftOut, MotionLevel, Neighbours, Place,
     Requirement, Requirements, Side, USUAL_AMPLIFICATION, USUAL_RESPONSE_MODIFICATION,
-    peak_at_height, required_gaps,
+    floors_are_level, peak_at_height, required_gaps,
 };
 
 /// Width of the seismic joint between concrete frame structures, GB 50011-2010 (2016) §6.1.4 \[m\].

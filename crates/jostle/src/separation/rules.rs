@@ -4,6 +4,8 @@ use super::codes::{
     Nsr10Neighbour, asce7_displacement, e030_2018_joint, e030_2026_joint, e030_share, en1998_joint,
     iran2800_setback, is1893_joint, nsr10_setback, ntc2018_joint, tbdy2018_joint,
 };
+use crate::model::{FloorPairs, Gap, Model};
+
 use super::{
     EN1998_ALIGNED_FLOORS, JointSystem, UBC97_OF_ELASTIC, absolute_sum, double_difference,
     gb50011_joint, srss,
@@ -252,6 +254,14 @@ pub struct Requirements {
     pub left_out: Vec<LeftOut>,
 }
 
+/// Whether all floors that face each other across a gap lie at equal height.
+#[must_use]
+pub fn floors_are_level(model: &Model, gap: &Gap) -> bool {
+    let unmatched = model.unmatched_floors();
+    let mut others = unmatched.iter();
+    gap.floors == FloorPairs::Common && others.all(|found| found.between.map(Some) != gap.between)
+}
+
 /// Greatest displacement of a building at a height, from the peaks of its floors from the ground up; between floors
 /// linear, above the roof that of the roof \[m\].
 #[must_use]
@@ -344,7 +354,10 @@ impl Table<'_> {
 
     fn level(&self) -> (bool, String) {
         match self.inputs.floors_are_level {
-            Some(level) => (level, format!("level_floors = {level}")),
+            Some(level) => {
+                let word = if level { "equal" } else { "different" };
+                (level, format!("floor_levels = {word}"))
+            }
             None => {
                 let level = self.neighbours.floors_are_level;
                 let words = if level {
