@@ -5,11 +5,13 @@
 
 mod backbones;
 mod collisions;
+mod contact_box;
 mod describe;
 mod encode;
 mod envelope;
 mod format;
 mod hinges;
+mod joints;
 mod members;
 mod method;
 mod motion_page;
@@ -26,6 +28,7 @@ mod verdict;
 mod viewer;
 
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
+pub use contact_box::ContactBox;
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};
 pub use pushover::render_pushover;
@@ -61,6 +64,10 @@ pub struct Page<'a> {
     pub springs: Option<&'a SpringHistory>,
     /// Reinforced sections that hinges come from, if the model states them.
     pub sections: &'a [ReinforcedSection<'a>],
+    /// Inputs of the separation rules of codes.
+    pub codes: &'a jostle::separation::CodeInputs,
+    /// Contact data beside what masses suggest, by gap; empty to omit them.
+    pub contacts: &'a [ContactBox],
     /// Results of `jostle method` for these buildings, shown as a section; empty to omit it.
     pub methods: &'a [MethodSurvey],
 }

@@ -4,7 +4,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
-use crate::{Page, describe, format, hinges, members, method, payload, tables};
+use crate::{
+    Page, contact_box, describe, format, hinges, joints, members, method, payload, tables,
+};
 
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
 /// The scripts, in the order of their dependence; together they are one module.
@@ -92,6 +94,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                             p.quiet { "The model has no gap." }
                         } @else {
                             (tables::impacts(page))
+                            (contact_box::contact_boxes(page))
                         }
                     }
                     section #envelopes {
@@ -104,7 +107,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if !page.model.gaps.is_empty() {
                         section #joints {
                             h2 { "Comparison with code requirements" }
-                            (tables::joints(page, &run, without))
+                            (joints::joints(page, &run, without))
                         }
                     }
                     section #model {

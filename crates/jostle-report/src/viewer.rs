@@ -4,7 +4,7 @@ use maud::html;
 
 use crate::envelope::{self, envelopes};
 use crate::page::{self, SCRIPTS, STYLE};
-use crate::{Page, describe, hinges, payload, tables, verdict};
+use crate::{Page, describe, hinges, joints, payload, tables, verdict};
 
 /// Parts of the page that do not change with the run.
 #[derive(Clone, Debug)]
@@ -81,7 +81,7 @@ pub fn frame(page: &Page) -> Frame {
         (envelopes(page, &run, without))
     };
     let joints = html! {
-        @if !page.model.gaps.is_empty() { (tables::joints(page, &run, without)) }
+        @if !page.model.gaps.is_empty() { (joints::joints(page, &run, without)) }
     };
     let parts = [
         ("warnings", page::warnings(page)),
