@@ -6,8 +6,10 @@
 mod backbones;
 mod collisions;
 mod describe;
+mod document;
 mod encode;
 mod envelope;
+mod facts;
 mod format;
 mod hinges;
 mod members;

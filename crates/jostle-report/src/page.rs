@@ -2,11 +2,11 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::document::{POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{Page, describe, format, hinges, members, method, payload, tables};
 
-pub(crate) const STYLE: &str = include_str!("../assets/style.css");
 /// The scripts, in the order of their dependence; together they are one module.
 pub(crate) const SCRIPTS: [&str; 8] = [
     include_str!("../assets/data.js"),
@@ -18,30 +18,6 @@ pub(crate) const SCRIPTS: [&str; 8] = [
     include_str!("../assets/panels.js"),
     include_str!("../assets/main.js"),
 ];
-/// Nothing may be loaded: everything is in the file.
-pub(crate) const POLICY: &str =
-    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
-
-/// Script of [`theme_button`], for pages without other scripts.
-const THEME_SCRIPT: &str = include_str!("../assets/theme.js");
-
-/// The button that switches between light and dark.
-pub(crate) fn theme_button() -> Markup {
-    html! {
-        button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
-    }
-}
-
-/// The script of that button, for pages without other scripts.
-pub(crate) fn theme_script() -> Markup {
-    html! { script type="module" { (PreEscaped(THEME_SCRIPT)) } }
-}
-
-/// The style attribute that gives an element the colour of a building.
-pub(crate) fn colour(building: usize) -> String {
-    format!("--c:var(--c{})", building % 7)
-}
-
 /// The whole page.
 pub(crate) fn page(page: &Page) -> Markup {
     let headline = verdict(page.summary);

@@ -2,8 +2,9 @@
 
 use maud::html;
 
+use crate::document::STYLE;
 use crate::envelope::{self, envelopes};
-use crate::page::{self, SCRIPTS, STYLE};
+use crate::page::{self, SCRIPTS};
 use crate::{Page, describe, hinges, payload, tables, verdict};
 
 /// Parts of the page that do not change with the run.

@@ -7,8 +7,8 @@ use jostle::hysteresis::Stage;
 use jostle::pushover::{Bilinear, LoadPattern, PushEnd, PushPoint, PushedBuilding, Pushover};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::document::{POLICY, STYLE, theme_button};
 use crate::format;
-use crate::page::{POLICY, STYLE, theme_button};
 use chart::Chart;
 
 const OWN_STYLE: &str = include_str!("../../assets/pushover.css");
