@@ -5,6 +5,33 @@ use serde::Serialize;
 use super::contact_sensitivity::ContactSensitivity;
 
 /// Results of a run without histories.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Run, Settings, Summary, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// let summary = Summary::of(&Run {
+///     model: &model,
+///     system: &system,
+///     motion: &motion,
+///     plan: &plan,
+///     outcome: &outcome,
+///     without_contact: None,
+///     wall: 0.0,
+/// });
+/// let roof = &summary.buildings[0].floors[2];
+/// assert!(roof.displacement_max_m > 0.0 && roof.storey_shear_peak_n > 0.0);
+/// assert!(summary.promise.met == Some(true));
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct Summary {
     /// Title of the model.
@@ -243,6 +270,10 @@ pub struct GapSummary {
     pub most_at_once: usize,
     /// Greatest force of any contact \[N\].
     pub peak_force_n: f64,
+    /// Greatest sum of the forces of all contacts at one instant \[N\].
+    pub total_force_peak_n: f64,
+    /// Its instant; `null` without an impact \[s\].
+    pub total_force_peak_at_s: Option<f64>,
     /// Instant of the first impact \[s\].
     pub first_impact_s: Option<f64>,
     /// Greatest closing of any contact when the buildings pass through each other, less what it is wider than the
