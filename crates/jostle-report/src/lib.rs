@@ -21,6 +21,7 @@ mod pushover;
 mod section;
 mod selection;
 mod special;
+mod spread;
 mod study_page;
 mod tables;
 mod thin_loop;
@@ -30,7 +31,7 @@ mod viewer;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};
-pub use pushover::render_pushover;
+pub use pushover::{Demand, render_pushover};
 pub use section::render_sections;
 pub use selection::{CheckedStructure, SelectionPage, render_selection, selection_sections};
 pub use study_page::{

@@ -5,10 +5,10 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use crate::document::{POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
-use crate::{Page, describe, format, hinges, members, method, payload, tables};
+use crate::{Page, describe, format, hinges, members, method, payload, spread, tables};
 
 /// The scripts, in the order of their dependence; together they are one module.
-pub(crate) const SCRIPTS: [&str; 8] = [
+pub(crate) const SCRIPTS: [&str; 9] = [
     include_str!("../assets/data.js"),
     include_str!("../assets/chart.js"),
     include_str!("../assets/hinges.js"),
@@ -16,6 +16,7 @@ pub(crate) const SCRIPTS: [&str; 8] = [
     include_str!("../assets/scene.js"),
     include_str!("../assets/player.js"),
     include_str!("../assets/panels.js"),
+    include_str!("../assets/impacts.js"),
     include_str!("../assets/main.js"),
 ];
 /// The whole page.
@@ -55,6 +56,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     p.verdict { (headline) }
                     (tiles(page))
                     (accuracy(page))
+                    @if let Some(spread) = spread::section(page) { (spread) }
                     @if recorded {
                         (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), yields))
                         (chart_section(page.without_contact.is_some() && !page.model.gaps.is_empty()))
@@ -64,6 +66,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if let Some(hinges) = hinges::section(page) { (hinges) }
                     section #impacts {
                         h2 { "Impacts" }
+                        @if recorded { (impact_panels()) }
                         @if page.model.gaps.is_empty() {
                             p.quiet { "The model has no gap." }
                         } @else {
@@ -292,6 +295,11 @@ pub(crate) fn chart_section(compares: bool) -> Markup {
             }
         }
     }
+}
+
+/// Where the scripts draw every impact by itself.
+pub(crate) fn impact_panels() -> Markup {
+    html! { div #impact-panels hidden {} }
 }
 
 pub(crate) fn legend(page: &Page, without: bool) -> Markup {
