@@ -2,6 +2,7 @@
 
 use super::contact_events::{ContactTrial, impact_of};
 use crate::history::{Impact, Work};
+use crate::model::Solver;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::clock::Clock;
@@ -53,7 +54,11 @@ impl<'a> RunState<'a> {
             motion,
             plan,
             pounding: settings.pounding == Pounding::Included,
-            clock: Clock::new(plan.step),
+            clock: if plan.solver == Solver::Modal {
+                Clock::ending_at_record_points(plan.step)
+            } else {
+                Clock::new(plan.step)
+            },
             time: 0.0,
             ground: [ground, ground],
             phases: vec![ContactPhase::Open; contacts],
