@@ -18,16 +18,21 @@ const FIRST_ROWS: usize = 30;
 pub(crate) fn impacts(page: &Page) -> Markup {
     let summary = page.summary;
     let several = summary.gaps.len() > 1;
-    let mut rows: Vec<(&GapSummary, &ContactSummary, &ImpactSummary)> = summary
+    let contacts = summary
         .gaps
         .iter()
-        .flat_map(|gap| gap.contacts.iter().map(move |contact| (gap, contact)))
-        .flat_map(|(gap, contact)| contact.impacts.iter().map(move |i| (gap, contact, i)))
+        .flat_map(|gap| gap.contacts.iter().map(move |contact| (gap, contact)));
+    let mut rows: Vec<(&GapSummary, &ContactSummary, usize, &ImpactSummary)> = contacts
+        .enumerate()
+        .flat_map(|(index, (gap, contact))| {
+            let impacts = contact.impacts.iter();
+            impacts.map(move |impact| (gap, contact, index, impact))
+        })
         .collect();
     let all = rows.len();
-    rows.sort_by(|a, b| b.2.peak_force_n.total_cmp(&a.2.peak_force_n));
+    rows.sort_by(|a, b| b.3.peak_force_n.total_cmp(&a.3.peak_force_n));
     rows.truncate(MOST_ROWS);
-    rows.sort_by(|a, b| a.2.start_s.total_cmp(&b.2.start_s));
+    rows.sort_by(|a, b| a.3.start_s.total_cmp(&b.3.start_s));
     let columns: [(&str, &str); 9] = [
         ("start", "s"),
         ("duration", "ms"),
@@ -57,8 +62,8 @@ pub(crate) fn impacts(page: &Page) -> Markup {
                         }
                     } }
                     tbody {
-                        @for (i, (gap, contact, impact)) in rows.iter().enumerate() {
-                            tr.beyond[i >= FIRST_ROWS] data-start=(impact.start_s) data-end=(impact.end_s) data-at=(impact.peak_force_at_s) {
+                        @for (i, (gap, contact, index, impact)) in rows.iter().enumerate() {
+                            tr.beyond[i >= FIRST_ROWS] data-start=(impact.start_s) data-end=(impact.end_s) data-at=(impact.peak_force_at_s) data-contact=(index) {
                                 td { @if several { (gap.between[0]) "–" (gap.between[1]) ", " } (place(contact)) }
                                 @for value in cells(impact) { td.number { (value) } }
                             }

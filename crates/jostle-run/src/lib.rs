@@ -45,7 +45,7 @@ pub use replace::{FileKind, may_write};
 pub use results::Results;
 pub use run::Ran;
 pub use shapes::SharedShapes;
-pub use spectra::{Inelastic, spectra_json, spectrum_json};
+pub use spectra::{Inelastic, accelerogram, spectra_json, spectrum_json};
 pub use style::{BOLD, DIM, LOUD, styled};
 pub use summary_text::{describe_summary, summary_text};
 pub use workshop::{CaseError, Workshop};
