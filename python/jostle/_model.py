@@ -109,7 +109,7 @@ class Model:
         return model
 
     @classmethod
-    def of(cls, model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> Model:
+    def from_any(cls, model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> Model:
         """Returns a model from a model, a model file, a built-in name such as ``"paper"``, or a tree.
 
         A file takes precedence over a built-in model of the same name, as on the command line.
@@ -128,6 +128,12 @@ class Model:
             except ModelError:
                 pass  # no built-in name: what Model.load says of the file is the better message
         return cls.load(model)
+
+    @classmethod
+    def of(cls, model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> Model:
+        """Deprecated: the former name of :meth:`from_any`."""
+        warnings.warn("Model.of is now Model.from_any", DeprecationWarning, stacklevel=2)
+        return cls.from_any(model)
 
     @classmethod
     def loads(cls, text: str, *, name: str = "model", folder: str | os.PathLike[str] = "") -> Model:

@@ -47,7 +47,7 @@ class Study:
         design: the design of the cases, as in ``{"kind": "latin-hypercube", "samples": 200, "seed": 1}``; by
             default every combination.
         title: title of its report.
-        **wishes: ``histories``, ``fragility``, ``ida``, ``sensitivity`` and ``selection`` as in a study file.
+        **wishes: ``histories``, ``without_contact``, ``fragility``, ``ida``, ``sensitivity`` and ``selection`` as in a study file.
 
     Raises:
         ModelError: all faults at once, each with its location.

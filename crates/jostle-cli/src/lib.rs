@@ -53,10 +53,11 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::New(args) => starter::new(&args),
         Command::Completions(args) => completions::completions(&args, Args::command()),
         Command::Man(args) => man::man(&args, Args::command()),
-        Command::Schema(args) => terminal::print(&if args.markdown {
-            jostle_io::model_reference()
-        } else {
-            jostle_io::model_schema()
+        Command::Schema(args) => terminal::print(&match (args.results, args.markdown) {
+            (false, false) => jostle_io::model_schema(),
+            (false, true) => jostle_io::model_reference(),
+            (true, false) => jostle_io::quantity_list(),
+            (true, true) => jostle_io::quantity_reference(),
         }),
     };
     match done {

@@ -5,7 +5,9 @@ use jostle::contact::{LawKind, ModifiedKelvin, RestitutionIs};
 use jostle::hysteresis::HysteresisRule;
 use jostle::separation::{Code, HazardZone, JointSystem, MotionLevel};
 
+use crate::choices::{DesignKind, FragilityMethod, IntegratorMethod, Sampling, names};
 use crate::quantity::Dimension;
+use crate::record::RecordFormat;
 
 /// The table of the file that contains a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -154,20 +156,11 @@ pub(crate) struct Key {
     pub(crate) doc: &'static str,
 }
 
-pub(crate) const DESIGNS: &[&str] = &[
-    "factorial",
-    "zipped",
-    "latin-hypercube",
-    "sobol",
-    "random",
-    "saltelli",
-    "morris",
-    "one-at-a-time",
-];
-pub(crate) const SAMPLINGS: &[&str] = &["latin-hypercube", "sobol", "random"];
+pub(crate) const DESIGNS: &[&str] = names!(DesignKind);
+pub(crate) const SAMPLINGS: &[&str] = names!(Sampling);
 pub(crate) const DISTRIBUTIONS: &[&str] = &["uniform", "normal", "lognormal"];
 pub(crate) const SPACINGS: &[&str] = &["linear", "log"];
-pub(crate) const FRAGILITY_METHODS: &[&str] = &["stripes", "cloud", "modified-cloud"];
+pub(crate) const FRAGILITY_METHODS: &[&str] = names!(FragilityMethod);
 pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear", "given"];
 /// Units of force and length of given matrices.
 pub(crate) const MATRIX_UNITS: &[&str] =
@@ -175,8 +168,7 @@ pub(crate) const MATRIX_UNITS: &[&str] =
 /// Spellings of the contact laws.
 pub const LAW_NAMES: [&str; LawKind::NAMES.len()] = LawKind::NAMES;
 pub(crate) const LAWS: &[&str] = &LAW_NAMES;
-pub(crate) const LAW_VARIANTS: &[&str] =
-    &[ModifiedKelvin::ALL[0].name(), ModifiedKelvin::ALL[1].name()];
+pub(crate) const LAW_VARIANTS: &[&str] = names!(ModifiedKelvin);
 pub(crate) const SOLVERS: &[&str] = &[
     "auto",
     Solver::ALL[0].name(),
@@ -184,24 +176,10 @@ pub(crate) const SOLVERS: &[&str] = &[
     Solver::ALL[2].name(),
     Solver::ALL[3].name(),
 ];
-pub(crate) const INTEGRATORS: &[&str] = &[
-    "average-acceleration",
-    "newmark",
-    "hht",
-    "generalized-alpha",
-];
+pub(crate) const INTEGRATORS: &[&str] = names!(IntegratorMethod);
 pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
-pub(crate) const RESTITUTION_IS: &[&str] =
-    &[RestitutionIs::ALL[0].name(), RestitutionIs::ALL[1].name()];
-pub(crate) const RULES: &[&str] = &{
-    let mut names = [""; HysteresisRule::ALL.len()];
-    let mut rule = 0;
-    while rule < names.len() {
-        names[rule] = HysteresisRule::ALL[rule].name();
-        rule += 1;
-    }
-    names
-};
+pub(crate) const RESTITUTION_IS: &[&str] = names!(RestitutionIs);
+pub(crate) const RULES: &[&str] = names!(HysteresisRule);
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
@@ -216,9 +194,7 @@ pub(crate) const STEELS: &[&str] = &joined::<25>(&[
     &jostle_section::ASTM_STEEL_GRADES,
 ]);
 pub(crate) const STRENGTHS: &[&str] = &jostle_section::StrengthLevel::NAMES;
-pub(crate) const RECORD_FORMATS: &[&str] = &[
-    "at2", "columns", "cosmos", "csmip", "knet", "esm", "smc", "geonet", "afad", "miniseed", "sac",
-];
+pub(crate) const RECORD_FORMATS: &[&str] = names!(RecordFormat, key);
 /// Grades whose modulus is known.
 pub(crate) const CONCRETES: &[&str] = &joined::<27>(&[
     &[
@@ -227,21 +203,8 @@ pub(crate) const CONCRETES: &[&str] = &joined::<27>(&[
     &jostle_section::EN_CONCRETE_GRADES,
 ]);
 /// Codes whose separation rules are known.
-pub(crate) const JOINT_CODES: &[&str] = &{
-    let mut names = [""; Code::ALL.len()];
-    let mut code = 0;
-    while code < names.len() {
-        names[code] = Code::ALL[code].name();
-        code += 1;
-    }
-    names
-};
-pub(crate) const JOINT_SYSTEMS: &[&str] = &[
-    JointSystem::ALL[0].name(),
-    JointSystem::ALL[1].name(),
-    JointSystem::ALL[2].name(),
-    JointSystem::ALL[3].name(),
-];
+pub(crate) const JOINT_CODES: &[&str] = names!(Code);
+pub(crate) const JOINT_SYSTEMS: &[&str] = names!(JointSystem);
 pub(crate) const MOTION_LEVELS: &[&str] = &MotionLevel::NAMES;
 pub(crate) const HAZARD_ZONES: &[&str] = &HazardZone::NAMES;
 pub(crate) const FLOOR_LEVELS: &[&str] = &["auto", "equal", "different"];
@@ -568,6 +531,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Study, "vary", Tables(&[S::Vary]), "Keys that vary; needed unless the base model lists several records."),
     optional(S::Study, "design", Kind::Table(S::Design), "Design of the cases; by default every combination."),
     optional(S::Study, "histories", Kind::Any, "Numbers of the cases whose histories are kept, from 0."),
+    default(S::Study, "without_contact", Flag, "false", "Run every case without contact as well; columns with those results, and with amplifications by contact."),
     optional(S::Study, "fragility", Tables(&[S::Fragility]), "Fragility curves to fit."),
     optional(S::Study, "ida", Tables(&[S::Ida]), "Curves of demand over intensity."),
     optional(S::Study, "sensitivity", Kind::Table(S::Sensitivity), "Results to rank."),

@@ -6,6 +6,7 @@
 mod bounded;
 mod builtin;
 mod builtin_model;
+mod choices;
 mod csv;
 mod fault;
 mod grade;
@@ -17,12 +18,14 @@ mod model_tree;
 mod motion_spec;
 mod output;
 mod pushover;
+mod quantities_page;
 mod quantity;
 mod reader;
 mod record;
 mod record_list;
 mod record_text;
 mod reference;
+mod response_tables;
 mod rewrite;
 mod schema;
 mod selection;
@@ -54,6 +57,7 @@ pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
 pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
 pub use pushover::{pushover_csv, pushover_json};
+pub use quantities_page::{quantity_list, quantity_reference};
 pub use quantity::{Dimension, QuantityError, parse_quantity};
 pub use record::{
     Channel, Direction, Record, RecordError, RecordFormat, RecordInfo, RecordOptions,
@@ -62,6 +66,9 @@ pub use record::{
 };
 pub use record_text::{at2_text, csv_text};
 pub use reference::model_reference;
+pub use response_tables::{
+    building_columns, floor_columns, write_buildings_parquet, write_floors_parquet,
+};
 pub use schema::model_schema;
 pub use selection::selection_json;
 pub use source::Place;

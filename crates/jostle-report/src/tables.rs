@@ -1,9 +1,9 @@
 //! Tables of impacts and of peaks of every floor.
 
 use jostle::contact::{LawKind, RestitutionIs};
-use jostle::results::summary::{
-    BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, ImpactSummary,
-};
+use jostle::quantity::{Quantity, Shown};
+use jostle::results::response::FloorResponse;
+use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, ImpactSummary};
 use maud::{Markup, html};
 
 use crate::verdict::place;
@@ -18,16 +18,21 @@ const FIRST_ROWS: usize = 30;
 pub(crate) fn impacts(page: &Page) -> Markup {
     let summary = page.summary;
     let several = summary.gaps.len() > 1;
-    let mut rows: Vec<(&GapSummary, &ContactSummary, &ImpactSummary)> = summary
+    let contacts = summary
         .gaps
         .iter()
-        .flat_map(|gap| gap.contacts.iter().map(move |contact| (gap, contact)))
-        .flat_map(|(gap, contact)| contact.impacts.iter().map(move |i| (gap, contact, i)))
+        .flat_map(|gap| gap.contacts.iter().map(move |contact| (gap, contact)));
+    let mut rows: Vec<(&GapSummary, &ContactSummary, usize, &ImpactSummary)> = contacts
+        .enumerate()
+        .flat_map(|(index, (gap, contact))| {
+            let impacts = contact.impacts.iter();
+            impacts.map(move |impact| (gap, contact, index, impact))
+        })
         .collect();
     let all = rows.len();
-    rows.sort_by(|a, b| b.2.peak_force_n.total_cmp(&a.2.peak_force_n));
+    rows.sort_by(|a, b| b.3.peak_force_n.total_cmp(&a.3.peak_force_n));
     rows.truncate(MOST_ROWS);
-    rows.sort_by(|a, b| a.2.start_s.total_cmp(&b.2.start_s));
+    rows.sort_by(|a, b| a.3.start_s.total_cmp(&b.3.start_s));
     let columns: [(&str, &str); 9] = [
         ("start", "s"),
         ("duration", "ms"),
@@ -57,8 +62,8 @@ pub(crate) fn impacts(page: &Page) -> Markup {
                         }
                     } }
                     tbody {
-                        @for (i, (gap, contact, impact)) in rows.iter().enumerate() {
-                            tr.beyond[i >= FIRST_ROWS] data-start=(impact.start_s) data-end=(impact.end_s) data-at=(impact.peak_force_at_s) {
+                        @for (i, (gap, contact, index, impact)) in rows.iter().enumerate() {
+                            tr.beyond[i >= FIRST_ROWS] data-start=(impact.start_s) data-end=(impact.end_s) data-at=(impact.peak_force_at_s) data-contact=(index) {
                                 td { @if several { (gap.between[0]) "–" (gap.between[1]) ", " } (place(contact)) }
                                 @for value in cells(impact) { td.number { (value) } }
                             }
@@ -124,52 +129,11 @@ fn restitution_note(page: &Page) -> Markup {
     }
 }
 
-/// A peak of a floor with and without contact: name, unit, values in that unit, decimals.
-type Peak = (
-    &'static str,
-    &'static str,
-    fn(&FloorSummary) -> f64,
-    fn(&FloorWithoutContact) -> f64,
-    usize,
-);
-
-const PEAKS: [Peak; 5] = [
-    (
-        "displacement",
-        "mm",
-        |f| 1e3 * f.displacement_max_m.max(-f.displacement_min_m),
-        |f| 1e3 * f.displacement_max_m.max(-f.displacement_min_m),
-        1,
-    ),
-    (
-        "storey drift",
-        "%",
-        |f| 100.0 * f.storey_drift_peak,
-        |f| 100.0 * f.storey_drift_peak,
-        2,
-    ),
-    (
-        "storey shear",
-        "kN",
-        |f| 1e-3 * f.storey_shear_peak_n,
-        |f| 1e-3 * f.storey_shear_peak_n,
-        1,
-    ),
-    (
-        "overturning moment",
-        "kN·m",
-        |f| 1e-3 * f.overturning_moment_peak_n_m,
-        |f| 1e-3 * f.overturning_moment_peak_n_m,
-        0,
-    ),
-    (
-        "total acceleration",
-        "m/s²",
-        |f| f.total_acceleration_peak_m_s2,
-        |f| f.total_acceleration_peak_m_s2,
-        2,
-    ),
-];
+/// Numbers of a floor, and how they are shown.
+fn peaks_shown() -> impl Iterator<Item = (&'static Quantity<FloorResponse>, Shown)> {
+    let quantities = FloorResponse::QUANTITIES.iter();
+    quantities.filter_map(|quantity| Some((quantity, quantity.shown?)))
+}
 
 /// Peaks of every floor and of the storey below it, with and without contact: one folded table for each building.
 pub(crate) fn peaks(page: &Page) -> Markup {
@@ -192,12 +156,12 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                     tr {
                         th scope="col" rowspan=[compared.then_some("2")] { "floor" }
                         th.number scope="col" rowspan=[compared.then_some("2")] { "height" br; span.unit { "[m]" } }
-                        @for (name, unit, ..) in PEAKS {
-                            th.number scope="colgroup" colspan=[compared.then_some("2")] { (name) br; span.unit { "[" (unit) "]" } }
+                        @for (_, shown) in peaks_shown() {
+                            th.number scope="colgroup" colspan=[compared.then_some("2")] { (shown.title) br; span.unit { "[" (shown.unit) "]" } }
                         }
                     }
                     @if compared {
-                        tr { @for _ in PEAKS { th.number scope="col" { "with" } th.number scope="col" { "without" } } }
+                        tr { @for _ in peaks_shown() { th.number scope="col" { "with" } th.number scope="col" { "without" } } }
                     }
                 }
                 tbody {
@@ -205,10 +169,10 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                         tr {
                             th scope="row" { (floor.floor) }
                             td.number { (format::fixed(floor.height_m, 2)) }
-                            @for (_, _, with, without, decimals) in PEAKS {
-                                td.number { (format::fixed(with(floor), decimals)) }
+                            @for (quantity, shown) in peaks_shown() {
+                                td.number { (peak_cell(quantity, shown, Some(&floor.response))) }
                                 @if compared {
-                                    td.number { (floor.without_contact.as_ref().map_or(format::NOTHING.into(), |f| format::fixed(without(f), decimals))) }
+                                    td.number { (peak_cell(quantity, shown, floor.without_contact.as_ref())) }
                                 }
                             }
                         }
@@ -222,4 +186,15 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
             ". Drift and shear are those of the storey below the floor; the moment is about the base of that storey."
         }
     }
+}
+
+fn peak_cell(
+    quantity: &Quantity<FloorResponse>,
+    shown: Shown,
+    floor: Option<&FloorResponse>,
+) -> String {
+    let value = floor.and_then(|floor| quantity.value(floor));
+    value.map_or(format::NOTHING.into(), |value| {
+        format::fixed(shown.factor * value, shown.decimals)
+    })
 }

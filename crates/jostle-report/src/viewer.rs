@@ -2,8 +2,9 @@
 
 use maud::html;
 
+use crate::document::STYLE;
 use crate::envelope::{self, envelopes};
-use crate::page::{self, SCRIPTS, STYLE};
+use crate::page::{self, SCRIPTS};
 use crate::{Page, describe, hinges, joints, payload, tables, verdict};
 
 /// Parts of the page that do not change with the run.
@@ -27,9 +28,10 @@ impl Viewer {
     pub fn new() -> Self {
         let sections = html! {
             div #part-tiles {}
+            p #accuracy.quiet {}
             (page::chart_section(true))
             div #part-hinges {}
-            section { h2 { "Impacts" } div #part-impacts {} }
+            section { h2 { "Impacts" } (page::impact_panels()) div #part-impacts {} }
             section { h2 { "Peaks over the height" } div #part-envelopes {} }
             section #code { h2 { "Comparison with code requirements" } div #part-joints {} }
             section { h2 { "What was computed" } div #part-model {} }

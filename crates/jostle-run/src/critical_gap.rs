@@ -508,10 +508,7 @@ struct Bracket {
 /// Greatest displacement of a building at a height, in either direction; between floors by linear interpolation.
 fn peak_at(run: &Tried, building: usize, height: f64) -> f64 {
     let floors = run.summary.buildings[building].floors.iter();
-    let peaks = floors.map(|floor| {
-        let peak = floor.displacement_max_m.max(-floor.displacement_min_m);
-        (floor.height_m, peak)
-    });
+    let peaks = floors.map(|floor| (floor.height_m, floor.response.displacement_peak_m()));
     peak_at_height(peaks, height)
 }
 

@@ -3,6 +3,8 @@
 pub mod contact_sensitivity;
 mod counted_impact;
 mod members;
+pub mod registry;
+pub mod response;
 mod summarise;
 pub mod summary;
 

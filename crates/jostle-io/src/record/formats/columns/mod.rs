@@ -11,7 +11,7 @@ use crate::record::RecordOptions;
 use crate::record::channel::Direction;
 use crate::record::contents::{Contents, Scale, Trace};
 use crate::record::error::RecordError;
-use crate::record::format::RecordFormat;
+use crate::record::formats::RecordFormat;
 use crate::record::lines::{LineMap, Lines, check_end, number};
 
 use header::{Header, apply_options, bad_number, read_column_names, read_comment};

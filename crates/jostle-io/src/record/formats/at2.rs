@@ -1,14 +1,14 @@
 //! PEER AT2 records: a short header whose last line gives the number of values and the step, then values in
 //! free format.
 
-use super::RecordOptions;
-use super::channel::Direction;
-use super::contents::{Contents, Scale, Trace};
-use super::error::RecordError;
-use super::format::{AT2_HEADER_LINES, RecordFormat};
-use super::lines::{LineMap, Lines, check_end, number};
-use super::units::acceleration_unit;
 use crate::quantity::shorten;
+use crate::record::RecordOptions;
+use crate::record::channel::Direction;
+use crate::record::contents::{Contents, Scale, Trace};
+use crate::record::error::RecordError;
+use crate::record::formats::{AT2_HEADER_LINES, RecordFormat};
+use crate::record::lines::{LineMap, Lines, check_end, number};
+use crate::record::units::acceleration_unit;
 
 /// Reads a PEER AT2 record. Accelerations in g are converted with 9.80665 m/s².
 ///

@@ -2,13 +2,13 @@
 //!
 //! Source: SAC manual, "SAC data file format" (IRIS/EarthScope), header versions 6 and 7.
 
-use super::RecordOptions;
-use super::channel::Direction;
-use super::contents::{Contents, Scale, Trace};
-use super::error::RecordError;
-use super::format::RecordFormat;
-use super::header::{agree, malformed};
-use super::lines::{LineMap, simplest};
+use crate::record::RecordOptions;
+use crate::record::channel::Direction;
+use crate::record::contents::{Contents, Scale, Trace};
+use crate::record::error::RecordError;
+use crate::record::formats::RecordFormat;
+use crate::record::header::{agree, malformed};
+use crate::record::lines::{LineMap, simplest};
 
 const FORMAT: RecordFormat = RecordFormat::Sac;
 const HEADER: usize = 632;
@@ -271,9 +271,9 @@ fn check(header: &Header<'_>, values: &[f64], step: f64) -> Result<(), RecordErr
     }
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let swing = super::contents::largest(values);
+    let swing = crate::record::contents::largest(values);
     let extremes = [(word::LEAST, least, 1e-5), (word::GREATEST, greatest, 1e-5)];
-    let mean = (word::MEAN, super::contents::mean(values), 1e-3);
+    let mean = (word::MEAN, crate::record::contents::mean(values), 1e-3);
     for (word, found, part) in extremes.into_iter().chain([mean]) {
         if let Some(stated) = header.real(word)
             && (stated.is_nan() || (stated - found).abs() > part * swing)

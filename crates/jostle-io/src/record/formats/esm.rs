@@ -2,13 +2,13 @@
 //!
 //! Layout: Luzi et al. (2016), Seismological Research Letters 87(4), and the DYNA header that files carry.
 
-use super::channel::Direction;
-use super::contents::{Contents, Peak, Scale, Trace};
-use super::error::RecordError;
-use super::format::RecordFormat;
-use super::header::{Header, agree, malformed};
-use super::lines::{LineMap, Lines, check_end, number, printed};
-use super::units::acceleration_unit;
+use crate::record::channel::Direction;
+use crate::record::contents::{Contents, Peak, Scale, Trace};
+use crate::record::error::RecordError;
+use crate::record::formats::RecordFormat;
+use crate::record::header::{Header, agree, malformed};
+use crate::record::lines::{LineMap, Lines, check_end, number, printed};
+use crate::record::units::acceleration_unit;
 
 const FORMAT: RecordFormat = RecordFormat::Esm;
 /// Lines of header at most; files have 64.

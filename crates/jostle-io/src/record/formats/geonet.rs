@@ -3,13 +3,13 @@
 //!
 //! Layout: Cousins (2008), "GNS accelerogram data files: standard format", GNS Science.
 
-use super::channel::Direction;
-use super::contents::{Contents, Peak, Scale, Trace, named_unit};
-use super::error::RecordError;
-use super::fixed::Fixed;
-use super::format::RecordFormat;
-use super::header::{agree, find_phrase, malformed, word_after};
-use super::lines::{Lines, printed};
+use crate::record::channel::Direction;
+use crate::record::contents::{Contents, Peak, Scale, Trace, named_unit};
+use crate::record::error::RecordError;
+use crate::record::fixed::Fixed;
+use crate::record::formats::RecordFormat;
+use crate::record::header::{agree, find_phrase, malformed, word_after};
+use crate::record::lines::{Lines, printed};
 
 const FORMAT: RecordFormat = RecordFormat::GeoNet;
 const TEXT_LINES: usize = 16;

@@ -3,12 +3,12 @@
 //! Layout as in the files of the national strong-motion network. The unit is that of the stated peaks, and the
 //! values must have these peaks.
 
-use super::channel::Direction;
-use super::contents::{Contents, Peak, Scale, Trace, named_unit};
-use super::error::RecordError;
-use super::format::RecordFormat;
-use super::header::{Header, malformed};
-use super::lines::{LineMap, Lines, check_end, number, printed};
+use crate::record::channel::Direction;
+use crate::record::contents::{Contents, Peak, Scale, Trace, named_unit};
+use crate::record::error::RecordError;
+use crate::record::formats::RecordFormat;
+use crate::record::header::{Header, malformed};
+use crate::record::lines::{LineMap, Lines, check_end, number, printed};
 
 const FORMAT: RecordFormat = RecordFormat::Afad;
 const MOST_LINES: usize = 40;

@@ -3,14 +3,14 @@
 //!
 //! Layout: COSMOS Strong Motion Programs Board (2001), "COSMOS strong motion data format", version 1.20.
 
-use super::channel::Direction;
-use super::contents::{Contents, Peak, Scale, Trace, named_unit};
-use super::error::RecordError;
-use super::fixed::Fixed;
-use super::format::RecordFormat;
-use super::header::{agree, find_phrase, malformed, word_after};
-use super::lines::Lines;
 use crate::quantity::shorten;
+use crate::record::channel::Direction;
+use crate::record::contents::{Contents, Peak, Scale, Trace, named_unit};
+use crate::record::error::RecordError;
+use crate::record::fixed::Fixed;
+use crate::record::formats::RecordFormat;
+use crate::record::header::{agree, find_phrase, malformed, word_after};
+use crate::record::lines::Lines;
 
 const FORMAT: RecordFormat = RecordFormat::Cosmos;
 const MOST_CHANNELS: usize = 256;

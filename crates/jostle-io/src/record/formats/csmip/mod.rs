@@ -13,7 +13,7 @@ use crate::record::contents::{Contents, Peak, Scale, Trace};
 use crate::record::error::RecordError;
 use crate::record::film::Film;
 use crate::record::fixed::Fixed;
-use crate::record::format::RecordFormat;
+use crate::record::formats::RecordFormat;
 use crate::record::header::{agree, find_phrase, malformed, word_after};
 use crate::record::lines::{Line, Lines};
 

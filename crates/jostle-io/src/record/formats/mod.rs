@@ -1,12 +1,26 @@
-//! The formats of records, and their recognition from the content of a file.
+//! The formats of records: their names, what reads them, and their recognition from the content of a file. One file per format turns bytes
+//! into [`Contents`].
 
 use std::borrow::Cow;
 use std::fmt;
 
+use super::RecordOptions;
+use super::contents::Contents;
 use super::error::RecordError;
 use super::header::find_phrase;
 use super::lines::{Lines, without_fill};
-use super::{miniseed, sac};
+
+mod afad;
+mod at2;
+mod columns;
+mod cosmos;
+mod csmip;
+mod esm;
+mod geonet;
+mod knet;
+mod miniseed;
+mod sac;
+mod smc;
 
 /// A format of ground-motion records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -54,20 +68,41 @@ impl RecordFormat {
 
     /// The word for it in model files and on the command line.
     #[must_use]
-    pub fn key(self) -> &'static str {
+    pub const fn key(self) -> &'static str {
+        self.facts().key
+    }
+
+    /// One line for each format.
+    #[rustfmt::skip]
+    const fn facts(self) -> Facts {
         match self {
-            Self::At2 => "at2",
-            Self::Columns => "columns",
-            Self::Cosmos => "cosmos",
-            Self::Csmip => "csmip",
-            Self::Knet => "knet",
-            Self::Esm => "esm",
-            Self::Smc => "smc",
-            Self::GeoNet => "geonet",
-            Self::Afad => "afad",
-            Self::MiniSeed => "miniseed",
-            Self::Sac => "sac",
+            Self::At2 => Facts::text("at2", "PEER AT2", at2::read),
+            Self::Columns => Facts::text("columns", "columns of text", columns::read),
+            Self::Cosmos => Facts::text("cosmos", "COSMOS", |bytes, _| cosmos::read(bytes)),
+            Self::Csmip => Facts::text("csmip", "CSMIP", csmip::read),
+            Self::Knet => Facts::text("knet", "K-NET", |bytes, _| knet::read(bytes)),
+            Self::Esm => Facts::text("esm", "ESM", |bytes, _| esm::read(bytes)),
+            Self::Smc => Facts::text("smc", "USGS SMC", smc::read),
+            Self::GeoNet => Facts::text("geonet", "GeoNet", |bytes, _| geonet::read(bytes)),
+            Self::Afad => Facts::text("afad", "AFAD", |bytes, _| afad::read(bytes)),
+            Self::MiniSeed => Facts::binary("miniseed", "miniSEED", |bytes, _| miniseed::read(bytes)),
+            Self::Sac => Facts::binary("sac", "SAC", sac::read),
         }
+    }
+
+    /// Reads a file in this format.
+    pub(super) fn read(
+        self,
+        bytes: &[u8],
+        options: &RecordOptions,
+    ) -> Result<Contents, RecordError> {
+        let facts = self.facts();
+        if !facts.is_text {
+            return (facts.read)(bytes, options);
+        }
+        let text = without_fill(bytes);
+        check_text(text)?;
+        (facts.read)(text, options)
     }
 
     /// The format of this word.
@@ -109,19 +144,36 @@ impl RecordFormat {
 
 impl fmt::Display for RecordFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::At2 => "PEER AT2",
-            Self::Columns => "columns of text",
-            Self::Cosmos => "COSMOS",
-            Self::Csmip => "CSMIP",
-            Self::Knet => "K-NET",
-            Self::Esm => "ESM",
-            Self::Smc => "USGS SMC",
-            Self::GeoNet => "GeoNet",
-            Self::Afad => "AFAD",
-            Self::MiniSeed => "miniSEED",
-            Self::Sac => "SAC",
-        })
+        f.write_str(self.facts().title)
+    }
+}
+
+/// What is known of a format.
+struct Facts {
+    key: &'static str,
+    title: &'static str,
+    is_text: bool,
+    read: Read,
+}
+
+/// Turns bytes into channels.
+type Read = fn(&[u8], &RecordOptions) -> Result<Contents, RecordError>;
+
+impl Facts {
+    const fn text(key: &'static str, title: &'static str, read: Read) -> Self {
+        Self {
+            key,
+            title,
+            is_text: true,
+            read,
+        }
+    }
+
+    const fn binary(key: &'static str, title: &'static str, read: Read) -> Self {
+        Self {
+            is_text: false,
+            ..Self::text(key, title, read)
+        }
     }
 }
 
@@ -138,7 +190,7 @@ const WRAPPED: &[(&[u8], &str, &str)] = &[
 ];
 
 /// Refuses what cannot be read as text.
-pub(crate) fn check_text(bytes: &[u8]) -> Result<(), RecordError> {
+fn check_text(bytes: &[u8]) -> Result<(), RecordError> {
     if let Some((_, what, remedy)) = WRAPPED.iter().find(|(mark, ..)| bytes.starts_with(mark)) {
         return Err(RecordError::Wrapped { what, remedy });
     }

@@ -3,13 +3,13 @@
 //! Layout: NIED, "Data format of K-NET and KiK-net ASCII". The published peak is that of the record minus its mean,
 //! so the mean is removed here, before the scale factor.
 
-use super::channel::Direction;
-use super::contents::{Contents, Peak, Scale, Trace, mean, named_unit};
-use super::error::RecordError;
-use super::fixed::Fixed;
-use super::format::RecordFormat;
-use super::header::{Header, agree, malformed};
-use super::lines::{Lines, printed};
+use crate::record::channel::Direction;
+use crate::record::contents::{Contents, Peak, Scale, Trace, mean, named_unit};
+use crate::record::error::RecordError;
+use crate::record::fixed::Fixed;
+use crate::record::formats::RecordFormat;
+use crate::record::header::{Header, agree, malformed};
+use crate::record::lines::{Lines, printed};
 
 const FORMAT: RecordFormat = RecordFormat::Knet;
 
@@ -127,7 +127,10 @@ fn read_header(lines: &mut Lines<'_>) -> Result<Header, RecordError> {
 }
 
 /// Counts of eight columns, each followed by a blank.
-fn integers(lines: &mut Lines<'_>, count: usize) -> Result<super::fixed::Block, RecordError> {
+fn integers(
+    lines: &mut Lines<'_>,
+    count: usize,
+) -> Result<crate::record::fixed::Block, RecordError> {
     Fixed::integers(8, 8)
         .blank_behind()
         .read(lines, count, FORMAT)

@@ -3,16 +3,16 @@
 //! Layout: USGS National Strong-Motion Program, "SMC- and BBF-format data files". Accelerations are in cm/s² by
 //! definition; values fill columns of ten and run together.
 
-use super::RecordOptions;
-use super::channel::Direction;
-use super::contents::{Contents, Peak, Scale, Trace, named_unit};
-use super::error::RecordError;
-use super::film::Film;
-use super::fixed::Fixed;
-use super::format::RecordFormat;
-use super::header::{malformed, word_after};
-use super::lines::{Lines, printed};
 use crate::quantity::shorten;
+use crate::record::RecordOptions;
+use crate::record::channel::Direction;
+use crate::record::contents::{Contents, Peak, Scale, Trace, named_unit};
+use crate::record::error::RecordError;
+use crate::record::film::Film;
+use crate::record::fixed::Fixed;
+use crate::record::formats::RecordFormat;
+use crate::record::header::{malformed, word_after};
+use crate::record::lines::{Lines, printed};
 
 const FORMAT: RecordFormat = RecordFormat::Smc;
 /// Lines of text, with the first.

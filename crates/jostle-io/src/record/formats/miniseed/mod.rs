@@ -12,7 +12,7 @@ use crate::quantity::shorten;
 use crate::record::channel::Direction;
 use crate::record::contents::{Contents, Scale, Trace};
 use crate::record::error::RecordError;
-use crate::record::format::RecordFormat;
+use crate::record::formats::RecordFormat;
 use crate::record::header::malformed;
 use crate::record::lines::LineMap;
 
