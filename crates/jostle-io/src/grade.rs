@@ -51,7 +51,7 @@ fn strength_with_unit(text: &str) -> Result<f64, Trouble> {
     let remedy =
         "write the cylinder strength with its unit, such as \"f'c = 4 ksi\" or \"f'c = 28 MPa\"";
     if text.parse::<f64>().is_ok() {
-        let problem = format!("f'c = {} has no unit: ksi, psi or MPa?", shorten(text));
+        let problem = format!("f'c = {} has no unit", shorten(text));
         return Err((problem, remedy.to_owned()));
     }
     let strength = parse_quantity(text, Dimension::Modulus)

@@ -71,7 +71,7 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
                 }
                 p.quiet {
                     "Hertz: k = 4/[3π (h₁ + h₂)] √[R₁R₂/(R₁ + R₂)] with spheres of the masses of the floors (Goldsmith 1960; Muthukumar and DesRoches 2006), concrete of 30 GPa. "
-                    "Peak forces grow with k^0.4; displacements hardly depend on it: "
+                    "The peak force of free masses grows with k^0.4, under linear laws with k^0.5: "
                     code { "jostle run --sensitivity" } " repeats the run with half and twice the stiffness and restitution ± 0.15. "
                     code { "jostle contact-advice" } " adds the axial stiffness and the waves of slabs whose size is given."
                     @if boxes.iter().any(|row| !row.is_hertzian) {

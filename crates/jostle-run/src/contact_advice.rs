@@ -499,7 +499,7 @@ fn moduli(options: &AdviceOptions, notes: &mut Vec<String>) -> Result<[f64; 2], 
         (None, None) => {
             let modulus = SlabMaterial::default().modulus;
             notes.push(format!(
-                "E = {} GPa is assumed; state it with --concrete or --modulus.",
+                "E = {:.0} GPa is assumed; state it with --concrete or --modulus.",
                 1e-9 * modulus
             ));
             Ok([modulus; 2])
