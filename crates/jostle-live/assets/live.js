@@ -41,8 +41,7 @@ function showFrame(head, data, numbers) {
 /** Accuracy and notes of the latest run; they come again once it is known whether its results are sensitive. */
 function showAccuracy({ id, text, notes }) {
   if (latest?.id !== id) return;
-  const [name, words] = ["Accuracy", text.replace(/^accuracy: /, "")];
-  byId("accuracy").replaceChildren(html("b", "", `${name}: `), `${words}.`);
+  byId("accuracy").replaceChildren(html("b", "", "Accuracy: "), `${text.replace(/^accuracy: /, "")}.`);
   const host = byId("notes");
   host.hidden = !notes.length;
   host.replaceChildren(...notes.map((note) => html("p", "", note)));
