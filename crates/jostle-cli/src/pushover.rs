@@ -1,4 +1,4 @@
-//! `jostle pushover`: how far buildings can be pushed sideways.
+//! `jostle pushover`: capacity curves of the buildings of a model.
 
 use std::path::{Path, PathBuf};
 

@@ -164,7 +164,7 @@ fn of_model(path: &std::path::Path) -> Result<(String, Vec<SectionSurvey>), Fail
     Ok((input.model.title, surveys))
 }
 
-/// Storeys and lines of alike members, in short.
+/// Storeys and lines of equal members, in short.
 fn places_text(places: &[(usize, usize)], across: &str) -> String {
     let mut floors: Vec<usize> = places.iter().map(|(floor, _)| *floor).collect();
     floors.dedup();

@@ -4,6 +4,7 @@
 //! so that the rest is still read and checked; the result is thrown away if anything was noted.
 
 mod analysis;
+mod assumptions;
 mod between;
 mod building;
 mod frame;

@@ -1,4 +1,4 @@
-//! Study files: a base model, what varies in it, and what is wanted of the results.
+//! Study files: a base model, the keys that vary in it, and the evaluations of the results.
 
 mod distribution;
 mod factor;
@@ -284,7 +284,8 @@ fn base_model(
 ) -> Option<Result<ModelTree, InputError>> {
     let (base, model) = (reader.get(view, "base"), reader.get(view, "model"));
     if let (Some(base), Some(_)) = (&base, &model) {
-        *reader.bad(base, "cannot stand beside model") = Some("keep either base or model".into());
+        *reader.bad(base, "cannot be combined with model") =
+            Some("keep either base or model".into());
         return None;
     }
     if let Some(tree) = other {

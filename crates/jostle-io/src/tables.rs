@@ -1,4 +1,4 @@
-//! `history.parquet`, `impacts.parquet`, `hinges.parquet` and `members.parquet`: columns with units in their names, compressed with zstd.
+//! `history.parquet`, `impacts.parquet`, `hinges.parquet` and `members.parquet`: columns with units in their names, compressed with LZ4.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use jostle::results::summary::{ContactSummary, ImpactSummary, SectionSummary, Sp
 use jostle::results::{member_name, section_name};
 use jostle::structure::{BaseMotion, MemberEnd, SectionAt, SpringPlace};
 use jostle::{Column, History, Model, Outcome, Quantity, Summary, System, springs_of};
-use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical, ZstdLevel};
+use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
@@ -19,8 +19,6 @@ use parquet::schema::types::{ColumnPath, Type};
 
 use crate::output::{OutputError, write_atomically};
 
-/// Level of Zstandard.
-const COMPRESSION: i32 = 1;
 /// Number of rows above which compression saves more than its overhead.
 const WORTH_COMPRESSING: usize = 64;
 
@@ -515,7 +513,7 @@ fn encode_with(
     let compression = if rows < WORTH_COMPRESSING {
         Compression::UNCOMPRESSED
     } else {
-        Compression::ZSTD(ZstdLevel::try_new(COMPRESSION)?)
+        Compression::LZ4_RAW
     };
     // Numbers seldom repeat: dictionary encoding takes as long as everything else.
     let mut properties = WriterProperties::builder()

@@ -214,7 +214,7 @@ fn json_gives_the_same_model_and_the_same_faults() {
         ),
         (
             text.replace("\"name\"", "\"kind\""),
-            "model.toml:1:32: the key \"kind\" stands here twice",
+            "model.toml:1:32: the key \"kind\" appears here twice",
         ),
         (
             "[]".into(),
@@ -512,7 +512,7 @@ fn motion_faults_are_explained() {
     let motion = |keys: &str| format!("{SHEAR}[motion]\n{keys}\n");
     assert_single(
         &motion("record = \"el-centro\"\npga = 1\nscale = 2"),
-        "model.toml:11:9: motion.scale: cannot stand beside pga",
+        "model.toml:11:9: motion.scale: cannot be combined with pga",
     );
     assert_single(
         &motion("kind = \"sine\"\nperiod = \"1 s\"\nduration = \"8 s\""),

@@ -1,4 +1,4 @@
-//! What page and server say to each other, as JSON. A frame alone is binary: see [`binary`].
+//! Messages between page and server, as JSON. A frame alone is binary: see [`binary`].
 
 use jostle_io::{InputError, Knob, TreeValue};
 use serde::{Deserialize, Serialize};

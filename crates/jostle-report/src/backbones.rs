@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(
             picture.matches("<polyline").count(),
             1,
-            "alike curves are drawn once"
+            "equal curves are drawn once"
         );
     }
 }

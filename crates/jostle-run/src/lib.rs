@@ -1,4 +1,4 @@
-//! What all faces of jostle have in common: the command line, Python, studies and the live page.
+//! Runs of models, the same for the command line, Python, studies and the live page.
 //!
 //! [`open()`] reads and assembles a model, [`Opened::prepare`] chooses its steps, [`Prepared::run`] makes the run, and
 //! [`Results::write`] writes its files. Progress goes to an observer, which can stop the run. Nothing is printed, and no

@@ -1,4 +1,4 @@
-//! What the files of a run are written from.
+//! The results from which the files of a run are written.
 
 use jostle::method::MethodSurvey;
 use jostle::{History, Outcome, RunEnd, Summary};
@@ -12,7 +12,7 @@ use crate::prepared::Prepared;
 pub struct Results<'a> {
     /// What was run.
     pub prepared: &'a Prepared,
-    /// What came out; its histories may have been taken out of it.
+    /// Results of the run; histories may have been moved out of it.
     pub outcome: &'a Outcome,
     /// Its numbers.
     pub summary: &'a Summary,

@@ -195,10 +195,10 @@ fn amplifications_are_ratios_to_the_run_without_contact() {
         for (stem, ratio) in ratios {
             let unit = ["", "_m", "_n", "_n_m", "_m_s2"];
             let read = |from: &Value| {
-                let values = unit
+                let mut values = unit
                     .iter()
                     .filter_map(|unit| from.get(format!("{stem}{unit}")));
-                values.last().and_then(Value::as_f64)
+                values.next_back().and_then(Value::as_f64)
             };
             let without = read(&owner["without_contact"]).unwrap_or(0.0);
             let wanted = read(owner).map(|with| (with / without).abs());

@@ -169,7 +169,7 @@ struct Work<'a> {
     failed: AtomicU64,
     cases: u64,
     error: Mutex<Option<StudyError>>,
-    /// An error has occurred: nobody begins anything more.
+    /// An error has occurred: no thread begins another case.
     halt: AtomicBool,
     hooks: Hooks<'a>,
 }
@@ -191,7 +191,7 @@ struct Part {
 struct Inner {
     journal: Option<Journal>,
     rows: Vec<Option<Row>>,
-    /// Cases that nobody has begun.
+    /// Cases that no thread has begun.
     open: VecDeque<u64>,
     /// Cases without a row.
     missing: usize,

@@ -22,6 +22,25 @@ pub struct History {
 }
 
 /// A recorded quantity.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Column, EnergyTerm, Settings, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// let history = outcome.history.expect("histories are recorded by default");
+/// let roof = history.column(Column::Displacement { building: 0, floor: 3 }).expect("it has three floors");
+/// let input = history.column(Column::Energy(EnergyTerm::Input)).expect("energies are recorded");
+/// assert_eq!(roof.len(), input.len());
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Column {
     /// Time \[s\].
@@ -217,6 +236,25 @@ impl History {
 }
 
 /// One closed episode of a contact with a force.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Impact, Settings, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// let strongest: Option<&Impact> = outcome.impacts.iter().max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
+/// let strongest = strongest.expect("they collide");
+/// assert!(strongest.start <= strongest.peak_force_at && strongest.peak_force_at <= strongest.end);
+/// assert!(strongest.impulse > 0.0);
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Index of the contact in the system.

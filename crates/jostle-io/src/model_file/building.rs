@@ -126,7 +126,7 @@ fn read(
     building.damping = match (damped, reader.get(&view, "damping")) {
         (Some(damping), None) => damping,
         (Some(damping), Some(field)) => {
-            *reader.bad(&field, "cannot stand beside a damping matrix") =
+            *reader.bad(&field, "cannot be combined with a damping matrix") =
                 Some("leave out damping, or the matrix C".into());
             damping
         }
@@ -247,7 +247,7 @@ pub(super) fn storeys(
 ) -> Option<usize> {
     let (storeys, floors) = (reader.get(view, "storeys"), reader.get(view, "floors"));
     if let (Some(_), Some(floors)) = (&storeys, &floors) {
-        *reader.bad(floors, "cannot stand beside storeys") =
+        *reader.bad(floors, "cannot be combined with storeys") =
             Some("keep either storeys or floors".into());
     }
     if let Some(field) = storeys.or(floors) {

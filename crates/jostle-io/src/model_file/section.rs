@@ -46,7 +46,7 @@ pub(super) fn read_modulus(reader: &mut Reader<'_>, view: &View<'_>) -> (Option<
     let concrete = reader.get(view, "concrete");
     let stated = modulus.is_some() || concrete.is_some();
     if let (Some(_), Some(concrete)) = (&modulus, &concrete) {
-        *reader.bad(concrete, "cannot stand beside elastic_modulus") =
+        *reader.bad(concrete, "cannot be combined with elastic_modulus") =
             Some("keep either concrete or elastic_modulus".into());
     }
     let value = match (modulus, concrete) {

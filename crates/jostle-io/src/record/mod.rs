@@ -119,7 +119,7 @@ impl RecordInfo {
 /// Largest record file \[bytes\].
 const LARGEST_FILE: usize = 64 << 20;
 
-/// Reads a record file; the format is told from its content.
+/// Reads a record file; the format is recognised from the content.
 ///
 /// # Errors
 /// [`RecordError`] naming the line and what would be right.

@@ -62,6 +62,14 @@ pub struct ContactLaw {
 }
 
 /// Meaning of a coefficient of restitution.
+///
+/// ```
+/// use jostle::{ContactLaw, LawKind, RestitutionIs};
+///
+/// let law = |restitution_is| ContactLaw { kind: LawKind::HertzDamp, stiffness: 2e9, restitution: 0.65, restitution_is };
+/// assert!((law(RestitutionIs::Input).free_restitution() - 0.775).abs() < 1e-3);
+/// assert!((law(RestitutionIs::Realised).free_restitution() - 0.65).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum RestitutionIs {
     /// It goes into the published formula; the rebound of free masses may differ.

@@ -251,6 +251,10 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
         .map(|(&contact, impacts)| contact_summary(contact, impacts, system, outcome))
         .collect();
     let impacts = contacts.iter().flat_map(|contact| &contact.impacts);
+    let total = outcome.gap_forces.get(index);
+    // Contact that is no impact has a force as well.
+    let total =
+        total.filter(|total| total.value > 0.0 && counted.iter().any(|own| !own.is_empty()));
     GapSummary {
         between: names(gap.between, system),
         width_m: gap.width(),
@@ -269,6 +273,8 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
             .iter()
             .map(|contact| contact.peak_force_n)
             .fold(0.0, f64::max),
+        total_force_peak_n: total.map_or(0.0, |total| total.value),
+        total_force_peak_at_s: total.map(|total| total.at),
         first_impact_s: impacts.map(|impact| impact.start_s).min_by(f64::total_cmp),
         closing_without_contact_m: run.without_contact.map(|outcome| {
             let needed = |&contact: &usize| {

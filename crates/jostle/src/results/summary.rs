@@ -8,6 +8,33 @@ use super::response::{Amplification, BuildingResponse, FloorResponse};
 use crate::quantity::{Quantity, Unit};
 
 /// Results of a run without histories.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Run, Settings, Summary, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// let summary = Summary::of(&Run {
+///     model: &model,
+///     system: &system,
+///     motion: &motion,
+///     plan: &plan,
+///     outcome: &outcome,
+///     without_contact: None,
+///     wall: 0.0,
+/// });
+/// let roof = &summary.buildings[0].floors[2].response;
+/// assert!(roof.displacement_max_m > 0.0 && roof.storey_shear_peak_n > 0.0);
+/// assert!(summary.promise.met == Some(true));
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct Summary {
     /// Title of the model.
@@ -306,6 +333,10 @@ pub struct GapSummary {
     pub most_at_once: usize,
     /// Greatest force of any contact \[N\].
     pub peak_force_n: f64,
+    /// Greatest sum of the forces of all contacts at one instant \[N\].
+    pub total_force_peak_n: f64,
+    /// Its instant; `null` without an impact \[s\].
+    pub total_force_peak_at_s: Option<f64>,
     /// Instant of the first impact \[s\].
     pub first_impact_s: Option<f64>,
     /// Greatest closing of any contact when the buildings pass through each other, less what it is wider than the
@@ -326,6 +357,8 @@ impl GapSummary {
         Quantity::<Self>::whole("multiple_pounding_count", "those with impacts at two or more contacts at once", |g| g.multiple_pounding_count),
         Quantity::<Self>::whole("most_at_once", "greatest number of contacts in impact at one instant", |g| g.most_at_once).in_study(),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any of its contacts", |g| g.peak_force_n).in_study(),
+        Quantity::<Self>::real("total_force_peak_n", Unit::N, "greatest sum of the forces of all its contacts at one instant", |g| g.total_force_peak_n).in_study(),
+        Quantity::<Self>::optional("total_force_peak_at_s", Unit::S, "its instant; absent without an impact", |g| g.total_force_peak_at_s),
         Quantity::<Self>::optional("first_impact_s", Unit::S, "instant of the first impact", |g| g.first_impact_s).in_study(),
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the forces of all its contacts", Self::impulse_n_s).not_in_summary().in_study(),
         Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing of any of its contacts", Self::closing_peak_m).not_in_summary().in_study(),
@@ -333,7 +366,7 @@ impl GapSummary {
 
     /// Numbers of the run without contact; in studies if they ask for it.
     pub const WITHOUT_CONTACT: &[Quantity<Self>] = &[
-        Quantity::<Self>::optional("closing_without_contact_m", Unit::M, "greatest closing without contact: the smallest gap without pounding", |g| g.closing_without_contact_m).in_study(),
+        Quantity::<Self>::optional("closing_without_contact_m", Unit::M, "greatest closing without contact: the smallest gap without pounding; in studies with `without_contact = true`", |g| g.closing_without_contact_m).in_study(),
     ];
 }
 
