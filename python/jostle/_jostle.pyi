@@ -19,6 +19,7 @@ __all__ = [
     "__version__",
     "collide",
     "command_line",
+    "contact_advice",
     "contact_laws",
     "critical_gaps",
     "live_page",
@@ -32,7 +33,10 @@ def collide(law: str | None, given: Mapping[str, str]) -> list[tuple[str, npt.ND
 def command_line(arguments: Sequence[str]) -> int: ...
 def contact_laws() -> str: ...
 def quantity(text: str, kind: str) -> float: ...
-def critical_gaps(model: Model, tolerance: float, system: str, outcomes: bool) -> str: ...
+def critical_gaps(
+    model: Model, tolerance: float, system: str | None, codes: Sequence[str], outcomes: bool
+) -> str: ...
+def contact_advice(model: Model | None, given: Mapping[str, str]) -> str: ...
 def run(
     model: Model,
     pounding: bool = True,

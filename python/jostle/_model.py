@@ -38,6 +38,7 @@ class Model:
         title: printed on summaries and reports.
         analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
         output: ``[output]`` of the model file: ``{"members": True}`` for forces of columns and beams.
+        codes: ``[codes]`` of the model file: ``{"show": ["en1998"], "behaviour_factor": 3.9}``.
 
     Raises:
         ModelError: all faults at once, with the message of the command line.
@@ -56,6 +57,7 @@ class Model:
         title: str | None = None,
         analysis: Table | None = None,
         output: Table | None = None,
+        codes: Table | None = None,
     ) -> None:
         row = [buildings] if isinstance(buildings, (Part, Mapping)) else buildings
         tree: dict[str, Any] = {"building": [_table(building) for building in row]}
@@ -68,6 +70,8 @@ class Model:
             tree["analysis"] = analysis
         if output is not None:
             tree["output"] = output
+        if codes is not None:
+            tree["codes"] = codes
         if isinstance(motion, (str, os.PathLike)):
             tree["motion"] = {"record": motion}
         elif motion is not None and not isinstance(motion, Motion):

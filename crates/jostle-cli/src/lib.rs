@@ -5,6 +5,7 @@ mod check;
 mod collide;
 mod command_line;
 mod completions;
+mod contact_advice;
 mod export;
 mod failure;
 mod gap;
@@ -40,6 +41,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Check(args) => check::check(&args),
         Command::Modes(args) => modes::modes(&args),
         Command::Collide(args) => collide::collide(&args),
+        Command::ContactAdvice(args) => contact_advice::contact_advice(&args),
         Command::Export(args) => export::export(&args),
         Command::Method(args) => method::method(&args),
         Command::Pushover(args) => pushover::pushover(&args),

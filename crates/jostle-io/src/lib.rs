@@ -9,6 +9,7 @@ mod builtin_model;
 mod choices;
 mod csv;
 mod fault;
+mod grade;
 mod keys;
 mod knobs;
 mod matrices;
@@ -43,6 +44,7 @@ pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_recor
 pub use builtin_model::{builtin_model, model_names, model_text};
 pub use csv::csv_field;
 pub use fault::{Fault, InputError};
+pub use grade::{parse_concrete, parse_steel};
 /// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
 pub use jostle::statics::STANDARD_GRAVITY;
 pub use keys::LAW_NAMES;

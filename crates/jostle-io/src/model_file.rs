@@ -7,6 +7,7 @@ mod analysis;
 mod assumptions;
 mod between;
 mod building;
+mod codes;
 mod frame;
 mod gap;
 mod given;
@@ -30,6 +31,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
+use jostle::separation::CodeInputs;
 use jostle::{GroundMotion, Model, ModelFault};
 
 use crate::bounded::read_at_most;
@@ -52,6 +54,8 @@ pub struct Input {
     pub motion: Option<MotionSpec>,
     /// Members of frames whose reinforcement the file states, building by building, columns first.
     pub reinforced: Vec<ReinforcedMember>,
+    /// Inputs of the separation rules of codes.
+    pub codes: CodeInputs,
     /// Warnings of a valid file.
     pub warnings: Vec<String>,
     /// Unusual values that are accepted.
@@ -145,15 +149,21 @@ pub fn read_model_text(
 pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<Input, InputError> {
     let mut reader = Reader::new(&source);
     let read = read_root(&mut reader, &root, base);
-    if let Some((model, ..)) = &read {
+    if let Some(Parts { model, .. }) = &read {
         let checked = model.check().err().unwrap_or_default();
         add_model_faults(&mut reader, &root, checked);
     }
     let (mut noted, accepted) = (reader.take_warnings(), reader.accepted.clone());
     let error = reader.into_error();
     match read {
-        Some((model, motion, reinforced)) if error.faults.is_empty() => Ok(Input {
+        Some(Parts {
+            model,
+            motion,
             reinforced,
+            codes,
+        }) if error.faults.is_empty() => Ok(Input {
+            reinforced,
+            codes,
             warnings: {
                 noted.extend(warnings(&model, &root));
                 noted
@@ -360,12 +370,16 @@ fn with_record(old: Option<&MotionSpec>, record: &str) -> MotionSpec {
     }
 }
 
+/// What a file describes.
+struct Parts {
+    model: Model,
+    motion: Option<MotionSpec>,
+    reinforced: Vec<ReinforcedMember>,
+    codes: CodeInputs,
+}
+
 /// Reads the whole tree; `None` if there is nothing to build a model from.
-fn read_root(
-    reader: &mut Reader<'_>,
-    root: &Node,
-    base: &Path,
-) -> Option<(Model, Option<MotionSpec>, Vec<ReinforcedMember>)> {
+fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts> {
     let field = Field::root(root);
     let view = reader.open(&field, &[Section::Root])?;
     let analysis = reader.get(&view, "analysis");
@@ -393,14 +407,14 @@ fn read_root(
     };
     let gaps = match reader.get(&view, "gap") {
         Some(field) => {
-            let buildings = buildings.as_ref().map(|(buildings, _)| &buildings[..]);
+            let buildings = buildings.as_ref().map(|(buildings, ..)| &buildings[..]);
             gap::read_all(reader, &field, buildings)
         }
         None => Vec::new(),
     };
     let links = match reader.get(&view, "link") {
         Some(field) => {
-            let buildings = buildings.as_ref().map(|(buildings, _)| &buildings[..]);
+            let buildings = buildings.as_ref().map(|(buildings, ..)| &buildings[..]);
             link::read_all(reader, &field, buildings)
         }
         None => Vec::new(),
@@ -410,7 +424,10 @@ fn read_root(
     if let Some(field) = reader.get(&view, "output") {
         analysis.members = output::read(reader, &field);
     }
-    let (buildings, reinforced) = buildings?;
+    let codes = reader.get(&view, "codes");
+    let of_buildings = buildings.as_ref().map(|(.., codes)| codes.clone());
+    let codes = codes::read(reader, codes.as_ref(), of_buildings.unwrap_or_default());
+    let (buildings, reinforced, _) = buildings?;
     let model = Model {
         title: title.unwrap_or_default(),
         buildings,
@@ -418,7 +435,12 @@ fn read_root(
         links,
         analysis,
     };
-    Some((model, motion, reinforced))
+    Some(Parts {
+        model,
+        motion,
+        reinforced,
+        codes,
+    })
 }
 
 /// Adds what the model's own check found, unless reading has found a fault there already.

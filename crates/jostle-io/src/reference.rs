@@ -78,6 +78,16 @@ const TABLES: &[(Section, &str, &str)] = &[
         "`[output]`",
         "See [Which column is hit](how-to/struck-columns.md).",
     ),
+    (
+        Section::Codes,
+        "`[codes]`",
+        "Inputs of the separation rules of `jostle gap` and the report; see [how-to/required-gap.md](how-to/required-gap.md).",
+    ),
+    (
+        Section::BuildingCodes,
+        "`codes` of a building",
+        "Values given here apply to that building only.",
+    ),
     (Section::Integrator, "`analysis.integrator`", ""),
     (
         Section::Study,
@@ -218,6 +228,10 @@ fn value(key: &Key) -> String {
         }
         Kind::PerContact(dimension) => {
             format!("{}; or a list, one per contact", quantity(dimension))
+        }
+        Kind::Concrete(grades) => format!("{}; or `f'c = 4 ksi`", words(grades)),
+        Kind::ConcreteOr(grades) => {
+            format!("{}; `f'c = 4 ksi`; or a strength", words(grades))
         }
         Kind::GradeOr(grades) => format!("{}; or a strength", words(grades)),
     }

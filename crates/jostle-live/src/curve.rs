@@ -232,7 +232,7 @@ pub(crate) fn marks(
     let settings = GapSettings {
         tolerance: 1e-5,
         outcomes: false,
-        ..GapSettings::default()
+        codes: prepared.input.codes.clone(),
     };
     let found = critical_gaps(
         &prepared.input.model,

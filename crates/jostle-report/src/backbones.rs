@@ -148,7 +148,7 @@ fn picture(building: usize, name: &str, springs: &[Hysteresis], storeys: bool) -
             }
             @for outline in &outlines {
                 @let points: Vec<String> = outline.iter().map(|[d, f]| format!("{},{}", px(x(*d)), px(y(*f)))).collect();
-                polyline.line style=(crate::page::colour(building)) points=(points.join(" ")) {}
+                polyline.line style=(crate::document::colour(building)) points=(points.join(" ")) {}
             }
         }
     }

@@ -4,8 +4,8 @@ use jostle::ContactLaw;
 use jostle::contact::{CollisionPoint, FreeCollision};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::document::{POLICY, STYLE, theme_button, theme_script};
 use crate::format;
-use crate::page::{POLICY, STYLE, theme_button, theme_script};
 
 /// A law and its collision.
 #[derive(Clone, Debug)]

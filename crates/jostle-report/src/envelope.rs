@@ -265,12 +265,12 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
                     }
                 }
                 @for line in lines {
-                    polyline.line.dashed[line.dashed] style=(crate::page::colour(line.building)) points=(path(line, x, y)) {}
+                    polyline.line.dashed[line.dashed] style=(crate::document::colour(line.building)) points=(path(line, x, y)) {}
                 }
                 @for line in lines.iter().filter(|line| !line.dashed) {
                     @for (value, height) in &line.points {
                         @if *height > 0.0 && value.is_finite() {
-                            circle.dot style=(crate::page::colour(line.building)) cx=(px(x(*value))) cy=(px(y(*height))) r="5" {
+                            circle.dot style=(crate::document::colour(line.building)) cx=(px(x(*value))) cy=(px(y(*height))) r="5" {
                                 title {
                                     (page.model.buildings.get(line.building).map_or("", |b| b.name.as_str())) ", "
                                     (format::fixed(*height, 2)) " m: " (format::significant(*value, 4)) " " (unit) ", " (line.meaning)

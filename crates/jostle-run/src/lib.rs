@@ -5,6 +5,7 @@
 //! terminal is read.
 
 mod collide;
+mod contact_advice;
 mod contact_sensitivity;
 mod critical_gap;
 mod error;
@@ -25,7 +26,13 @@ mod summary_text;
 mod workshop;
 
 pub use collide::{CollideOptions, collide, collision_json};
-pub use critical_gap::{CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps};
+pub use contact_advice::{
+    AdviceOptions, ContactAdvice, LEAST_TRANSITS, RangeAdvice, StiffnessEstimate, WaveAdvice,
+    contact_advice,
+};
+pub use critical_gap::{
+    CriticalGap, GapError, GapProgress, GapSettings, LeftOutRule, RuleGap, critical_gaps,
+};
 pub use error::RunError;
 pub use files::{Content, earlier_files};
 pub use modes::{ListedModes, floor_shape, list_modes, modes_json};
@@ -38,7 +45,7 @@ pub use replace::{FileKind, may_write};
 pub use results::Results;
 pub use run::Ran;
 pub use shapes::SharedShapes;
-pub use spectra::{Inelastic, spectra_json, spectrum_json};
+pub use spectra::{Inelastic, accelerogram, spectra_json, spectrum_json};
 pub use style::{BOLD, DIM, LOUD, styled};
 pub use summary_text::{describe_summary, summary_text};
 pub use workshop::{CaseError, Workshop};

@@ -5,6 +5,7 @@ use jostle::{History, Outcome, RunEnd, Summary};
 use jostle_io::Input;
 use jostle_report::{Page, ReinforcedSection};
 
+use crate::contact_advice::contact_boxes;
 use crate::prepared::Prepared;
 
 /// A run in the form that its files are written from.
@@ -42,6 +43,11 @@ impl<'a> Results<'a> {
     pub fn with_page<T>(&self, show: impl FnOnce(&Page<'_>) -> T) -> Option<T> {
         let history = self.history?;
         let sections = reinforced(&self.prepared.input);
+        let contacts = contact_boxes(
+            &self.prepared.input.model,
+            &self.prepared.system,
+            self.summary,
+        );
         Some(show(&Page {
             model: &self.prepared.input.model,
             motion: &self.prepared.motion,
@@ -50,6 +56,8 @@ impl<'a> Results<'a> {
             without_contact: self.without_contact,
             springs: self.outcome.spring_history.as_ref(),
             sections: &sections,
+            codes: &self.prepared.input.codes,
+            contacts: &contacts,
             methods: self.methods,
         }))
     }

@@ -7,6 +7,7 @@
 //!
 //! [`FreeCollision`] integrates the collision of two free masses precisely, independent of any time step.
 
+mod advice;
 mod approach;
 mod bilinear;
 mod collision;
@@ -19,6 +20,10 @@ mod root;
 mod rubber;
 mod runge_kutta;
 
+pub use advice::{
+    Rod, RodCollision, Slab, SlabMaterial, effective_radius, hertz_of_force, hertz_peak_force,
+    hertz_stiffness, rod_collision, spring_of_duration, spring_of_force,
+};
 pub use bilinear::{Bilinear, BilinearShape};
 pub use collision::{CollisionPoint, FreeCollision};
 pub use force_law::{ContactResponse, ForceLaw, Memory};

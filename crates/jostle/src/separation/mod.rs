@@ -1,4 +1,20 @@
 //! Widths of seismic joints required by codes, to compare with the computed closing.
+//!
+//! [`required_gaps`] lists what every rule requires of two neighbours; the rules themselves are functions of numbers.
+
+mod codes;
+mod rules;
+
+pub use codes::{
+    IRAN2800_MOST_STOREYS, Nsr10Neighbour, asce7_displacement, e030_2018_joint, e030_2026_joint,
+    e030_share, en1998_joint, iran2800_setback, is1893_joint, nsr10_setback, ntc2018_joint,
+    tbdy2018_joint, tbdy2018_least_joint,
+};
+pub use rules::{
+    BuildingCodes, Code, CodeInputs, HazardZone, LeftOut, MotionLevel, Neighbours, Place,
+    Requirement, Requirements, Side, USUAL_AMPLIFICATION, USUAL_RESPONSE_MODIFICATION,
+    floors_are_level, peak_at_height, required_gaps,
+};
 
 /// Width of the seismic joint between concrete frame structures, GB 50011-2010 (2016) §6.1.4 \[m\].
 ///
@@ -27,6 +43,28 @@ pub enum JointSystem {
     Wall,
     /// Steel frames: 1.5 of it.
     SteelFrame,
+}
+
+impl JointSystem {
+    /// All systems.
+    pub const ALL: [Self; 4] = [Self::Frame, Self::FrameWall, Self::Wall, Self::SteelFrame];
+
+    /// Name in files and options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Frame => "frame",
+            Self::FrameWall => "frame-wall",
+            Self::Wall => "wall",
+            Self::SteelFrame => "steel-frame",
+        }
+    }
+
+    /// The system of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|system| system.name() == name)
+    }
 }
 
 /// Width of the seismic joint by GB 50011-2010 (2016) for a structural system \[m\]; the rest as
