@@ -30,7 +30,7 @@ use crate::quantity::{Quantity, Unit};
 ///     without_contact: None,
 ///     wall: 0.0,
 /// });
-/// let roof = &summary.buildings[0].floors[2];
+/// let roof = &summary.buildings[0].floors[2].response;
 /// assert!(roof.displacement_max_m > 0.0 && roof.storey_shear_peak_n > 0.0);
 /// assert!(summary.promise.met == Some(true));
 /// # Ok::<(), jostle::ModelFault>(())
@@ -357,6 +357,8 @@ impl GapSummary {
         Quantity::<Self>::whole("multiple_pounding_count", "those with impacts at two or more contacts at once", |g| g.multiple_pounding_count),
         Quantity::<Self>::whole("most_at_once", "greatest number of contacts in impact at one instant", |g| g.most_at_once).in_study(),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any of its contacts", |g| g.peak_force_n).in_study(),
+        Quantity::<Self>::real("total_force_peak_n", Unit::N, "greatest sum of the forces of all its contacts at one instant", |g| g.total_force_peak_n).in_study(),
+        Quantity::<Self>::optional("total_force_peak_at_s", Unit::S, "its instant; absent without an impact", |g| g.total_force_peak_at_s),
         Quantity::<Self>::optional("first_impact_s", Unit::S, "instant of the first impact", |g| g.first_impact_s).in_study(),
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the forces of all its contacts", Self::impulse_n_s).not_in_summary().in_study(),
         Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing of any of its contacts", Self::closing_peak_m).not_in_summary().in_study(),
@@ -364,7 +366,7 @@ impl GapSummary {
 
     /// Numbers of the run without contact; in studies if they ask for it.
     pub const WITHOUT_CONTACT: &[Quantity<Self>] = &[
-        Quantity::<Self>::optional("closing_without_contact_m", Unit::M, "greatest closing without contact: the smallest gap without pounding", |g| g.closing_without_contact_m).in_study(),
+        Quantity::<Self>::optional("closing_without_contact_m", Unit::M, "greatest closing without contact: the smallest gap without pounding; in studies with `without_contact = true`", |g| g.closing_without_contact_m).in_study(),
     ];
 }
 
