@@ -34,6 +34,7 @@ from ._pushover import CapacityCurve, pushover
 from ._result import Contact, Floor, LinkedFloors, Result
 from ._run import run
 from ._study import CriticalGap, RuleGap, Study, StudyResult, critical_gap
+from ._suite import Governing, Suite, run_suite
 from ._table import Table
 
 __all__ = [
@@ -51,6 +52,7 @@ __all__ = [
     "Frame",
     "Gap",
     "Given",
+    "Governing",
     "InterruptedWarning",
     "JostleError",
     "JostleWarning",
@@ -69,6 +71,7 @@ __all__ = [
     "Study",
     "StudyResult",
     "StudyWarning",
+    "Suite",
     "Table",
     "__version__",
     "collide",
@@ -79,4 +82,5 @@ __all__ = [
     "modes",
     "pushover",
     "run",
+    "run_suite",
 ]

@@ -6,6 +6,7 @@
 mod analysis;
 mod between;
 mod building;
+mod floor_spectra;
 mod frame;
 mod gap;
 mod given;
@@ -22,6 +23,7 @@ mod shear;
 mod tests;
 mod unusual_results;
 
+pub use floor_spectra::FloorSpectraRequest;
 pub(crate) use matching::read_spectrum;
 pub use reinforced::ReinforcedMember;
 
@@ -30,11 +32,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use jostle::{GroundMotion, Model, ModelFault};
+use jostle_motion::{GoverningRule, TargetSpectrum};
 
 use crate::bounded::read_at_most;
 use crate::fault::{Fault, InputError};
 use crate::keys::Section;
-use crate::motion_spec::{MotionError, MotionSource, MotionSpec, Scaling};
+use crate::motion_spec::{MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
 use crate::reader::{Field, Reader};
 use crate::record::RecordOptions;
 use crate::record_list;
@@ -51,6 +54,10 @@ pub struct Input {
     pub motion: Option<MotionSpec>,
     /// Members of frames whose reinforcement the file states, building by building, columns first.
     pub reinforced: Vec<ReinforcedMember>,
+    /// Spectra of floors that the file asks for; `None` if it asks for none.
+    pub floor_spectra: Option<FloorSpectraRequest>,
+    /// Rule for the governing value of several records, if the file names one.
+    pub governing: Option<GoverningRule>,
     /// Warnings of a valid file.
     pub warnings: Vec<String>,
     /// Unusual values that are accepted.
@@ -151,17 +158,21 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
     let (mut noted, accepted) = (reader.take_warnings(), reader.accepted.clone());
     let error = reader.into_error();
     match read {
-        Some((model, motion, reinforced)) if error.faults.is_empty() => Ok(Input {
-            reinforced,
-            warnings: {
-                noted.extend(warnings(&model, &root));
-                noted
-            },
-            accepted,
-            model,
-            motion,
-            origin: Origin { source, root },
-        }),
+        Some((model, motion, reinforced, floor_spectra, governing)) if error.faults.is_empty() => {
+            Ok(Input {
+                reinforced,
+                floor_spectra,
+                governing,
+                warnings: {
+                    noted.extend(warnings(&model, &root));
+                    noted
+                },
+                accepted,
+                model,
+                motion,
+                origin: Origin { source, root },
+            })
+        }
         _ => Err(error),
     }
 }
@@ -247,6 +258,18 @@ impl Input {
         self.motion.as_ref().map_or(&[], MotionSpec::records)
     }
 
+    /// The design spectrum that the motion is scaled to, and its damping ratio, if it is.
+    #[must_use]
+    pub fn target(&self) -> Option<(&TargetSpectrum, f64)> {
+        let Scaling::Match(wanted) = &self.motion.as_ref()?.scaling else {
+            return None;
+        };
+        match &wanted.to {
+            MatchTo::Spectrum(target) => Some((target, wanted.damping)),
+            MatchTo::Value(_) => None,
+        }
+    }
+
     /// One model for each of several records; the model itself if there are not several.
     #[must_use]
     pub fn each_record(&self) -> Vec<Self> {
@@ -285,7 +308,7 @@ impl Input {
             let mut fault = self.fault(path, error.to_string());
             if let (MotionError::Several { names }, [fault]) = (&error, &mut fault.faults[..]) {
                 fault.remedy = Some(format!(
-                    "choose one with --record {} (in Python motion={:?}); a study and \"jostle gap\" take all of them",
+                    "choose one with --record {} (in Python motion={:?}); jostle run, jostle gap, a study and run_suite of Python take all of them",
                     names[0], names[0]
                 ));
             }
@@ -359,12 +382,17 @@ fn with_record(old: Option<&MotionSpec>, record: &str) -> MotionSpec {
     }
 }
 
+/// What a file is read into.
+type Parts = (
+    Model,
+    Option<MotionSpec>,
+    Vec<ReinforcedMember>,
+    Option<FloorSpectraRequest>,
+    Option<GoverningRule>,
+);
+
 /// Reads the whole tree; `None` if there is nothing to build a model from.
-fn read_root(
-    reader: &mut Reader<'_>,
-    root: &Node,
-    base: &Path,
-) -> Option<(Model, Option<MotionSpec>, Vec<ReinforcedMember>)> {
+fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts> {
     let field = Field::root(root);
     let view = reader.open(&field, &[Section::Root])?;
     let analysis = reader.get(&view, "analysis");
@@ -375,9 +403,12 @@ fn read_root(
         Some(field) => reader.text(&field),
         None => Some("Untitled".to_owned()),
     };
-    let motion = match reader.get(&view, "motion") {
-        Some(field) => motion::read(reader, &field, base),
-        None => None,
+    let (motion, governing) = match reader.get(&view, "motion") {
+        Some(field) => (
+            motion::read(reader, &field, base),
+            motion::governing(reader, &field),
+        ),
+        None => (None, None),
     };
     let buildings = match reader.get(&view, "building") {
         Some(field) => building::read_all(reader, &field, base),
@@ -406,8 +437,10 @@ fn read_root(
     };
     let mut analysis =
         analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
+    let mut floor_spectra = None;
     if let Some(field) = reader.get(&view, "output") {
-        analysis.members = output::read(reader, &field);
+        let buildings = buildings.as_ref().map(|(buildings, _)| &buildings[..]);
+        (analysis.members, floor_spectra) = output::read(reader, &field, buildings);
     }
     let (buildings, reinforced) = buildings?;
     let model = Model {
@@ -417,7 +450,7 @@ fn read_root(
         links,
         analysis,
     };
-    Some((model, motion, reinforced))
+    Some((model, motion, reinforced, floor_spectra, governing))
 }
 
 /// Adds what the model's own check found, unless reading has found a fault there already.

@@ -38,10 +38,17 @@ impl Table {
     }
 
     pub(crate) fn of_columns(columns: Vec<(&'static str, Values)>) -> Self {
-        let (names, columns) = columns
-            .into_iter()
-            .map(|(name, values)| (name.to_owned(), values))
-            .unzip();
+        let columns = columns.into_iter();
+        Self::of_named(
+            columns
+                .map(|(name, values)| (name.to_owned(), values))
+                .collect(),
+        )
+    }
+
+    /// A table from columns with names of their own.
+    pub(crate) fn of_named(columns: Vec<(String, Values)>) -> Self {
+        let (names, columns) = columns.into_iter().unzip();
         Self {
             names,
             columns: Columns::Own(columns),

@@ -4,10 +4,12 @@
 //! numbers come from the core crate as they are, this crate only chooses, thins, encodes and draws them.
 
 mod backbones;
+mod calculation;
 mod collisions;
 mod describe;
 mod encode;
 mod envelope;
+mod floor_spectra;
 mod format;
 mod hinges;
 mod members;
@@ -19,12 +21,14 @@ mod pushover;
 mod section;
 mod selection;
 mod special;
+mod static_plot;
 mod study_page;
 mod tables;
 mod thin_loop;
 mod verdict;
 mod viewer;
 
+pub use calculation::Calculation;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};
@@ -32,7 +36,8 @@ pub use pushover::render_pushover;
 pub use section::render_sections;
 pub use selection::{CheckedStructure, SelectionPage, render_selection, selection_sections};
 pub use study_page::{
-    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, render_study,
+    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, SuitePage,
+    SuiteRow, render_study, render_suite,
 };
 pub use verdict::verdict;
 pub use viewer::{Frame, Viewer, frame};
@@ -63,6 +68,8 @@ pub struct Page<'a> {
     pub sections: &'a [ReinforcedSection<'a>],
     /// Results of `jostle method` for these buildings, shown as a section; empty to omit it.
     pub methods: &'a [MethodSurvey],
+    /// What makes the page a calculation document, if it is known.
+    pub calculation: Option<&'a Calculation<'a>>,
 }
 
 /// A reinforced section and the members of a building that have it.

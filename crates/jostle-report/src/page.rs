@@ -4,9 +4,13 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
-use crate::{Page, describe, format, hinges, members, method, payload, tables};
+use crate::{
+    Page, calculation, describe, floor_spectra, format, hinges, members, method, payload, tables,
+};
 
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
+/// Plots without scripts, and the page on paper.
+pub(crate) const CALCULATION_STYLE: &str = include_str!("../assets/calculation.css");
 /// The scripts, in the order of their dependence; together they are one module.
 pub(crate) const SCRIPTS: [&str; 8] = [
     include_str!("../assets/data.js"),
@@ -64,7 +68,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                 meta name="description" content=(headline);
                 title { (page.summary.title) " – jostle" }
                 link rel="icon" href="data:,";
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(CALCULATION_STYLE)) }
             }
             body {
                 (warnings(page))
@@ -101,6 +105,8 @@ pub(crate) fn page(page: &Page) -> Markup {
                         (tables::peaks(page))
                     }
                     @if let Some(members) = members::section(page) { (members) }
+                    @if let Some(spectra) = floor_spectra::section(page) { (spectra) }
+                    (calculation::motion_section(page))
                     @if !page.model.gaps.is_empty() {
                         section #joints {
                             h2 { "Comparison with code requirements" }
@@ -109,9 +115,11 @@ pub(crate) fn page(page: &Page) -> Markup {
                     }
                     section #model {
                         h2 { "What was computed" }
+                        (calculation::model_figures(page))
                         (describe::model(page))
                     }
                     (method::section(page.methods))
+                    (calculation::source_section(page))
                     (guide(page))
                 }
                 footer {

@@ -4,8 +4,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use jostle_io::{
-    OutputError, write_atomically, write_hinges_parquet, write_history_parquet,
-    write_impacts_parquet, write_members_parquet, write_summary_json,
+    OutputError, write_atomically, write_floor_spectra_parquet, write_hinges_parquet,
+    write_history_parquet, write_impacts_parquet, write_members_parquet, write_summary_json,
 };
 
 use crate::error::RunError;
@@ -17,15 +17,17 @@ const HISTORY: &str = "history.parquet";
 const IMPACTS: &str = "impacts.parquet";
 const HINGES: &str = "hinges.parquet";
 const MEMBERS: &str = "members.parquet";
+const FLOOR_SPECTRA: &str = "floor_spectra.parquet";
 const REPORT: &str = "report.html";
 
 /// The files of a run.
-const FILES: [(&str, FileKind); 6] = [
+const FILES: [(&str, FileKind); 7] = [
     (SUMMARY, FileKind::SUMMARY),
     (HISTORY, FileKind::TABLE),
     (IMPACTS, FileKind::TABLE),
     (HINGES, FileKind::TABLE),
     (MEMBERS, FileKind::TABLE),
+    (FLOOR_SPECTRA, FileKind::TABLE),
     (REPORT, FileKind::REPORT),
 ];
 
@@ -47,6 +49,7 @@ pub fn earlier_files(folder: &Path, force: bool) -> Result<Vec<&'static str>, Ru
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Content {
     /// `history.parquet`, `impacts.parquet`, if buildings yield `hinges.parquet`, and if members are asked for `members.parquet`.
+    /// If floor spectra are asked for, `floor_spectra.parquet` is written in any case, beside `summary.json`.
     pub tables: bool,
     /// `report.html`.
     pub report: bool,
@@ -80,6 +83,12 @@ impl Results<'_> {
         let mut staged = Staged::new(folder)?;
         if content.tables {
             self.write_tables(&mut staged)?;
+        }
+        // Not among the tables: the run without contact, which comes later, belongs into it.
+        if let Some(found) = &self.summary.floor_spectra {
+            staged.add(FLOOR_SPECTRA, |path| {
+                write_floor_spectra_parquet(path, self.summary, found)
+            })?;
         }
         if let Some(report) = content.report.then(|| self.report()).flatten() {
             staged.add(REPORT, |path| write_atomically(path, report.as_bytes()))?;

@@ -42,6 +42,7 @@ impl<'a> Results<'a> {
     pub fn with_page<T>(&self, show: impl FnOnce(&Page<'_>) -> T) -> Option<T> {
         let history = self.history?;
         let sections = reinforced(&self.prepared.input);
+        let calculation = self.prepared.calculation();
         Some(show(&Page {
             model: &self.prepared.input.model,
             motion: &self.prepared.motion,
@@ -51,6 +52,7 @@ impl<'a> Results<'a> {
             springs: self.outcome.spring_history.as_ref(),
             sections: &sections,
             methods: self.methods,
+            calculation: Some(&calculation),
         }))
     }
 }
