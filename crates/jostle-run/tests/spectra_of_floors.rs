@@ -9,7 +9,11 @@ use jostle_io::{Format, read_model_text};
 use jostle_run::{Opened, Ran};
 
 fn run(text: &str) -> Ran {
-    let input = read_model_text("test", text, Format::Toml, Path::new("")).expect("a model");
+    run_in(text, Path::new(""))
+}
+
+fn run_in(text: &str, folder: &Path) -> Ran {
+    let input = read_model_text("test", text, Format::Toml, folder).expect("a model");
     let prepared = Opened::new(input, "test").expect("assembles").prepare();
     let prepared = prepared.expect("plans");
     let settings = prepared.settings(true);
@@ -24,7 +28,8 @@ fn run(text: &str) -> Ran {
 /// moves with two sines, and so every oscillator with three.
 #[test]
 fn an_oscillator_on_an_oscillator_has_its_closed_form() {
-    let (mass, stiffness, amplitude, driven, duration) = (5e4, 8e6, 2.0, 0.8, 12.0);
+    let (mass, stiffness, amplitude, driven, duration): (f64, f64, f64, f64, f64) =
+        (5e4, 8e6, 2.0, 0.8, 12.0);
     let text = format!(
         r#"
         motion = {{ kind = "sine", amplitude = {amplitude}, period = {driven}, duration = {duration} }}
@@ -157,8 +162,15 @@ fn spectra_beside_impacts_agree_with_an_oscillator_driven_by_displacements() {
             let summary = ran.summary();
             assert!(summary.gaps[0].impact_count > 5, "{law}");
             let found = summary.floor_spectra.expect("asked for");
+            // A velocity that jumps is spread over the step of the jump; the estimate says how much that matters.
+            let jumps = law.contains("\"restitution\"");
+            let allowed = if jumps {
+                found.resolution.max(5e-3)
+            } else {
+                5e-3
+            };
             assert!(
-                found.resolution < 0.02,
+                found.resolution < if jumps { 0.03 } else { 5e-3 },
                 "{law} {solver}: {}",
                 found.resolution
             );
@@ -170,7 +182,7 @@ fn spectra_beside_impacts_agree_with_an_oscillator_driven_by_displacements() {
                     {
                         let exact = by_displacements(&support, TAU / period, curve.damping);
                         assert!(
-                            (got / exact - 1.0).abs() < 5e-3,
+                            (got / exact - 1.0).abs() < allowed,
                             "{law} {solver}: {} at T = {period} s, {}: {got} {exact}",
                             floor.building,
                             curve.damping
@@ -194,7 +206,7 @@ fn spectra_beside_impacts_agree_with_an_oscillator_driven_by_displacements() {
 /// Nothing is computed, and nothing is recorded more densely, unless spectra are asked for.
 #[test]
 fn runs_without_the_request_stay_as_they_are() {
-    let asked = pounding_pair(r#"law = "kelvin""#, "modal");
+    let asked = pounding_pair(r#"law = "hertz-damp""#, "modal");
     let plain = asked.lines().filter(|line| !line.contains("output ="));
     let plain = run(&plain.collect::<Vec<_>>().join("\n"));
     assert!(plain.floor_spectra.is_none() && plain.summary().floor_spectra.is_none());
@@ -205,27 +217,38 @@ fn runs_without_the_request_stay_as_they_are() {
 /// The filter has the gain 1/(1 + (tan πfh/tan πf_c h)^2n) of two passes of a Butterworth filter.
 #[test]
 fn filtered_peaks_have_the_gain_of_the_filter() {
-    // A building so stiff that its floor moves with the ground.
-    for (period, order) in [(0.05, 4), (0.04, 4), (0.03, 4), (0.04, 2), (0.1, 8)] {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (frequency, order) in [(20.0, 4), (25.0, 4), (33.0, 4), (25.0, 2), (10.0, 8)] {
+        // A sine that rises and falls slowly, so that its filtered peak is that of a steady one.
+        let value = |i: u32| {
+            let t = 5e-4 * f64::from(i);
+            2.0 * (TAU * frequency * t).sin() * (0.5 * TAU * t / 4.0).sin().powi(2)
+        };
+        let lines: Vec<String> = (0..=8000).map(|i| value(i).to_string()).collect();
+        std::fs::write(folder.path().join("sine.csv"), lines.join("\n")).expect("written");
+        // A building so stiff that its floor moves with the ground.
         let text = format!(
             r#"
-            motion = {{ kind = "sine", amplitude = 2.0, period = {period}, duration = 4.0 }}
+            motion = {{ record = "sine.csv", unit = "m/s2", step = 5e-4 }}
             building = [{{ name = "A", kind = "shear", mass = 1e4, stiffness = 4e10, storey_height = 3.0,
                            damping = {{ ratio = 0.05, modes = [1] }} }}]
+            analysis = {{ accept_unusual = true }}
             output = {{ floor_spectra = {{ periods = [0.02, 0.1], low_pass = "25 Hz", order = {order} }} }}
             "#
         );
-        let found = run(&text).summary().floor_spectra.expect("asked for");
-        let got = found.floors[0].response.filtered_peak_acceleration_m_s2;
+        let found = run_in(&text, folder.path()).summary().floor_spectra;
+        let got = found.expect("asked for").floors[0]
+            .response
+            .filtered_peak_acceleration_m_s2;
         let h = 1.0 / (50.0 * 25.0);
         let tangent = |f: f64| (0.5 * TAU * f * h).tan();
-        let gain = 1.0 / (1.0 + (tangent(1.0 / period) / tangent(25.0)).powi(2 * order));
-        let mean = (0.5 * TAU * h / period).sin() / (0.5 * TAU * h / period);
+        let gain = 1.0 / (1.0 + (tangent(frequency) / tangent(25.0)).powi(2 * order));
+        let mean = (0.5 * TAU * frequency * h).sin() / (0.5 * TAU * frequency * h);
+        // Some fifty values in a period: the greatest of them is within 0.3 % of the peak.
         let known = 2.0 * gain * mean;
-        // The sine begins with a corner: a little more passes there.
         assert!(
-            (got / known - 1.0).abs() < 0.02,
-            "{period} {order}: {got} {known}"
+            (got / known - 1.0).abs() < 5e-3,
+            "{frequency} {order}: {got} {known}"
         );
     }
 }
