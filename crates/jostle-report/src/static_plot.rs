@@ -125,7 +125,8 @@ fn number(value: f64) -> String {
 
 /// Round numbers from at or below `low` to at or above `high`, in about `parts` parts.
 fn ticks(low: f64, high: f64, parts: f64) -> Vec<f64> {
-    if !(high > low) {
+    let usable = high > low;
+    if !usable {
         return vec![low, low + 1.0];
     }
     let rough = (high - low) / parts;

@@ -157,11 +157,14 @@ fn read_floors(
     floors
 }
 
-/// The floors of a name, or problem and remedy.
+/// Problem and remedy of a name.
+type WrongName = (String, Option<String>);
+
+/// The floors of a name.
 fn find(
     name: &str,
     buildings: &[Building],
-) -> Result<Vec<(usize, usize)>, (String, Option<String>)> {
+) -> Result<Vec<(usize, usize)>, WrongName> {
     let index = |name: &str| buildings.iter().position(|building| building.name == name);
     if let Some(building) = index(name) {
         let floors = 1..=buildings[building].floors();
