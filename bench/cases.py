@@ -13,7 +13,7 @@ class Case:
     options: tuple[str, ...] = ()  # of jostle run and jostle export
     linear: bool = True  # whether nothing but contact is non-linear
     quick: bool = False
-    free_steps: tuple[float, ...] = (4e-3, 2e-3, 1e-3)  # tried for OpenSees, in free flight [s]
+    free_steps: tuple[float, ...] = (4e-3, 2e-3, 1e-3)  # tried for OpenSees, in free vibration [s]
     parts: tuple[int, ...] = (5, 10, 20)  # of them around contact
     piece: float = 1.0  # of the motion, from which the time of uniform steps is estimated [s]
     extra: dict = field(default_factory=dict)

@@ -54,7 +54,7 @@ def refine(case, say):
     reference["opensees"] = {
         "peak_force_n": limit,
         "uncertainty": abs(fine["peak_force_n"] / limit - 1.0),
-        "how": f"extrapolated from free-flight steps of {free:g} and {free / 2:g} s, a tenth of that near contact",
+        "how": f"extrapolated from free-vibration steps of {free:g} and {free / 2:g} s, a tenth of that near contact",
         "version": fine["version"],
         "tried": tried,
     }

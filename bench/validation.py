@@ -7,7 +7,7 @@ import programs
 from cases import Case
 
 FOLDER = Path(__file__).resolve().parent.parent / "crates/jostle-validation/data/opensees"
-# Steps in free flight; a tenth of that near contact [s].
+# Steps in free vibration; a tenth of that near contact [s].
 FREE = 5e-4
 
 

@@ -20,6 +20,10 @@ try {
     Expand-Archive "$work\$folder.zip" $work
     New-Item -ItemType Directory -Force $to | Out-Null
     Copy-Item "$work\$folder\jostle.exe" "$to\jostle.exe" -Force
+    # The engine of exported live pages, which the program looks for beside itself.
+    if (Test-Path "$work\$folder\jostle.wasm.gz") {
+        Copy-Item "$work\$folder\jostle.wasm.gz" "$to\jostle.wasm.gz" -Force
+    }
     & "$to\jostle.exe" --version
     if (($env:PATH -split ";") -notcontains $to) {
         Write-Output "$to is not on your PATH; add it, or run $to\jostle.exe"

@@ -49,6 +49,10 @@ main() {
     # Beside the old program first, so that it is replaced whole or not at all.
     cp "$work/jostle-$target/jostle" "$to/.jostle-new"
     mv "$to/.jostle-new" "$to/jostle"
+    # The engine of exported live pages, which the program looks for beside itself.
+    if [ -f "$work/jostle-$target/jostle.wasm.gz" ]; then
+        cp "$work/jostle-$target/jostle.wasm.gz" "$to/"
+    fi
     "$to/jostle" --version
     case ":$PATH:" in
         *":$to:"*) ;;

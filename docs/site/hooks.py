@@ -50,4 +50,9 @@ def on_page_markdown(markdown, page, config, files):
     markdown = re.sub(
         r"\]\((?:\.\./)+(examples/[\w./-]+\.(?:toml|py))\)", lambda match: f"]({up}{match[1]}.txt)", markdown
     )
-    return re.sub(r"\[(`[^`]*`|[^\]]*)\]\((?:\.\./)+(?:examples|crates|CITATION)[\w./-]*\)", r"\1", markdown)
+    return re.sub(r"\[(`[^`]*`|[^\]]*)\]\((?:\.\./)+(?:examples|crates|CITATION|Cargo)[\w./-]*\)", r"\1", markdown)
+
+
+def on_page_content(html, page, config, files):
+    """Shows an escaped bar in the code of a table as GitHub does: without the backslash."""
+    return re.sub(r"<td[^>]*>.*?</td>", lambda cell: cell[0].replace("\\|", "|"), html, flags=re.S)

@@ -13,6 +13,7 @@ Examples:
 from ._animation import Animation
 from ._builders import Frame, Gap, Given, Link, Shear
 from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
+from ._contact_advice import ContactAdvice, StiffnessEstimate, StiffnessRange, WaveEstimate, contact_advice
 from ._errors import (
     AnalysisError,
     Fault,
@@ -44,6 +45,7 @@ __all__ = [
     "CapacityCurve",
     "Collision",
     "Contact",
+    "ContactAdvice",
     "ContactLaw",
     "CriticalGap",
     "Experiment",
@@ -68,14 +70,18 @@ __all__ = [
     "RuleGap",
     "Shear",
     "Spectrum",
+    "StiffnessEstimate",
+    "StiffnessRange",
     "Study",
     "StudyResult",
     "StudyWarning",
     "Suite",
     "Table",
+    "WaveEstimate",
     "__version__",
     "collide",
     "collide_all",
+    "contact_advice",
     "contact_laws",
     "critical_gap",
     "experiment",

@@ -88,7 +88,8 @@ class Frame(Part):
             ``{"EI": "150 MN.m2"}``; keys may contain units, ``{"width_mm": 500, "depth_mm": 500}``.
         beam: section of the beams, or a list from the ground up.
         elastic_modulus: modulus of elasticity.
-        concrete: grade of GB 50010 such as ``"C30"``, instead of ``elastic_modulus``.
+        concrete: ``"C30"`` (GB 50010), ``"C30/37"`` (EN 1992-1-1) or ``"f'c = 4 ksi"`` (ACI 318), instead of
+            ``elastic_modulus``.
         stiffness_factor: factor on every EI, or ``{"column": 0.7, "beam": 0.35}``.
         density: density of columns, 2500 kg/m³ by default.
         beam_mass: mass per length on the beams, self weight included: one, or a list from the ground up.
@@ -104,6 +105,7 @@ class Frame(Part):
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
+        codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         shear: ``"rigid"`` (default), or ``"flexible"`` for members with shear deformation (Timoshenko), or
             ``{"columns": …, "beams": …}``.
         poisson_ratio: for the shear modulus, 0.2 by default.
@@ -140,6 +142,7 @@ class Frame(Part):
         hinges: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
+        codes: Table | None = None,
         shear: _Flexibility | Table | None = None,
         poisson_ratio: float | None = None,
         floors: int | None = None,
@@ -169,6 +172,7 @@ class Frame(Part):
                 "hinges": hinges,
                 "gravity": gravity,
                 "p_delta": p_delta,
+                "codes": codes,
                 "shear": shear,
                 "poisson_ratio": poisson_ratio,
                 "floors": floors,
@@ -192,6 +196,7 @@ class Shear(Part):
             "post_yield": 0.05}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
+        codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         floors: the same as ``storeys``.
         **units: the same with units in names, as in ``mass_t=[40, 40]``.
 
@@ -214,6 +219,7 @@ class Shear(Part):
         hinges: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
+        codes: Table | None = None,
         floors: int | None = None,
         **units: Unpack[ShearUnits],
     ) -> None:
@@ -230,6 +236,7 @@ class Shear(Part):
                 "hinges": hinges,
                 "gravity": gravity,
                 "p_delta": p_delta,
+                "codes": codes,
                 "floors": floors,
             },
             units,

@@ -38,6 +38,7 @@ class Model:
         title: printed on summaries and reports.
         analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
         output: ``[output]`` of the model file: ``{"members": True}`` for forces of columns and beams.
+        codes: ``[codes]`` of the model file: ``{"show": ["en1998"], "behaviour_factor": 3.9}``.
 
     Raises:
         ModelError: all faults at once, with the message of the command line.
@@ -56,6 +57,7 @@ class Model:
         title: str | None = None,
         analysis: Table | None = None,
         output: Table | None = None,
+        codes: Table | None = None,
     ) -> None:
         row = [buildings] if isinstance(buildings, (Part, Mapping)) else buildings
         tree: dict[str, Any] = {"building": [_table(building) for building in row]}
@@ -68,6 +70,8 @@ class Model:
             tree["analysis"] = analysis
         if output is not None:
             tree["output"] = output
+        if codes is not None:
+            tree["codes"] = codes
         if isinstance(motion, (str, os.PathLike)):
             tree["motion"] = {"record": motion}
         elif motion is not None and not isinstance(motion, Motion):
@@ -105,7 +109,7 @@ class Model:
         return model
 
     @classmethod
-    def of(cls, model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> Model:
+    def from_any(cls, model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> Model:
         """Returns a model from a model, a model file, a built-in name such as ``"paper"``, or a tree.
 
         A file takes precedence over a built-in model of the same name, as on the command line.
@@ -124,6 +128,12 @@ class Model:
             except ModelError:
                 pass  # no built-in name: what Model.load says of the file is the better message
         return cls.load(model)
+
+    @classmethod
+    def of(cls, model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> Model:
+        """Deprecated: the former name of :meth:`from_any`."""
+        warnings.warn("Model.of is now Model.from_any", DeprecationWarning, stacklevel=2)
+        return cls.from_any(model)
 
     @classmethod
     def loads(cls, text: str, *, name: str = "model", folder: str | os.PathLike[str] = "") -> Model:

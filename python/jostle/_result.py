@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from matplotlib.figure import Figure
 
-_ENERGIES = ("input", "kinetic", "strain", "damped", "hysteretic", "contact")
-
 
 @dataclass(frozen=True, eq=False)
 class Floor:
@@ -133,23 +131,23 @@ class Result:
         return cast("dict[str, Any]", json.loads(self._core.summary_json(self._twin)))
 
     @cached_property
-    def _rows(self) -> dict[tuple[str, int, int], int]:
+    def _rows(self) -> dict[tuple[str, str, int, int], int]:
         return {row: at for at, row in enumerate(self._core.rows)}
 
-    def _history(self, kind: str, place: int = 0, floor: int = 0) -> npt.NDArray[np.float64]:
+    def _history(self, owner: str, name: str, place: int = 0, floor: int = 0) -> npt.NDArray[np.float64]:
         if not self._rows:
             raise ValueError("no histories were recorded; run with a record_interval")
-        return cast("npt.NDArray[np.float64]", self._core.histories[self._rows[kind, place, floor]])
+        return cast("npt.NDArray[np.float64]", self._core.histories[self._rows[owner, name, place, floor]])
 
     @property
     def time(self) -> npt.NDArray[np.float64]:
         """Recorded instants [s], shape ``(n,)``; dense during contact."""
-        return self._history("time")
+        return self._history("run", "time")
 
     @property
     def ground_acceleration(self) -> npt.NDArray[np.float64]:
         """Ground acceleration at ``time`` [m/s²], shape ``(n,)``."""
-        return self._history("ground_acceleration")
+        return self._history("run", "ground_acceleration")
 
     def floor(self, building: str | int, floor: int) -> Floor:
         """Histories of a floor.
@@ -169,9 +167,9 @@ class Result:
         return Floor(
             building=name,
             floor=number,
-            displacement=self._history("displacement", at, number),
-            velocity=self._history("velocity", at, number),
-            total_acceleration=self._history("total_acceleration", at, number),
+            displacement=self._history("floor", "displacement", at, number),
+            velocity=self._history("floor", "velocity", at, number),
+            total_acceleration=self._history("floor", "total_acceleration", at, number),
         )
 
     @property
@@ -185,7 +183,7 @@ class Result:
                         between=tuple(gap["between"]),
                         floors=tuple(contact["floors"]),
                         height=contact["height_m"],
-                        force=self._history("force", len(found)),
+                        force=self._history("contact", "force", len(found)),
                         peak_force=contact["peak_force_n"],
                         impact_count=contact["impact_count"],
                     )
@@ -203,7 +201,7 @@ class Result:
                         between=tuple(link["between"]),
                         floors=tuple(floor["floors"]),
                         height=floor["height_m"],
-                        force=self._history("link", len(found)),
+                        force=self._history("link", "force", len(found)),
                         peak_force=floor["peak_force_n"],
                         peak_stroke=floor["peak_stroke_m"],
                         dissipated=floor["dissipated_j"],
@@ -214,7 +212,9 @@ class Result:
     @property
     def energies(self) -> dict[str, npt.NDArray[np.float64]]:
         """Histories of the energies [J]: ``input`` = ``kinetic`` + ``strain`` + ``damped`` + ``hysteretic`` + ``contact``."""
-        return {name: self._history(f"energy_{name}") for name in _ENERGIES}
+        self._history("run", "time")  # raises if there are no histories
+        names = [name for owner, name, *_ in self._rows if owner == "energy"]
+        return {name: self._history("energy", name) for name in names}
 
     @cached_property
     def history(self) -> Table:
@@ -225,6 +225,30 @@ class Result:
     def impacts(self) -> Table:
         """One row per impact in the order of time, columns as in ``impacts.parquet``."""
         return Table._of(self._core.impact_table())
+
+    @cached_property
+    def buildings(self) -> Table:
+        """One row per building, columns as in ``buildings.parquet``.
+
+        Peaks with contact, without (``base_shear_peak_without_contact_n``) and their ratio (``base_shear_peak_amplification``).
+        The latter two come from the run without contact, which is computed on first access.
+        """
+        return Table._of(self._core.building_table(self._compared()))
+
+    @cached_property
+    def floors(self) -> Table:
+        """One row per floor, building by building from the ground up, columns as in ``floors.parquet``.
+
+        Peaks with contact, without (``storey_drift_peak_without_contact``) and their ratio
+        (``storey_drift_peak_amplification``). The latter two come from the run without contact, which is computed on first
+        access.
+        """
+        return Table._of(self._core.floor_table(self._compared()))
+
+    def _compared(self) -> _jostle.Run | None:
+        """The run without contact, computed if it does not exist yet; ``None`` if there is nothing to compare."""
+        without = self.without_contact
+        return None if without is None else without._core
 
     def members(self, building: str | None = None) -> Table:
         """Greatest forces of columns and beams, for a model with ``output={"members": True}``.
@@ -302,7 +326,7 @@ class Result:
         return Path(path)
 
     def save(self, folder: str | os.PathLike[str], *, report: bool = True, force: bool = False) -> Path:
-        """Writes ``summary.json``, ``history.parquet``, ``impacts.parquet`` and ``report.html``, as ``jostle run`` does.
+        """Writes ``summary.json``, tables of histories, buildings, floors and impacts, and ``report.html``, as ``jostle run`` does.
 
         Models that yield also get ``hinges.parquet``.
 

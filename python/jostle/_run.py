@@ -83,7 +83,7 @@ def run(
     for key in units:
         if not any(split(key, (name,)) for name in ("gap", "pga")):
             refuse("run", (key,), [*_KEYWORDS, *RunUnits.__annotations__])
-    model = Model.of(model)
+    model = Model.from_any(model)
     if units or not (motion is None and gap is None and pga is None):
         model = model.changed(motion=motion, gap=gap, pga=pga, **units)
     interval = None if record_interval is None else in_si("record_interval", record_interval, "time")

@@ -47,7 +47,7 @@ class Study:
         design: the design of the cases, as in ``{"kind": "latin-hypercube", "samples": 200, "seed": 1}``; by
             default every combination.
         title: title of its report.
-        **wishes: ``histories``, ``fragility``, ``ida``, ``sensitivity`` and ``selection`` as in a study file.
+        **wishes: ``histories``, ``without_contact``, ``fragility``, ``ida``, ``sensitivity`` and ``selection`` as in a study file.
 
     Raises:
         ModelError: all faults at once, each with its location.
@@ -273,6 +273,9 @@ class RuleGap:
         gap: width [m].
         impact_count: impacts at this gap; ``None`` without a run.
         peak_force: greatest force at this gap [N].
+        code: name of the code as in ``[codes]``; ``None`` for general rules.
+        inputs: inputs that the rule used, with defaults marked.
+        setbacks: distances of both buildings from the property line between them [m], of rules for such lines.
     """
 
     rule: str
@@ -280,6 +283,9 @@ class RuleGap:
     gap: float
     impact_count: int | None
     peak_force: float | None
+    code: str | None = None
+    inputs: tuple[str, ...] = ()
+    setbacks: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -294,6 +300,7 @@ class CriticalGap:
         pounding_at: widest tested gap with an impact; ``None`` if there is no impact even at a gap of zero [m].
         closing_without_contact: peak closing of the buildings without contact [m].
         rules: gaps required by rules and codes.
+        left_out: rules that cannot be applied, and the keys of ``[codes]`` that they need.
     """
 
     between: tuple[str, str]
@@ -303,6 +310,7 @@ class CriticalGap:
     pounding_at: float | None
     closing_without_contact: float
     rules: tuple[RuleGap, ...]
+    left_out: tuple[tuple[str, str], ...] = ()
 
 
 def critical_gap(
@@ -311,7 +319,8 @@ def critical_gap(
     motions: Sequence[Any] | None = None,
     pga: float | str | None = None,
     tolerance: float = 1e-4,
-    system: str = "frame",
+    system: str | None = None,
+    codes: Sequence[str] = (),
     outcomes: bool = True,
 ) -> list[CriticalGap]:
     """Returns the smallest gap without pounding, by bracketing with runs, compared with ABS, SRSS, DDC and codes.
@@ -321,7 +330,9 @@ def critical_gap(
         motions: ground motions, or names or paths of records; by default that of the model, or all of its list.
         pga: scales every motion to this peak [m/s², or a text with a unit].
         tolerance: width of the final bracket, ≥ 1e-9 [m].
-        system: structural system for GB 50011: ``frame``, ``frame-wall``, ``wall`` or ``steel-frame``.
+        system: structural system for GB 50011: ``frame``, ``frame-wall``, ``wall`` or ``steel-frame``; by default that of
+            ``[codes]`` in the model file.
+        codes: codes whose rules are listed, such as ``["en1998", "asce7"]``; by default those of ``[codes]``, else all.
         outcomes: true also runs the model with the gap of every rule.
 
     Returns:
@@ -339,10 +350,17 @@ def critical_gap(
         one = model
         if motion is not None or pga is not None:
             one = model.changed(motion=motion, pga=pga)
-        for gap in json.loads(_jostle.critical_gaps(one._core, tolerance, system, outcomes)):
+        for gap in json.loads(_jostle.critical_gaps(one._core, tolerance, system, list(codes), outcomes)):
             rules = tuple(
                 RuleGap(
-                    rule["rule"], rule["source"], rule["gap_m"], rule["impact_count"], rule["peak_force_n"]
+                    rule["rule"],
+                    rule["source"],
+                    rule["gap_m"],
+                    rule["impact_count"],
+                    rule["peak_force_n"],
+                    rule["code"],
+                    tuple(rule["inputs"]),
+                    None if rule["setbacks_m"] is None else cast("tuple[float, float]", tuple(rule["setbacks_m"])),
                 )
                 for rule in gap["rules"]
             )
@@ -355,6 +373,7 @@ def critical_gap(
                     gap["pounding_at_m"],
                     gap["closing_without_contact_m"],
                     rules,
+                    tuple((rule["rule"], rule["needs"]) for rule in gap["left_out"]),
                 )
             )
     return found

@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from typing_extensions import CapsuleType
 
 
-#: Columns of texts, also where there are no rows.
-_TEXTS = frozenset({"gap", "member", "end"})
-
 
 class Table:
     """Columns of equal length; their names contain units.
@@ -74,14 +71,16 @@ class Table:
         values = self._core.column(at)
         if isinstance(values, np.ndarray):
             return values
-        if name in _TEXTS or any(isinstance(value, str) for value in values):
+        kind = self._core.kind(at)
+        if kind == "text":
             return np.array(values, dtype=object)
+        dtype: Any = np.float64 if kind == "optional" else np.int32
         absent = [value is None for value in values]
-        whole = [0 if value is None else value for value in values]
+        present = [0 if value is None else value for value in values]
         if any(absent):
             masked: Any = np.ma
-            return cast("npt.NDArray[Any]", masked.array(whole, mask=absent, dtype=np.int32))
-        return np.array(whole, dtype=np.int32)
+            return cast("npt.NDArray[Any]", masked.array(present, mask=absent, dtype=dtype))
+        return np.array(present, dtype=dtype)
 
     def to_pandas(self) -> Any:
         """A ``pandas.DataFrame``."""

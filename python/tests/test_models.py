@@ -349,3 +349,9 @@ def test_a_file_that_is_not_there_is_a_file_not_found_error() -> None:
         assert caught.value.filename.startswith("lost.") and caught.value.errno == errno.ENOENT
         again = pickle.loads(pickle.dumps(caught.value))
         assert str(again) == str(caught.value) and again.filename == caught.value.filename
+
+
+def test_the_former_name_of_from_any_still_works() -> None:
+    with pytest.warns(DeprecationWarning, match="from_any"):
+        model = jostle.Model.of("paper")
+    assert model.title == jostle.Model.from_any("paper").title

@@ -290,3 +290,51 @@ def test_forces_of_columns_and_beams() -> None:
 
     with pytest.raises(ValueError, match=r'output=\{"members": True\}'):
         jostle.run(jostle.Model([frame], motion=motion)).members()
+
+
+def test_buildings_and_floors_are_compared_with_the_run_without_contact(result: jostle.Result) -> None:
+    without = result.without_contact
+    assert without is not None
+    for table, rows, alone in (
+        (result.buildings, result.summary["buildings"], without.summary["buildings"]),
+        (
+            result.floors,
+            [floor for building in result.summary["buildings"] for floor in building["floors"]],
+            [floor for building in without.summary["buildings"] for floor in building["floors"]],
+        ),
+    ):
+        assert len(table) == len(rows)
+        stems = [name.removesuffix("_amplification") for name in table.columns if name.endswith("_amplification")]
+        assert len(stems) >= 6
+        for stem in stems:
+            other = next(name for name in table.columns if name.startswith(f"{stem}_without_contact"))
+            name = other.replace("_without_contact", "")
+            for at, (row, single) in enumerate(zip(rows, alone)):
+                if name not in row or row[name] is None:
+                    continue
+                assert table[name][at] == row[name]
+                assert table[other][at] == pytest.approx(single[name], rel=1e-12)
+                if single[name]:
+                    ratio = abs(row[name] / single[name])
+                    assert table[f"{stem}_amplification"][at] == pytest.approx(ratio, rel=1e-12)
+    assert pl.DataFrame(result.floors).height == len(result.floors)
+    assert result.floors["building"][0] == "soft"
+
+
+def test_heights_of_struck_points_are_not_rounded() -> None:
+    frame = jostle.Frame(
+        "A",
+        storeys=2,
+        storey_height="3.5 m",
+        spans=["6 m"],
+        column={"width": "500 mm", "depth": "500 mm"},
+        beam={"width": "300 mm", "depth": "600 mm"},
+        elastic_modulus="30 GPa",
+        beam_mass="3600 kg/m",
+    )
+    low = jostle.Shear("B", mass=["40 t"], stiffness="60 MN/m", storey_height="1.75 m")
+    gap = jostle.Gap(between=("A", "B"), width="5 mm", floors="all")
+    motion = {"kind": "sine", "amplitude": "2 m/s2", "period": "0.4 s", "duration": "2 s"}
+    model = jostle.Model([frame, low], gaps=[gap], motion=motion, output={"members": True})
+    heights = jostle.run(model).members("A")["struck_height_m"]
+    assert sorted(set(heights.compressed())) == [1.75]

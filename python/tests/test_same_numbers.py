@@ -69,7 +69,7 @@ def test_saved_files_are_those_of_the_command_line(
 ) -> None:
     assert program("run", str(towers_file), "--out", "theirs").returncode == 0
     ours = result.save(tmp_path / "ours" / "deep")
-    for name in ("history.parquet", "impacts.parquet"):
+    for name in ("history.parquet", "buildings.parquet", "floors.parquet", "impacts.parquet"):
         assert (ours / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes()
     summaries = [json.loads((f / "summary.json").read_text()) for f in (ours, tmp_path / "theirs")]
     assert without_clock(summaries[0]) == without_clock(summaries[1])

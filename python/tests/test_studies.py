@@ -122,6 +122,24 @@ def test_the_smallest_gap(tmp_path: Path) -> None:
         jostle.critical_gap(towers(), tolerance=0.0)
     with pytest.raises(jostle.ModelError, match="system"):
         jostle.critical_gap(towers(), system="timber")
+    with pytest.raises(jostle.ModelError, match="codes: expected some of"):
+        jostle.critical_gap(towers(), codes=["eurocode"])
+
+
+def test_codes_and_their_inputs_can_be_chosen() -> None:
+    (gap,) = jostle.critical_gap(towers(), codes=["en1998", "asce7"], outcomes=False)
+    rules = {rule.rule: rule for rule in gap.rules}
+    codes = {rule.code for rule in gap.rules}
+    assert codes == {None, "en1998", "asce7"} and gap.left_out == ()
+    asce = rules["ASCE 7"]
+    assert asce.gap == pytest.approx(5.5 / 8 * rules["SRSS"].gap)
+    assert asce.inputs[0].endswith("C_d = 5.5 (default), R = 8 (default)") and asce.setbacks is None
+    line = rules["ASCE 7, line"]
+    assert line.setbacks is not None and sum(line.setbacks) == pytest.approx(line.gap)
+    reduced = jostle.Model.loads(TOWERS + '\n[codes]\nshow = "en1998"\nmotion = "reduced"\n')
+    (gap,) = jostle.critical_gap(reduced, outcomes=False)
+    assert [rule for rule, _ in gap.left_out] == ["EN 1998-1"]
+    assert gap.left_out[0][1].startswith('behaviour_factor of "soft"')
 
 
 def test_records_of_a_model_vary_by_themselves(tmp_path: Path) -> None:

@@ -16,9 +16,12 @@ pub(crate) struct CompletionsArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct SchemaArgs {
-    /// Print a page of all keys in Markdown instead
+    /// Print a page in Markdown instead
     #[arg(long)]
     pub(crate) markdown: bool,
+    /// List every quantity of the results instead: name, unit, meaning, where it appears
+    #[arg(long)]
+    pub(crate) results: bool,
 }
 
 /// A model, and options that change it.

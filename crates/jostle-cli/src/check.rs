@@ -1,4 +1,4 @@
-//! `jostle check`: is the model valid, and what does it amount to?
+//! `jostle check`: checks a model and prints masses, periods, contacts and the expected work.
 
 use std::fmt::Write;
 
@@ -23,6 +23,13 @@ pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
     let _ = describe(&mut text, &opened.input.model, &opened.system);
     for warning in &opened.input.warnings {
         let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+    }
+    let assumptions = opened.input.assumptions();
+    for assumption in &assumptions {
+        let _ = writeln!(text, "{} {assumption}", styled(LOUD, "note:"));
+    }
+    if !(opened.input.warnings.is_empty() && assumptions.is_empty()) {
+        text.push('\n');
     }
     if !opened.input.records().is_empty() {
         text += &records(&opened)?;

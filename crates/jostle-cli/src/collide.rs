@@ -1,4 +1,4 @@
-//! `jostle collide`: two free masses meet under one contact law, or all of them.
+//! `jostle collide`: the collision of two free masses under one contact law, or under all of them.
 
 use std::fmt::Write;
 

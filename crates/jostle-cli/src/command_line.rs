@@ -45,6 +45,8 @@ pub(crate) enum Command {
     Modes(ModesArgs),
     /// Collide two free masses under one contact law, or under all laws
     Collide(Box<CollideArgs>),
+    /// Estimate contact stiffness and restitution from slabs, material and colliding masses
+    ContactAdvice(Box<crate::contact_advice::ContactAdviceArgs>),
     /// Write the model as a script for another program, to compare results
     Export(crate::export::ExportArgs),
     /// Print how accurate each solver formulation is on your model

@@ -1,4 +1,4 @@
-//! `jostle completions`: commands and options for the Tab key.
+//! `jostle completions`: a script that completes commands and options in a shell.
 
 use crate::args::CompletionsArgs;
 use crate::failure::Failure;

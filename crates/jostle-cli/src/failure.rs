@@ -1,4 +1,4 @@
-//! How a command can fail, and what the shell is told.
+//! Failures of commands, and their exit codes.
 
 use jostle_io::{InputError, OutputError};
 use jostle_run::RunError;

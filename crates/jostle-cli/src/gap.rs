@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
-use jostle::separation::JointSystem;
+use jostle::separation::{Code, CodeInputs, JointSystem};
 use jostle_io::{Dimension, parse_option};
 use jostle_study::{CriticalGap, GapError, GapProgress, GapSettings, critical_gaps};
 
@@ -28,9 +28,13 @@ pub(crate) struct GapArgs {
     /// Precision of the gap
     #[arg(long, value_name = "QUANTITY", default_value = "0.1mm")]
     tolerance: String,
-    /// Structural system for GB 50011: of the two buildings, the one that needs the wider joint
-    #[arg(long, value_enum, default_value_t = SystemChoice::Frame)]
-    system: SystemChoice,
+    /// Structural system for GB 50011: of the two buildings, the one that needs the wider joint [default: codes.system of
+    /// the model, else frame]
+    #[arg(long, value_name = "SYSTEM", value_parser = JointSystem::ALL.map(JointSystem::name))]
+    system: Option<String>,
+    /// List the rules of this code only; repeat for several [default: codes.show of the model, else all]
+    #[arg(long, value_name = "CODE", value_parser = Code::ALL.map(Code::name))]
+    code: Vec<String>,
     /// Accept values outside their usual ranges, as accept_unusual = true of the model file
     #[arg(long)]
     accept_unusual: bool,
@@ -42,15 +46,6 @@ pub(crate) struct GapArgs {
     json: bool,
 }
 
-/// Structural systems of GB 50011.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum SystemChoice {
-    Frame,
-    FrameWall,
-    Wall,
-    SteelFrame,
-}
-
 pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
     let tolerance =
         parse_option("--tolerance", &args.tolerance, Dimension::Length).map_err(Failure::Input)?;
@@ -59,16 +54,6 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
             "--tolerance: must be at least 1e-9 m".into(),
         ));
     }
-    let settings = GapSettings {
-        tolerance,
-        system: match args.system {
-            SystemChoice::Frame => JointSystem::Frame,
-            SystemChoice::FrameWall => JointSystem::FrameWall,
-            SystemChoice::Wall => JointSystem::Wall,
-            SystemChoice::SteelFrame => JointSystem::SteelFrame,
-        },
-        outcomes: !args.no_outcomes,
-    };
     let flag = stop_on_interrupt();
     let stop = || flag.load(Ordering::Relaxed);
     let records: Vec<Option<String>> = if args.record.is_empty() {
@@ -87,6 +72,11 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
             accept_unusual: args.accept_unusual,
         };
         let opened = model.open()?;
+        let settings = GapSettings {
+            tolerance,
+            codes: args.codes(&opened.input.codes),
+            outcomes: !args.no_outcomes,
+        };
         title.clone_from(&opened.input.model.title);
         for warning in &opened.input.warnings {
             note(&mut notes, warning);
@@ -111,6 +101,24 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         return terminal::print(&json(&title, &found, &notes));
     }
     terminal::print(&describe(&title, &found))
+}
+
+impl GapArgs {
+    /// Inputs of the model, changed by the options.
+    fn codes(&self, of_model: &CodeInputs) -> CodeInputs {
+        let mut codes = of_model.clone();
+        if let Some(system) = self.system.as_deref().and_then(JointSystem::named) {
+            codes.system = system;
+        }
+        if !self.code.is_empty() {
+            codes.shown = self
+                .code
+                .iter()
+                .filter_map(|name| Code::named(name))
+                .collect();
+        }
+        codes
+    }
 }
 
 /// Prints a warning once and keeps it for the notes.
@@ -245,6 +253,7 @@ fn describe(title: &str, found: &[CriticalGap]) -> String {
                 format!("{} mm", mm(rule.gap_m))
             );
         }
+        text += &inputs(gap);
     }
     for (pair, [most, mean, deviation], records) in sets(found) {
         if records > 1 {
@@ -259,6 +268,36 @@ fn describe(title: &str, found: &[CriticalGap]) -> String {
         }
     }
     text
+}
+
+/// Inputs of codes, distances from property lines, and rules without a value.
+fn inputs(gap: &CriticalGap) -> String {
+    let mut text = String::new();
+    let mut shown: Option<(&str, &[String])> = None;
+    for rule in &gap.rules {
+        let stated = (rule.code.unwrap_or_default(), &rule.inputs[..]);
+        if !rule.inputs.is_empty() && shown != Some(stated) {
+            text += &format!("  {}: {}\n", rule.rule, rule.inputs.join("; "));
+            shown = Some(stated);
+        }
+        if let Some([left, right]) = rule.setbacks_m {
+            text += &format!(
+                "  {}: {} from the property line {} mm, {} {} mm\n",
+                rule.rule,
+                gap.between[0],
+                mm(left),
+                gap.between[1],
+                mm(right)
+            );
+        }
+    }
+    for rule in &gap.left_out {
+        text += &format!("  {} is left out: it needs {}\n", rule.rule, rule.needs);
+    }
+    if text.is_empty() {
+        return text;
+    }
+    format!("  inputs of codes ([codes] in the model file changes them)\n{text}")
 }
 
 fn millimetres(metres: f64) -> String {

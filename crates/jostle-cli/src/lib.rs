@@ -5,6 +5,7 @@ mod check;
 mod collide;
 mod command_line;
 mod completions;
+mod contact_advice;
 mod export;
 mod failure;
 mod gap;
@@ -42,6 +43,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Check(args) => check::check(&args),
         Command::Modes(args) => modes::modes(&args),
         Command::Collide(args) => collide::collide(&args),
+        Command::ContactAdvice(args) => contact_advice::contact_advice(&args),
         Command::Export(args) => export::export(&args),
         Command::Method(args) => method::method(&args),
         Command::Pushover(args) => pushover::pushover(&args),
@@ -53,10 +55,11 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::New(args) => starter::new(&args),
         Command::Completions(args) => completions::completions(&args, Args::command()),
         Command::Man(args) => man::man(&args, Args::command()),
-        Command::Schema(args) => terminal::print(&if args.markdown {
-            jostle_io::model_reference()
-        } else {
-            jostle_io::model_schema()
+        Command::Schema(args) => terminal::print(&match (args.results, args.markdown) {
+            (false, false) => jostle_io::model_schema(),
+            (false, true) => jostle_io::model_reference(),
+            (true, false) => jostle_io::quantity_list(),
+            (true, true) => jostle_io::quantity_reference(),
         }),
     };
     match done {

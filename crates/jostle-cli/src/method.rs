@@ -1,4 +1,4 @@
-//! `jostle method`: the method, live on the user's own buildings.
+//! `jostle method`: the accuracy of each solver formulation on the buildings of a model.
 
 use std::fmt::Write;
 

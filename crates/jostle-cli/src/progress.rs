@@ -1,4 +1,4 @@
-//! How far a run has come, shown on a terminal.
+//! Progress of a run on a terminal.
 
 use std::time::{Duration, Instant};
 

@@ -1,16 +1,19 @@
-//! `jostle pushover`: how far buildings can be pushed sideways.
+//! `jostle pushover`: capacity curves of the buildings of a model.
 
 use std::path::{Path, PathBuf};
 
 use jostle::pushover::{LoadPattern, PushDirection};
 use jostle_io::{Dimension, Overrides, parse_quantity};
-use jostle_run::{FileKind, checked_drift, chosen_buildings, open, pushed_buildings};
+use jostle_report::Demand;
+use jostle_run::{FileKind, accelerogram, checked_drift, chosen_buildings, open, pushed_buildings};
 
 use crate::args::{Push, PushoverArgs, Spread};
 use crate::failure::Failure;
 use crate::replace::Target;
 use crate::{pushover_text, terminal};
 
+/// Damping ratio of the demand \[–\].
+const DAMPING: f64 = 0.05;
 /// Default folder of results.
 const RESULTS: &str = "jostle-out";
 
@@ -43,7 +46,19 @@ pub(crate) fn pushover(args: &PushoverArgs) -> Result<(), Failure> {
         let page = target("pushover.html", FileKind::PUSHOVER_PAGE)?;
         table.write(&jostle_io::pushover_csv(&pushed))?;
         numbers.write(&json)?;
-        page.write(&jostle_report::render_pushover(title, &pushed))?;
+        let motion = opened.input.ground_motion().ok();
+        let shaken = motion.as_ref().and_then(|motion| accelerogram(motion).ok());
+        let demand = motion.as_ref().zip(shaken.as_ref());
+        let demand = demand.map(|(motion, shaken)| Demand {
+            name: &motion.name,
+            motion: shaken,
+            damping: DAMPING,
+        });
+        page.write(&jostle_report::render_pushover(
+            title,
+            &pushed,
+            demand.as_ref(),
+        ))?;
     }
     if args.json {
         return terminal::print(&json);

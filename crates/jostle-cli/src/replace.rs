@@ -1,4 +1,4 @@
-//! Files that commands write to places of the user's choice.
+//! Files that commands write to paths that the user names.
 
 use std::path::{Path, PathBuf};
 

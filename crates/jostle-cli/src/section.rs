@@ -3,11 +3,10 @@
 use std::fmt::Write;
 
 use jostle::hysteresis::Side;
-use jostle_io::{Dimension, parse_quantity};
+use jostle_io::{Dimension, parse_concrete, parse_quantity, parse_steel};
 use jostle_section::formula::Member;
 use jostle_section::{
-    CONCRETE_GRADES, Concrete, EndCurve, EndSide, Reinforcement, STEEL_GRADES, Section,
-    SectionSurvey, Steel, StrengthLevel, Ties,
+    EndCurve, EndSide, Reinforcement, Section, SectionSurvey, StrengthLevel, Ties,
 };
 use serde_json::{Value, json};
 
@@ -56,28 +55,9 @@ fn of_options(args: &SectionArgs) -> Result<SectionSurvey, Failure> {
         )
     };
     let level = StrengthLevel::named(&args.strength).unwrap_or_default();
-    let strength = |option: &str, text: &str, grades: &[&str]| {
-        let given = parse_quantity(text, Dimension::Modulus)
-            .ok()
-            .filter(|value| *value > 0.0);
-        given.ok_or_else(|| {
-            wrong(
-                option,
-                format!(
-                    "\"{text}\" is not known; available: {}, or a strength such as 30MPa",
-                    grades.join(", ")
-                ),
-            )
-        })
-    };
-    let concrete = match Concrete::grade(&args.concrete, level) {
-        Some(concrete) => concrete,
-        None => Concrete::of_strength(strength("--concrete", &args.concrete, &CONCRETE_GRADES)?),
-    };
-    let steel = match Steel::grade(&args.steel, level) {
-        Some(steel) => steel,
-        None => Steel::of_strength(strength("--steel", &args.steel, &STEEL_GRADES)?),
-    };
+    let concrete =
+        parse_concrete(&args.concrete, level).map_err(|problem| wrong("--concrete", problem))?;
+    let steel = parse_steel(&args.steel, level).map_err(|problem| wrong("--steel", problem))?;
     let bars = args.bars.as_deref().unwrap_or_default();
     let bars = Reinforcement::parse(bars).map_err(|error| wrong("--bars", error.to_string()))?;
     let ties = args.ties.as_deref().map(Ties::parse).transpose();
@@ -164,7 +144,7 @@ fn of_model(path: &std::path::Path) -> Result<(String, Vec<SectionSurvey>), Fail
     Ok((input.model.title, surveys))
 }
 
-/// Storeys and lines of alike members, in short.
+/// Storeys and lines of equal members, in short.
 fn places_text(places: &[(usize, usize)], across: &str) -> String {
     let mut floors: Vec<usize> = places.iter().map(|(floor, _)| *floor).collect();
     floors.dedup();

@@ -1,4 +1,4 @@
-//! Ctrl-C, which stops what is under way and keeps what was computed.
+//! Ctrl-C: stops the command and keeps the results so far.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -52,6 +52,19 @@ fn run_without_a_model_runs_the_example_and_writes_everything() {
 }
 
 #[test]
+fn a_folder_with_the_name_of_the_example_does_not_hide_it() {
+    let folder = folder();
+    std::fs::create_dir(folder.path().join("paper")).expect("a folder");
+    for arguments in [
+        &["run", "--json"][..],
+        &["run", "paper", "--json", "--accept-unusual"],
+    ] {
+        let output = jostle(folder.path(), arguments);
+        assert!(output.status.success(), "{}", complained(&output));
+    }
+}
+
+#[test]
 fn summary_has_the_shape_of_the_contract() {
     let folder = folder();
     let output = jostle(

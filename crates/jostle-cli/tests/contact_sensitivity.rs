@@ -51,6 +51,31 @@ fn number(value: &Value) -> f64 {
 }
 
 #[test]
+fn the_report_shows_the_spread() {
+    let folder = folder();
+    std::fs::write(folder.path().join("model.toml"), model("kelvin", 2e8, 0.6)).expect("a file");
+    let arguments = ["run", "model.toml", "--out", "out", "--sensitivity"];
+    let output = jostle(folder.path(), &arguments);
+    assert!(output.status.success(), "{}", complained(&output));
+    let read = |name: &str| {
+        std::fs::read_to_string(folder.path().join("out").join(name)).expect("a result")
+    };
+    let summary: Value = serde_json::from_str(&read("summary.json")).expect("JSON");
+    let gap = &summary["contact_sensitivity"]["gaps"][0];
+    let report = read("report.html");
+    let shown = report.split("id=\"spread\"").nth(1).expect("the section");
+    let shown = shown.split("</section>").next().expect("its end");
+    for bound in ["peak_force_min_n", "peak_force_max_n"] {
+        // Four digits of kN, with a thin space between thousands.
+        let force = number(&gap[bound]) / 1e3;
+        let digits = 3 - force.log10().floor() as i32;
+        let text = format!("{force:.*}", usize::try_from(digits.max(0)).expect("few"));
+        let plain = shown.replace('\u{202f}', "");
+        assert!(plain.contains(&format!(">{text}<")), "{bound}: {text}");
+    }
+}
+
+#[test]
 fn every_variant_is_the_run_with_that_contact() {
     let (k, e) = (2e8, 0.6);
     let own = run(&model("kelvin", k, e), &["--sensitivity", "--no-report"]);

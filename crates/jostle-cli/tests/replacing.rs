@@ -72,7 +72,7 @@ fn a_second_run_says_that_it_replaces_the_first() {
     let remark = complained(&second);
     for part in [
         "results holds results of an earlier run",
-        "summary.json, history.parquet, impacts.parquet, report.html",
+        "summary.json, history.parquet, buildings.parquet, floors.parquet, impacts.parquet, report.html",
     ] {
         assert!(remark.contains(part), "\"{part}\" in: {remark}");
     }

@@ -252,7 +252,7 @@ fn wrong_selections_name_the_key() {
         ),
         (
             &format!("{SPECTRUM}\npga = 1\nunscaled = true"),
-            "selection.pga: cannot stand beside unscaled",
+            "selection.pga: cannot be combined with unscaled",
         ),
         (
             &format!("{SPECTRUM}\ndamping = 1.5"),

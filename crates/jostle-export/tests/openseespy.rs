@@ -93,7 +93,7 @@ fn no_node_follows_two_nodes_and_none_that_is_followed_follows() {
     }
 }
 
-/// Columns that keep their length on springs that give way: vertical ties cannot stand beside those of the floors.
+/// Columns that keep their length on springs that give way: vertical ties cannot be combined with those of the floors.
 const SPRUNG: &str = r#"
 title = "sprung"
 motion = { kind = "sine", amplitude = 1.0, period = 0.5, duration = 2.0 }

@@ -3,9 +3,12 @@
 use jostle::Solver;
 use jostle::contact::{LawKind, ModifiedKelvin, RestitutionIs};
 use jostle::hysteresis::HysteresisRule;
+use jostle::separation::{Code, HazardZone, JointSystem, MotionLevel};
 use jostle_motion::GoverningRule;
 
+use crate::choices::{DesignKind, FragilityMethod, IntegratorMethod, Sampling, names};
 use crate::quantity::Dimension;
+use crate::record::RecordFormat;
 
 /// The table of the file that contains a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -61,6 +64,10 @@ pub(crate) enum Section {
     Output,
     /// Which floor response spectra.
     FloorSpectra,
+    /// Inputs of the separation rules of codes.
+    Codes,
+    /// Those of one building.
+    BuildingCodes,
     /// A study file.
     Study,
     /// One thing that varies in a study.
@@ -129,6 +136,10 @@ pub(crate) enum Kind {
     PerContact(Dimension),
     /// A grade, or a strength.
     GradeOr(&'static [&'static str]),
+    /// A grade of concrete, or a cylinder strength f'c.
+    Concrete(&'static [&'static str]),
+    /// The same, or a prismatic strength.
+    ConcreteOr(&'static [&'static str]),
     /// A table of tables with names of their own.
     Named(Section),
     /// A list of lists of numbers.
@@ -152,20 +163,11 @@ pub(crate) struct Key {
     pub(crate) doc: &'static str,
 }
 
-pub(crate) const DESIGNS: &[&str] = &[
-    "factorial",
-    "zipped",
-    "latin-hypercube",
-    "sobol",
-    "random",
-    "saltelli",
-    "morris",
-    "one-at-a-time",
-];
-pub(crate) const SAMPLINGS: &[&str] = &["latin-hypercube", "sobol", "random"];
+pub(crate) const DESIGNS: &[&str] = names!(DesignKind);
+pub(crate) const SAMPLINGS: &[&str] = names!(Sampling);
 pub(crate) const DISTRIBUTIONS: &[&str] = &["uniform", "normal", "lognormal"];
 pub(crate) const SPACINGS: &[&str] = &["linear", "log"];
-pub(crate) const FRAGILITY_METHODS: &[&str] = &["stripes", "cloud", "modified-cloud"];
+pub(crate) const FRAGILITY_METHODS: &[&str] = names!(FragilityMethod);
 pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear", "given"];
 /// Units of force and length of given matrices.
 pub(crate) const MATRIX_UNITS: &[&str] =
@@ -173,8 +175,7 @@ pub(crate) const MATRIX_UNITS: &[&str] =
 /// Spellings of the contact laws.
 pub const LAW_NAMES: [&str; LawKind::NAMES.len()] = LawKind::NAMES;
 pub(crate) const LAWS: &[&str] = &LAW_NAMES;
-pub(crate) const LAW_VARIANTS: &[&str] =
-    &[ModifiedKelvin::ALL[0].name(), ModifiedKelvin::ALL[1].name()];
+pub(crate) const LAW_VARIANTS: &[&str] = names!(ModifiedKelvin);
 pub(crate) const SOLVERS: &[&str] = &[
     "auto",
     Solver::ALL[0].name(),
@@ -182,37 +183,55 @@ pub(crate) const SOLVERS: &[&str] = &[
     Solver::ALL[2].name(),
     Solver::ALL[3].name(),
 ];
-pub(crate) const INTEGRATORS: &[&str] = &[
-    "average-acceleration",
-    "newmark",
-    "hht",
-    "generalized-alpha",
-];
+pub(crate) const INTEGRATORS: &[&str] = names!(IntegratorMethod);
 pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
-pub(crate) const RESTITUTION_IS: &[&str] =
-    &[RestitutionIs::ALL[0].name(), RestitutionIs::ALL[1].name()];
-pub(crate) const RULES: &[&str] = &{
-    let mut names = [""; HysteresisRule::ALL.len()];
-    let mut rule = 0;
-    while rule < names.len() {
-        names[rule] = HysteresisRule::ALL[rule].name();
-        rule += 1;
-    }
-    names
-};
+pub(crate) const RESTITUTION_IS: &[&str] = names!(RestitutionIs);
+pub(crate) const RULES: &[&str] = names!(HysteresisRule);
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
 /// Grades of reinforced sections.
-pub(crate) const SECTION_CONCRETES: &[&str] = &jostle_section::CONCRETE_GRADES;
-pub(crate) const STEELS: &[&str] = &jostle_section::STEEL_GRADES;
+pub(crate) const SECTION_CONCRETES: &[&str] = &joined::<23>(&[
+    &jostle_section::CONCRETE_GRADES,
+    &jostle_section::EN_CONCRETE_GRADES,
+]);
+pub(crate) const STEELS: &[&str] = &joined::<25>(&[
+    &jostle_section::STEEL_GRADES,
+    &jostle_section::EN_STEEL_GRADES,
+    &jostle_section::ASTM_STEEL_GRADES,
+]);
 pub(crate) const STRENGTHS: &[&str] = &jostle_section::StrengthLevel::NAMES;
-pub(crate) const RECORD_FORMATS: &[&str] = &[
-    "at2", "columns", "cosmos", "csmip", "knet", "esm", "smc", "geonet", "afad", "miniseed", "sac",
-];
-pub(crate) const CONCRETES: &[&str] = &[
-    "C20", "C25", "C30", "C35", "C40", "C45", "C50", "C55", "C60", "C65", "C70", "C75", "C80",
-];
+pub(crate) const RECORD_FORMATS: &[&str] = names!(RecordFormat, key);
+/// Grades whose modulus is known.
+pub(crate) const CONCRETES: &[&str] = &joined::<27>(&[
+    &[
+        "C20", "C25", "C30", "C35", "C40", "C45", "C50", "C55", "C60", "C65", "C70", "C75", "C80",
+    ],
+    &jostle_section::EN_CONCRETE_GRADES,
+]);
+/// Codes whose separation rules are known.
+pub(crate) const JOINT_CODES: &[&str] = names!(Code);
+pub(crate) const JOINT_SYSTEMS: &[&str] = names!(JointSystem);
+pub(crate) const MOTION_LEVELS: &[&str] = &MotionLevel::NAMES;
+pub(crate) const HAZARD_ZONES: &[&str] = &HazardZone::NAMES;
+pub(crate) const FLOOR_LEVELS: &[&str] = &["auto", "equal", "different"];
+
+/// Lists of words one after the other; they must have `N` words together.
+const fn joined<const N: usize>(lists: &[&[&'static str]]) -> [&'static str; N] {
+    let mut words = [""; N];
+    let (mut next, mut list) = (0, 0);
+    while list < lists.len() {
+        let mut word = 0;
+        while word < lists[list].len() {
+            words[next] = lists[list][word];
+            next += 1;
+            word += 1;
+        }
+        list += 1;
+    }
+    assert!(next == N, "the count of words is wrong");
+    words
+}
 
 const fn required(section: Section, name: &'static str, kind: Kind, doc: &'static str) -> Key {
     Key {
@@ -271,6 +290,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "link", Tables(&[S::Link]), "Springs and dampers that join neighbours."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
+    optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
 
     optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC. A run, a study and jostle gap use all records of a list; the other keys apply to each."),
     optional(S::Motion, "kind", Choice(WAVES), "An analytic motion instead of a record."),
@@ -316,6 +336,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings."),
     default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`."),
     default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight."),
+    optional(S::Building, "codes", Kind::Table(S::BuildingCodes), "Factors of this building in the separation rules of codes, such as `{ behaviour_factor = 3.9 }`."),
     default(S::Building, "p_delta", Flag, "false", "Include P-Delta from the weight above."),
 
     default(S::Frame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
@@ -323,7 +344,7 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::Frame, "column", TablePerStorey(S::Column), "Column section: one, or a list from the ground up."),
     required(S::Frame, "beam", TablePerStorey(S::Beam), "Beam section: one, or a list from the ground up."),
     optional(S::Frame, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity of columns and beams."),
-    optional(S::Frame, "concrete", Choice(CONCRETES), "Concrete grade of GB 50010 instead of elastic_modulus."),
+    optional(S::Frame, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus: a grade of GB 50010 (C30) or EN 1992-1-1 (C30/37), or the cylinder strength of ACI 318 (f'c = 4 ksi)."),
     default(S::Frame, "stiffness_factor", NumberOrTable(S::StiffnessFactor), "1", "Factor on every EI, for cracked sections."),
     default(S::Frame, "density", Quantity(D::Density), "\"2500 kg/m3\"", "Density of columns; a weight per volume is converted."),
     optional(S::Frame, "beam_mass", PerStorey(D::LineMass), "Mass carried by the beams, self weight included; needed unless floor_mass is given. A weight per length is converted."),
@@ -369,15 +390,15 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Beam, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible beams."),
     optional(S::Beam, "GA", Quantity(D::Force), "Shear rigidity G·A_s, with EI; needed for beams with shear deformation."),
 
-    optional(S::Column, "concrete", GradeOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010, or its prismatic strength; by default that of the building."),
-    optional(S::Column, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010, or its yield strength; needed with bars."),
+    optional(S::Column, "concrete", Kind::ConcreteOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010 (C30) or EN 1992-1-1 (C30/37), the cylinder strength of ACI 318 (f'c = 4 ksi), or a prismatic strength; by default that of the building."),
+    optional(S::Column, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010 (HRB400), EN 10080 (B500, of ductility class B without a letter) or ASTM (Grade 60, in ksi, or Grade 420, in MPa), or its yield strength; needed with bars."),
     default(S::Column, "strength", Choice(STRENGTHS), "\"characteristic\"", "Strength level of a grade."),
     optional(S::Column, "bars", TextOrTable(S::Bars), "Reinforcement, such as 12 d20 (around); diameters in mm."),
     default(S::Column, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars."),
     optional(S::Column, "ties", Text, "Ties that confine the core, such as d10 @ 100 mm."),
     default(S::Column, "axial_load", WordOr("from gravity", D::Force), "\"from gravity\"", "Axial compression for which the yield moment is computed."),
-    optional(S::Beam, "concrete", GradeOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010, or its prismatic strength; by default that of the building."),
-    optional(S::Beam, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010, or its yield strength; needed with bars."),
+    optional(S::Beam, "concrete", Kind::ConcreteOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010 (C30) or EN 1992-1-1 (C30/37), the cylinder strength of ACI 318 (f'c = 4 ksi), or a prismatic strength; by default that of the building."),
+    optional(S::Beam, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010 (HRB400), EN 10080 (B500, of ductility class B without a letter) or ASTM (Grade 60, in ksi, or Grade 420, in MPa), or its yield strength; needed with bars."),
     default(S::Beam, "strength", Choice(STRENGTHS), "\"characteristic\"", "Strength level of a grade."),
     optional(S::Beam, "bars", TextOrTable(S::Bars), "Reinforcement, such as 4 d25 top, 4 d25 bottom; diameters in mm."),
     default(S::Beam, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars."),
@@ -494,6 +515,24 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::FloorSpectra, "periods", Quantities(D::Time), "100 from 0.02 s to 4 s", "Periods of the oscillators; 0 is the rigid one."),
     default(S::FloorSpectra, "low_pass", Quantity(D::Frequency), "\"25 Hz\"", "Corner frequency of the filter of the filtered peak acceleration."),
     default(S::FloorSpectra, "order", Count, "4", "Order of this Butterworth filter, which runs forwards and backwards: 2, 4, 6 or 8."),
+    default(S::Codes, "show", TextOrTexts, "all codes", "Codes whose rules are listed: ubc97, gb50011, en1998, asce7, tbdy2018, is1893, ntc2018, e030, nsr10, iran2800."),
+    default(S::Codes, "motion", Choice(MOTION_LEVELS), "\"full\"", "Whether the motion is the design motion in full, or reduced by q or R."),
+    default(S::Codes, "floor_levels", Choice(FLOOR_LEVELS), "\"auto\"", "Whether all floors that face each other lie at equal height; auto follows the model."),
+    default(S::Codes, "system", Choice(JOINT_SYSTEMS), "\"frame\"", "GB 50011: structural system that needs the wider joint."),
+    default(S::Codes, "ground_acceleration", Quantity(D::Acceleration), "peak of the motion", "NTC 2018: a_g S."),
+    default(S::Codes, "hazard", Choice(HAZARD_ZONES), "\"high\"", "NSR-10: seismic hazard of the site."),
+    optional(S::Codes, "zone_factor", Quantity(D::Dimensionless), "E.030-2026: zone factor Z; the rule is left out without it."),
+    optional(S::Codes, "soil_factor", Quantity(D::Dimensionless), "E.030-2026: soil factor S; the rule is left out without it."),
+    default(S::Codes, "importance", Quantity(D::Dimensionless), "1", "Importance factor I or I_e of all buildings."),
+    optional(S::Codes, "behaviour_factor", Quantity(D::Dimensionless), "EN 1998-1, NTC 2018: behaviour factor q of all buildings; needed with motion = \"reduced\"."),
+    default(S::Codes, "response_modification", Quantity(D::Dimensionless), "8 in ASCE 7 and Standard 2800", "Response modification R of all buildings: ASCE 7, TBDY 2018, IS 1893, E.030, Standard 2800; the other three need it with motion = \"reduced\"."),
+    default(S::Codes, "deflection_amplification", Quantity(D::Dimensionless), "5.5", "ASCE 7, Standard 2800: C_d of all buildings."),
+    default(S::Codes, "regular", Flag, "true", "E.030: whether all buildings are regular."),
+    optional(S::BuildingCodes, "importance", Quantity(D::Dimensionless), "Importance factor I or I_e."),
+    optional(S::BuildingCodes, "behaviour_factor", Quantity(D::Dimensionless), "Behaviour factor q."),
+    optional(S::BuildingCodes, "response_modification", Quantity(D::Dimensionless), "Response modification R."),
+    optional(S::BuildingCodes, "deflection_amplification", Quantity(D::Dimensionless), "Deflection amplification C_d."),
+    optional(S::BuildingCodes, "regular", Flag, "Whether the building is regular."),
 
     required(S::Integrator, "method", Choice(INTEGRATORS), "Name of the rule; all rules except average acceleration can add numerical damping."),
     default(S::Integrator, "beta", Quantity(D::Dimensionless), "0.25", "Newmark's beta."),
@@ -507,6 +546,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Study, "vary", Tables(&[S::Vary]), "Keys that vary; needed unless the base model lists several records."),
     optional(S::Study, "design", Kind::Table(S::Design), "Design of the cases; by default every combination."),
     optional(S::Study, "histories", Kind::Any, "Numbers of the cases whose histories are kept, from 0."),
+    default(S::Study, "without_contact", Flag, "false", "Run every case without contact as well; columns with those results, and with amplifications by contact."),
     optional(S::Study, "fragility", Tables(&[S::Fragility]), "Fragility curves to fit."),
     optional(S::Study, "ida", Tables(&[S::Ida]), "Curves of demand over intensity."),
     optional(S::Study, "sensitivity", Kind::Table(S::Sensitivity), "Results to rank."),

@@ -124,6 +124,20 @@ fn entry(
     };
     let within = if path == key.name { "" } else { name.as_str() };
     match node.map(|node| &node.value) {
+        Some(Value::Table(named)) if matches!(key.kind, Kind::Named(_)) => {
+            let Kind::Named(section) = &key.kind else {
+                return;
+            };
+            for named in &named.entries {
+                // A path has no way to write other names; the text of the file has.
+                if !named.key.contains(['.', '[']) {
+                    let sections = std::slice::from_ref(section);
+                    let (path, within) = (join(path, &named.key), join(&name, &named.key));
+                    table(Some(&named.node), sections, &path, (group, &within), into);
+                }
+            }
+            return;
+        }
         Some(Value::Table(_)) if !inner.is_empty() => {
             return table(node, inner, path, (group, within), into);
         }
@@ -280,6 +294,32 @@ mod tests {
         assert!(
             knobs.iter().all(|knob| knob.path != "building[0].mass"),
             "of shear buildings"
+        );
+    }
+
+    #[test]
+    fn ports_have_knobs_of_their_own() {
+        let text = "[[building]]\nname = \"A\"\nkind = \"given\"\nmatrices = \"a.npz\"\n\n[building.ports]\n\"1\" = { dof = 1, height = \"4.2 m\" }\nroof = { dof = 2, height = \"7.8 m\" }\n";
+        let base = std::path::Path::new("");
+        let tree = ModelTree::parse("m", text, crate::Format::Toml, base)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let knobs = tree.knobs();
+        let roof = find(&knobs, "building[0].ports.roof.height");
+        assert_eq!(
+            (roof.group.as_str(), roof.name.as_str()),
+            ("A", "ports.roof.height")
+        );
+        assert_eq!((roof.number, roof.unit.as_str()), (Some(7.8), "m"));
+        assert_eq!(
+            find(&knobs, "building[0].ports.1.dof").kind,
+            KnobKind::Count
+        );
+        let height = TreeValue::typed("8 m");
+        let text = tree.rewritten("building[0].ports.roof.height", Some(&height));
+        let text = text.unwrap_or_else(|error| panic!("{error}"));
+        assert!(
+            text.contains("roof = { dof = 2, height = \"8 m\" }"),
+            "{text}"
         );
     }
 

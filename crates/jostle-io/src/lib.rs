@@ -6,9 +6,11 @@
 mod bounded;
 mod builtin;
 mod builtin_model;
+mod choices;
 mod csv;
 mod fault;
 mod floor_table;
+mod grade;
 mod keys;
 mod knobs;
 mod matrices;
@@ -17,12 +19,14 @@ mod model_tree;
 mod motion_spec;
 mod output;
 mod pushover;
+mod quantities_page;
 mod quantity;
 mod reader;
 mod record;
 mod record_list;
 mod record_text;
 mod reference;
+mod response_tables;
 mod rewrite;
 mod schema;
 mod selection;
@@ -42,6 +46,7 @@ pub use builtin_model::{builtin_model, model_names, model_text};
 pub use csv::csv_field;
 pub use fault::{Fault, InputError};
 pub use floor_table::{floor_spectra_columns, write_floor_spectra_parquet};
+pub use grade::{parse_concrete, parse_steel};
 /// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
 pub use jostle::statics::STANDARD_GRAVITY;
 pub use keys::LAW_NAMES;
@@ -55,6 +60,7 @@ pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
 pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
 pub use pushover::{pushover_csv, pushover_json};
+pub use quantities_page::{quantity_list, quantity_reference};
 pub use quantity::{Dimension, QuantityError, parse_quantity};
 pub use record::{
     Channel, Direction, Record, RecordError, RecordFormat, RecordInfo, RecordOptions,
@@ -63,6 +69,9 @@ pub use record::{
 };
 pub use record_text::{at2_text, csv_text};
 pub use reference::model_reference;
+pub use response_tables::{
+    building_columns, floor_columns, write_buildings_parquet, write_floors_parquet,
+};
 pub use schema::model_schema;
 pub use selection::selection_json;
 pub use source::Place;

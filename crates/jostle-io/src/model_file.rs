@@ -4,8 +4,10 @@
 //! so that the rest is still read and checked; the result is thrown away if anything was noted.
 
 mod analysis;
+mod assumptions;
 mod between;
 mod building;
+mod codes;
 mod floor_spectra;
 mod frame;
 mod gap;
@@ -31,6 +33,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
+use jostle::separation::CodeInputs;
 use jostle::{GroundMotion, Model, ModelFault};
 use jostle_motion::{GoverningRule, TargetSpectrum};
 
@@ -58,6 +61,8 @@ pub struct Input {
     pub floor_spectra: Option<FloorSpectraRequest>,
     /// Rule for the governing value of several records, if the file names one.
     pub governing: Option<GoverningRule>,
+    /// Inputs of the separation rules of codes.
+    pub codes: CodeInputs,
     /// Warnings of a valid file.
     pub warnings: Vec<String>,
     /// Unusual values that are accepted.
@@ -151,28 +156,34 @@ pub fn read_model_text(
 pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<Input, InputError> {
     let mut reader = Reader::new(&source);
     let read = read_root(&mut reader, &root, base);
-    if let Some((model, ..)) = &read {
+    if let Some(Parts { model, .. }) = &read {
         let checked = model.check().err().unwrap_or_default();
         add_model_faults(&mut reader, &root, checked);
     }
     let (mut noted, accepted) = (reader.take_warnings(), reader.accepted.clone());
     let error = reader.into_error();
     match read {
-        Some((model, motion, reinforced, floor_spectra, governing)) if error.faults.is_empty() => {
-            Ok(Input {
-                reinforced,
-                floor_spectra,
-                governing,
-                warnings: {
-                    noted.extend(warnings(&model, &root));
-                    noted
-                },
-                accepted,
-                model,
-                motion,
-                origin: Origin { source, root },
-            })
-        }
+        Some(Parts {
+            model,
+            motion,
+            reinforced,
+            codes,
+            floor_spectra,
+            governing,
+        }) if error.faults.is_empty() => Ok(Input {
+            reinforced,
+            codes,
+            floor_spectra,
+            governing,
+            warnings: {
+                noted.extend(warnings(&model, &root));
+                noted
+            },
+            accepted,
+            model,
+            motion,
+            origin: Origin { source, root },
+        }),
         _ => Err(error),
     }
 }
@@ -382,14 +393,15 @@ fn with_record(old: Option<&MotionSpec>, record: &str) -> MotionSpec {
     }
 }
 
-/// What a file is read into.
-type Parts = (
-    Model,
-    Option<MotionSpec>,
-    Vec<ReinforcedMember>,
-    Option<FloorSpectraRequest>,
-    Option<GoverningRule>,
-);
+/// What a file describes.
+struct Parts {
+    model: Model,
+    motion: Option<MotionSpec>,
+    reinforced: Vec<ReinforcedMember>,
+    codes: CodeInputs,
+    floor_spectra: Option<FloorSpectraRequest>,
+    governing: Option<GoverningRule>,
+}
 
 /// Reads the whole tree; `None` if there is nothing to build a model from.
 fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts> {
@@ -423,14 +435,14 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     };
     let gaps = match reader.get(&view, "gap") {
         Some(field) => {
-            let buildings = buildings.as_ref().map(|(buildings, _)| &buildings[..]);
+            let buildings = buildings.as_ref().map(|(buildings, ..)| &buildings[..]);
             gap::read_all(reader, &field, buildings)
         }
         None => Vec::new(),
     };
     let links = match reader.get(&view, "link") {
         Some(field) => {
-            let buildings = buildings.as_ref().map(|(buildings, _)| &buildings[..]);
+            let buildings = buildings.as_ref().map(|(buildings, ..)| &buildings[..]);
             link::read_all(reader, &field, buildings)
         }
         None => Vec::new(),
@@ -439,10 +451,13 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
     let mut floor_spectra = None;
     if let Some(field) = reader.get(&view, "output") {
-        let buildings = buildings.as_ref().map(|(buildings, _)| &buildings[..]);
+        let buildings = buildings.as_ref().map(|(buildings, ..)| &buildings[..]);
         (analysis.members, floor_spectra) = output::read(reader, &field, buildings);
     }
-    let (buildings, reinforced) = buildings?;
+    let codes = reader.get(&view, "codes");
+    let of_buildings = buildings.as_ref().map(|(.., codes)| codes.clone());
+    let codes = codes::read(reader, codes.as_ref(), of_buildings.unwrap_or_default());
+    let (buildings, reinforced, _) = buildings?;
     let model = Model {
         title: title.unwrap_or_default(),
         buildings,
@@ -450,7 +465,14 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         links,
         analysis,
     };
-    Some((model, motion, reinforced, floor_spectra, governing))
+    Some(Parts {
+        model,
+        motion,
+        reinforced,
+        codes,
+        floor_spectra,
+        governing,
+    })
 }
 
 /// Adds what the model's own check found, unless reading has found a fault there already.

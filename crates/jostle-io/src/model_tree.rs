@@ -98,7 +98,8 @@ impl ModelTree {
     /// # Errors
     /// As [`ModelTree::load`].
     pub fn find(path: &Path) -> Result<Self, InputError> {
-        let name = path.to_str().filter(|_| !path.exists());
+        // A folder, say of earlier results, may have the name of a built-in model.
+        let name = path.to_str().filter(|_| !path.exists() || path.is_dir());
         match name.filter(|name| builtin_model::model_names().contains(name)) {
             Some(name) => Self::builtin(name),
             None => Self::load(path),

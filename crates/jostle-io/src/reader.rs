@@ -1,6 +1,7 @@
 //! Typed access to the value tree. A fault is noted and reading goes on, so that all faults are found at once.
 
 use crate::fault::{Fault, InputError};
+use crate::grade::{ConcreteGrade, cylinder_strength};
 use crate::keys::{Section, keys_of, nearest};
 use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten};
 use crate::source::{Source, Span};
@@ -407,6 +408,37 @@ impl<'s> Reader<'s> {
                 .get_or_insert_with(|| format!("a strength is possible too: {example}"));
         }
         named
+    }
+
+    /// Concrete: one of the grades, or the text f'c with a cylinder strength.
+    pub(crate) fn concrete_name(
+        &mut self,
+        field: &Field<'_>,
+        grades: &[&'static str],
+    ) -> Option<ConcreteGrade> {
+        match field.as_text().and_then(cylinder_strength) {
+            Some(Ok(strength)) => Some(ConcreteGrade::Cylinder(strength)),
+            Some(Err((problem, remedy))) => {
+                *self.bad(field, problem) = Some(remedy);
+                None
+            }
+            None => self.choice(field, grades, &[]).map(ConcreteGrade::Named),
+        }
+    }
+
+    /// Concrete: as [`Self::concrete_name`], or a prismatic strength.
+    pub(crate) fn concrete(
+        &mut self,
+        field: &Field<'_>,
+        grades: &[&'static str],
+    ) -> Option<ConcreteGrade> {
+        if field.as_text().and_then(cylinder_strength).is_some() {
+            return self.concrete_name(field, grades);
+        }
+        match self.grade(field, grades, "\"30 MPa\"")? {
+            Grade::Named(name) => Some(ConcreteGrade::Named(name)),
+            Grade::Strength(strength) => Some(ConcreteGrade::Prismatic(strength)),
+        }
     }
 
     /// One of several words; `later` are those of other versions of the format.

@@ -30,7 +30,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Given,
         "`[[building]]` with `kind = \"given\"`",
-        "By matrices and ports, or by mass, periods and shapes; see [how-to/from-etabs.md](how-to/from-etabs.md).",
+        "By matrices and ports, or by mass, periods and shapes; see [From ETABS to jostle](how-to/from-etabs.md).",
     ),
     (Section::Matrices, "`matrices` of a given building", ""),
     (Section::Port, "`ports` of a given building, each", ""),
@@ -65,7 +65,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Gap,
         "`[[gap]]`",
-        "One or more for each pair of neighbours, and for walls; see [contacts-and-links.md](contacts-and-links.md).",
+        "One or more for each pair of neighbours, and for walls; see [Contacts and links](contacts-and-links.md).",
     ),
     (
         Section::Link,
@@ -76,7 +76,17 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Output,
         "`[output]`",
-        "See [how-to/struck-columns.md](how-to/struck-columns.md).",
+        "See [Which column is hit](how-to/struck-columns.md).",
+    ),
+    (
+        Section::Codes,
+        "`[codes]`",
+        "Inputs of the separation rules of `jostle gap` and the report; see [how-to/required-gap.md](how-to/required-gap.md).",
+    ),
+    (
+        Section::BuildingCodes,
+        "`codes` of a building",
+        "Values given here apply to that building only.",
     ),
     (
         Section::FloorSpectra,
@@ -87,7 +97,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Study,
         "Study file: top",
-        "A file of its own, for `jostle study`; see [studies.md](studies.md).",
+        "A file of its own, for `jostle study`; see [Studies](studies.md).",
     ),
     (Section::Vary, "Study file: `[[vary]]`", ""),
     (Section::Range, "Study file: `vary.range`", ""),
@@ -225,6 +235,10 @@ fn value(key: &Key) -> String {
         }
         Kind::PerContact(dimension) => {
             format!("{}; or a list, one per contact", quantity(dimension))
+        }
+        Kind::Concrete(grades) => format!("{}; or `f'c = 4 ksi`", words(grades)),
+        Kind::ConcreteOr(grades) => {
+            format!("{}; `f'c = 4 ksi`; or a strength", words(grades))
         }
         Kind::GradeOr(grades) => format!("{}; or a strength", words(grades)),
     }

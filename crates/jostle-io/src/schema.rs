@@ -145,10 +145,19 @@ fn kind(kind: Kind) -> Value {
                 { "anyOf": [count, quantity(Dimension::Length), { "const": "wall" }] } } },
             { "type": "array", "items": quantity(Dimension::Length) },
         ] }),
+        Kind::Concrete(grades) => json!({ "anyOf": [{ "enum": grades }, cylinder()] }),
+        Kind::ConcreteOr(grades) => {
+            json!({ "anyOf": [{ "enum": grades }, cylinder(), quantity(Dimension::Modulus)] })
+        }
         Kind::GradeOr(grades) => {
             json!({ "anyOf": [{ "enum": grades }, quantity(Dimension::Modulus)] })
         }
     }
+}
+
+/// A cylinder strength.
+fn cylinder() -> Value {
+    json!({ "type": "string", "pattern": "^f(c'|'c)", "examples": ["f'c = 4 ksi"] })
 }
 
 /// A text with a unit, or a number in SI.

@@ -1,4 +1,4 @@
-//! The text of a file, and where in it a byte lies.
+//! The text of a file, and the line and column of a byte.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Study files: a base model, what varies in it, and what is wanted of the results.
+//! Study files: a base model, the keys that vary in it, and the evaluations of the results.
 
 mod distribution;
 mod factor;
@@ -11,9 +11,10 @@ use std::sync::Arc;
 pub use distribution::{Distribution, Shape};
 pub use factor::{Factor, FactorValues, Level};
 pub use selection::{SelectionScaling, SelectionWanted};
-pub use wanted::{FragilityMethod, FragilityWanted, IdaWanted};
+pub use wanted::{FragilityWanted, IdaWanted};
 
 use crate::builtin_model;
+pub use crate::choices::{DesignKind, FragilityMethod, Sampling};
 use crate::fault::{Fault, InputError};
 use crate::keys::{DESIGNS, SAMPLINGS, Section, nearest};
 use crate::model_file;
@@ -36,6 +37,8 @@ pub struct StudyFile {
     pub design: Design,
     /// Cases whose histories are kept, from 0.
     pub histories: Vec<u64>,
+    /// Whether every case is also run without contact, and compared with that run.
+    pub without_contact: bool,
     /// Fragility curves to fit.
     pub fragilities: Vec<FragilityWanted>,
     /// Curves of demand over intensity.
@@ -64,38 +67,6 @@ pub struct Design {
     pub correlations: Vec<Correlation>,
     /// Quantiles of one-at-a-time designs, each between 0 and 1.
     pub quantiles: [f64; 2],
-}
-
-/// Rules that make cases.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DesignKind {
-    /// Every combination of the lists; distributions are drawn `samples` times for each.
-    Factorial,
-    /// The lists side by side, entry by entry; distributions are drawn `samples` times for each.
-    Zipped,
-    /// Latin hypercube.
-    LatinHypercube,
-    /// Sobol sequence.
-    Sobol,
-    /// Independent draws.
-    Random,
-    /// Two samples and their mixtures, for Sobol indices.
-    Saltelli,
-    /// Trajectories of elementary effects.
-    Morris,
-    /// The middle, and each factor low and high.
-    OneAtATime,
-}
-
-/// How distributions are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sampling {
-    /// Latin hypercube.
-    LatinHypercube,
-    /// Sobol sequence with a random shift of its digits.
-    Sobol,
-    /// Independent draws.
-    Random,
 }
 
 /// A correlation of the normal scores of two factors.
@@ -268,6 +239,8 @@ fn read_root(
     let design = design_of(reader, design.as_ref(), factors.as_deref(), &names);
     let histories = reader.get(&view, "histories");
     let histories = histories.map_or(Some(Vec::new()), |field| case_numbers(reader, &field));
+    let without_contact = reader.get(&view, "without_contact");
+    let without_contact = without_contact.is_some_and(|field| reader.flag(&field) == Some(true));
     let fragilities = wanted::fragilities(reader, &view);
     let idas = wanted::idas(reader, &view);
     let responses = reader.get(&view, "sensitivity");
@@ -291,6 +264,7 @@ fn read_root(
             quantiles: [0.1, 0.9],
         }),
         histories: histories.unwrap_or_default(),
+        without_contact,
         fragilities,
         idas,
         responses: responses.unwrap_or_default(),
@@ -310,7 +284,8 @@ fn base_model(
 ) -> Option<Result<ModelTree, InputError>> {
     let (base, model) = (reader.get(view, "base"), reader.get(view, "model"));
     if let (Some(base), Some(_)) = (&base, &model) {
-        *reader.bad(base, "cannot stand beside model") = Some("keep either base or model".into());
+        *reader.bad(base, "cannot be combined with model") =
+            Some("keep either base or model".into());
         return None;
     }
     if let Some(tree) = other {
@@ -395,23 +370,10 @@ fn design_of(
     };
     let view = reader.open(field, &[Section::Design])?;
     if let Some(field) = reader.get(&view, "kind") {
-        design.kind = match reader.choice(&field, DESIGNS, &[])? {
-            "zipped" => DesignKind::Zipped,
-            "latin-hypercube" => DesignKind::LatinHypercube,
-            "sobol" => DesignKind::Sobol,
-            "random" => DesignKind::Random,
-            "saltelli" => DesignKind::Saltelli,
-            "morris" => DesignKind::Morris,
-            "one-at-a-time" => DesignKind::OneAtATime,
-            _ => DesignKind::Factorial,
-        };
+        design.kind = DesignKind::from_name(reader.choice(&field, DESIGNS, &[])?)?;
     }
     if let Some(field) = reader.get(&view, "sampling") {
-        design.sampling = match reader.choice(&field, SAMPLINGS, &[])? {
-            "sobol" => Sampling::Sobol,
-            "random" => Sampling::Random,
-            _ => Sampling::LatinHypercube,
-        };
+        design.sampling = Sampling::from_name(reader.choice(&field, SAMPLINGS, &[])?)?;
     }
     if let Some(field) = reader.get(&view, "samples") {
         let samples = reader.count(&field)? as u64;

@@ -1,14 +1,15 @@
-//! `history.parquet`, `impacts.parquet`, `hinges.parquet` and `members.parquet`: columns with units in their names, compressed with zstd.
+//! `history.parquet`, `impacts.parquet`, `hinges.parquet` and `members.parquet`: columns with units in their names, compressed with LZ4.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use jostle::history::MemberHistory;
+use jostle::quantity::Read;
 use jostle::results::summary::{ContactSummary, ImpactSummary, SectionSummary, SpringSummary};
 use jostle::results::{member_name, section_name};
 use jostle::structure::{BaseMotion, MemberEnd, SectionAt, SpringPlace};
-use jostle::{Column, EnergyTerm, History, Model, Outcome, Summary, System, springs_of};
-use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical, ZstdLevel};
+use jostle::{Column, History, Model, Outcome, Quantity, Summary, System, springs_of};
+use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
@@ -18,8 +19,6 @@ use parquet::schema::types::{ColumnPath, Type};
 
 use crate::output::{OutputError, write_atomically};
 
-/// Level of Zstandard.
-const COMPRESSION: i32 = 1;
 /// Number of rows above which compression saves more than its overhead.
 const WORTH_COMPRESSING: usize = 64;
 
@@ -124,40 +123,36 @@ pub fn impact_columns(summary: &Summary) -> Vec<(&'static str, Values)> {
         });
         Values::Whole(floors.collect())
     };
-    let real = |value: fn(&ImpactSummary) -> f64| {
-        Values::Real(rows.iter().map(|(_, _, impact)| value(impact)).collect())
-    };
-    let whole = |value: fn(&ImpactSummary) -> usize| {
-        let values = rows.iter().map(|(_, _, impact)| value(impact));
-        Values::Whole(values.map(|value| i32::try_from(value).ok()).collect())
-    };
-    let heights = rows
-        .iter()
-        .map(|(_, contact, _)| contact.height_m)
-        .collect();
-    vec![
-        (
-            "gap",
-            Values::Text(rows.iter().map(|row| row.0.clone()).collect()),
-        ),
+    let heights = rows.iter().map(|(_, contact, _)| contact.height_m);
+    let gaps = rows.iter().map(|row| row.0.clone());
+    let mut columns = vec![
+        ("gap", Values::Text(gaps.collect())),
         ("left_floor", floor(0)),
         ("right_floor", floor(1)),
-        ("height_m", Values::Real(heights)),
-        ("start_s", real(|i| i.start_s)),
-        ("end_s", real(|i| i.end_s)),
-        ("duration_s", real(|i| i.end_s - i.start_s)),
-        ("peak_force_n", real(|i| i.peak_force_n)),
-        ("peak_force_at_s", real(|i| i.peak_force_at_s)),
-        ("peak_indentation_m", real(|i| i.peak_indentation_m)),
-        ("impact_speed_m_s", real(|i| i.impact_speed_m_s)),
-        ("separation_speed_m_s", real(|i| i.separation_speed_m_s)),
-        ("realised_restitution", real(|i| i.realised_restitution)),
-        ("impulse_n_s", real(|i| i.impulse_n_s)),
-        ("dissipated_j", real(|i| i.dissipated_j)),
-        ("finished", whole(|i| usize::from(i.finished))),
-        ("touches", whole(|i| i.touches)),
-        ("simultaneous", whole(|i| i.simultaneous)),
-    ]
+        ("height_m", Values::Real(heights.collect())),
+    ];
+    let impacts = || rows.iter().map(|(_, _, impact)| *impact);
+    columns.extend(quantity_columns(ImpactSummary::QUANTITIES, impacts));
+    columns
+}
+
+/// The columns of a list of quantities over rows.
+pub(crate) fn quantity_columns<'r, T: 'r, R: Iterator<Item = &'r T>>(
+    quantities: &'static [Quantity<T>],
+    rows: impl Fn() -> R,
+) -> impl Iterator<Item = (&'static str, Values)> {
+    let in_table = quantities.iter().filter(|quantity| quantity.places.table);
+    in_table.map(move |quantity| {
+        let values = match quantity.read {
+            Read::Real(read) => Values::Real(rows().map(read).collect()),
+            Read::Optional(read) => Values::Instant(rows().map(read).collect()),
+            Read::Whole(read) => {
+                let values = rows().map(|row| i32::try_from(read(row)).ok());
+                Values::Whole(values.collect())
+            }
+        };
+        (quantity.name, values)
+    })
 }
 
 /// Writes columns of numbers of equal length, named with their units.
@@ -237,13 +232,7 @@ pub fn write_hinges_parquet(
         let values = rows.iter().map(of);
         Values::Whole(values.map(|v| i32::try_from(v?).ok()).collect())
     };
-    let real = |of: fn(&SpringSummary) -> f64| {
-        Values::Real(rows.iter().map(|(_, _, spring)| of(spring)).collect())
-    };
-    let instant = |of: fn(&SpringSummary) -> Option<f64>| {
-        Values::Instant(rows.iter().map(|(_, _, spring)| of(spring)).collect())
-    };
-    let columns = vec![
+    let mut columns = vec![
         ("building", text(|row| row.0.to_owned())),
         ("index", whole(|row| Some(row.2.index))),
         ("place", text(|row| row.2.place.clone())),
@@ -251,14 +240,9 @@ pub fn write_hinges_parquet(
         ("level", whole(|row| parts(row.1).1)),
         ("line", whole(|row| parts(row.1).2)),
         ("end", text(|row| parts(row.1).3.to_owned())),
-        ("cracked_s", instant(|spring| spring.cracked_s)),
-        ("yielded_s", instant(|spring| spring.yielded_s)),
-        ("deformation_max", real(|spring| spring.deformation_max)),
-        ("deformation_min", real(|spring| spring.deformation_min)),
-        ("ductility", real(|spring| spring.ductility)),
-        ("peak_force", real(|spring| spring.peak_force)),
-        ("dissipated_j", real(|spring| spring.dissipated_j)),
     ];
+    let springs = || rows.iter().map(|(_, _, spring)| spring);
+    columns.extend(quantity_columns(SpringSummary::QUANTITIES, springs));
     let named = columns
         .into_iter()
         .map(|(name, values)| (name.to_owned(), values))
@@ -287,21 +271,17 @@ pub fn member_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'stat
     let text = |of: fn(&(&str, Option<f64>, &SectionSummary)) -> String| {
         Values::Text(rows.iter().map(of).collect())
     };
-    let real = |of: fn(&SectionSummary) -> f64| {
-        Values::Real(rows.iter().map(|(.., section)| of(section)).collect())
-    };
-    vec![
+    let mut columns = vec![
         ("member", text(|row| row.0.to_owned())),
         ("end", text(|row| row.2.at.to_owned())),
         (
             "struck_height_m",
             Values::Instant(rows.iter().map(|row| row.1).collect()),
         ),
-        ("axial_max_n", real(|section| section.axial_max_n)),
-        ("axial_min_n", real(|section| section.axial_min_n)),
-        ("shear_peak_n", real(|section| section.shear_peak_n)),
-        ("moment_peak_n_m", real(|section| section.moment_peak_n_m)),
-    ]
+    ];
+    let sections = || rows.iter().map(|(.., section)| *section);
+    columns.extend(quantity_columns(SectionSummary::QUANTITIES, sections));
+    columns
 }
 
 /// The columns of the histories of members: one row per instant and section, in the order of time.
@@ -440,43 +420,26 @@ fn joint_place(what: &str, floors: [Option<usize>; 2], height: f64) -> String {
 }
 
 fn column_name(model: &Model, contacts: &[String], links: &[String], column: Column) -> String {
-    let floor = |building: usize, floor: usize| {
-        let name = model.buildings.get(building).map(|b| plain(&b.name));
-        format!(
-            "{}.floor{floor}",
-            name.unwrap_or_else(|| format!("B{}", building + 1))
-        )
+    let [index, floor] = column.place();
+    let joint = |names: &[String], what: &str| {
+        let name = names.get(index).cloned();
+        name.unwrap_or_else(|| format!("{what}{}", index + 1)) + "."
     };
-    match column {
-        Column::Time => "time_s".into(),
-        Column::GroundAcceleration => "ground_acceleration_m_s2".into(),
-        Column::Displacement { building, floor: f } => {
-            format!("{}.displacement_m", floor(building, f))
+    let place = match column {
+        Column::Time | Column::GroundAcceleration => String::new(),
+        Column::Displacement { .. }
+        | Column::Velocity { .. }
+        | Column::TotalAcceleration { .. } => {
+            let name = model.buildings.get(index).map(|b| plain(&b.name));
+            let name = name.unwrap_or_else(|| format!("B{}", index + 1));
+            format!("{name}.floor{floor}.")
         }
-        Column::Velocity { building, floor: f } => format!("{}.velocity_m_s", floor(building, f)),
-        Column::TotalAcceleration { building, floor: f } => {
-            format!("{}.total_acceleration_m_s2", floor(building, f))
-        }
-        Column::ContactForce { contact } => match contacts.get(contact) {
-            Some(name) => format!("{name}.force_n"),
-            None => format!("contact{}.force_n", contact + 1),
-        },
-        Column::LinkForce { link } => match links.get(link) {
-            Some(name) => format!("{name}.force_n"),
-            None => format!("link{}.force_n", link + 1),
-        },
-        Column::Energy(term) => {
-            let name = match term {
-                EnergyTerm::Input => "input",
-                EnergyTerm::Kinetic => "kinetic",
-                EnergyTerm::Strain => "strain",
-                EnergyTerm::Damped => "damped",
-                EnergyTerm::Hysteretic => "hysteretic",
-                EnergyTerm::Contact => "contact",
-            };
-            format!("energy_{name}_j")
-        }
-    }
+        Column::ContactForce { .. } => joint(contacts, "contact"),
+        Column::LinkForce { .. } => joint(links, "link"),
+        Column::Energy(_) => "energy_".to_owned(),
+    };
+    let recorded = column.recorded();
+    place + recorded.name + recorded.unit.suffix
 }
 
 /// A name without the characters that split or end column names elsewhere.
@@ -506,7 +469,7 @@ fn number_equal(names: &mut [String]) {
     }
 }
 
-fn write_table(
+pub(crate) fn write_table(
     path: &Path,
     summary: &Summary,
     columns: Vec<(String, Values)>,
@@ -550,7 +513,7 @@ fn encode_with(
     let compression = if rows < WORTH_COMPRESSING {
         Compression::UNCOMPRESSED
     } else {
-        Compression::ZSTD(ZstdLevel::try_new(COMPRESSION)?)
+        Compression::LZ4_RAW
     };
     // Numbers seldom repeat: dictionary encoding takes as long as everything else.
     let mut properties = WriterProperties::builder()

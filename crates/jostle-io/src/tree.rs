@@ -1,4 +1,4 @@
-//! A tree of values that remember where they stand, the same from TOML and from JSON.
+//! A tree of values with their positions in the file, the same from TOML and from JSON.
 
 mod json_tree;
 pub(crate) mod toml_tree;

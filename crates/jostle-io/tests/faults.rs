@@ -113,7 +113,7 @@ model.toml:13:8: building[0].beam: has 1 entry for 5 storeys; give one value, or
   13 | beam = [{ width = "300 mm", depth = "600 mm" }]
      |        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
 
-model.toml:14:12: building[0].concrete: "C33" is not known; available: C20, C25, C30, C35, C40, C45, C50, C55, C60, C65, C70, C75, C80
+model.toml:14:12: building[0].concrete: "C33" is not known; available: C20, C25, C30, C35, C40, C45, C50, C55, C60, C65, C70, C75, C80, C12/15, C16/20, C20/25, C25/30, C30/37, C35/45, C40/50, C45/55, C50/60, C55/67, C60/75, C70/85, C80/95, C90/105
   14 | concrete = "C33"
      |            ^^^^^
   help: did you mean "C30"?
@@ -214,7 +214,7 @@ fn json_gives_the_same_model_and_the_same_faults() {
         ),
         (
             text.replace("\"name\"", "\"kind\""),
-            "model.toml:1:32: the key \"kind\" stands here twice",
+            "model.toml:1:32: the key \"kind\" appears here twice",
         ),
         (
             "[]".into(),
@@ -512,7 +512,7 @@ fn motion_faults_are_explained() {
     let motion = |keys: &str| format!("{SHEAR}[motion]\n{keys}\n");
     assert_single(
         &motion("record = \"el-centro\"\npga = 1\nscale = 2"),
-        "model.toml:11:9: motion.scale: cannot stand beside pga",
+        "model.toml:11:9: motion.scale: cannot be combined with pga",
     );
     assert_single(
         &motion("kind = \"sine\"\nperiod = \"1 s\"\nduration = \"8 s\""),

@@ -97,9 +97,10 @@ fn formats_have_words() {
     let error = RecordFormat::from_key("xyz")
         .expect_err("no format")
         .to_string();
+    let words = RecordFormat::ALL.map(RecordFormat::key).join(", ");
     assert_eq!(
         error,
-        ": there is no record format \"xyz\"; formats: at2, columns, cosmos, csmip, knet, esm, smc, geonet, afad, miniseed, sac"
+        format!(": there is no record format \"xyz\"; formats: {words}")
     );
 }
 
@@ -275,11 +276,11 @@ fn options_may_not_contradict_a_header() {
     assert_eq!(with(|o| o.step = Some(0.01)), Ok(()));
     assert_eq!(
         with(|o| o.unit = Some("g".into())),
-        Err(": the file states its unit itself (gal), and unit contradicts it (read as K-NET); leave unit away".into())
+        Err(": the file states its unit itself (gal), and unit contradicts it (read as K-NET); omit unit".into())
     );
     assert_eq!(
         with(|o| o.step = Some(0.02)),
-        Err(": the file states its time step itself (0.01 s), and step contradicts it (read as K-NET); leave step away".into())
+        Err(": the file states its time step itself (0.01 s), and step contradicts it (read as K-NET); omit step".into())
     );
     assert!(
         with(|o| o.scale = Some(2.0)).is_err(),

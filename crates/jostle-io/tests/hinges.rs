@@ -291,7 +291,7 @@ fn faults_name_the_number_and_what_to_do() {
                 ),
             ),
             "building[0].hinges.beam",
-            "cannot stand beside",
+            "cannot be combined with",
         ),
         (
             frame(r#", bars = "12 d20""#, "", ""),

@@ -81,7 +81,7 @@ fn wrong_matches_name_the_key() {
         ("match = { value = 3 }", "motion.match.at: is missing"),
         (
             "match = { value = 3, at = 1, periods = [1, 2] }",
-            "motion.match.periods: cannot stand beside at",
+            "motion.match.periods: cannot be combined with at",
         ),
         (
             "match = { value = 3, periods = [2, 1] }",
@@ -93,7 +93,7 @@ fn wrong_matches_name_the_key() {
         ),
         (
             "pga = 1\nmatch = { value = 3, at = 1 }",
-            "motion.match: cannot stand beside pga",
+            "motion.match: cannot be combined with pga",
         ),
         (
             "match = { at = 1, spectrum = { code = \"gb50011\", intensity = 5 } }",
@@ -157,7 +157,7 @@ fn of_several_records_a_run_takes_one() {
         ("record = []", "motion.record: is an empty list"),
         (
             "record = [\"a\", \"a\"]",
-            "motion.record[1]: \"a\" stands in the list twice",
+            "motion.record[1]: \"a\" appears in the list twice",
         ),
         ("record = [\"a\", 3]", "motion.record[1]: "),
         (

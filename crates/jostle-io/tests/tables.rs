@@ -101,6 +101,8 @@ fn summary() -> Summary {
             ],
             impact_count: 3,
             peak_force_n: 1e6,
+            total_force_peak_n: 1.5e6,
+            total_force_peak_at_s: Some(1.02),
             first_impact_s: Some(1.0),
             minimum_separation_s: 0.0,
             pounding_count: 1,

@@ -28,6 +28,14 @@ function sliderRange(knob) {
 /** A number with four digits, as short as it can be written. */
 const written = (x) => String(Number(x.toPrecision(4)));
 
+/** What names that only the files of jostle know mean. */
+const meanings = { pga: "peak acceleration (pga)", EI: "flexural rigidity EI", EA: "axial rigidity EA" };
+const nameOfKnob = ({ name }) => {
+  const last = name.split(".").pop();
+  const plain = name.replaceAll("_", " ").replaceAll(".", " · ");
+  return meanings[last] ? plain.slice(0, plain.length - last.length) + meanings[last] : plain;
+};
+
 const rows = new Map();
 
 /** One knob: a label, a slider where there is a number, a field, and its fault. */
@@ -35,7 +43,7 @@ class KnobRow {
   constructor(knob) {
     this.row = html("div", `knob${knob.kind === "text" ? " wide" : ""}`);
     const id = `knob-${KnobRow.count++}`;
-    const label = html("label", "knob-name", knob.name.replaceAll("_", " ").replaceAll(".", " · "), this.row);
+    const label = html("label", "knob-name", nameOfKnob(knob), this.row);
     label.htmlFor = id;
     label.title = `${knob.path}: ${knob.doc}`;
     this.field = this.makeField(knob, id);

@@ -23,9 +23,7 @@ function showFrame(head, data, numbers) {
   byId("show-hinges").parentElement.hidden = !page.hinges.length;
   byId("ghost").parentElement.hidden = !page.without || !page.gaps.length;
   for (const id of ["next", "previous"]) byId(id).hidden = !page.impacts.length;
-  const notes = byId("notes");
-  notes.hidden = !head.notes.length;
-  notes.replaceChildren(...head.notes.map((note) => html("p", "", note)));
+  showAccuracy({ id: head.id, text: head.accuracy, notes: head.notes });
   if (frames === 0) start();
   else refresh();
   frames += 1;
@@ -38,6 +36,16 @@ function showFrame(head, data, numbers) {
   if (curve.stale) computeCurve();
   showComparison();
   keepInAddress();
+}
+
+/** Accuracy and notes of the latest run; they come again once it is known whether its results are sensitive. */
+function showAccuracy({ id, text, notes }) {
+  if (latest?.id !== id) return;
+  const [name, words] = ["Accuracy", text.replace(/^accuracy: /, "")];
+  byId("accuracy").replaceChildren(html("b", "", `${name}: `), `${words}.`);
+  const host = byId("notes");
+  host.hidden = !notes.length;
+  host.replaceChildren(...notes.map((note) => html("p", "", note)));
 }
 
 /** The list of records of a model that lists several. */
@@ -129,5 +137,6 @@ document.addEventListener("keydown", (event) => {
   event.shiftKey ? step(future, past) : step(past, future);
 });
 
+TimeChart.lazy = true;
 bindCurve();
 connect();

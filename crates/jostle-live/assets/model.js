@@ -171,6 +171,7 @@ function receive(data) {
     hello: () => hello(message),
     faults: () => settle(message.id, message.text) && showFaults(message),
     progress: () => showProgress(message),
+    accuracy: () => showAccuracy(message),
     stopped: () => waiting?.id === message.id && settle(message.id) && showStopped(),
     points: () => addPoints(message),
     marks: () => addMarks(message),

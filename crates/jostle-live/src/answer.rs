@@ -6,7 +6,7 @@ use jostle::stepping::Progress;
 use jostle_io::ModelTree;
 
 use crate::curve::{self, Cases};
-use crate::engine::{Engine, Trouble};
+use crate::engine::{Engine, Solved, Trouble};
 use crate::message::{Axis, Curve, Reply, Run};
 
 /// A message to the page.
@@ -33,17 +33,30 @@ pub(crate) fn hello(engine: &Engine) -> Answer {
     })
 }
 
-/// The frame of a run, or why there is none.
+/// The frame of a run with the run itself, or why there is none.
 pub(crate) fn frame(
     engine: &Engine,
     run: &Run,
     watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
-) -> Answer {
-    with_tree(engine, run, |tree| {
-        engine
-            .frame(run.id, tree, run.record, watch)
-            .map(Answer::Binary)
-    })
+) -> (Answer, Option<Solved>) {
+    let mut found = None;
+    let answer = with_tree(engine, run, |tree| {
+        let (bytes, solved) = engine.frame(run.id, tree, run.record, watch)?;
+        found = Some(solved);
+        Ok(Answer::Binary(bytes))
+    });
+    (answer, found)
+}
+
+/// What takes longer than the frame and is not seen at first: whether results are sensitive.
+#[cfg(not(target_family = "wasm"))]
+pub(crate) fn accuracy(
+    id: u64,
+    solved: Solved,
+    watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
+) -> Option<Answer> {
+    let (text, notes) = solved.sensitive(watch)?;
+    Some(say(&Reply::Accuracy { id, text, notes }))
 }
 
 /// The report of a run as a file, or why there is none.

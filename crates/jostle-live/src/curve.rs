@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::mpsc::Sender;
 use std::sync::{Mutex, PoisonError};
 
+use jostle::results::response::BuildingResponse;
 use jostle::{Settings, Summary};
 use jostle_io::{ModelTree, TreeValue};
 use jostle_run::{GapSettings, critical_gaps};
@@ -166,21 +167,15 @@ fn measures(summary: &Summary) -> [f64; 4] {
         .map(|gap| gap.peak_force_n)
         .fold(0.0, f64::max);
     let impacts: usize = summary.gaps.iter().map(|gap| gap.impact_count).sum();
-    let floors = || {
-        summary
-            .buildings
-            .iter()
-            .flat_map(|building| &building.floors)
+    let most = |of: fn(&BuildingResponse) -> f64| {
+        let buildings = summary.buildings.iter();
+        buildings.map(|b| of(&b.response)).fold(0.0, f64::max)
     };
-    let drift = floors()
-        .map(|floor| floor.storey_drift_peak)
-        .fold(0.0, f64::max);
-    let acceleration = floors().map(|floor| floor.total_acceleration_peak_m_s2);
     [
         1e-3 * force,
         impacts as f64,
-        100.0 * drift,
-        acceleration.fold(0.0, f64::max),
+        100.0 * most(|b| b.drift_peak),
+        most(|b| b.total_acceleration_peak_m_s2),
     ]
 }
 
@@ -237,7 +232,7 @@ pub(crate) fn marks(
     let settings = GapSettings {
         tolerance: 1e-5,
         outcomes: false,
-        ..GapSettings::default()
+        codes: prepared.input.codes.clone(),
     };
     let found = critical_gaps(
         &prepared.input.model,

@@ -29,7 +29,7 @@ pub struct Engine {
     /// Folder of the model, without links.
     folder: PathBuf,
     /// Files that the opened model names: key, and name as in the model.
-    named: Vec<(&'static str, String)>,
+    named: Vec<(String, String)>,
     /// The same without links.
     picked: Vec<PathBuf>,
     workshop: Workshop,
@@ -81,7 +81,7 @@ pub(crate) struct Number {
 }
 
 /// A model that was run.
-struct Solved {
+pub(crate) struct Solved {
     prepared: Prepared,
     outcome: Outcome,
     without: Option<Arc<Outcome>>,
@@ -101,6 +101,8 @@ struct Head<'a> {
     numbers: Vec<Number>,
     /// Warnings of the model and notes of the run.
     notes: &'a [String],
+    /// Accuracy of the peaks, in words.
+    accuracy: String,
     /// Smallest gap without pounding of every gap, from the run without contact \[m\].
     needed: Vec<Option<f64>>,
 }
@@ -192,7 +194,7 @@ impl Engine {
             .map(|entry| entry.file_name().to_string_lossy().into_owned())
             .collect();
         let named = self.named.iter();
-        let records = named.filter(|(path, _)| *path == "motion.record");
+        let records = named.filter(|(path, _)| path == "motion.record");
         files.extend(records.map(|(_, name)| name.clone()));
         files.sort();
         files.dedup();
@@ -220,7 +222,7 @@ impl Engine {
     /// Reads a tree that names no file out of reach, and plans its run.
     pub(crate) fn prepare(&self, tree: &ModelTree, record: usize) -> Result<Prepared, Trouble> {
         for (path, name) in files(tree) {
-            self.confine(path, &name)?;
+            self.confine(&path, &name)?;
         }
         let mut tree = tree.clone();
         let several = tree.records().len();
@@ -231,7 +233,7 @@ impl Engine {
     }
 
     /// Refuses a file outside the folder of the model that the opened model does not name.
-    fn confine(&self, path: &'static str, name: &str) -> Result<(), Trouble> {
+    fn confine(&self, path: &str, name: &str) -> Result<(), Trouble> {
         if cfg!(target_family = "wasm") {
             // There is no file system: only files that the page holds can be read.
             return Ok(());
@@ -308,14 +310,14 @@ impl Engine {
         })
     }
 
-    /// Runs a model: the binary message of its frame.
+    /// Runs a model: the binary message of its frame, and the run itself.
     pub(crate) fn frame(
         &self,
         id: u64,
         tree: &ModelTree,
         record: usize,
         watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
-    ) -> Result<Vec<u8>, Trouble> {
+    ) -> Result<(Vec<u8>, Solved), Trouble> {
         let solved = self.solve(self.prepare(tree, record)?, watch)?;
         let frame = solved.results().with_page(jostle_report::frame);
         let frame = frame.ok_or(Trouble::Stopped)?;
@@ -330,6 +332,7 @@ impl Engine {
             parts: &frame.parts,
             numbers: numbers(summary),
             notes: &summary.notes,
+            accuracy: summary.promise.in_words(),
             needed: summary
                 .gaps
                 .iter()
@@ -339,7 +342,7 @@ impl Engine {
         let head = serde_json::to_string(&head).unwrap_or_default();
         // Two texts, so that the data need not be written twice.
         let json = format!("[{head},{}]", frame.data);
-        Ok(crate::message::binary(&json, &frame.numbers))
+        Ok((crate::message::binary(&json, &frame.numbers), solved))
     }
 
     /// Runs a model: the report as one HTML file.
@@ -358,6 +361,22 @@ impl Engine {
 }
 
 impl Solved {
+    /// Finds out from when on results depend on contacts made or missed within the tolerance, which takes another run:
+    /// accuracy and notes in words. `None` without contacts.
+    #[cfg(not(target_family = "wasm"))]
+    pub(crate) fn sensitive(
+        mut self,
+        watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
+    ) -> Option<(String, Vec<String>)> {
+        if !self.prepared.compares(&self.outcome) {
+            return None;
+        }
+        self.prepared.find_sensitivity(&mut self.outcome, watch);
+        let (wall, without) = (self.summary.work.wall_s, self.without.as_deref());
+        let summary = self.prepared.summary(&self.outcome, without, wall);
+        Some((summary.promise.in_words(), summary.notes))
+    }
+
     /// What the report shows.
     fn results(&self) -> Results<'_> {
         Results {
@@ -425,18 +444,34 @@ fn with_closed_gaps(model: &Model) -> Model {
     model
 }
 
+/// Keys of the matrices of a given building that may name a file.
+const MATRICES: [&str; 6] = [
+    "matrices",
+    "matrices.stiffness",
+    "matrices.mass",
+    "matrices.damping",
+    "matrices.influence",
+    "matrices.heights",
+];
+
 /// Files that a model names, each with its key. Built-in records are none.
-fn files(tree: &ModelTree) -> Vec<(&'static str, String)> {
+fn files(tree: &ModelTree) -> Vec<(String, String)> {
+    let mut paths = vec![
+        "motion.record".to_owned(),
+        "motion.match.spectrum".to_owned(),
+    ];
+    let buildings = (0..).take_while(|i| !tree.values(&format!("building[{i}]")).is_empty());
+    paths.extend(buildings.flat_map(|i| MATRICES.map(|key| format!("building[{i}].{key}"))));
     let mut found = Vec::new();
-    for path in ["motion.record", "motion.match.spectrum"] {
-        for value in tree.values(path) {
+    for path in paths {
+        for value in tree.values(&path) {
             let texts = match value {
                 TreeValue::List(list) => list,
                 one => vec![one],
             };
             for text in texts {
                 if let TreeValue::Text(name) = text {
-                    found.push((path, name));
+                    found.push((path.clone(), name));
                 }
             }
         }
@@ -447,7 +482,7 @@ fn files(tree: &ModelTree) -> Vec<(&'static str, String)> {
             .any(|(known, _)| *known == name)
     };
     found.retain(|(path, name)| {
-        *path != "motion.record" || !builtin(name) && jostle_io::builtin_record(name).is_none()
+        path != "motion.record" || !builtin(name) && jostle_io::builtin_record(name).is_none()
     });
     found
 }
@@ -479,26 +514,24 @@ fn numbers(summary: &Summary) -> Vec<Number> {
     }
     for building in &summary.buildings {
         let name = &building.name;
-        let floors = || building.floors.iter();
-        let most = |of: fn(&jostle::results::summary::FloorSummary) -> f64| {
-            floors().map(of).fold(0.0, f64::max)
-        };
-        let sway = most(|f| f.displacement_max_m.max(-f.displacement_min_m));
+        let floors = building.floors.iter();
+        let sway = floors.map(|f| f.response.displacement_peak_m());
+        let sway = sway.fold(0.0, f64::max);
         add(format!("Displacement of {name}"), "mm", 1e3 * sway);
         add(
             format!("Storey drift of {name}"),
             "%",
-            100.0 * most(|f| f.storey_drift_peak),
+            100.0 * building.response.drift_peak,
         );
         add(
             format!("Floor acceleration of {name}"),
             "m/s²",
-            most(|f| f.total_acceleration_peak_m_s2),
+            building.response.total_acceleration_peak_m_s2,
         );
         add(
             format!("Base shear of {name}"),
             "kN",
-            1e-3 * building.base_shear_peak_n,
+            1e-3 * building.response.base_shear_peak_n,
         );
     }
     add(
@@ -617,6 +650,36 @@ mod tests {
         assert!(
             matches!(with_record(&engine, "link.csv"), Err(Trouble::Faults(f)) if f[0].problem.contains("outside"))
         );
+    }
+
+    #[test]
+    fn files_of_matrices_are_confined_too() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let engine = engine(folder.path());
+        for matrices in [
+            "\"/etc/a.npz\"",
+            "{ stiffness = \"../k.mtx\", mass = [1.0] }",
+        ] {
+            let text = format!(
+                "[motion]\nrecord = \"el-centro-1940-ns\"\n\n[[building]]\nname = \"A\"\nkind = \"given\"\nmatrices = {matrices}\nports = {{ \"1\" = {{ dof = 1, height = \"3 m\" }} }}\n"
+            );
+            let run = Run {
+                id: 1,
+                text,
+                edits: Vec::new(),
+                record: 0,
+            };
+            let tree = engine
+                .tree(&run)
+                .unwrap_or_else(|error| panic!("{error:?}"));
+            match engine.prepare(&tree, 0) {
+                Err(Trouble::Faults(faults)) => {
+                    assert!(faults[0].problem.contains("outside the folder"));
+                    assert!(faults[0].path.starts_with("building[0].matrices"));
+                }
+                other => panic!("{matrices}: {:?}", other.err()),
+            }
+        }
     }
 
     #[test]

@@ -62,7 +62,7 @@ const NO_UPGRADE: Refusal = Refusal(
     "This address speaks WebSocket only.",
 );
 
-/// Reads the head of a request, and whatever came with it.
+/// Reads the head of a request, and the bytes received after it.
 ///
 /// # Errors
 /// [`Refusal`] when it is too large, too slow, or cut off.

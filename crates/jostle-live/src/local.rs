@@ -113,7 +113,7 @@ impl Local {
                 {
                     tree.text().clone_into(&mut self.text);
                 }
-                Some(answer::frame(&self.engine, &run, &watch))
+                Some(answer::frame(&self.engine, &run, &watch).0)
             }
             Request::Report(run) => Some(answer::report(&self.engine, &run, &watch)),
             Request::Study(curve) => Some(answer::study(&self.engine, &curve)),

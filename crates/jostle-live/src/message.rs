@@ -1,4 +1,4 @@
-//! What page and server say to each other, as JSON. A frame alone is binary: see [`binary`].
+//! Messages between page and server, as JSON. A frame alone is binary: see [`binary`].
 
 use jostle_io::{InputError, Knob, TreeValue};
 use serde::{Deserialize, Serialize};
@@ -117,6 +117,13 @@ pub(crate) enum Reply<'a> {
     /// A long run: share done. A page with the engine inside hears it from its worker.
     #[cfg(not(target_family = "wasm"))]
     Progress { id: u64, share: f64 },
+    /// Accuracy and notes of a run whose frame was sent, once it is known whether its results are sensitive.
+    #[cfg(not(target_family = "wasm"))]
+    Accuracy {
+        id: u64,
+        text: String,
+        notes: Vec<String>,
+    },
     /// The run was stopped.
     Stopped { id: u64 },
     /// Points of a curve.

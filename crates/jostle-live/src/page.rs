@@ -1,4 +1,4 @@
-//! The page: the viewer of the report with knobs around it.
+//! The page: the viewer of the report, with input fields around it.
 
 use jostle_report::Viewer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};

@@ -117,10 +117,22 @@ fn run_jobs(engine: &Engine, slot: &Slot<Job>, writer: &Writer) {
             }
             ControlFlow::Continue(())
         };
-        writer.send(match &job {
+        let (reply, solved) = match &job {
             Job::Frame(run) => answer::frame(engine, run, &watch),
-            Job::Report(run) => answer::report(engine, run, &watch),
-        });
+            Job::Report(run) => (answer::report(engine, run, &watch), None),
+        };
+        writer.send(reply);
+        // The page is drawn while this is computed; a newer change stops it.
+        let going_on = |_| match slot.is_stale(number) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        let later = solved
+            .filter(|_| !slot.is_stale(number))
+            .and_then(|solved| answer::accuracy(run.id, solved, &going_on));
+        if let Some(later) = later.filter(|_| !slot.is_stale(number)) {
+            writer.send(later);
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! The latest of several jobs: a new one replaces what waits and makes stale what runs.
+//! The latest of several jobs: a new job replaces the waiting one and cancels the running one.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -62,7 +62,7 @@ impl<T> Slot<T> {
         self.closed.load(Ordering::Relaxed) || self.latest.load(Ordering::Relaxed) != number
     }
 
-    /// Ends whoever waits or runs.
+    /// Ends the waiting and the running job.
     pub(crate) fn close(&self) {
         self.closed.store(true, Ordering::Relaxed);
         self.cancel();

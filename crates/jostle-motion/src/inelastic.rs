@@ -134,6 +134,47 @@ fn strength(
     0.5 * (low + high)
 }
 
+/// Peak displacement of a bilinear oscillator that yields at a displacement `at_yield`, both relative to the ground \[m\].
+///
+/// The period is that of small vibration, between 0.01 and 100 s, the damping lies in `0..1`, the ratio of post-yield
+/// stiffness in `0..1`.
+///
+/// # Errors
+/// [`MotionFault`] when a number is out of range.
+pub fn bilinear_displacement(
+    motion: &Accelerogram,
+    oscillator: &Oscillator,
+    post_yield: f64,
+    at_yield: f64,
+) -> Result<f64, MotionFault> {
+    let (period, damping) = (oscillator.period, oscillator.damping);
+    within(
+        "a period",
+        "between 0.01 and 100 s",
+        period,
+        (0.01..=100.0).contains(&period),
+    )?;
+    within(
+        "a damping ratio",
+        "from 0 to below 1",
+        damping,
+        (0.0..1.0).contains(&damping),
+    )?;
+    within(
+        "the post-yield ratio",
+        "from 0 to below 1",
+        post_yield,
+        (0.0..1.0).contains(&post_yield),
+    )?;
+    within(
+        "the displacement at yield",
+        "above zero",
+        at_yield,
+        at_yield > 0.0 && at_yield.is_finite(),
+    )?;
+    Ok(peak_displacement(motion, oscillator, post_yield, at_yield))
+}
+
 /// Peak displacement of a bilinear oscillator that yields at a displacement \[m\].
 #[must_use]
 pub(crate) fn peak_displacement(

@@ -28,7 +28,7 @@ pub use fault::MotionFault;
 pub use filter::{Butterworth, butterworth};
 pub use fourier::{FourierSpectrum, fourier_spectrum, mean_period};
 pub use governing::{Governing, GoverningRule, GoverningStatistic};
-pub use inelastic::{DuctilitySpectrum, ductility_spectrum};
+pub use inelastic::{DuctilitySpectrum, bilinear_displacement, ductility_spectrum};
 pub use integration::{Peak, displacement, velocity};
 pub use intensity::{Measures, husid, measures};
 pub use oscillator::Oscillator;

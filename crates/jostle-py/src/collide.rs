@@ -4,12 +4,13 @@ use std::collections::HashMap;
 
 use jostle::LawKind;
 use jostle_report::CollidedLaw;
-use jostle_run::{CollideOptions, collision_json};
+use jostle_run::{AdviceOptions, CollideOptions, collision_json};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use serde_json::json;
 
 use crate::error::argument_error;
+use crate::model::Model;
 
 /// Numbers as JSON, and the curve: time, indentation, rate, force, one row each.
 type Collided<'py> = (String, Bound<'py, PyArray2<f64>>);
@@ -65,6 +66,36 @@ fn put(options: &mut CollideOptions, name: &str, value: String) -> PyResult<()> 
         other => return Err(argument_error(format!("{other}: there is no such option"))),
     }
     Ok(())
+}
+
+/// Advice on contacts as the JSON of `jostle contact-advice`; what is given has the names and values of the command line.
+#[pyfunction]
+#[pyo3(signature = (model, given))]
+pub(crate) fn contact_advice(
+    py: Python<'_>,
+    model: Option<&Model>,
+    given: HashMap<String, String>,
+) -> PyResult<String> {
+    let mut options = AdviceOptions::default();
+    for (name, value) in given {
+        match name.as_str() {
+            "mass" => options.mass = Some(value),
+            "length" => options.length = Some(value),
+            "width" => options.width = Some(value),
+            "thickness" => options.thickness = Some(value),
+            "concrete" => options.concrete = Some(value),
+            "modulus" => options.modulus = Some(value),
+            "poisson_ratio" => options.poisson_ratio = value,
+            "density" => options.density = value,
+            "speed" => options.speed = value,
+            other => return Err(argument_error(format!("{other}: there is no such option"))),
+        }
+    }
+    let opened = model.map(|model| &model.opened);
+    let found = py
+        .detach(|| jostle_run::contact_advice(opened, &options))
+        .map_err(|error| argument_error(error.to_string()))?;
+    serde_json::to_string(&found).map_err(|error| argument_error(error.to_string()))
 }
 
 /// The contact laws as JSON.

@@ -23,7 +23,7 @@ static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
 #[pyo3::pymodule]
 mod _jostle {
     #[pymodule_export]
-    use super::collide::{collide, contact_laws};
+    use super::collide::{collide, contact_advice, contact_laws};
     #[pymodule_export]
     use super::command_line;
     #[pymodule_export]

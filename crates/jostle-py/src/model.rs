@@ -151,7 +151,7 @@ impl Model {
         let contacts = self.opened.system.contacts.iter();
         contacts
             .map(|contact| {
-                let [left, right] = contact.ports.0.map(|face| face.map(|f| f.dof));
+                let [left, right] = contact.ports.0.map(|face| face.and_then(|f| f.row.only()));
                 (contact.gap, left, right, contact.width)
             })
             .collect()
@@ -162,7 +162,7 @@ impl Model {
         let links = self.opened.system.links.iter();
         links
             .map(|link| {
-                let [left, right] = link.ports.0.map(|face| face.map(|f| f.dof));
+                let [left, right] = link.ports.0.map(|face| face.and_then(|f| f.row.only()));
                 (left, right, link.stiffness, link.damping)
             })
             .collect()

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use jostle::stepping::Progress;
-use jostle::{Column, EnergyTerm, Pounding, RunEnd, Settings, Summary};
+use jostle::{Column, Pounding, RunEnd, Settings, Summary};
 use jostle_io::{
-    floor_spectra_columns, history_names, impact_columns, member_columns, member_history_columns,
-    summary_json, write_atomically,
+    building_columns, floor_columns, floor_spectra_columns, history_names, impact_columns,
+    member_columns, member_history_columns, summary_json, write_atomically,
 };
 use jostle_run::{
     Content, FileKind, Paper, Ran, Results, RunError, Stage, earlier_files, find_chromium,
@@ -187,20 +187,12 @@ impl Run {
         self.histories.table(py)
     }
 
-    /// Meaning of the rows: kind, index of the building, contact or energy term, and floor.
+    /// Meaning of the rows: owner and name of the quantity, index of the building, contact or link, and floor.
     #[getter]
-    fn rows(&self) -> Vec<(&'static str, usize, usize)> {
-        let row = |column: &Column| match *column {
-            Column::Time => ("time", 0, 0),
-            Column::GroundAcceleration => ("ground_acceleration", 0, 0),
-            Column::Displacement { building, floor } => ("displacement", building, floor),
-            Column::Velocity { building, floor } => ("velocity", building, floor),
-            Column::TotalAcceleration { building, floor } => {
-                ("total_acceleration", building, floor)
-            }
-            Column::ContactForce { contact } => ("force", contact, 0),
-            Column::LinkForce { link } => ("link", link, 0),
-            Column::Energy(term) => (energy_name(term), 0, 0),
+    fn rows(&self) -> Vec<(&'static str, &'static str, usize, usize)> {
+        let row = |column: &Column| {
+            let (recorded, [index, floor]) = (column.recorded(), column.place());
+            (recorded.owner, recorded.name, index, floor)
         };
         self.histories.columns.iter().map(row).collect()
     }
@@ -299,6 +291,18 @@ impl Run {
         Some(Table::of_columns(floor_spectra_columns(&found)))
     }
 
+    /// Peaks of buildings as a table, columns as in buildings.parquet.
+    #[pyo3(signature = (without_contact=None))]
+    fn building_table(&self, without_contact: Option<&Self>) -> Table {
+        Table::of_columns(building_columns(&self.summary(without_contact)))
+    }
+
+    /// Peaks of floors as a table, columns as in floors.parquet.
+    #[pyo3(signature = (without_contact=None))]
+    fn floor_table(&self, without_contact: Option<&Self>) -> Table {
+        Table::of_columns(floor_columns(&self.summary(without_contact)))
+    }
+
     /// Greatest forces of columns and beams as a table, of one building or of all.
     #[pyo3(signature = (building=None))]
     fn member_table(&self, building: Option<usize>) -> Table {
@@ -324,16 +328,5 @@ fn must_stay(error: RunError) -> PyErr {
         kept => {
             PyFileExistsError::new_err(kept.to_string().replace("add --force", "pass force=True"))
         }
-    }
-}
-
-fn energy_name(term: EnergyTerm) -> &'static str {
-    match term {
-        EnergyTerm::Input => "energy_input",
-        EnergyTerm::Kinetic => "energy_kinetic",
-        EnergyTerm::Strain => "energy_strain",
-        EnergyTerm::Damped => "energy_damped",
-        EnergyTerm::Hysteretic => "energy_hysteretic",
-        EnergyTerm::Contact => "energy_contact",
     }
 }

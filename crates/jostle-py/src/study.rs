@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use jostle::separation::JointSystem;
+use jostle::separation::{Code, JointSystem};
 use jostle_io::{Format, InputError, ModelTree, StudyFile};
 use jostle_study::dataset::{missing_parts, read_columns};
 use jostle_study::{GapError, GapSettings, Progress, RunSettings, StudyError};
@@ -240,27 +240,38 @@ pub(crate) fn critical_gaps(
     py: Python<'_>,
     model: &Model,
     tolerance: f64,
-    system: &str,
+    system: Option<&str>,
+    codes: Vec<String>,
     outcomes: bool,
 ) -> PyResult<String> {
     let system = match system {
-        "frame" => JointSystem::Frame,
-        "frame-wall" => JointSystem::FrameWall,
-        "wall" => JointSystem::Wall,
-        "steel-frame" => JointSystem::SteelFrame,
-        other => {
-            return Err(argument_error(format!(
-                "system: expected frame, frame-wall, wall or steel-frame, found {other:?}"
-            )));
-        }
+        None => None,
+        Some(name) => Some(JointSystem::named(name).ok_or_else(|| {
+            let names = JointSystem::ALL.map(JointSystem::name).join(", ");
+            argument_error(format!("system: expected one of {names}, found {name:?}"))
+        })?),
     };
+    let mut shown = Vec::new();
+    for name in codes {
+        shown.push(Code::named(&name).ok_or_else(|| {
+            let names = Code::ALL.map(Code::name).join(", ");
+            argument_error(format!("codes: expected some of {names}, found {name:?}"))
+        })?);
+    }
     if !(tolerance.is_finite() && tolerance >= 1e-9) {
         return Err(argument_error("tolerance: must be at least 1e-9 m"));
     }
     let prepared = model.prepare(false)?;
+    let mut inputs = prepared.input.codes.clone();
+    if let Some(system) = system {
+        inputs.system = system;
+    }
+    if !shown.is_empty() {
+        inputs.shown = shown;
+    }
     let settings = GapSettings {
         tolerance,
-        system,
+        codes: inputs,
         outcomes,
     };
     let halt = AtomicBool::new(false);

@@ -143,12 +143,12 @@ impl Suite {
 
     /// One row per record.
     fn table(&self) -> Table {
-        Table::of_named(self.0.columns())
+        Table::of_columns(self.0.columns())
     }
 
     /// One row per quantity.
     fn statistics(&self) -> Table {
-        Table::of_named(self.0.statistics_columns())
+        Table::of_columns(self.0.statistics_columns())
     }
 
     /// The suite as the command line prints it.

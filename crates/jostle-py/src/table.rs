@@ -37,18 +37,11 @@ impl Table {
         }
     }
 
-    pub(crate) fn of_columns(columns: Vec<(&'static str, Values)>) -> Self {
-        let columns = columns.into_iter();
-        Self::of_named(
-            columns
-                .map(|(name, values)| (name.to_owned(), values))
-                .collect(),
-        )
-    }
-
-    /// A table from columns with names of their own.
-    pub(crate) fn of_named(columns: Vec<(String, Values)>) -> Self {
-        let (names, columns) = columns.into_iter().unzip();
+    pub(crate) fn of_columns(columns: Vec<(impl Into<String>, Values)>) -> Self {
+        let (names, columns) = columns
+            .into_iter()
+            .map(|(name, values)| (name.into(), values))
+            .unzip();
         Self {
             names,
             columns: Columns::Own(columns),
@@ -116,11 +109,25 @@ impl Table {
         self.names.clone()
     }
 
+    /// What a column has: `real`, `optional` (numbers that may be absent), `whole` or `text`.
+    fn kind(&self, index: usize) -> PyResult<&'static str> {
+        match &self.columns {
+            Columns::Histories(_) => Ok("real"),
+            Columns::Own(columns) => match columns.get(index) {
+                Some(Values::Real(_)) => Ok("real"),
+                Some(Values::Instant(_)) => Ok("optional"),
+                Some(Values::Whole(_)) => Ok("whole"),
+                Some(Values::Text(_)) => Ok("text"),
+                None => Err(pyo3::exceptions::PyIndexError::new_err(index)),
+            },
+        }
+    }
+
     fn __len__(&self, py: Python<'_>) -> usize {
         self.rows(py)
     }
 
-    /// A column: an array of numbers, or a list of texts or of whole numbers that may be absent.
+    /// A column: an array of numbers, or a list of texts or of numbers that may be absent.
     fn column<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyAny>> {
         match &self.columns {
             Columns::Histories(histories) => histories.bind(py).get_item(index),

@@ -64,11 +64,12 @@ const margin = { left: 58, right: 12, top: 8, bottom: 24 };
 
 /**
  * One chart. `series`: [{ label, colour, time, values, dashed, area, read }], values in the shown unit;
- * `levels`: [{ value, label }] horizontal lines; `zone`: value above which the ground is shaded.
+ * `levels`: [{ value, label, quiet }] horizontal lines; `zone`: value above which the ground is shaded;
+ * `dots`: [{ at, value, size, colour, title, pick }] discs, where `pick` is called for a click on one.
  */
 class TimeChart {
-  constructor(host, view, { title, unit, series, levels = [], zone, height = 190, seek }) {
-    Object.assign(this, { view, unit, series, levels, zone, height, seek, title });
+  constructor(host, view, { title, unit, series, levels = [], zone, dots = [], height = 190, seek }) {
+    Object.assign(this, { view, unit, series, levels, zone, dots, height, seek, title });
     this.figure = html("figure", "chart", undefined, host);
     this.caption = html("figcaption", "", undefined, this.figure);
     this.svg = svg("svg", { role: "img", tabindex: 0 }, this.figure);
@@ -76,7 +77,7 @@ class TimeChart {
     this.layers = {};
     const definitions = svg("clipPath", { id: this.clip }, svg("defs", {}, this.svg));
     this.clipBox = svg("rect", {}, definitions);
-    for (const name of ["zone", "grid", "lines", "levels", "marks"]) {
+    for (const name of ["zone", "grid", "lines", "levels", "dots", "marks"]) {
       const inside = name === "grid" || name === "levels" ? {} : { "clip-path": `url(#${this.clip})` };
       this.layers[name] = svg("g", { class: name, ...inside }, this.svg);
     }
@@ -86,8 +87,19 @@ class TimeChart {
     this.selection = svg("rect", { class: "selection" }, this.layers.marks);
     this.listen();
     view.charts.add(this);
-    this.observer = new ResizeObserver(() => requestAnimationFrame(() => this.draw()));
+    this.observer = new ResizeObserver(([{ contentRect }]) => {
+      this.room = contentRect.width;
+      requestAnimationFrame(() => this.draw());
+    });
     this.observer.observe(this.figure);
+    // A page that shows run after run draws what is in sight, and the rest when it comes near.
+    this.near = !TimeChart.lazy;
+    if (!TimeChart.lazy) return;
+    this.sight = new IntersectionObserver(([{ isIntersecting }]) => {
+      this.near = isIntersecting;
+      if (this.near && this.late) this.draw();
+    }, { rootMargin: "400px" });
+    this.sight.observe(this.figure);
   }
 
   /** Title, legend and lines, anew. */
@@ -104,15 +116,18 @@ class TimeChart {
   }
 
   /** Shows other data in the same place. */
-  update({ title, unit, series, levels = [], zone, height = 190 }) {
+  update({ title, unit, series, levels = [], zone, dots = [], height = 190 }) {
     const named = (chart) => JSON.stringify([chart.title, chart.unit, chart.series.map((s) => [s.label, s.colour, s.dashed, s.area])]);
     const before = named(this);
-    Object.assign(this, { title, unit, series, levels, zone, height });
+    Object.assign(this, { title, unit, series, levels, zone, dots, height });
     if (named(this) !== before) this.name();
     this.draw();
   }
 
   static count = 0;
+
+  /** Whether charts out of sight wait. */
+  static lazy = false;
 
   /** Width while printing [px]; otherwise as wide as there is room. */
   static paperWidth = null;
@@ -120,6 +135,7 @@ class TimeChart {
   remove() {
     this.view.charts.delete(this);
     this.observer.disconnect();
+    this.sight?.disconnect();
     this.figure.remove();
   }
 
@@ -150,7 +166,11 @@ class TimeChart {
   }
 
   draw() {
-    this.width = TimeChart.paperWidth ?? Math.max(this.figure.clientWidth, 240);
+    this.late = !this.near && TimeChart.paperWidth === null;
+    if (this.late) return;
+    // Asking the browser for a width makes it lay out the page at once.
+    this.room ??= this.figure.clientWidth;
+    this.width = TimeChart.paperWidth ?? Math.max(this.room, 240);
     this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     const box = {
       x: margin.left,
@@ -163,6 +183,7 @@ class TimeChart {
     this.scale = this.valueRange(visible);
     this.drawGrid();
     this.series.forEach((s, i) => this.paths[i].setAttribute("d", this.path(s, visible[i])));
+    this.drawDots();
     for (const line of [this.cursorLine, this.pointerLine]) {
       line.setAttribute("y1", margin.top);
       line.setAttribute("y2", this.height - margin.bottom);
@@ -192,7 +213,7 @@ class TimeChart {
         high = Math.max(high, value);
       }
     });
-    for (const level of this.levels) high = Math.max(high, level.value);
+    for (const { value } of [...this.levels, ...this.dots]) high = Math.max(high, value);
     if (high - low < 1e-9) return [0, 1];
     const room = 0.06 * (high - low);
     return [low < 0 ? low - room : 0, high + room];
@@ -222,10 +243,11 @@ class TimeChart {
       svg("text", { x: Math.min(x, right + 8), y: this.height - 7, "text-anchor": anchor }, grid).textContent =
         `${fixed(t, times.decimals)} s`;
     }
-    for (const { value, label } of this.levels) {
+    for (const { value, label, quiet } of this.levels) {
       const y = this.y(value);
-      svg("line", { x1: margin.left, x2: right, y1: y, y2: y, class: "level" }, levels);
-      svg("text", { x: right - 5, y: y - 5, "text-anchor": "end", class: "level-name" }, levels).textContent = label;
+      const tone = quiet ? " quiet-level" : "";
+      svg("line", { x1: margin.left, x2: right, y1: y, y2: y, class: `level${tone}` }, levels);
+      svg("text", { x: right - 5, y: y - 5, "text-anchor": "end", class: `level-name${tone}` }, levels).textContent = label;
     }
     if (this.zone !== undefined) {
       const y = Math.max(margin.top, this.y(this.zone));
@@ -236,21 +258,30 @@ class TimeChart {
   /** Path through the points in sight; of many points in one pixel only the extremes. */
   path(s, [first, last]) {
     if (last < first || !s.time.length) return "";
+    const { time, values } = s;
+    // Straight axes: a factor and a shift each, in tenths of a pixel.
+    const [x0, y0] = [this.x(0), this.y(0)];
+    const [perSecond, perUnit] = [10 * (this.x(1) - x0), 10 * (this.y(1) - y0)];
     const points = [];
-    const add = (k) => points.push(`${this.x(s.time[k]).toFixed(2)},${this.y(s.values[k]).toFixed(2)}`);
-    if (last - first < 2 * this.width) {
+    const add = (k) => points.push(`${Math.round(10 * x0 + perSecond * time[k]) / 10},${Math.round(10 * y0 + perUnit * values[k]) / 10}`);
+    if (last - first < this.width) {
       for (let k = first; k <= last; k++) add(k);
     } else {
+      const pixelOf = (k) => Math.floor(x0 + 0.1 * perSecond * time[k]);
       let k = first;
       while (k <= last) {
-        const pixel = Math.floor(this.x(s.time[k]));
+        const pixel = pixelOf(k);
         let [low, high, end] = [k, k, k];
-        while (end + 1 <= last && Math.floor(this.x(s.time[end + 1])) === pixel) {
+        while (end < last && pixelOf(end + 1) === pixel) {
           end += 1;
-          if (s.values[end] < s.values[low]) low = end;
-          if (s.values[end] > s.values[high]) high = end;
+          if (values[end] < values[low]) low = end;
+          if (values[end] > values[high]) high = end;
         }
-        for (const kept of [...new Set([k, low, high, end])].sort((a, b) => a - b)) add(kept);
+        add(k);
+        const [sooner, later] = low < high ? [low, high] : [high, low];
+        if (sooner !== k) add(sooner);
+        if (later !== sooner) add(later);
+        if (end !== later) add(end);
         k = end + 1;
       }
     }
@@ -258,6 +289,24 @@ class TimeChart {
     if (!s.area) return line;
     const zero = this.y(0).toFixed(2);
     return `${line}L${this.x(s.time[last]).toFixed(2)},${zero}L${this.x(s.time[first]).toFixed(2)},${zero}Z`;
+  }
+
+  /** Discs in sight, the largest at the back. */
+  drawDots() {
+    const [start, end] = this.view.range;
+    const seen = this.dots.filter(({ at }) => at >= start && at <= end).sort((a, b) => b.size - a.size);
+    const discs = seen.map(({ at, value, size, colour, title }) => {
+      const disc = svg("circle", { class: "disc", style: `--c:${colour}`, cx: this.x(at).toFixed(1), cy: this.y(value).toFixed(1), r: size });
+      svg("title", {}, disc).textContent = title;
+      return disc;
+    });
+    this.layers.dots.replaceChildren(...discs);
+  }
+
+  /** The disc under a point, the smallest if several are. */
+  dotAt(x, y) {
+    const near = ({ at, value, size }) => Math.hypot(this.x(at) - x, this.y(value) - y) <= Math.max(size, 6);
+    return this.dots.filter(near).sort((a, b) => a.size - b.size)[0];
   }
 
   drawCursor() {
@@ -325,7 +374,9 @@ class TimeChart {
           const [start, end] = [drag.from, x].sort((a, b) => a - b).map((p) => inside(this.time(p)));
           if (end > start) this.view.show(start, end);
         } else {
-          this.seek(inside(this.time(x)));
+          const dot = this.dotAt(x, event.clientY - this.svg.getBoundingClientRect().top);
+          if (dot) dot.pick();
+          else this.seek(inside(this.time(x)));
         }
       }
       drag = null;

@@ -58,7 +58,11 @@ function load(data, beside) {
   run = unpackTable(page.run);
   without = unpackTable(page.without);
   ground = { time: unpack(page.ground.time), values: unpack(page.ground.values) };
-  forces = page.forces.map((force) => ({ time: unpack(force.time), values: unpack(force.values) }));
+  forces = page.forces.map(({ time, values, indentation }) => ({
+    time: unpack(time),
+    values: unpack(values),
+    indentation: indentation && unpack(indentation),
+  }));
   contacts = page.gaps.flatMap((gap) => gap.contacts.map((contact) => ({ ...contact, gap })));
 }
 

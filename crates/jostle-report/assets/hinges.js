@@ -5,7 +5,7 @@ let hinges = [];
 
 /** Takes over the places of the run that is loaded. */
 function loadHinges() {
-  hinges = page.hinges.map(([building, kind, level, line, end, cracked, yielded]) => ({
+  hinges = page.hinges.map(([building, kind, level, line, end, cracked, yielded, ductility]) => ({
     building,
     kind,
     level,
@@ -13,8 +13,14 @@ function loadHinges() {
     end,
     cracked: cracked ?? Infinity,
     yielded: yielded ?? Infinity,
+    grade: gradeOf(ductility),
   }));
 }
+
+/** Lower ends of the ductilities that share a colour. */
+const grades = [1, 2, 4, 6, 8];
+/** Place of a ductility among them. */
+const gradeOf = (ductility) => Math.max(grades.findLastIndex((low) => ductility >= low), 0);
 
 const stageNames = ["not cracked", "cracked", "yielded"];
 
@@ -50,6 +56,13 @@ class HingeLegend {
         return html("output", "", "", place);
       });
       return counts;
+    });
+    if (!hinges.some((hinge) => hinge.yielded < Infinity)) return;
+    const scale = html("span", "key", "yielded, greatest ductility:", host);
+    grades.forEach((low, grade) => {
+      const mark = svg("svg", { class: "mark", viewBox: "0 0 14 14", "aria-hidden": "true" }, scale);
+      svg("path", { class: `hinge-2 grade-${grade}`, d: markOutline(2, 7, 7, 4.2) }, mark);
+      html("span", "", grade + 1 < grades.length ? `${low}–${grades[grade + 1]}` : `over ${low}`, scale);
     });
   }
 

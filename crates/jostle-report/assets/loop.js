@@ -1,5 +1,36 @@
 // Loops of hinges: force over deformation, with the cursor of the charts over time.
 
+/**
+ * Grid and units of a small plot. `x` and `y` are the ends of its axes. Returns what places values, and a group that cuts
+ * off what lies outside.
+ */
+function smallPlot(host, { width, height, margin: { left, right, top, bottom }, x, y, xUnit, yUnit }) {
+  const [end, floor] = [width - right, height - bottom];
+  const px = (value) => left + ((value - x[0]) / (x[1] - x[0])) * (end - left);
+  const py = (value) => floor - ((value - y[0]) / (y[1] - y[0])) * (floor - top);
+  const zero = (value, [low, high]) => (Math.abs(value) < 1e-9 * (high - low) ? "zero" : "");
+  const grid = svg("g", { class: "grid" }, host);
+  const xs = ticks(...x, 5);
+  for (const value of xs.values) {
+    const at = px(value).toFixed(1);
+    svg("line", { x1: at, x2: at, y1: top, y2: floor, class: zero(value, x) }, grid);
+    svg("text", { x: at, y: floor + 14, "text-anchor": "middle" }, grid).textContent = fixed(value, xs.decimals);
+  }
+  const ys = ticks(...y, 5);
+  for (const value of ys.values) {
+    const at = py(value);
+    svg("line", { x1: left, x2: end, y1: at, y2: at, class: zero(value, y) }, grid);
+    svg("text", { x: left - 5, y: at + 3.5, "text-anchor": "end" }, grid).textContent = fixed(value, ys.decimals);
+  }
+  svg("text", { x: end, y: height - 4, "text-anchor": "end" }, grid).textContent = xUnit;
+  svg("text", { x: left + 4, y: top + 10 }, grid).textContent = yUnit;
+  const id = `plot-clip-${smallPlot.count++}`;
+  svg("rect", { x: left, y: top, width: end - left, height: floor - top }, svg("clipPath", { id }, svg("defs", {}, host)));
+  return { px, py, inside: svg("g", { "clip-path": `url(#${id})` }, host) };
+}
+
+smallPlot.count = 0;
+
 /** One loop. Registered with the charts over time, it draws what they show up to their cursor. */
 class LoopChart {
   constructor(host, view, data) {
@@ -29,38 +60,18 @@ class LoopChart {
 
   /** Scales, grid and the lines that never change. */
   frame(dUnit, fUnit) {
-    const { left, right, top, bottom } = LoopChart.margin;
-    const [width, height] = [LoopChart.width - right, LoopChart.height - bottom];
     // The curve of first loading is drawn as far as the loop reaches, and a little more.
     const reach = 1.06 * Math.max(1e-9, greatest(this.x));
-    const top_ = 1.1 * Math.max(1e-9, greatest(this.y), ...this.backbone.filter(([x]) => Math.abs(x) <= reach).map(([, y]) => Math.abs(y)));
-    this.px = (x) => left + ((x + reach) / (2 * reach)) * (width - left);
-    this.py = (y) => height - ((y + top_) / (2 * top_)) * (height - top);
-    const grid = svg("g", { class: "grid" }, this.svg);
-    const xs = ticks(-reach, reach, 5);
-    for (const value of xs.values) {
-      const x = this.px(value).toFixed(1);
-      svg("line", { x1: x, x2: x, y1: top, y2: height, class: Math.abs(value) < 1e-9 * reach ? "zero" : "" }, grid);
-      svg("text", { x, y: height + 14, "text-anchor": "middle" }, grid).textContent = fixed(value, xs.decimals);
-    }
-    const ys = ticks(-top_, top_, 5);
-    for (const value of ys.values) {
-      const y = this.py(value);
-      svg("line", { x1: left, x2: width, y1: y, y2: y, class: Math.abs(value) < 1e-9 * top_ ? "zero" : "" }, grid);
-      svg("text", { x: left - 5, y: y + 3.5, "text-anchor": "end" }, grid).textContent = fixed(value, ys.decimals);
-    }
-    svg("text", { x: width, y: LoopChart.height - 4, "text-anchor": "end" }, grid).textContent = dUnit;
-    svg("text", { x: left + 4, y: top + 10 }, grid).textContent = fUnit;
-    const id = `loop-clip-${LoopChart.count++}`;
-    svg("rect", { x: left, y: top, width: width - left, height: height - top }, svg("clipPath", { id }, svg("defs", {}, this.svg)));
-    const inside = svg("g", { "clip-path": `url(#${id})` }, this.svg);
+    const top = 1.1 * Math.max(1e-9, greatest(this.y), ...this.backbone.filter(([x]) => Math.abs(x) <= reach).map(([, y]) => Math.abs(y)));
+    const { width, height, margin } = LoopChart;
+    const ends = { x: [-reach, reach], y: [-top, top], xUnit: dUnit, yUnit: fUnit };
+    const { px, py, inside } = smallPlot(this.svg, { width, height, margin, ...ends });
+    Object.assign(this, { px, py });
     this.first = svg("path", { class: "backbone" }, inside);
     this.whole = svg("path", { class: "line whole" }, inside);
     this.strong = svg("path", { class: "line" }, inside);
     this.dot = svg("circle", { class: "now", r: 4.5 }, inside);
   }
-
-  static count = 0;
 
   /** Texts of all points once, so that a moving cursor only cuts them. */
   layout() {

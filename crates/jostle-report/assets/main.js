@@ -2,7 +2,7 @@
 
 const byId = (id) => document.getElementById(id);
 
-let view, scene, hingeLegend, groups, player, above, beside, below;
+let view, scene, hingeLegend, groups, player, above, beside, below, panels;
 const seek = (t) => player.seek(t);
 
 /** Builds the page around the run that is loaded. */
@@ -15,6 +15,7 @@ function start() {
   above = new ChartList(html("div", "", undefined, charts), view, seek);
   beside = new ChartList(html("div", "place", undefined, charts), view, seek);
   below = new ChartList(html("div", "", undefined, charts), view, seek);
+  panels = new ImpactPanels(byId("impact-panels"));
   bind();
   show();
   exaggeration.value = Math.log10(scene.exaggeration);
@@ -44,12 +45,13 @@ function show() {
   groups = gatherImpacts(page.impacts, 0.02);
   hingeLegend = new HingeLegend(byId("hinge-legend"));
   byId("scrub").max = page.duration;
-  above.show([groundChart(), ...(struckContacts().length ? [forceChart()] : [])]);
+  above.show([groundChart(), ...(struckContacts().length ? [forceChart(), heightChart()] : [])]);
   fillPlaces(byId("place"));
   beside.show(placeCharts(byId("place").value));
   below.show([energyChart()].filter(Boolean));
   loopCharts = byId("loops") ? page.loops.map((loop) => new LoopChart(byId("loops"), view, loop)) : [];
   for (const loop of loopCharts) loop.draw();
+  panels.refresh();
   byId("zoom-impact").hidden = !groups.length;
   const marks = byId("marks");
   marks.replaceChildren();
@@ -63,6 +65,7 @@ function show() {
 function showInstant(t, following) {
   scene.draw(t);
   hingeLegend.draw(t);
+  panels.draw(t);
   view.setCursor(t, following);
   byId("clock").textContent = `${fixed(t, 3)} s`;
   byId("scrub").value = t;
@@ -91,11 +94,14 @@ function jump(direction) {
   if (!groups.length) return;
   const ahead = groups.find((group) => group.at > player.time + 1e-6) ?? groups[0];
   const behind = groups.findLast((group) => group.at < player.time - 1e-6) ?? groups[groups.length - 1];
-  player.seek((direction > 0 ? ahead : behind).at, true);
+  const group = direction > 0 ? ahead : behind;
+  panels.showAt(group.hardest, group.contact);
+  player.seek(group.at, true);
 }
 
 /** Stops at the peak force of an impact, with the impact filling the charts. */
-function showImpact({ start, end, at }) {
+function showImpact({ start, end, at, contact, hardest = start }) {
+  panels.showAt(hardest, contact);
   const length = Math.max(end - start, 1e-3);
   player.pause();
   seek(at);
@@ -198,7 +204,10 @@ function tableClick({ target }) {
     const head = target.closest("th");
     const row = target.closest("tbody tr");
     if (head && target.closest("button")) sortBy(table, head);
-    else if (row?.dataset.at) showImpact({ start: Number(row.dataset.start), end: Number(row.dataset.end), at: Number(row.dataset.at) });
+    else if (row?.dataset.at) {
+      const [start, end, at, contact] = ["start", "end", "at", "contact"].map((name) => Number(row.dataset[name]));
+      showImpact({ start, end, at, contact });
+    }
   }
 }
 

@@ -20,18 +20,43 @@ function groundChart() {
   return { title: "Ground acceleration", unit: "m/s²", series, height: 150 };
 }
 
-/** Forces of at most as many contacts as there are colours. */
+/** The contacts of the chart of forces, at most as many as there are colours, the highest first. */
+const forceContacts = () => struckContacts().slice(0, 7).sort((a, b) => b.height - a.height);
+
+/** Colours of these by the index of the contact. */
+const contactColours = () => new Map(forceContacts().map((contact, i) => [contact.index, `var(--f${i})`]));
+
 function forceChart() {
-  const struck = struckContacts();
-  const shown = struck.slice(0, 7).sort((a, b) => b.height - a.height);
+  const [struck, shown] = [struckContacts(), forceContacts()];
   const series = shown.map((contact, i) => ({
     label: contactName(contact),
-    colour: `var(--f${i % 7})`,
+    colour: `var(--f${i})`,
     time: forces[contact.index].time,
     values: scaled(forces[contact.index].values, 1e-3),
   }));
   const title = struck.length > shown.length ? `Contact force, ${shown.length} largest of ${struck.length} contacts` : "Contact force";
   return { title, unit: "kN", series };
+}
+
+/** Every impact at its instant and height, with an area as its peak force; a click goes there. */
+function heightChart() {
+  const hardest = Math.max(...page.impacts.map((impact) => impact.peak));
+  const coloured = contactColours();
+  const dots = page.impacts.map((impact) => {
+    const contact = contacts[impact.contact];
+    return {
+      at: impact.at,
+      value: contact.height,
+      size: Number((1.5 + 8.5 * Math.sqrt(impact.peak / hardest)).toFixed(1)),
+      colour: coloured.get(contact.index) ?? "var(--ink-2)",
+      title: `${fixed(impact.at, 3)} s, ${contactName(contact)}: ${readable(impact.peak / 1e3)} kN`,
+      pick: () => showImpact(impact),
+    };
+  });
+  const roofs = new Map();
+  for (const { name, heights } of page.buildings) roofs.set(heights.at(-1), [...(roofs.get(heights.at(-1)) ?? []), name]);
+  const levels = [...roofs].map(([value, names]) => ({ value, label: `roof of ${names.join(", ")}`, quiet: true }));
+  return { title: "Height of impacts (area: peak force)", unit: "m", series: [], levels, dots };
 }
 
 /** Energies, stacked: their sum meets the input. */

@@ -45,16 +45,16 @@ class Player {
   }
 }
 
-/** Instants worth jumping to: the peak of each group of impacts less than `apart` seconds apart. */
+/** Instants worth jumping to: the peak of each group of impacts less than `apart` seconds apart; `hardest` is when that impact begins. */
 function gatherImpacts(impacts, apart) {
   const groups = [];
   for (const impact of impacts) {
     const group = groups[groups.length - 1];
     if (group && impact.start - group.end < apart) {
       group.end = Math.max(group.end, impact.end);
-      if (impact.peak > group.peak) Object.assign(group, { peak: impact.peak, at: impact.at, contact: impact.contact });
+      if (impact.peak > group.peak) Object.assign(group, { peak: impact.peak, at: impact.at, contact: impact.contact, hardest: impact.start });
     } else {
-      groups.push({ ...impact });
+      groups.push({ ...impact, hardest: impact.start });
     }
   }
   return groups;

@@ -11,7 +11,10 @@ class Scene {
     this.take();
     this.exaggeration = this.fitting();
     this.build();
-    new ResizeObserver(() => requestAnimationFrame(() => this.layout())).observe(host);
+    new ResizeObserver(([{ contentRect }]) => {
+      this.room = contentRect.width;
+      requestAnimationFrame(() => this.layout());
+    }).observe(host);
   }
 
   /** What the run that is loaded says. */
@@ -60,7 +63,9 @@ class Scene {
         ghost: svg("path", { class: "ghost" }, group),
         columns: svg("path", { class: "columns" }, group),
         floors: svg("path", { class: building.frame ? "beams" : "slabs" }, group),
-        hinges: stageNames.map((_, stage) => svg("path", { class: `hinge-${stage}` }, group)),
+        // Yielded ones by their ductility.
+        hinges: [0, 1].map((stage) => svg("path", { class: `hinge-${stage}` }, group)),
+        yielded: grades.map((_, grade) => svg("path", { class: `hinge-2 grade-${grade}` }, group)),
         places: hinges.filter((hinge) => hinge.building === i),
         sway: svg("text", { class: "sway", "text-anchor": "middle" }, group),
       };
@@ -73,7 +78,8 @@ class Scene {
 
   /** Places the buildings; sizes the picture to the room there is. */
   layout() {
-    this.width = TimeChart.paperWidth ?? Math.max(this.host.clientWidth, 240);
+    this.room ??= this.host.clientWidth;
+    this.width = TimeChart.paperWidth ?? Math.max(this.room, 240);
     const f = this.exaggeration;
     const free = f * this.peak + 0.02 * this.top + 0.5;
     // Beside a wall: the gap before it, and its thickness.
@@ -98,14 +104,18 @@ class Scene {
     const last = widths.length - 1;
     const total = this.left[last] + widths[last] + roomRight;
     const tallest = this.width < 600 ? 340 : 560;
-    this.scale = Math.min(this.width / total, (tallest - 100) / this.top);
+    this.scale = Math.min((this.width - 2 * Scene.beside) / total, (tallest - 100) / this.top);
     this.base = this.top * this.scale + 34;
     this.shift = (this.width - total * this.scale) / 2;
-    this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.base + 70}`);
+    this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.base + 70 + Scene.below}`);
     this.widths = widths;
     this.drawBack();
     this.draw(this.time);
   }
+
+  /** Room for dimensions on either side of the row and below it [px]. */
+  static beside = 34;
+  static below = 22;
 
   px(x) {
     return this.shift + x * this.scale;
@@ -120,12 +130,14 @@ class Scene {
     back.replaceChildren();
     svg("path", { class: "ground", d: `M0,${this.base}H${this.width}` }, back);
     svg("rect", { class: "soil", x: 0, y: this.base, width: this.width, height: 7 }, back);
-    const row = this.base + 24;
+    const row = this.base + 24 + Scene.below;
     page.buildings.forEach((building, i) => {
       const room = page.buildings.length > 1 ? this.widths[i] * this.scale + 4 : this.width;
       const x = this.px(this.left[i] + this.widths[i] / 2);
       const label = svg("text", { class: "name", x, y: row, "text-anchor": "middle" }, back);
       label.textContent = building.name;
+      // Measured only if it may be too long: that makes the browser lay out the page at once.
+      if (12 * building.name.length < room) return;
       for (let kept = building.name.length - 1; kept > 0 && label.getComputedTextLength() > room; kept--) {
         label.textContent = `${building.name.slice(0, kept)}…`;
       }
@@ -148,12 +160,51 @@ class Scene {
       const label = near > 70 ? `gap ${readableLength(gap.width)}` : readableLength(gap.width);
       svg("text", { class: "gap-name", x, y: row + 17, "text-anchor": "middle" }, back).textContent = label;
     }
-    const arrow = { class: "ground-name", x: this.width / 2 - this.reach - 10, y: this.base + 62, "text-anchor": "end" };
+    const arrow = { class: "ground-name", x: this.width / 2 - this.reach - 10, y: this.base + 62 + Scene.below, "text-anchor": "end" };
     svg("text", arrow, back).textContent = this.width < 600 ? "ground" : "ground acceleration";
-    const bar = [50, 20, 10, 5, 2, 1].find((metres) => metres <= this.top / 3) ?? 1;
-    const [x, y] = [8, this.base - 12];
-    svg("path", { class: "ruler", d: `M${x},${y - bar * this.scale}V${y}m-3,0h6m-6,${-bar * this.scale}h6` }, back);
-    svg("text", { class: "ruler-name", x: x + 7, y: y - (bar * this.scale) / 2 + 4 }, back).textContent = `${bar} m`;
+    page.buildings.forEach((building, i) => this.drawDimensions(building, i));
+  }
+
+  /** Bay widths below the ground, storey heights beside the first and the last building. */
+  drawDimensions(building, i) {
+    const back = this.back;
+    const mark = 3.5;
+    const metres = (value) => `${Number(value.toPrecision(4))}`;
+    if (building.frame) {
+      const y = this.base + 16;
+      let x = this.left[i];
+      let path = `M${this.px(x).toFixed(1)},${y}H${this.px(x + this.widths[i]).toFixed(1)}`;
+      for (const span of [0, ...building.spans]) {
+        x += span;
+        path += `M${(this.px(x) - mark).toFixed(1)},${y + mark}l${2 * mark},${-2 * mark}`;
+        const text = `${metres(span)} m`;
+        if (span * this.scale < 6.2 * text.length) continue;
+        const label = { class: "dimension-name", x: this.px(x - span / 2), y: y + 12, "text-anchor": "middle" };
+        svg("text", label, back).textContent = text;
+      }
+      svg("path", { class: "dimension", d: path }, back);
+    }
+    const last = page.buildings.length - 1;
+    if (i !== 0 && i !== last) return;
+    const right = i === last && last > 0;
+    // Clear of the greatest sway, or outside the wall.
+    const sway = this.exaggeration * this.peak;
+    const near = right ? this.px(this.left[i] + this.widths[i] + sway) + 14 : this.px(this.left[i] - sway) - 14;
+    const x = this.walls[Number(right)] === null ? near : right ? this.width - Scene.beside + 8 : Scene.beside - 8;
+    const heights = [0, ...building.heights];
+    const roof = heights.at(-1);
+    const storeys = heights.slice(1).map((height, k) => height - heights[k]);
+    const path = heights.map((height) => `M${x - mark},${(this.py(height) + mark).toFixed(1)}l${2 * mark},${-2 * mark}`).join("");
+    svg("path", { class: "dimension", d: `M${x},${this.py(0).toFixed(1)}V${this.py(roof).toFixed(1)}${path}` }, back);
+    const write = (text, height) => {
+      const at = [right ? x + 14 : x - 6, this.py(height)];
+      const label = { class: "dimension-name", x: at[0], y: at[1], "text-anchor": "middle", transform: `rotate(-90 ${at[0]} ${at[1]})` };
+      svg("text", label, back).textContent = text;
+    };
+    const equal = storeys.every((storey) => Math.abs(storey - storeys[0]) < 1e-6);
+    if (equal) write(storeys.length > 1 ? `${storeys.length} × ${metres(storeys[0])} m = ${metres(roof)} m` : `${metres(roof)} m`, roof / 2);
+    else if (storeys.every((storey) => storey * this.scale > 24)) storeys.forEach((storey, k) => write(`${metres(storey)}`, heights[k] + storey / 2));
+    else write(`${metres(roof)} m, ${storeys.length} storeys`, roof / 2);
   }
 
   /** Where the face of the wall is on the left (0) or on the right (1) of the row [m]. */
@@ -203,7 +254,7 @@ class Scene {
     const middle = this.width / 2;
     const tip = middle + a * this.reach;
     const head = Math.sign(a) * Math.min(7, Math.abs(tip - middle));
-    const y = this.base + 58;
+    const y = this.base + 58 + Scene.below;
     this.arrow.setAttribute("d", `M${middle},${y - 5}v10m0,-5H${tip}m${-head},-4l${head},4l${-head},4`);
   }
 
@@ -246,7 +297,8 @@ class Scene {
   drawHinges(part, lines, heights, sway, t) {
     const size = Math.min(Math.max(this.scale * 0.17, 1.9), 4.2);
     const f = this.exaggeration;
-    const outlines = ["", "", ""];
+    const outlines = ["", ""];
+    const yielded = grades.map(() => "");
     // Along a column from below, on the curve that is drawn.
     const onColumn = (level, x, share) => {
       const bend = 3 * share * share - 2 * share ** 3;
@@ -259,7 +311,9 @@ class Scene {
     };
     const mark = (hinge, [x, y]) => {
       const stage = stageAt(hinge, t);
-      outlines[stage] += markOutline(stage, x, y, hinge.kind === "s" ? 1.5 * size : size);
+      const outline = markOutline(stage, x, y, hinge.kind === "s" ? 1.5 * size : size);
+      if (stage === 2) yielded[hinge.grade] += outline;
+      else outlines[stage] += outline;
     };
     for (const hinge of this.marked ? part.places : []) {
       const { kind, level, line, end } = hinge;
@@ -279,6 +333,7 @@ class Scene {
       }
     }
     outlines.forEach((outline, stage) => part.hinges[stage].setAttribute("d", outline));
+    yielded.forEach((outline, grade) => part.yielded[grade].setAttribute("d", outline));
   }
 
   /** Dampers as a pot with its rod, springs as a zigzag. */

@@ -148,7 +148,7 @@ fn picture(building: usize, name: &str, springs: &[Hysteresis], storeys: bool) -
             }
             @for outline in &outlines {
                 @let points: Vec<String> = outline.iter().map(|[d, f]| format!("{},{}", px(x(*d)), px(y(*f)))).collect();
-                polyline.line style=(crate::page::colour(building)) points=(points.join(" ")) {}
+                polyline.line style=(crate::document::colour(building)) points=(points.join(" ")) {}
             }
         }
     }
@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(
             picture.matches("<polyline").count(),
             1,
-            "alike curves are drawn once"
+            "equal curves are drawn once"
         );
     }
 }

@@ -4,8 +4,8 @@ use jostle::ContactLaw;
 use jostle::contact::{CollisionPoint, FreeCollision};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::document::{POLICY, STYLE, theme_button, theme_script};
 use crate::format;
-use crate::page::{POLICY, STYLE, theme_button, theme_script};
 
 /// A law and its collision.
 #[derive(Clone, Debug)]
@@ -73,7 +73,7 @@ const FAR: f64 = 1.8;
 pub fn render_collisions(collisions: &Collisions) -> String {
     let [m1, m2] = collisions.masses;
     let title = format!(
-        "{} meets {} at {} m/s",
+        "{} against {} at {} m/s",
         format::tonnes(m1),
         format::tonnes(m2),
         format::plain(collisions.speed, 3)
@@ -92,7 +92,7 @@ pub fn render_collisions(collisions: &Collisions) -> String {
                 header.head { div {
                     p.kicker { "Collision of two free masses" }
                     h1 { (title) }
-                    p { "Restitution asked for: " (format::plain(collisions.restitution, 3)) ". " (collisions.stiffnesses) }
+                    p { "Input restitution: " (format::plain(collisions.restitution, 3)) ". " (collisions.stiffnesses) }
                 } (theme_button()) }
                 main {
                     section { h2 { "Numbers" } (table(collisions)) }

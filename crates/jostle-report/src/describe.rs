@@ -6,13 +6,11 @@ use jostle::motion::Wave;
 use jostle::results::summary::{BuildingSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
 
+use crate::facts::{Facts, grouped};
 use crate::{Page, backbones, format, special};
 
 /// Periods listed for each building.
 const PERIODS: usize = 6;
-
-/// Names and values of a description list.
-pub(crate) type Facts = Vec<(&'static str, String)>;
 
 fn list(facts: &Facts) -> Markup {
     html! { dl { @for (name, value) in facts { div { dt { (name) } dd { (value) } } } } }
@@ -75,10 +73,13 @@ fn building(
     facts.push(("damping", damping(&building.damping, rayleigh)));
     if let Some(summary) = summary {
         facts.push(("vibrating mass", format::tonnes(summary.mass_kg)));
-        facts.push(("peak base shear", format::force(summary.base_shear_peak_n)));
+        facts.push((
+            "peak base shear",
+            format::force(summary.response.base_shear_peak_n),
+        ));
         facts.push((
             "roof displacement at the end",
-            format::millimetres(summary.residual_roof_displacement_m),
+            format::millimetres(summary.response.residual_roof_displacement_m),
         ));
         if summary.hinges.cracked + summary.hinges.yielded > 0 {
             facts.push((
@@ -94,7 +95,7 @@ fn building(
     facts.extend(special::sections(page, index));
     html! {
         div.card {
-            h3 { span.swatch style=(crate::page::colour(index)) {} (building.name) }
+            h3 { span.swatch style=(crate::document::colour(index)) {} (building.name) }
             (list(&facts))
             (backbones::curves(index, building))
             @if let Some(summary) = summary {
@@ -165,35 +166,6 @@ fn shear_facts(shear: &Shear, facts: &mut Facts) {
         "storey stiffness",
         grouped(&shear.stiffness, format::stiffness),
     ));
-}
-
-/// Values from the ground up, with equal neighbours merged: "3.2", "1–3: 60, 4: 40".
-pub(crate) fn grouped(values: &[f64], text: impl Fn(f64) -> String) -> String {
-    let mut groups: Vec<(usize, usize, f64)> = Vec::new();
-    for (i, value) in values.iter().enumerate() {
-        match groups.last_mut() {
-            Some((_, last, same)) if same == value => *last = i + 1,
-            _ => groups.push((i + 1, i + 1, *value)),
-        }
-    }
-    match &groups[..] {
-        [(_, _, value)] => text(*value),
-        groups if groups.len() > 8 => {
-            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            format!("{} to {}", text(low), text(high))
-        }
-        groups => {
-            let texts: Vec<String> = groups
-                .iter()
-                .map(|(first, last, value)| match first == last {
-                    true => format!("{first}: {}", text(*value)),
-                    false => format!("{first}–{last}: {}", text(*value)),
-                })
-                .collect();
-            texts.join(", ")
-        }
-    }
 }
 
 fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
@@ -449,16 +421,4 @@ fn energy(page: &Page) -> Facts {
         ("worst imbalance", format::plain(energy.worst_imbalance, 2)),
     ]);
     facts
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn equal_storeys_are_said_once() {
-        let text = |values: &[f64]| grouped(values, |v| format::plain(v, 2));
-        assert_eq!(text(&[3.2, 3.2]), "3.2");
-        assert_eq!(text(&[60.0, 60.0, 40.0]), "1–2: 60, 3: 40");
-    }
 }

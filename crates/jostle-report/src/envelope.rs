@@ -33,19 +33,31 @@ pub(crate) fn of_run(page: &Page) -> Vec<Envelope> {
         .map(|building| {
             let floors = &building.floors;
             Envelope {
-                greatest: floors.iter().map(|f| f.displacement_max_m).collect(),
-                least: floors.iter().map(|f| f.displacement_min_m).collect(),
-                drift: floors.iter().map(|f| f.storey_drift_peak).collect(),
+                greatest: floors
+                    .iter()
+                    .map(|f| f.response.displacement_max_m)
+                    .collect(),
+                least: floors
+                    .iter()
+                    .map(|f| f.response.displacement_min_m)
+                    .collect(),
+                drift: floors
+                    .iter()
+                    .map(|f| f.response.storey_drift_peak)
+                    .collect(),
                 acceleration: floors
                     .iter()
-                    .map(|f| f.total_acceleration_peak_m_s2)
+                    .map(|f| f.response.total_acceleration_peak_m_s2)
                     .collect(),
-                shear: floors.iter().map(|f| f.storey_shear_peak_n).collect(),
+                shear: floors
+                    .iter()
+                    .map(|f| f.response.storey_shear_peak_n)
+                    .collect(),
                 moment: floors
                     .iter()
-                    .map(|f| f.overturning_moment_peak_n_m)
+                    .map(|f| f.response.overturning_moment_peak_n_m)
                     .collect(),
-                residual: floors.iter().map(|f| f.residual_drift).collect(),
+                residual: floors.iter().map(|f| f.response.residual_drift).collect(),
             }
         })
         .collect()
@@ -253,12 +265,12 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
                     }
                 }
                 @for line in lines {
-                    polyline.line.dashed[line.dashed] style=(crate::page::colour(line.building)) points=(path(line, x, y)) {}
+                    polyline.line.dashed[line.dashed] style=(crate::document::colour(line.building)) points=(path(line, x, y)) {}
                 }
                 @for line in lines.iter().filter(|line| !line.dashed) {
                     @for (value, height) in &line.points {
                         @if *height > 0.0 && value.is_finite() {
-                            circle.dot style=(crate::page::colour(line.building)) cx=(px(x(*value))) cy=(px(y(*height))) r="5" {
+                            circle.dot style=(crate::document::colour(line.building)) cx=(px(x(*value))) cy=(px(y(*height))) r="5" {
                                 title {
                                     (page.model.buildings.get(line.building).map_or("", |b| b.name.as_str())) ", "
                                     (format::fixed(*height, 2)) " m: " (format::significant(*value, 4)) " " (unit) ", " (line.meaning)

@@ -177,7 +177,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
         section #hinges {
             h2 { "Cracking and yielding" }
             @for building in page.summary.buildings.iter().filter(|b| b.hinges.total > 0) {
-                p { (sentence(&building.name, &building.hinges, building.residual_roof_displacement_m)) }
+                p { (sentence(&building.name, &building.hinges, building.response.residual_roof_displacement_m)) }
             }
             @if loops {
                 p.quiet {

@@ -6,12 +6,16 @@
 mod backbones;
 mod calculation;
 mod collisions;
+mod contact_box;
 mod describe;
+mod document;
 mod encode;
 mod envelope;
+mod facts;
 mod floor_spectra;
 mod format;
 mod hinges;
+mod joints;
 mod members;
 mod method;
 mod motion_page;
@@ -21,6 +25,7 @@ mod pushover;
 mod section;
 mod selection;
 mod special;
+mod spread;
 mod static_plot;
 mod study_page;
 mod tables;
@@ -30,9 +35,10 @@ mod viewer;
 
 pub use calculation::Calculation;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
+pub use contact_box::ContactBox;
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};
-pub use pushover::render_pushover;
+pub use pushover::{Demand, render_pushover};
 pub use section::render_sections;
 pub use selection::{CheckedStructure, SelectionPage, render_selection, selection_sections};
 pub use study_page::{
@@ -66,6 +72,10 @@ pub struct Page<'a> {
     pub springs: Option<&'a SpringHistory>,
     /// Reinforced sections that hinges come from, if the model states them.
     pub sections: &'a [ReinforcedSection<'a>],
+    /// Inputs of the separation rules of codes.
+    pub codes: &'a jostle::separation::CodeInputs,
+    /// Contact data beside what masses suggest, by gap; empty to omit them.
+    pub contacts: &'a [ContactBox],
     /// Results of `jostle method` for these buildings, shown as a section; empty to omit it.
     pub methods: &'a [MethodSurvey],
     /// What makes the page a calculation document, if it is known.

@@ -3,7 +3,7 @@
 use jostle::method::{MethodSurvey, StepAccuracy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::page::{POLICY, STYLE, theme_button, theme_script};
+use crate::document::{POLICY, STYLE, theme_button, theme_script};
 
 /// Which error of a row to show.
 type ErrorOf = fn(&StepAccuracy) -> f64;

@@ -7,9 +7,9 @@ use jostle_motion::{
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::{Value, json};
 
+use crate::document::{POLICY, STYLE, theme_button};
 use crate::encode::Packed;
 use crate::format;
-use crate::page::{POLICY, STYLE, theme_button};
 
 /// What the page of a motion shows.
 #[derive(Clone, Copy, Debug)]

@@ -2,17 +2,16 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{
-    Page, calculation, describe, floor_spectra, format, hinges, members, method, payload, tables,
+    Page, calculation, contact_box, describe, floor_spectra, format, hinges, joints, members,
+    method, payload, spread, tables,
 };
 
-pub(crate) const STYLE: &str = include_str!("../assets/style.css");
-/// Plots without scripts, and the page on paper.
-pub(crate) const CALCULATION_STYLE: &str = include_str!("../assets/calculation.css");
 /// The scripts, in the order of their dependence; together they are one module.
-pub(crate) const SCRIPTS: [&str; 8] = [
+pub(crate) const SCRIPTS: [&str; 9] = [
     include_str!("../assets/data.js"),
     include_str!("../assets/chart.js"),
     include_str!("../assets/hinges.js"),
@@ -20,32 +19,9 @@ pub(crate) const SCRIPTS: [&str; 8] = [
     include_str!("../assets/scene.js"),
     include_str!("../assets/player.js"),
     include_str!("../assets/panels.js"),
+    include_str!("../assets/impacts.js"),
     include_str!("../assets/main.js"),
 ];
-/// Nothing may be loaded: everything is in the file.
-pub(crate) const POLICY: &str =
-    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
-
-/// Script of [`theme_button`], for pages without other scripts.
-const THEME_SCRIPT: &str = include_str!("../assets/theme.js");
-
-/// The button that switches between light and dark.
-pub(crate) fn theme_button() -> Markup {
-    html! {
-        button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
-    }
-}
-
-/// The script of that button, for pages without other scripts.
-pub(crate) fn theme_script() -> Markup {
-    html! { script type="module" { (PreEscaped(THEME_SCRIPT)) } }
-}
-
-/// The style attribute that gives an element the colour of a building.
-pub(crate) fn colour(building: usize) -> String {
-    format!("--c:var(--c{})", building % 7)
-}
-
 /// The whole page.
 pub(crate) fn page(page: &Page) -> Markup {
     let headline = verdict(page.summary);
@@ -83,6 +59,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     p.verdict { (headline) }
                     (tiles(page))
                     (accuracy(page))
+                    @if let Some(spread) = spread::section(page) { (spread) }
                     @if recorded {
                         (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), yields))
                         (chart_section(page.without_contact.is_some() && !page.model.gaps.is_empty()))
@@ -92,10 +69,12 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if let Some(hinges) = hinges::section(page) { (hinges) }
                     section #impacts {
                         h2 { "Impacts" }
+                        @if recorded { (impact_panels()) }
                         @if page.model.gaps.is_empty() {
                             p.quiet { "The model has no gap." }
                         } @else {
                             (tables::impacts(page))
+                            (contact_box::contact_boxes(page))
                         }
                     }
                     section #envelopes {
@@ -110,7 +89,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if !page.model.gaps.is_empty() {
                         section #joints {
                             h2 { "Comparison with code requirements" }
-                            (tables::joints(page, &run, without))
+                            (joints::joints(page, &run, without))
                         }
                     }
                     section #model {
@@ -216,11 +195,11 @@ pub(crate) fn tiles(page: &Page) -> Markup {
         if let Some(roof) = building.floors.last() {
             tile(
                 &format!("Roof of {}", building.name),
-                format::millimetres(roof.displacement_max_m.max(-roof.displacement_min_m)),
+                format::millimetres(roof.response.displacement_peak_m()),
                 format!(
                     "{} / +{}",
-                    format::fixed(roof.displacement_min_m * 1e3, 1),
-                    format::millimetres(roof.displacement_max_m)
+                    format::fixed(roof.response.displacement_min_m * 1e3, 1),
+                    format::millimetres(roof.response.displacement_max_m)
                 ),
             );
         }
@@ -324,6 +303,11 @@ pub(crate) fn chart_section(compares: bool) -> Markup {
             }
         }
     }
+}
+
+/// Where the scripts draw every impact by itself.
+pub(crate) fn impact_panels() -> Markup {
+    html! { div #impact-panels hidden {} }
 }
 
 pub(crate) fn legend(page: &Page, without: bool) -> Markup {

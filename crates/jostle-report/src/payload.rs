@@ -1,7 +1,7 @@
 //! Data of the page's scripts: geometry, impacts and thinned histories as one JSON text.
 
 use jostle::history::{Column, EnergyTerm, History};
-use jostle::model::{Building, Structure};
+use jostle::model::{Building, Gap, Structure};
 use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
 use serde::Serialize;
@@ -60,15 +60,24 @@ struct Payload<'a> {
     ground: Series,
     run: Table,
     without: Option<Table>,
-    forces: Vec<Series>,
+    forces: Vec<ForceData>,
     impacts: Vec<ImpactData>,
     hysteretic: bool,
     hinges: Vec<HingeData>,
     loops: Vec<LoopData>,
 }
 
-/// Building, kind (`c`, `b`, `s`), level, line, end, and when it cracked and yielded \[s\].
-type HingeData = (usize, char, usize, usize, usize, Option<f64>, Option<f64>);
+/// Building, kind (`c`, `b`, `s`), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
+type HingeData = (
+    usize,
+    char,
+    usize,
+    usize,
+    usize,
+    Option<f64>,
+    Option<f64>,
+    f64,
+);
 
 /// The loop of one hinge.
 #[derive(Serialize)]
@@ -140,6 +149,16 @@ struct Series {
     values: Packed,
 }
 
+/// Force of a contact during its impacts.
+#[derive(Serialize)]
+struct ForceData {
+    #[serde(flatten)]
+    force: Series,
+    /// Indentation at the same instants; `null` where a side is neither a floor nor a wall, because histories have the
+    /// motion of floors alone.
+    indentation: Option<Packed>,
+}
+
 /// Quantities on common instants, named `u:building:floor` and `e:term`.
 #[derive(Serialize)]
 struct Table {
@@ -193,7 +212,7 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
                 pack,
             )
         }),
-        forces: force_series(&time, &force, budget.forces, pack),
+        forces: force_data(page, &time, &force, budget.forces, pack),
         impacts: impacts(page.summary),
         hysteretic: page.summary.energy.hysteretic_j != 0.0,
         hinges: hinge_data(page, &places),
@@ -209,7 +228,7 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
         .iter()
         .map(|place| {
             let (kind, level, line, end) = hinges::coordinates(place.at);
-            (place.building, kind, level, line, end, None, None)
+            (place.building, kind, level, line, end, None, None, 0.0)
         })
         .collect();
     let short = |t: f64| (t * 1e4).round() / 1e4;
@@ -217,6 +236,7 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
         let entry = &mut data[place.spring];
         entry.5 = spring.cracked_s.map(short);
         entry.6 = spring.yielded_s.map(short);
+        entry.7 = (spring.ductility * 1e3).round() / 1e3;
     }
     data
 }
@@ -386,22 +406,57 @@ fn forces(page: &Page) -> Vec<Vec<f64>> {
         .collect()
 }
 
-fn force_series(time: &[f64], force: &[Vec<f64>], budget: usize, pack: &mut Packer) -> Vec<Series> {
+fn force_data(
+    page: &Page,
+    time: &[f64],
+    force: &[Vec<f64>],
+    budget: usize,
+    pack: &mut Packer,
+) -> Vec<ForceData> {
     let kept = thin_impacts(force, budget / 2);
-    force
-        .iter()
-        .zip(kept)
-        .map(|(force, rows)| {
-            let instants: Vec<f64> = rows
-                .iter()
-                .filter_map(|row| time.get(*row).copied())
-                .collect();
-            Series {
+    let closed = page.gaps().flat_map(|(summary, gap)| {
+        let contacts = summary.contacts.iter();
+        contacts.map(move |contact| (gap, contact))
+    });
+    let all = force.iter().zip(kept).zip(closed);
+    all.map(|((force, rows), (gap, contact))| {
+        let instants: Vec<f64> = rows
+            .iter()
+            .filter_map(|row| time.get(*row).copied())
+            .collect();
+        let depths = if rows.is_empty() {
+            None
+        } else {
+            indentation(page.history, gap, contact)
+        };
+        ForceData {
+            force: Series {
                 time: pack.instants(&instants),
                 values: pack.values(rows.iter().map(|row| force[*row])),
-            }
-        })
-        .collect()
+            },
+            indentation: depths
+                .map(|depths| pack.values(rows.iter().map(|row| depths[*row].max(0.0)))),
+        }
+    })
+    .collect()
+}
+
+/// Indentation of a contact in every row of a history, negative while it is open; `None` where a side is neither a floor
+/// nor a wall \[m\].
+fn indentation(history: &History, gap: &Gap, contact: &ContactSummary) -> Option<Vec<f64>> {
+    let mut depths = vec![-contact.width_m; history.len()];
+    for (side, sign) in [(0, 1.0), (1, -1.0)] {
+        let Some(building) = gap.between[side] else {
+            // A wall moves with the ground.
+            continue;
+        };
+        let floor = contact.floors[side]?;
+        let moved = history.column(Column::Displacement { building, floor })?;
+        for (depth, moved) in depths.iter_mut().zip(moved) {
+            *depth += sign * moved;
+        }
+    }
+    Some(depths)
 }
 
 /// Displacements, and energies if asked for, on thinned instants that hit every peak displacement.

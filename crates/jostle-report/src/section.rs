@@ -4,8 +4,8 @@ use jostle::hysteresis::{Corner, Side};
 use jostle_section::{Analysis, EndCurve, Section, SectionSurvey};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::document::{POLICY, STYLE, theme_button, theme_script};
 use crate::format::{fixed, significant};
-use crate::page::{POLICY, STYLE, theme_button, theme_script};
 
 /// Plot area: left, top, width, height.
 const AREA: [f64; 4] = [64.0, 14.0, 420.0, 260.0];

@@ -244,6 +244,7 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
         series: all,
         levels: Vec::new(),
         reach: 0.0,
+        ordered: false,
     }
 }
 

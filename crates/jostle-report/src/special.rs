@@ -5,7 +5,7 @@ use jostle::model::{Base, Building, Joint, Structure};
 use jostle_section::Section;
 use jostle_section::formula::Member;
 
-use crate::describe::{Facts, grouped};
+use crate::facts::{Facts, grouped};
 use crate::{Page, ReinforcedSection, format};
 
 /// One entry for each special feature.

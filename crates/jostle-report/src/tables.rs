@@ -1,15 +1,12 @@
-//! Tables of impacts, of peaks of every floor, and of gaps required by codes compared with computed ones.
+//! Tables of impacts and of peaks of every floor.
 
-use jostle::Gap;
 use jostle::contact::{LawKind, RestitutionIs};
-use jostle::results::summary::{
-    BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, ImpactSummary,
-};
-use jostle::separation::{absolute_sum, gb50011_frame_joint, srss};
+use jostle::quantity::{Quantity, Shown};
+use jostle::results::response::FloorResponse;
+use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, ImpactSummary};
 use maud::{Markup, html};
 
-use crate::envelope::Envelope;
-use crate::verdict::{peak_closing, place};
+use crate::verdict::place;
 use crate::{Page, format};
 
 /// Most impacts in the table; the strongest are kept.
@@ -21,16 +18,21 @@ const FIRST_ROWS: usize = 30;
 pub(crate) fn impacts(page: &Page) -> Markup {
     let summary = page.summary;
     let several = summary.gaps.len() > 1;
-    let mut rows: Vec<(&GapSummary, &ContactSummary, &ImpactSummary)> = summary
+    let contacts = summary
         .gaps
         .iter()
-        .flat_map(|gap| gap.contacts.iter().map(move |contact| (gap, contact)))
-        .flat_map(|(gap, contact)| contact.impacts.iter().map(move |i| (gap, contact, i)))
+        .flat_map(|gap| gap.contacts.iter().map(move |contact| (gap, contact)));
+    let mut rows: Vec<(&GapSummary, &ContactSummary, usize, &ImpactSummary)> = contacts
+        .enumerate()
+        .flat_map(|(index, (gap, contact))| {
+            let impacts = contact.impacts.iter();
+            impacts.map(move |impact| (gap, contact, index, impact))
+        })
         .collect();
     let all = rows.len();
-    rows.sort_by(|a, b| b.2.peak_force_n.total_cmp(&a.2.peak_force_n));
+    rows.sort_by(|a, b| b.3.peak_force_n.total_cmp(&a.3.peak_force_n));
     rows.truncate(MOST_ROWS);
-    rows.sort_by(|a, b| a.2.start_s.total_cmp(&b.2.start_s));
+    rows.sort_by(|a, b| a.3.start_s.total_cmp(&b.3.start_s));
     let columns: [(&str, &str); 9] = [
         ("start", "s"),
         ("duration", "ms"),
@@ -60,8 +62,8 @@ pub(crate) fn impacts(page: &Page) -> Markup {
                         }
                     } }
                     tbody {
-                        @for (i, (gap, contact, impact)) in rows.iter().enumerate() {
-                            tr.beyond[i >= FIRST_ROWS] data-start=(impact.start_s) data-end=(impact.end_s) data-at=(impact.peak_force_at_s) {
+                        @for (i, (gap, contact, index, impact)) in rows.iter().enumerate() {
+                            tr.beyond[i >= FIRST_ROWS] data-start=(impact.start_s) data-end=(impact.end_s) data-at=(impact.peak_force_at_s) data-contact=(index) {
                                 td { @if several { (gap.between[0]) "–" (gap.between[1]) ", " } (place(contact)) }
                                 @for value in cells(impact) { td.number { (value) } }
                             }
@@ -127,52 +129,11 @@ fn restitution_note(page: &Page) -> Markup {
     }
 }
 
-/// A peak of a floor with and without contact: name, unit, values in that unit, decimals.
-type Peak = (
-    &'static str,
-    &'static str,
-    fn(&FloorSummary) -> f64,
-    fn(&FloorWithoutContact) -> f64,
-    usize,
-);
-
-const PEAKS: [Peak; 5] = [
-    (
-        "displacement",
-        "mm",
-        |f| 1e3 * f.displacement_max_m.max(-f.displacement_min_m),
-        |f| 1e3 * f.displacement_max_m.max(-f.displacement_min_m),
-        1,
-    ),
-    (
-        "storey drift",
-        "%",
-        |f| 100.0 * f.storey_drift_peak,
-        |f| 100.0 * f.storey_drift_peak,
-        2,
-    ),
-    (
-        "storey shear",
-        "kN",
-        |f| 1e-3 * f.storey_shear_peak_n,
-        |f| 1e-3 * f.storey_shear_peak_n,
-        1,
-    ),
-    (
-        "overturning moment",
-        "kN·m",
-        |f| 1e-3 * f.overturning_moment_peak_n_m,
-        |f| 1e-3 * f.overturning_moment_peak_n_m,
-        0,
-    ),
-    (
-        "total acceleration",
-        "m/s²",
-        |f| f.total_acceleration_peak_m_s2,
-        |f| f.total_acceleration_peak_m_s2,
-        2,
-    ),
-];
+/// Numbers of a floor, and how they are shown.
+fn peaks_shown() -> impl Iterator<Item = (&'static Quantity<FloorResponse>, Shown)> {
+    let quantities = FloorResponse::QUANTITIES.iter();
+    quantities.filter_map(|quantity| Some((quantity, quantity.shown?)))
+}
 
 /// Peaks of every floor and of the storey below it, with and without contact: one folded table for each building.
 pub(crate) fn peaks(page: &Page) -> Markup {
@@ -195,12 +156,12 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                     tr {
                         th scope="col" rowspan=[compared.then_some("2")] { "floor" }
                         th.number scope="col" rowspan=[compared.then_some("2")] { "height" br; span.unit { "[m]" } }
-                        @for (name, unit, ..) in PEAKS {
-                            th.number scope="colgroup" colspan=[compared.then_some("2")] { (name) br; span.unit { "[" (unit) "]" } }
+                        @for (_, shown) in peaks_shown() {
+                            th.number scope="colgroup" colspan=[compared.then_some("2")] { (shown.title) br; span.unit { "[" (shown.unit) "]" } }
                         }
                     }
                     @if compared {
-                        tr { @for _ in PEAKS { th.number scope="col" { "with" } th.number scope="col" { "without" } } }
+                        tr { @for _ in peaks_shown() { th.number scope="col" { "with" } th.number scope="col" { "without" } } }
                     }
                 }
                 tbody {
@@ -208,10 +169,10 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                         tr {
                             th scope="row" { (floor.floor) }
                             td.number { (format::fixed(floor.height_m, 2)) }
-                            @for (_, _, with, without, decimals) in PEAKS {
-                                td.number { (format::fixed(with(floor), decimals)) }
+                            @for (quantity, shown) in peaks_shown() {
+                                td.number { (peak_cell(quantity, shown, Some(&floor.response))) }
                                 @if compared {
-                                    td.number { (floor.without_contact.as_ref().map_or(format::NOTHING.into(), |f| format::fixed(without(f), decimals))) }
+                                    td.number { (peak_cell(quantity, shown, floor.without_contact.as_ref())) }
                                 }
                             }
                         }
@@ -227,123 +188,13 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
     }
 }
 
-/// A length to compare with the gap.
-struct Width {
-    name: String,
-    metres: f64,
-    class: &'static str,
-}
-
-/// Required gaps as bars: the gap of the model, the smallest gap without pounding, the gaps of rules.
-pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
-    let of_gap = |summary, gap: &Gap| {
-        let envelopes = without.unwrap_or(run);
-        widths(page, summary, gap.between, envelopes, without.is_some())
-    };
-    let gaps: Vec<_> = page
-        .gaps()
-        .map(|(summary, gap)| (summary, gap, of_gap(summary, gap)))
-        .collect();
-    let mut all = gaps.iter().flat_map(|(_, _, widths)| widths);
-    let combined = all.any(|width| width.class == "of-rule");
-    html! {
-        @for (summary, gap, widths) in &gaps {
-            @let longest = widths.iter().map(|w| w.metres).fold(1e-9, f64::max);
-            div.joint {
-                h3 {
-                    (summary.between[0]) " and " (summary.between[1])
-                    @if let Some(height) = lower_height(page, gap.between) {
-                        span.quiet { " · lower building " (format::plain(height, 4)) " m high" }
-                    }
-                }
-                div.bars role="table" {
-                    @for width in widths {
-                        div.bar-row role="row" {
-                            span.bar-name role="rowheader" { (width.name) }
-                            span.bar-track role="presentation" {
-                                span.bar.(width.class) style=(format!("width:{:.2}%", width.metres / longest * 100.0)) {}
-                                span.bar-gap style=(format!("left:{:.2}%", summary.width_m / longest * 100.0)) {}
-                            }
-                            span.bar-value role="cell" { (format::millimetres(width.metres)) }
-                        }
-                    }
-                }
-            }
-        }
-        p.quiet {
-            "The line marks the gap. Code: GB 50011-2010 §6.1.4, concrete frames, for the height of the lower building."
-            @if combined {
-                " SRSS and ABS combine the peak displacements at the highest common floor "
-                @if without.is_some() { "of the run without contact." } @else { "of this run, impacts included." }
-            }
-        }
-    }
-}
-
-/// Height of the lower of two neighbours; `None` beside a wall, for which codes have no rule.
-fn lower_height(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
-    let [left, right] = between;
-    let buildings = [left?, right?].map(|building| page.model.buildings.get(building));
-    buildings
-        .into_iter()
-        .filter_map(|building| building?.floor_heights().last().copied())
-        .min_by(f64::total_cmp)
-}
-
-fn widths(
-    page: &Page,
-    summary: &GapSummary,
-    between: [Option<usize>; 2],
-    envelopes: &[Envelope],
-    without: bool,
-) -> Vec<Width> {
-    let mut widths = vec![Width {
-        name: "gap".into(),
-        metres: summary.width_m,
-        class: "of-gap",
-    }];
-    let mut add = |name: &str, metres: Option<f64>, class| {
-        if let Some(metres) = metres.filter(|m| m.is_finite() && *m >= 0.0) {
-            widths.push(Width {
-                name: name.into(),
-                metres,
-                class,
-            });
-        }
-    };
-    add("peak closing", peak_closing(summary), "of-run");
-    add(
-        "smallest gap without pounding",
-        summary.closing_without_contact_m,
-        "of-run",
-    );
-    let top = summary
-        .contacts
-        .iter()
-        .filter_map(|contact| match contact.floors {
-            [Some(l), Some(r)] => Some((l, r, contact.height_m)),
-            _ => None,
-        })
-        .max_by(|a, b| a.2.total_cmp(&b.2));
-    if let Some((l, r, _)) = top {
-        let peak = |building: usize, floor: usize| {
-            let envelope = envelopes.get(building)?;
-            let greatest = envelope.greatest.get(floor.wrapping_sub(1))?;
-            let least = envelope.least.get(floor.wrapping_sub(1))?;
-            Some(greatest.max(-least))
-        };
-        let [left, right] = between;
-        let pair = left
-            .and_then(|left| peak(left, l))
-            .zip(right.and_then(|right| peak(right, r)));
-        let run = if without { "" } else { " (with impacts)" };
-        let (square, sum) = (format!("SRSS{run}"), format!("ABS{run}"));
-        add(&square, pair.map(|(l, r)| srss(l, r)), "of-rule");
-        add(&sum, pair.map(|(l, r)| absolute_sum(l, r)), "of-rule");
-    }
-    for intensity in 6..=9 {
-        let width = lower_height(page, between).and_then(|h| gb50011_frame_joint(h, intensity));
-        add(&format!("code, intensity {intensity}"), width, "of-code");
-    }
-    widths
+fn peak_cell(
+    quantity: &Quantity<FloorResponse>,
+    shown: Shown,
+    floor: Option<&FloorResponse>,
+) -> String {
+    let value = floor.and_then(|floor| quantity.value(floor));
+    value.map_or(format::NOTHING.into(), |value| {
+        format::fixed(shown.factor * value, shown.decimals)
+    })
 }

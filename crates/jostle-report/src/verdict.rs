@@ -57,10 +57,7 @@ pub fn verdict(summary: &Summary) -> String {
 fn alone(summary: &Summary) -> String {
     let roof = summary.buildings.iter().filter_map(|building| {
         let roof = building.floors.last()?;
-        Some((
-            &building.name,
-            roof.displacement_max_m.max(-roof.displacement_min_m),
-        ))
+        Some((&building.name, roof.response.displacement_peak_m()))
     });
     match roof.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((name, sway)) => format!(

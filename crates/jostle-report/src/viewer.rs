@@ -2,9 +2,10 @@
 
 use maud::html;
 
+use crate::document::STYLE;
 use crate::envelope::{self, envelopes};
-use crate::page::{self, SCRIPTS, STYLE};
-use crate::{Page, describe, hinges, payload, tables, verdict};
+use crate::page::{self, SCRIPTS};
+use crate::{Page, describe, hinges, joints, payload, tables, verdict};
 
 /// Parts of the page that do not change with the run.
 #[derive(Clone, Debug)]
@@ -27,9 +28,10 @@ impl Viewer {
     pub fn new() -> Self {
         let sections = html! {
             div #part-tiles {}
+            p #accuracy.quiet {}
             (page::chart_section(true))
             div #part-hinges {}
-            section { h2 { "Impacts" } div #part-impacts {} }
+            section { h2 { "Impacts" } (page::impact_panels()) div #part-impacts {} }
             section { h2 { "Peaks over the height" } div #part-envelopes {} }
             section #code { h2 { "Comparison with code requirements" } div #part-joints {} }
             section { h2 { "What was computed" } div #part-model {} }
@@ -81,7 +83,7 @@ pub fn frame(page: &Page) -> Frame {
         (envelopes(page, &run, without))
     };
     let joints = html! {
-        @if !page.model.gaps.is_empty() { (tables::joints(page, &run, without)) }
+        @if !page.model.gaps.is_empty() { (joints::joints(page, &run, without)) }
     };
     let parts = [
         ("warnings", page::warnings(page)),

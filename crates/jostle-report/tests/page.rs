@@ -10,7 +10,10 @@ mod fixture;
 use std::time::Instant;
 
 use fixture::{Run, alone, row_of_three, two_frames, walled, yielding};
-use jostle::results::summary::FloorWithoutContact;
+use jostle::results::contact_sensitivity::{
+    BuildingChange, ContactSensitivity, ContactVariant, GapSpread, VariantResult,
+};
+use jostle::results::response::FloorResponse;
 use jostle_report::render;
 
 fn pages() -> Vec<(&'static str, Run)> {
@@ -101,7 +104,9 @@ fn no_number_reads_nan() {
 fn missing_numbers_are_dashes() {
     let mut run = two_frames(0.1);
     run.summary.energy.worst_imbalance = f64::NAN;
-    run.summary.buildings[0].floors[4].displacement_max_m = f64::NAN;
+    run.summary.buildings[0].floors[4]
+        .response
+        .displacement_max_m = f64::NAN;
     for contact in &mut run.summary.gaps[0].contacts {
         for impact in &mut contact.impacts {
             impact.realised_restitution = f64::INFINITY;
@@ -167,13 +172,13 @@ fn warnings_come_first() {
 fn peaks_of_every_floor_are_in_numbers_with_and_without_contact() {
     let mut run = two_frames(0.1);
     let roof = run.summary.buildings[0].floors.last_mut().unwrap();
-    roof.displacement_min_m = -0.1234;
-    roof.displacement_max_m = 0.1;
-    roof.storey_drift_peak = 0.0567;
-    roof.storey_shear_peak_n = 891_200.0;
-    roof.overturning_moment_peak_n_m = 3_456_000.0;
-    roof.total_acceleration_peak_m_s2 = 7.89;
-    roof.without_contact = Some(FloorWithoutContact {
+    roof.response.displacement_min_m = -0.1234;
+    roof.response.displacement_max_m = 0.1;
+    roof.response.storey_drift_peak = 0.0567;
+    roof.response.storey_shear_peak_n = 891_200.0;
+    roof.response.overturning_moment_peak_n_m = 3_456_000.0;
+    roof.response.total_acceleration_peak_m_s2 = 7.89;
+    roof.without_contact = Some(FloorResponse {
         displacement_max_m: 0.2345,
         displacement_max_at_s: 1.0,
         displacement_min_m: -0.2,
@@ -182,6 +187,7 @@ fn peaks_of_every_floor_are_in_numbers_with_and_without_contact() {
         storey_drift_peak: 0.0123,
         storey_shear_peak_n: 765_400.0,
         overturning_moment_peak_n_m: 2_345_000.0,
+        ..FloorResponse::default()
     });
     let text = render(&run.page());
     let tables: Vec<&str> = text.split("<details class=\"peaks\">").collect();
@@ -201,7 +207,7 @@ fn peaks_of_every_floor_are_in_numbers_with_and_without_contact() {
     assert_eq!(
         cells,
         [
-            "123.4", "234.5", "5.67", "1.23", "891.2", "765.4", "3456", "2345", "7.89", "4.56"
+            "123.4", "234.5", "7.89", "4.56", "5.67", "1.23", "891.2", "765.4", "3456", "2345"
         ]
     );
     let alone = render(&alone().page());
@@ -289,6 +295,137 @@ fn six_loops_fit_and_keep_their_peaks() {
     let yielded = hinges.iter().filter(|hinge| !hinge[6].is_null()).count();
     let told: usize = run.summary.buildings.iter().map(|b| b.hinges.yielded).sum();
     assert_eq!(yielded, told);
+}
+
+/// Numbers of a packed list of the page.
+fn unpacked(packed: &serde_json::Value) -> Vec<f64> {
+    use base64::Engine as _;
+    let number = |key: &str| packed[key].as_f64().unwrap();
+    let bytes = base64::engine::general_purpose::STANDARD
+        .decode(packed["data"].as_str().unwrap())
+        .unwrap();
+    let integers: Vec<f64> = match packed["kind"].as_str().unwrap() {
+        "u32" => bytes
+            .chunks(4)
+            .map(|b| f64::from(u32::from_le_bytes(b.try_into().unwrap())))
+            .collect(),
+        _ => bytes
+            .chunks(2)
+            .map(|b| f64::from(i16::from_le_bytes(b.try_into().unwrap())))
+            .collect(),
+    };
+    let (offset, scale) = (number("offset"), number("scale"));
+    integers.iter().map(|i| offset + scale * i).collect()
+}
+
+fn data_of(text: &str) -> serde_json::Value {
+    let data = text.split("type=\"application/json\">").nth(1).unwrap();
+    serde_json::from_str(data.split("</script>").next().unwrap()).unwrap()
+}
+
+/// The area of a loop of force over indentation is the energy that the impact dissipates, and its top the peak force.
+#[test]
+fn loops_of_impacts_enclose_the_energy_that_they_dissipate() {
+    let run = yielding();
+    let data = data_of(&render(&run.page()));
+    let contacts: Vec<_> = run.summary.gaps.iter().flat_map(|g| &g.contacts).collect();
+    let mut compared = 0;
+    for (contact, force) in contacts.iter().zip(data["forces"].as_array().unwrap()) {
+        let [time, values, depths] =
+            ["time", "values", "indentation"].map(|name| match &force[name] {
+                serde_json::Value::Null => Vec::new(),
+                packed => unpacked(packed),
+            });
+        for impact in contact.impacts.iter().filter(|i| i.peak_force_n > 1e5) {
+            let within =
+                |k: &usize| (impact.start_s - 1e-6..=impact.end_s + 1e-6).contains(&time[*k]);
+            let rows: Vec<usize> = (0..time.len()).filter(within).collect();
+            let area: f64 = rows
+                .windows(2)
+                .map(|pair| {
+                    let [a, b] = [pair[0], pair[1]];
+                    0.5 * (values[a] + values[b]) * (depths[b] - depths[a])
+                })
+                .sum();
+            let peak = rows.iter().map(|k| values[*k]).fold(0.0, f64::max);
+            let depth = rows.iter().map(|k| depths[*k]).fold(0.0, f64::max);
+            // Sums of trapezoids over the steps of an impact; values have 32,767 levels.
+            assert!(
+                (area / impact.dissipated_j - 1.0).abs() < 0.02,
+                "{area} J in the loop, {} J dissipated",
+                impact.dissipated_j
+            );
+            assert!((peak / impact.peak_force_n - 1.0).abs() < 5e-3);
+            assert!((depth / impact.peak_indentation_m - 1.0).abs() < 5e-3);
+            compared += 1;
+        }
+    }
+    assert!(compared > 2, "{compared} impacts");
+}
+
+#[test]
+fn contacts_between_floors_have_no_loop() {
+    let mut run = two_frames(0.1);
+    for contact in &mut run.summary.gaps[0].contacts {
+        contact.floors[1] = None;
+    }
+    let data = data_of(&render(&run.page()));
+    for force in data["forces"].as_array().unwrap() {
+        assert!(force["indentation"].is_null(), "whose motion is that?");
+    }
+}
+
+#[test]
+fn the_spread_over_contacts_stands_beside_its_results() {
+    let mut run = two_frames(0.1);
+    assert!(!render(&run.page()).contains("Spread over contacts"));
+    let forces = [880e3, 1640e3, 1285e3, 1295e3];
+    let results = ContactVariant::USUAL.into_iter().zip(forces);
+    run.summary.contact_sensitivity = Some(ContactSensitivity {
+        variants: results
+            .map(|(contact, peak_force_n)| VariantResult {
+                contact,
+                peak_force_n,
+                impact_count: 7,
+            })
+            .collect(),
+        gaps: vec![GapSpread {
+            between: ["J1".into(), "J2".into()],
+            peak_force_min_n: 880e3,
+            peak_force_max_n: 1640e3,
+            impact_count_min: 5,
+            impact_count_max: 7,
+        }],
+        buildings: vec![BuildingChange {
+            name: "J1".into(),
+            displacement: 0.0123,
+            storey_drift: 0.02,
+            total_acceleration: 0.456,
+            storey_shear: 0.1,
+            overturning_moment: 0.05,
+        }],
+    });
+    run.summary.gaps[0].peak_force_n = 1283e3;
+    let text = render(&run.page());
+    let box_ = text.split("id=\"spread\"").nth(1).unwrap();
+    let box_ = box_.split("</section>").next().unwrap();
+    let cells = |name: &str| -> Vec<String> {
+        let row = box_.split(&format!("scope=\"row\">{name}</th>")).nth(1);
+        let row = row.unwrap_or_else(|| panic!("no {name}"));
+        let row = row.split("</tr>").next().unwrap();
+        row.split("<td class=\"number\">")
+            .skip(1)
+            .map(|cell| cell.split('<').next().unwrap().replace('\u{202f}', ""))
+            .collect()
+    };
+    assert_eq!(cells("peak force [kN]"), ["1283", "880.0", "1640"]);
+    assert_eq!(cells("impacts")[1..], ["5", "7"]);
+    assert_eq!(cells("stiffness × 0.5"), ["880.0", "7"]);
+    assert_eq!(cells("restitution − 0.15"), ["1285", "7"]);
+    assert_eq!(cells("restitution + 0.15"), ["1295", "7"]);
+    assert_eq!(cells("J1"), ["1.2", "2.0", "45.6", "10.0", "5.0"]);
+    // The bar runs from 880 to 1640, the mark at 1283, of 1640 kN.
+    assert!(box_.contains("left:53.7%;width:46.3%") && box_.contains("left:78.2%"));
 }
 
 #[test]

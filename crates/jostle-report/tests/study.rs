@@ -52,6 +52,7 @@ fn page() -> StudyPage {
                     value: 0.5,
                 }],
                 reach: 1.0,
+                ordered: false,
             }],
             bars: vec![Bars {
                 title: "Force".into(),
@@ -100,13 +101,59 @@ fn the_page_is_whole_and_loads_nothing() {
 #[test]
 fn heights_in_a_chart_are_those_of_the_numbers() {
     let text = render_study(&page());
-    // The chart reaches from y = 260 (0) to y = 10 (1), and from x = 54 (0) to x = 508 (200).
+    // The chart reaches from y = 260 (0) to y = 10 (1), and from x = 66 (0) to x = 508 (200).
     assert!(
-        text.contains("d=\"M54.0 260.0L281.0 135.0L508.0 10.0\""),
+        text.contains("d=\"M66.0 260.0L287.0 135.0L508.0 10.0\""),
         "the line of the series"
     );
     // The level and the middle of the line lie at one height.
     assert!(text.contains("y1=\"135\" y2=\"135\""), "the level line");
+}
+
+#[test]
+fn axes_have_titles_and_rankings_their_base_and_ticks() {
+    let text = render_study(&page());
+    for part in [
+        "text-anchor=\"middle\">peak [cm/s²]</text>",
+        "rotate(-90)\" text-anchor=\"middle\">probability</text>",
+        ">base 100 kN</text>",
+        "text-anchor=\"middle\">force [kN]</text>",
+    ] {
+        assert!(text.contains(part), "{part} is missing");
+    }
+    // From 80 to 130 kN on the 294 px between 170 and 464: the base at 287.6, a tick at 120 kN.
+    let at = |value: f64| format!("{:.1}", 170.0 + 294.0 * (value - 80.0) / 50.0);
+    assert!(text.contains(&format!("x=\"{}\" y=\"11\"", at(100.0))));
+    for (value, label) in [(80.0, "80"), (90.0, "90"), (120.0, "120"), (130.0, "130")] {
+        let tick = format!(
+            "x=\"{}\" y=\"68\" text-anchor=\"middle\">{label}<",
+            at(value)
+        );
+        assert!(text.contains(&tick), "{tick} is missing");
+    }
+}
+
+#[test]
+fn levels_of_one_quantity_differ_by_lightness_alone() {
+    let mut page = page();
+    let chart = &mut page.sections[0].charts[0];
+    let first = chart.series[0].clone();
+    chart.series = (0..3)
+        .map(|colour| Series {
+            colour,
+            name: format!("level {colour}"),
+            ..first.clone()
+        })
+        .collect();
+    let own = render_study(&page);
+    assert!(own.contains("--c:var(--c2)") && !own.contains("--high) 50%"));
+    page.sections[0].charts[0].ordered = true;
+    let ordered = render_study(&page);
+    for share in [0, 50, 100] {
+        let colour = format!("--c:color-mix(in oklab, var(--high) {share}%, var(--low))");
+        // In the legend, the line and its band.
+        assert_eq!(ordered.matches(&colour).count(), 3, "{share} %");
+    }
 }
 
 #[test]

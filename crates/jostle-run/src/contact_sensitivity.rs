@@ -145,11 +145,11 @@ fn compare(own: &Summary, others: &[(ContactVariant, Summary)]) -> ContactSensit
         };
         BuildingChange {
             name: building.name.clone(),
-            displacement: change(|floor| floor.displacement_max_m.max(-floor.displacement_min_m)),
-            storey_drift: change(|floor| floor.storey_drift_peak),
-            total_acceleration: change(|floor| floor.total_acceleration_peak_m_s2),
-            storey_shear: change(|floor| floor.storey_shear_peak_n),
-            overturning_moment: change(|floor| floor.overturning_moment_peak_n_m),
+            displacement: change(|floor| floor.response.displacement_peak_m()),
+            storey_drift: change(|floor| floor.response.storey_drift_peak),
+            total_acceleration: change(|floor| floor.response.total_acceleration_peak_m_s2),
+            storey_shear: change(|floor| floor.response.storey_shear_peak_n),
+            overturning_moment: change(|floor| floor.response.overturning_moment_peak_n_m),
         }
     });
     ContactSensitivity {

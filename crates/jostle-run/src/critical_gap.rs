@@ -1,23 +1,22 @@
 //! The smallest gap without pounding, by bracketing on the response, compared with rules and codes.
 
 use jostle::separation::{
-    EN1998_ALIGNED_FLOORS, JointSystem, UBC97_OF_ELASTIC, absolute_sum, ddc_coefficient,
-    double_difference, gb50011_joint, srss,
+    Code, CodeInputs, Neighbours, Place, Requirement, Requirements, Side, ddc_coefficient,
+    floors_are_level, peak_at_height, required_gaps,
 };
 use jostle::{
-    FloorPairs, GroundMotion, Model, Outcome, Plan, Pounding, RunEnd, Settings, Summary, System,
-    simulate,
+    GroundMotion, Model, Outcome, Plan, Pounding, RunEnd, Settings, Summary, System, simulate,
 };
 use serde::Serialize;
 use std::ops::ControlFlow;
 
 /// Settings of a search.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GapSettings {
     /// Width of the last bracket, > 0 \[m\].
     pub tolerance: f64,
-    /// Structural system for GB 50011.
-    pub system: JointSystem,
+    /// Inputs of codes.
+    pub codes: CodeInputs,
     /// Whether every rule's gap is run too, to see what it would have led to.
     pub outcomes: bool,
 }
@@ -26,7 +25,7 @@ impl Default for GapSettings {
     fn default() -> Self {
         Self {
             tolerance: 1e-4,
-            system: JointSystem::Frame,
+            codes: CodeInputs::default(),
             outcomes: true,
         }
     }
@@ -59,6 +58,17 @@ pub struct CriticalGap {
     pub ddc_correlation: Option<f64>,
     /// Gaps required by rules, and the outcomes with them.
     pub rules: Vec<RuleGap>,
+    /// Rules that cannot be applied, and what they need.
+    pub left_out: Vec<LeftOutRule>,
+}
+
+/// A rule that cannot be applied.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct LeftOutRule {
+    /// Short name.
+    pub rule: String,
+    /// Keys of the model file that it needs.
+    pub needs: String,
 }
 
 /// The gap of a rule.
@@ -78,6 +88,12 @@ pub struct RuleGap {
     pub peak_force_n: Option<f64>,
     /// First impact at this gap \[s\].
     pub first_impact_s: Option<f64>,
+    /// Name of the code in the model file; `null` for general rules.
+    pub code: Option<&'static str>,
+    /// Inputs that the rule used, with defaults marked.
+    pub inputs: Vec<String>,
+    /// Distances of the left and the right building from the property line between them, of rules for such lines \[m\].
+    pub setbacks_m: Option<[f64; 2]>,
 }
 
 /// Why a search failed.
@@ -392,7 +408,8 @@ impl Search<'_> {
             .chain(&damping)
             .all(|x| *x > 0.0 && x.is_finite());
         let rho = usable.then(|| ddc_coefficient(periods, damping));
-        let mut rules = self.rules(gap, &own, apart, rho, settings);
+        let required = self.required(gap, &own, apart, rho, settings);
+        let mut rules: Vec<RuleGap> = required.rules.into_iter().map(rule_gap).collect();
         for rule in &mut rules {
             rule.ratio = (bracket.free > 0.0).then(|| rule.gap_m / bracket.free);
             if settings.outcomes {
@@ -415,94 +432,71 @@ impl Search<'_> {
             damping,
             ddc_correlation: rho,
             rules,
+            left_out: required
+                .left_out
+                .into_iter()
+                .map(|rule| LeftOutRule {
+                    rule: rule.name,
+                    needs: rule.needs,
+                })
+                .collect(),
         })
     }
 
-    fn rules(
+    fn required(
         &self,
         gap: usize,
         own: &[usize],
         apart: &Tried,
         rho: Option<f64>,
         settings: &GapSettings,
-    ) -> Vec<RuleGap> {
-        let peaks: Vec<[f64; 2]> = own
-            .iter()
-            .map(|&contact| {
-                let contact = &apart.system.contacts[contact];
-                contact.ports.buildings().map(|building| {
-                    building.map_or(0.0, |building| peak_at(apart, building, contact.height))
-                })
-            })
-            .collect();
-        let widest = |rule: &dyn Fn(f64, f64) -> f64| {
-            let all = peaks.iter().map(|[left, right]| rule(*left, *right));
-            all.fold(0.0, f64::max)
-        };
-        let rule = |rule: &str, source: &str, gap_m: f64| RuleGap {
-            rule: rule.to_owned(),
-            source: source.to_owned(),
-            gap_m,
-            ratio: None,
-            impact_count: None,
-            peak_force_n: None,
-            first_impact_s: None,
-        };
-        let root = widest(&srss);
-        let mut rules = vec![
-            rule("ABS", "sum of peak displacements", widest(&absolute_sum)),
-            rule(
-                "SRSS",
-                "ASCE 7-16 §12.12.3 and EN 1998-1 §4.4.2.7(2), with the computed displacements",
-                root,
-            ),
-        ];
-        let of_gap = &self.model.gaps[gap];
-        let unmatched = self.model.unmatched_floors();
-        let aligned = unmatched
-            .iter()
-            .all(|found| found.between.map(Some) != of_gap.between);
-        if of_gap.floors == FloorPairs::Common && aligned {
-            rules.push(rule(
-                "0.7 SRSS",
-                "EN 1998-1 §4.4.2.7(3), floors at equal height",
-                EN1998_ALIGNED_FLOORS * root,
-            ));
-        }
-        let mut buildings = apart.system.buildings.iter();
-        if buildings.all(|building| building.equations.springs.is_empty()) {
-            // 0.7 R times the displacement under forces divided by R: 0.7 of the elastic one.
-            rules.push(rule(
-                "UBC-97",
-                "UBC-97 §1630.9.2 and §1633.2.11, with the computed displacements as the elastic ones",
-                UBC97_OF_ELASTIC * root,
-            ));
-        }
-        if let Some(rho) = rho {
-            rules.push(rule(
-                "DDC",
-                "double difference, Jeng, Kasai and Maison (1992)",
-                widest(&|left, right| double_difference(left, right, rho)),
-            ));
-        }
-        let sides = self.model.gaps[gap].between.into_iter().flatten();
-        let height = sides
-            .map(|building| {
-                let floors = apart.system.buildings[building].floors.last();
-                floors.map_or(0.0, |floor| floor.height)
-            })
-            .fold(f64::INFINITY, f64::min);
-        for intensity in 6..=9 {
-            if let Some(width) = gb50011_joint(height, intensity, settings.system) {
-                let name = format!("GB 50011, {intensity}");
-                rules.push(rule(
-                    &name,
-                    &format!("GB 50011-2010 (2016) §6.1.4, intensity {intensity}, {height:.1} m"),
-                    width,
-                ));
+    ) -> Requirements {
+        let places = own.iter().map(|&contact| {
+            let contact = &apart.system.contacts[contact];
+            let peaks = contact.ports.buildings().map(|building| {
+                building.map_or(0.0, |building| peak_at(apart, building, contact.height))
+            });
+            Place {
+                height: contact.height,
+                peaks,
             }
-        }
-        rules
+        });
+        let of_gap = &self.model.gaps[gap];
+        let sides = of_gap.between.map(|building| {
+            let building = building?;
+            let assembled = &apart.system.buildings[building];
+            Some(Side {
+                building,
+                name: assembled.name.clone(),
+                height: assembled.floors.last().map_or(0.0, |floor| floor.height),
+                storeys: assembled.floors.len(),
+                yields: !assembled.equations.springs.is_empty(),
+            })
+        });
+        let neighbours = Neighbours {
+            sides,
+            places: places.collect(),
+            floors_are_level: floors_are_level(self.model, of_gap),
+            correlation: rho,
+            peak_ground_acceleration: self.motion.peak(),
+        };
+        required_gaps(&neighbours, &settings.codes)
+    }
+}
+
+/// A requirement whose outcome is not known yet.
+fn rule_gap(required: Requirement) -> RuleGap {
+    RuleGap {
+        rule: required.name,
+        source: required.source,
+        gap_m: required.width,
+        ratio: None,
+        impact_count: None,
+        peak_force_n: None,
+        first_impact_s: None,
+        code: required.code.map(Code::name),
+        inputs: required.inputs,
+        setbacks_m: required.setbacks,
     }
 }
 
@@ -513,17 +507,9 @@ struct Bracket {
 
 /// Greatest displacement of a building at a height, in either direction; between floors by linear interpolation.
 fn peak_at(run: &Tried, building: usize, height: f64) -> f64 {
-    let floors = &run.summary.buildings[building].floors;
-    let (mut below, mut peak_below) = (0.0, 0.0);
-    for floor in floors {
-        let peak = floor.displacement_max_m.max(-floor.displacement_min_m);
-        if height <= floor.height_m + 1e-3 {
-            let share = ((height - below) / (floor.height_m - below)).clamp(0.0, 1.0);
-            return peak_below + share * (peak - peak_below);
-        }
-        (below, peak_below) = (floor.height_m, peak);
-    }
-    peak_below
+    let floors = run.summary.buildings[building].floors.iter();
+    let peaks = floors.map(|floor| (floor.height_m, floor.response.displacement_peak_m()));
+    peak_at_height(peaks, height)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Why a model cannot be run, or its results cannot be written.
+//! Errors of a run: a model that cannot be run, or results that cannot be written.
 
 use jostle_io::{InputError, OutputError};
 

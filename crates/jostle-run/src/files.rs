@@ -4,8 +4,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use jostle_io::{
-    OutputError, write_atomically, write_floor_spectra_parquet, write_hinges_parquet,
-    write_history_parquet, write_impacts_parquet, write_members_parquet, write_summary_json,
+    OutputError, write_atomically, write_buildings_parquet, write_floor_spectra_parquet,
+    write_floors_parquet, write_hinges_parquet, write_history_parquet, write_impacts_parquet,
+    write_members_parquet, write_summary_json,
 };
 
 use crate::error::RunError;
@@ -14,6 +15,8 @@ use crate::results::Results;
 
 const SUMMARY: &str = "summary.json";
 const HISTORY: &str = "history.parquet";
+const BUILDINGS: &str = "buildings.parquet";
+const FLOORS: &str = "floors.parquet";
 const IMPACTS: &str = "impacts.parquet";
 const HINGES: &str = "hinges.parquet";
 const MEMBERS: &str = "members.parquet";
@@ -21,9 +24,11 @@ const FLOOR_SPECTRA: &str = "floor_spectra.parquet";
 const REPORT: &str = "report.html";
 
 /// The files of a run.
-const FILES: [(&str, FileKind); 7] = [
+const FILES: [(&str, FileKind); 9] = [
     (SUMMARY, FileKind::SUMMARY),
     (HISTORY, FileKind::TABLE),
+    (BUILDINGS, FileKind::TABLE),
+    (FLOORS, FileKind::TABLE),
     (IMPACTS, FileKind::TABLE),
     (HINGES, FileKind::TABLE),
     (MEMBERS, FileKind::TABLE),
@@ -48,7 +53,7 @@ pub fn earlier_files(folder: &Path, force: bool) -> Result<Vec<&'static str>, Ru
 /// Which files to write beside `summary.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Content {
-    /// `history.parquet`, `impacts.parquet`, if buildings yield `hinges.parquet`, and if members are asked for `members.parquet`.
+    /// `history.parquet`, `buildings.parquet`, `floors.parquet`, `impacts.parquet`, if buildings yield `hinges.parquet`, and if members are asked for `members.parquet`.
     /// If floor spectra are asked for, `floor_spectra.parquet` is written in any case, beside `summary.json`.
     pub tables: bool,
     /// `report.html`.
@@ -105,6 +110,8 @@ impl Results<'_> {
                 write_history_parquet(path, model, summary, history)
             })?;
         }
+        staged.add(BUILDINGS, |path| write_buildings_parquet(path, summary))?;
+        staged.add(FLOORS, |path| write_floors_parquet(path, summary))?;
         staged.add(IMPACTS, |path| write_impacts_parquet(path, summary))?;
         if !outcome.springs.is_empty() {
             let system = &self.prepared.system;

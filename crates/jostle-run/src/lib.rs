@@ -1,4 +1,4 @@
-//! What all faces of jostle have in common: the command line, Python, studies and the live page.
+//! Runs of models, the same for the command line, Python, studies and the live page.
 //!
 //! [`open()`] reads and assembles a model, [`Opened::prepare`] chooses its steps, [`Prepared::run`] makes the run, and
 //! [`Results::write`] writes its files. Progress goes to an observer, which can stop the run. Nothing is printed, and no
@@ -6,6 +6,7 @@
 
 mod calculation;
 mod collide;
+mod contact_advice;
 mod contact_sensitivity;
 mod critical_gap;
 mod error;
@@ -29,7 +30,13 @@ mod summary_text;
 mod workshop;
 
 pub use collide::{CollideOptions, collide, collision_json};
-pub use critical_gap::{CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps};
+pub use contact_advice::{
+    AdviceOptions, ContactAdvice, LEAST_TRANSITS, RangeAdvice, StiffnessEstimate, WaveAdvice,
+    contact_advice,
+};
+pub use critical_gap::{
+    CriticalGap, GapError, GapProgress, GapSettings, LeftOutRule, RuleGap, critical_gaps,
+};
 pub use error::RunError;
 pub use files::{Content, earlier_files};
 pub use floor_spectra::RunFloorSpectra;
@@ -44,7 +51,7 @@ pub use replace::{FileKind, may_write};
 pub use results::Results;
 pub use run::Ran;
 pub use shapes::SharedShapes;
-pub use spectra::{Inelastic, spectra_json, spectrum_json};
+pub use spectra::{Inelastic, accelerogram, spectra_json, spectrum_json};
 pub use style::{BOLD, DIM, LOUD, plain, styled};
 pub use summary_text::{describe_summary, summary_text};
 pub use workshop::{CaseError, Workshop};

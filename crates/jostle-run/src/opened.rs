@@ -60,9 +60,10 @@ pub fn open(
 /// # Errors
 /// Every fault of the file.
 pub fn read(path: &Path) -> Result<Input, InputError> {
-    let builtin = path
-        .to_str()
-        .filter(|name| !path.exists() && jostle_io::model_names().contains(name));
+    // A folder, say of earlier results, may have the name of a built-in model.
+    let builtin = path.to_str().filter(|name| {
+        (!path.exists() || path.is_dir()) && jostle_io::model_names().contains(name)
+    });
     match builtin {
         Some(name) => jostle_io::builtin_model(name),
         None => jostle_io::read_model_file(path),

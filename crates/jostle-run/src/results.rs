@@ -1,10 +1,11 @@
-//! What the files of a run are written from.
+//! The results from which the files of a run are written.
 
 use jostle::method::MethodSurvey;
 use jostle::{History, Outcome, RunEnd, Summary};
 use jostle_io::Input;
 use jostle_report::{Page, ReinforcedSection};
 
+use crate::contact_advice::contact_boxes;
 use crate::prepared::Prepared;
 
 /// A run in the form that its files are written from.
@@ -12,7 +13,7 @@ use crate::prepared::Prepared;
 pub struct Results<'a> {
     /// What was run.
     pub prepared: &'a Prepared,
-    /// What came out; its histories may have been taken out of it.
+    /// Results of the run; histories may have been moved out of it.
     pub outcome: &'a Outcome,
     /// Its numbers.
     pub summary: &'a Summary,
@@ -43,6 +44,11 @@ impl<'a> Results<'a> {
         let history = self.history?;
         let sections = reinforced(&self.prepared.input);
         let calculation = self.prepared.calculation();
+        let contacts = contact_boxes(
+            &self.prepared.input.model,
+            &self.prepared.system,
+            self.summary,
+        );
         Some(show(&Page {
             model: &self.prepared.input.model,
             motion: &self.prepared.motion,
@@ -51,6 +57,8 @@ impl<'a> Results<'a> {
             without_contact: self.without_contact,
             springs: self.outcome.spring_history.as_ref(),
             sections: &sections,
+            codes: &self.prepared.input.codes,
+            contacts: &contacts,
             methods: self.methods,
             calculation: Some(&calculation),
         }))

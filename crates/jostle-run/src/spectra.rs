@@ -1,7 +1,9 @@
 //! Response spectra as JSON.
 
+use jostle::GroundMotion;
+use jostle::motion::Wave;
 use jostle_motion::{
-    Accelerogram, DuctilitySpectrum, Reading, ResponseSpectrum, ductility_spectrum,
+    Accelerogram, DuctilitySpectrum, MotionFault, Reading, ResponseSpectrum, ductility_spectrum,
     response_spectrum,
 };
 use serde_json::{Value, json};
@@ -42,6 +44,21 @@ pub fn spectrum_json(
     Ok(spectra_json(&elastic, &inelastic).to_string())
 }
 
+/// A ground motion as equally spaced values, with its scale and its length; a wave given by a formula takes 200 in a
+/// period.
+///
+/// # Errors
+/// [`MotionFault`] for fewer than two values, or if one is not finite.
+pub fn accelerogram(motion: &GroundMotion) -> Result<Accelerogram, MotionFault> {
+    let step = match &motion.wave {
+        Wave::Sampled { step, .. } => *step,
+        Wave::Sine { period, .. } | Wave::Ricker { period, .. } => period / 200.0,
+    };
+    let count = ((motion.duration / step).round() as usize).clamp(1, 1 << 22);
+    let values = (0..=count).map(|i| motion.acceleration(step * i as f64));
+    Accelerogram::new(step, values.collect())
+}
+
 /// The JSON of `jostle motion spectrum`.
 #[must_use]
 pub fn spectra_json(elastic: &ResponseSpectrum, inelastic: &[Inelastic]) -> Value {
@@ -73,6 +90,6 @@ pub fn spectra_json(elastic: &ResponseSpectrum, inelastic: &[Inelastic]) -> Valu
     value
 }
 
-fn wrong(fault: jostle_motion::MotionFault) -> RunError {
+fn wrong(fault: MotionFault) -> RunError {
     RunError::Argument(fault.to_string())
 }

@@ -1,4 +1,4 @@
-//! Styles of words in texts for a terminal; whoever prints a text decides whether they are shown.
+//! Styles of words in texts for a terminal. The code that prints a text decides whether they are shown.
 
 use anstyle::{AnsiColor, Style};
 

@@ -4,10 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use jostle::results::contact_sensitivity::ContactSensitivity;
-use jostle::results::summary::{
-    BuildingSummary, ContactSummary, FloorSummary, FloorWithoutContact, GapSummary, LinkSummary,
-    Summary,
-};
+use jostle::results::response::FloorResponse;
+use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, LinkSummary, Summary};
 use jostle::separation::gb50011_frame_joint;
 
 use crate::floor_spectra_text::write_floor_spectra;
@@ -16,6 +14,8 @@ use crate::style::{BOLD, DIM, LOUD, styled};
 
 /// Contacts listed at most.
 const LISTED: usize = 10;
+/// The name of a wall beside a gap.
+const WALL: &str = "wall";
 
 /// The summary of a run on one screen, as `jostle run` prints it, without colours.
 #[must_use]
@@ -118,11 +118,6 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
         let Some(roof) = building.floors.last() else {
             continue;
         };
-        let drift = building
-            .floors
-            .iter()
-            .map(|floor| floor.storey_drift_peak)
-            .fold(0.0, f64::max);
         writeln!(
             text,
             "{:width$}  {:6}  {:5.0} t  {:15} s  {:>+6.1} / {:>+5.1} mm  {:4.2} %  {:>7} kN",
@@ -130,66 +125,73 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
             building.floors.len(),
             building.mass_kg * 1e-3,
             periods.join(" "),
-            roof.displacement_max_m * 1e3,
-            roof.displacement_min_m * 1e3,
-            drift * 100.0,
-            kn(building.base_shear_peak_n)
+            roof.response.displacement_max_m * 1e3,
+            roof.response.displacement_min_m * 1e3,
+            building.response.drift_peak * 100.0,
+            kn(building.response.base_shear_peak_n)
         )?;
     }
     Ok(())
 }
 
-/// Effect of contact on every building: least and greatest ratio over the height, and the place of the greatest.
+/// Effect of contact on every building: peaks with contact divided by peaks without, where this ratio is greatest and
+/// where it is least over the height.
 fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    const HEADING: &str = "peaks with ÷ without contact";
     let width = buildings
         .iter()
-        .map(|building| building.name.chars().count())
-        .fold(20, usize::max);
+        .map(|building| building.name.chars().count() + "  greatest".len())
+        .fold(HEADING.chars().count(), usize::max);
     let mut rows = String::new();
     for building in buildings {
-        type Peak = (
-            fn(&FloorSummary) -> f64,
-            fn(&FloorWithoutContact) -> f64,
-            &'static str,
-        );
-        let kinds: [Peak; 3] = [
-            (|f| f.storey_drift_peak, |f| f.storey_drift_peak, "storey"),
-            (
-                |f| f.storey_shear_peak_n,
-                |f| f.storey_shear_peak_n,
-                "storey",
-            ),
-            (
-                |f| f.total_acceleration_peak_m_s2,
-                |f| f.total_acceleration_peak_m_s2,
-                "floor",
-            ),
-        ];
-        let cells = kinds.map(|(with, without, place)| {
-            let ratios = building.floors.iter().filter_map(|floor| {
-                let before = without(&floor.without_contact?);
-                (before > 0.0).then(|| (with(floor) / before, floor.floor))
-            });
-            let least = ratios.clone().min_by(|a, b| a.0.total_cmp(&b.0))?;
-            let (most, at) = ratios.max_by(|a, b| a.0.total_cmp(&b.0))?;
-            Some(format!("{:.2} – {most:.2} ({place} {at})", least.0))
-        });
-        if let [Some(drift), Some(shear), Some(acceleration)] = cells {
+        let [Some(drift), Some(shear), Some(acceleration)] = changes(building) else {
+            continue;
+        };
+        let name = width - "  greatest".len();
+        for (side, label) in [(0, "greatest"), (1, "least")] {
+            let cell = |extremes: &Extremes, place: &str| {
+                let (ratio, at) = extremes[side];
+                format!("{ratio:.2} ({place} {at})")
+            };
             writeln!(
                 rows,
-                "{:width$}  {drift:>24}  {shear:>24}  {acceleration:>24}",
-                building.name
+                "{:name$}  {label:8}  {:>17}  {:>17}  {:>17}",
+                if side == 0 { &*building.name } else { "" },
+                cell(&drift, "storey"),
+                cell(&shear, "storey"),
+                cell(&acceleration, "floor")
             )?;
         }
     }
     if !rows.is_empty() {
         writeln!(
             text,
-            "\n{:width$}  {:>24}  {:>24}  {:>24}\n{rows}",
-            "with/without contact", "storey drift", "storey shear", "acceleration"
+            "\n{HEADING:width$}  {:>17}  {:>17}  {:>17}\n{rows}",
+            "storey drift", "storey shear", "acceleration"
         )?;
     }
     Ok(())
+}
+
+/// Greatest and least ratio over the height, and the floor of each.
+type Extremes = [(f64, usize); 2];
+
+/// Ratios of storey drift, storey shear and acceleration; `None` without a run without contact.
+fn changes(building: &BuildingSummary) -> [Option<Extremes>; 3] {
+    let kinds: [fn(&FloorResponse) -> f64; 3] = [
+        |f| f.storey_drift_peak,
+        |f| f.storey_shear_peak_n,
+        |f| f.total_acceleration_peak_m_s2,
+    ];
+    kinds.map(|peak| {
+        let ratios = building.floors.iter().filter_map(|floor| {
+            let before = peak(&floor.without_contact?);
+            (before > 0.0).then(|| (peak(&floor.response) / before, floor.floor))
+        });
+        let greatest = ratios.clone().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let least = ratios.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some([greatest, least])
+    })
 }
 
 /// One line for every building that can crack and yield.
@@ -247,13 +249,16 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
         )?;
     }
     for contact in hit.iter().take(LISTED) {
-        let floor = |side: usize| {
-            contact.floors[side].map_or_else(|| "–".to_owned(), |floor| floor.to_string())
+        // Neither a floor nor a wall: a column between its floors.
+        let point = |side: usize| match contact.floors[side] {
+            Some(floor) => floor.to_string(),
+            None if gap.between[side] == WALL => WALL.to_owned(),
+            None => "–".to_owned(),
         };
         writeln!(
             text,
-            "  {:>7}  {:7}  {:>8} kN  {:>5.1} kN·s  {:>5} mm  {:>7.3} s",
-            format!("{} | {}", floor(0), floor(1)),
+            "{:>9}  {:7}  {:>8} kN  {:>5.1} kN·s  {:>5} mm  {:>7.3} s",
+            format!("{} | {}", point(0), point(1)),
             contact.impact_count,
             kn(contact.peak_force_n),
             contact.impulse_n_s * 1e-3,
@@ -276,6 +281,13 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
             counted(gap.pounding_count, "pounding"),
             gap.most_at_once
         )?;
+        if let Some(at) = gap.total_force_peak_at_s {
+            writeln!(
+                text,
+                "  All contacts together: peak {} kN at {at:.3} s.",
+                kn(gap.total_force_peak_n)
+            )?;
+        }
     }
     if let Some(closing) = gap.closing_without_contact_m {
         writeln!(
@@ -359,23 +371,60 @@ fn write_code_joint(text: &mut String, gap: &GapSummary, summary: &Summary) -> s
 
 #[cfg(test)]
 mod tests {
-    use jostle::results::summary::HingeSummary;
+    use jostle::results::summary::{FloorSummary, HingeSummary};
 
     use super::*;
+
+    /// A floor with peaks `with` contact and one without: drift, shear, acceleration.
+    fn floor(number: usize, with: [f64; 3], without: [f64; 3]) -> FloorSummary {
+        let response = |peaks: [f64; 3]| FloorResponse {
+            storey_drift_peak: peaks[0],
+            storey_shear_peak_n: peaks[1],
+            total_acceleration_peak_m_s2: peaks[2],
+            ..FloorResponse::default()
+        };
+        FloorSummary {
+            floor: number,
+            height_m: 3.0 * number as f64,
+            response: response(with),
+            without_contact: Some(response(without)),
+            amplification: None,
+        }
+    }
+
+    #[test]
+    fn what_contact_changes_names_where_it_hurts_and_where_it_helps() {
+        let mut one = building("A", HingeSummary::default());
+        one.floors = vec![
+            floor(1, [0.01, 8e5, 2.0], [0.02, 1e6, 4.0]),
+            floor(2, [0.03, 6e5, 9.0], [0.02, 5e5, 2.0]),
+            floor(3, [0.01, 3e5, 3.0], [0.01, 3e5, 0.0]),
+        ];
+        // Without a run without contact there is nothing to compare.
+        let mut two = building("B", HingeSummary::default());
+        two.floors = one.floors.clone();
+        for floor in &mut two.floors {
+            floor.without_contact = None;
+        }
+        let mut text = String::new();
+        let _ = write_changes(&mut text, &[one, two]);
+        assert_eq!(
+            text,
+            "\n\
+             peaks with ÷ without contact       storey drift       storey shear       acceleration\n\
+             A                   greatest    1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
+             \x20                   least       0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
+        );
+        let mut text = String::new();
+        let _ = write_changes(&mut text, &[]);
+        assert_eq!(text, "");
+    }
 
     fn building(name: &str, hinges: HingeSummary) -> BuildingSummary {
         BuildingSummary {
             name: name.to_owned(),
-            mass_kg: 0.0,
-            periods_s: Vec::new(),
-            rayleigh_alpha_per_s: 0.0,
-            rayleigh_beta_s: 0.0,
-            floors: Vec::new(),
-            base_shear_peak_n: 0.0,
-            without_contact: None,
-            residual_roof_displacement_m: 0.0,
             hinges,
-            members: Vec::new(),
+            ..BuildingSummary::default()
         }
     }
 

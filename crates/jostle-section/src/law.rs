@@ -22,18 +22,19 @@ pub struct ConcreteLaw {
 }
 
 impl ConcreteLaw {
-    /// Unconfined concrete of GB 50010-2010, C.2.4; crushed at 0.0033, less above C50 (6.2.1).
+    /// Unconfined concrete: up to the peak by Popovics with its own modulus and strain; beyond it as GB 50010-2010, C.2.4,
+    /// or, if its standard states the strains, further by Popovics. Crushed at [`Concrete::crushing_strain`].
     #[must_use]
     pub fn unconfined(concrete: &Concrete) -> Self {
         let strength = 1e-6 * concrete.strength;
-        let cube = strength / 0.67;
+        let softening = (0.157 * strength.powf(0.785) - 0.905).max(0.0);
         Self {
             peak_stress: concrete.strength,
             peak_strain: concrete.peak_strain(),
             modulus: concrete.modulus,
             tensile_strength: concrete.tensile_strength,
-            softening: Some((0.157 * strength.powf(0.785) - 0.905).max(0.0)),
-            crushing_strain: 0.0033 - (cube - 50.0).clamp(0.0, 100.0) * 1e-5,
+            softening: concrete.strains.is_none().then_some(softening),
+            crushing_strain: concrete.crushing_strain(),
         }
     }
 

@@ -22,12 +22,12 @@ mod steel;
 mod survey;
 
 pub use bars::{Bar, BarsError, Reinforcement, Ties};
-pub use concrete::{CONCRETE_GRADES, Concrete, StrengthLevel};
+pub use concrete::{CONCRETE_GRADES, Concrete, EN_CONCRETE_GRADES, StrengthLevel};
 pub use curve::{AnalysisError, Event, EventKind, MomentCurvature, Options};
 pub use fibre::{Fibres, Resultants};
 pub use fit::Trilinear;
 pub use law::{ConcreteLaw, SteelLaw, confined};
 pub use member::{EndCurve, EndSide, FORMULA_POST_YIELD};
 pub use section::{Section, SectionFault, Transformed};
-pub use steel::{STEEL_GRADES, Steel};
+pub use steel::{ASTM_STEEL_GRADES, EN_STEEL_GRADES, STEEL_GRADES, Steel};
 pub use survey::{Analysis, SectionSurvey};

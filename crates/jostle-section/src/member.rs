@@ -7,7 +7,7 @@ use crate::fit::Trilinear;
 use crate::formula::{self, Member};
 use crate::section::Section;
 
-/// Moment at a member end against its rotation from the chord, for bending in double curvature (both ends alike,
+/// Moment at a member end against its rotation from the chord, for bending in double curvature (both ends equal,
 /// the moment vanishing at midspan).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndCurve {

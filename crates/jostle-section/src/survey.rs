@@ -66,7 +66,7 @@ impl SectionSurvey {
         6.0 * self.section.gross_rigidity() / self.length
     }
 
-    /// Whether both sides are alike.
+    /// Whether both sides are equal.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {
         self.section.is_symmetric()

@@ -85,7 +85,7 @@ pub(crate) fn row_of(study: &Study, case: u64, ran: &Ran) -> Row {
     }
     let offset = row.numbers.len() - study.layout.results.len();
     let mut homeless: Vec<String> = Vec::new();
-    let found = measures(&summary, &ran.prepared.system, &ran.prepared.motion);
+    let found = measures(&summary, &ran.prepared.motion, study.file.without_contact);
     for named in found {
         // Peaks up to a failure are not peaks of the whole case.
         let known_anyway = matches!(&named.name[..], "pga_m_s2")

@@ -1,7 +1,11 @@
 //! Engineering demand parameters of a run, by name: the results of a row of a study.
 
-use jostle::results::summary::{BuildingSummary, GapSummary};
-use jostle::{GroundMotion, Summary, System, Wave};
+use jostle::quantity::Read;
+use jostle::results::response::{BuildingResponse, FloorResponse};
+use jostle::results::summary::{
+    BuildingSummary, ContactSummary, EnergySummary, GapSummary, MotionSummary, WorkSummary,
+};
+use jostle::{GroundMotion, Quantity, Summary, Wave};
 use jostle_motion::{Accelerogram, Reading, response_spectrum};
 
 use crate::layout::{Kind, Named};
@@ -10,166 +14,109 @@ use crate::layout::{Kind, Named};
 const SPECTRUM_DAMPING: f64 = 0.05;
 
 /// Collects named numbers.
-struct List(Vec<Named>);
+struct List {
+    named: Vec<Named>,
+    /// Whether the study compares with runs without contact.
+    compares: bool,
+}
 
 impl List {
-    fn real(&mut self, name: String, value: impl Into<Option<f64>>) {
-        let value = value.into().filter(|value| value.is_finite());
-        self.0.push(Named {
-            name,
-            kind: Kind::Real,
-            value,
-        });
+    fn put(&mut self, name: String, kind: Kind, value: Option<f64>) {
+        let value = value.filter(|value| value.is_finite());
+        self.named.push(Named { name, kind, value });
     }
 
-    fn whole(&mut self, name: String, value: u64) {
-        self.0.push(Named {
-            name,
-            kind: Kind::Whole,
-            value: Some(value as f64),
-        });
+    /// The numbers of an owner; their names begin with `place`.
+    fn add<T>(&mut self, place: &str, quantities: &'static [Quantity<T>], owner: &T) {
+        for quantity in quantities.iter().filter(|quantity| quantity.places.study) {
+            self.add_one(place, quantity, owner);
+        }
+    }
+
+    fn add_one<T>(&mut self, place: &str, quantity: &Quantity<T>, owner: &T) {
+        let name = format!("{place}{}", quantity.name);
+        self.put(name, kind(quantity), quantity.value(owner));
+    }
+
+    /// The same of a building or a floor, and what contact changes.
+    fn add_response<T>(
+        &mut self,
+        place: &str,
+        quantities: &'static [Quantity<T>],
+        (own, without): (&T, Option<&T>),
+        yields: bool,
+    ) {
+        for quantity in quantities {
+            let places = quantity.places;
+            if !places.study || places.yielding && !yields {
+                continue;
+            }
+            self.add_one(place, quantity, own);
+            if self.compares && places.compared {
+                let (name, ratio) = (
+                    quantity.name_without_contact(),
+                    quantity.name_of_amplification(),
+                );
+                let value = without.and_then(|without| quantity.value(without));
+                self.put(format!("{place}{name}"), kind(quantity), value);
+                let value = without.and_then(|without| quantity.amplification(own, without));
+                self.put(format!("{place}{ratio}"), Kind::Real, value);
+            }
+        }
     }
 }
 
-/// Every number of a run that the table has, in its order.
-pub(crate) fn measures(summary: &Summary, system: &System, motion: &GroundMotion) -> Vec<Named> {
-    let mut list = List(Vec::new());
-    list.real("pga_m_s2".into(), summary.motion.pga_m_s2);
-    let gaps = &summary.gaps;
-    if !gaps.is_empty() {
-        let sum = |of: fn(&GapSummary) -> f64| gaps.iter().map(of).fold(0.0, |a, b| a + b);
-        let most = |of: fn(&GapSummary) -> f64| gaps.iter().map(of).fold(0.0, f64::max);
-        list.whole(
-            "impact_count".into(),
-            gaps.iter().map(|gap| gap.impact_count as u64).sum(),
-        );
-        list.real("peak_force_n".into(), most(|gap| gap.peak_force_n));
-        let first = gaps.iter().filter_map(|gap| gap.first_impact_s);
-        list.real("first_impact_s".into(), first.min_by(f64::total_cmp));
-        list.real("impulse_n_s".into(), sum(impulse));
-        list.real("closing_peak_m".into(), most(closing));
+fn kind<T>(quantity: &Quantity<T>) -> Kind {
+    match quantity.read {
+        Read::Real(_) | Read::Optional(_) => Kind::Real,
+        Read::Whole(_) => Kind::Whole,
     }
-    for gap in gaps {
-        gap_measures(&mut list, gap);
+}
+
+/// Every number of a run that the table has, in its order. `compares`: also those of the run without contact.
+pub(crate) fn measures(summary: &Summary, motion: &GroundMotion, compares: bool) -> Vec<Named> {
+    let mut list = List {
+        named: Vec::new(),
+        compares,
+    };
+    list.add("", MotionSummary::QUANTITIES, &summary.motion);
+    if !summary.gaps.is_empty() {
+        list.add("", Summary::POUNDING, summary);
+    }
+    for gap in &summary.gaps {
+        let pair = gap.between.join("-");
+        list.add(&format!("{pair}."), GapSummary::QUANTITIES, gap);
+        if compares {
+            list.add(&format!("{pair}."), GapSummary::WITHOUT_CONTACT, gap);
+        }
+        for contact in &gap.contacts {
+            let place = match contact.floors {
+                [Some(left), Some(right)] => format!("{pair}.floor{left}-{right}."),
+                _ => format!("{pair}.at{:.0}mm.", 1e3 * contact.height_m),
+            };
+            list.add(&place, ContactSummary::QUANTITIES, contact);
+        }
     }
     let spectra = spectral_accelerations(summary, motion);
-    for ((building, sa), assembled) in summary.buildings.iter().zip(spectra).zip(&system.buildings)
-    {
-        let elastic = assembled.equations.springs.is_empty();
-        building_measures(&mut list, building, sa, elastic);
+    for (building, sa) in summary.buildings.iter().zip(spectra) {
+        building_measures(&mut list, building, sa);
     }
-    let energy = &summary.energy;
-    for (name, value) in [
-        ("energy_input_j", energy.input_j),
-        ("energy_damped_j", energy.damped_j),
-        ("energy_hysteretic_j", energy.hysteretic_j),
-        ("energy_contact_j", energy.contact_j),
-        ("energy_imbalance", energy.imbalance),
-        ("energy_worst_imbalance", energy.worst_imbalance),
-    ] {
-        list.real(name.into(), value);
-    }
-    let work = &summary.work;
-    for (name, value) in [
-        ("steps", work.steps),
-        ("contact_steps", work.contact_steps),
-        ("factorizations", work.factorizations),
-        ("solves", work.solves),
-        ("iterations", work.iterations),
-    ] {
-        list.whole(name.into(), value);
-    }
-    list.0
+    list.add("energy_", EnergySummary::QUANTITIES, &summary.energy);
+    list.add("", WorkSummary::QUANTITIES, &summary.work);
+    list.named
 }
 
-fn impulse(gap: &GapSummary) -> f64 {
-    let contacts = gap.contacts.iter().map(|contact| contact.impulse_n_s);
-    contacts.fold(0.0, |a, b| a + b)
-}
-
-fn closing(gap: &GapSummary) -> f64 {
-    let contacts = gap.contacts.iter().map(|contact| contact.closing_peak_m);
-    contacts.fold(0.0, f64::max)
-}
-
-fn gap_measures(list: &mut List, gap: &GapSummary) {
-    let pair = gap.between.join("-");
-    list.real(format!("{pair}.width_m"), gap.width_m);
-    list.whole(format!("{pair}.impact_count"), gap.impact_count as u64);
-    list.whole(format!("{pair}.pounding_count"), gap.pounding_count as u64);
-    list.whole(format!("{pair}.most_at_once"), gap.most_at_once as u64);
-    list.real(format!("{pair}.peak_force_n"), gap.peak_force_n);
-    list.real(format!("{pair}.first_impact_s"), gap.first_impact_s);
-    list.real(format!("{pair}.impulse_n_s"), impulse(gap));
-    list.real(format!("{pair}.closing_peak_m"), closing(gap));
-    for contact in &gap.contacts {
-        let place = match contact.floors {
-            [Some(left), Some(right)] => format!("{pair}.floor{left}-{right}"),
-            _ => format!("{pair}.at{:.0}mm", 1e3 * contact.height_m),
-        };
-        list.whole(format!("{place}.impact_count"), contact.impact_count as u64);
-        list.real(format!("{place}.peak_force_n"), contact.peak_force_n);
-        list.real(format!("{place}.impulse_n_s"), contact.impulse_n_s);
-        list.real(format!("{place}.closing_peak_m"), contact.closing_peak_m);
-    }
-}
-
-fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64>, elastic: bool) {
-    let name = &building.name;
-    let floors = &building.floors;
-    list.real(
-        format!("{name}.period_s"),
-        building.periods_s.first().copied(),
-    );
-    list.real(format!("{name}.sa_t1_m_s2"), sa);
-    let greatest = |of: fn(&jostle::results::summary::FloorSummary) -> f64| {
-        floors.iter().map(of).fold(0.0, f64::max)
-    };
-    list.real(
-        format!("{name}.drift_peak"),
-        greatest(|f| f.storey_drift_peak),
-    );
-    list.real(
-        format!("{name}.total_acceleration_peak_m_s2"),
-        greatest(|f| f.total_acceleration_peak_m_s2),
-    );
-    list.real(
-        format!("{name}.residual_drift_peak"),
-        greatest(|f| f.residual_drift.abs()),
-    );
-    list.real(
-        format!("{name}.base_shear_peak_n"),
-        building.base_shear_peak_n,
-    );
-    list.real(
-        format!("{name}.residual_roof_displacement_m"),
-        building.residual_roof_displacement_m,
-    );
-    if !elastic {
-        let hinges = &building.hinges;
-        list.whole(format!("{name}.hinges_cracked"), hinges.cracked as u64);
-        list.whole(format!("{name}.hinges_yielded"), hinges.yielded as u64);
-        list.real(format!("{name}.ductility"), hinges.ductility);
-    }
-    for floor in floors {
-        let place = format!("{name}.floor{}", floor.floor);
-        list.real(
-            format!("{place}.displacement_max_m"),
-            floor.displacement_max_m,
-        );
-        list.real(
-            format!("{place}.displacement_min_m"),
-            floor.displacement_min_m,
-        );
-        list.real(
-            format!("{place}.total_acceleration_peak_m_s2"),
-            floor.total_acceleration_peak_m_s2,
-        );
-        list.real(
-            format!("{place}.storey_drift_peak"),
-            floor.storey_drift_peak,
-        );
-        list.real(format!("{place}.residual_drift"), floor.residual_drift);
+fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64>) {
+    let place = format!("{}.", building.name);
+    list.add(&place, BuildingSummary::QUANTITIES, building);
+    list.put(format!("{place}sa_t1_m_s2"), Kind::Real, sa);
+    let yields = building.hinges.total > 0;
+    let response = (&building.response, building.without_contact.as_ref());
+    list.add_response(&place, BuildingResponse::QUANTITIES, response, yields);
+    for floor in &building.floors {
+        let place = format!("{place}floor{}.", floor.floor);
+        let response = (&floor.response, floor.without_contact.as_ref());
+        list.add_response(&place, FloorResponse::QUANTITIES, response, yields);
     }
 }
 

@@ -15,7 +15,7 @@ use crate::dataset::{
     strangers, verify, write_part,
 };
 use crate::row::{Row, Status};
-use crate::single::{run_until, write_run};
+use crate::single::{add_run_without_contact, run_until, write_run};
 use crate::study::{Study, StudyError};
 use jostle_run::Workshop;
 
@@ -169,7 +169,7 @@ struct Work<'a> {
     failed: AtomicU64,
     cases: u64,
     error: Mutex<Option<StudyError>>,
-    /// An error has occurred: nobody begins anything more.
+    /// An error has occurred: no thread begins another case.
     halt: AtomicBool,
     hooks: Hooks<'a>,
 }
@@ -191,7 +191,7 @@ struct Part {
 struct Inner {
     journal: Option<Journal>,
     rows: Vec<Option<Row>>,
-    /// Cases that nobody has begun.
+    /// Cases that no thread has begun.
     open: VecDeque<u64>,
     /// Cases without a row.
     missing: usize,
@@ -508,6 +508,9 @@ fn compute(
     let Some(mut ran) = run_until(prepared, settings, stop) else {
         return Ok(None);
     };
+    if study.file.without_contact && !add_run_without_contact(&mut ran, settings, stop) {
+        return Ok(None);
+    }
     let row = case::row_of(study, number, &ran);
     if keep {
         // Rows of histories cost modal stepping steps: the row of the study is that of the run without them.

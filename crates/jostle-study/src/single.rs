@@ -50,6 +50,19 @@ pub(crate) fn run_until(
     (!stopped).then_some(ran)
 }
 
+/// Runs a case without contact as well, unless it has that run. `false` when it was stopped.
+pub(crate) fn add_run_without_contact(
+    ran: &mut Ran,
+    settings: Settings,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> bool {
+    if ran.without_contact.is_none() {
+        ran.run_without_contact(settings, &mut observer(stop));
+    }
+    let without = ran.without_contact.as_ref();
+    without.is_none_or(|run| run.end != RunEnd::Stopped)
+}
+
 /// Runs a case without contact as well, for its report, and writes its files. `false` when it was stopped.
 pub(crate) fn write_run(
     mut ran: Ran,
@@ -57,9 +70,7 @@ pub(crate) fn write_run(
     folder: &Path,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<bool, StudyError> {
-    ran.run_without_contact(settings, &mut observer(stop));
-    let without = ran.without_contact.as_ref();
-    if without.is_some_and(|run| run.end == RunEnd::Stopped) {
+    if !add_run_without_contact(&mut ran, settings, stop) {
         return Ok(false);
     }
     std::fs::create_dir_all(folder)

@@ -394,7 +394,7 @@ fn columns(
     };
     let outcome = prepared.step(settings, |_| ControlFlow::Continue(()));
     let summary = prepared.summary(&outcome, None, 0.0);
-    let list = measures(&summary, &prepared.system, &prepared.motion);
+    let list = measures(&summary, &prepared.motion, file.without_contact);
     Ok((list, warnings))
 }
 

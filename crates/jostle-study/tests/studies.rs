@@ -247,7 +247,7 @@ fn rows_hold_the_numbers_of_single_runs() {
         );
         close(
             "A.floor2.displacement_max_m",
-            summary.buildings[0].floors[1].displacement_max_m,
+            summary.buildings[0].floors[1].response.displacement_max_m,
         );
         close("energy_input_j", summary.energy.input_j);
         assert_eq!(
@@ -685,6 +685,8 @@ fn a_case_leaves_the_files_of_a_run() {
         .map(|entry| entry.file_name().to_string_lossy().into_owned())
         .collect();
     let expected = [
+        "buildings.parquet",
+        "floors.parquet",
         "hinges.parquet",
         "history.parquet",
         "impacts.parquet",
@@ -697,4 +699,82 @@ fn a_case_leaves_the_files_of_a_run() {
     };
     assert!(read("summary.json").contains("\"closing_without_contact_m\": 0."));
     assert!(read("report.html").contains("column section"));
+}
+
+/// Rows of a study that asks for it have the run without contact, and ratios to it; other columns stay as they are.
+#[test]
+fn a_study_compares_with_runs_without_contact() {
+    let grid = "base = \"towers.toml\"\n[[vary]]\npath = \"gap[0].width\"\nvalues = [\"5 mm\", \"500 mm\"]\n";
+    let compared = study(&format!("without_contact = true\n{grid}"));
+    let plain = study(grid);
+    let names = |study: &Study| -> Vec<String> {
+        study
+            .layout
+            .names()
+            .iter()
+            .map(|name| (*name).to_owned())
+            .collect()
+    };
+    let added: Vec<String> = names(&compared)
+        .into_iter()
+        .filter(|name| !names(&plain).contains(name))
+        .collect();
+    assert!(
+        added
+            .iter()
+            .all(|name| { name.contains("_without_contact") || name.ends_with("_amplification") })
+    );
+    assert_eq!(names(&compared).len(), names(&plain).len() + added.len());
+    for name in [
+        "A-B.closing_without_contact_m",
+        "A.base_shear_peak_without_contact_n",
+        "A.floor2.displacement_max_without_contact_m",
+        "A.floor2.storey_shear_peak_amplification",
+        "A.floor2.overturning_moment_peak_amplification",
+        "A.floor2.total_acceleration_peak_without_contact_m_s2",
+        "B.residual_roof_displacement_amplification",
+    ] {
+        assert!(
+            added.iter().any(|added| added == name),
+            "{name} in {added:?}"
+        );
+    }
+    assert!(
+        !added.iter().any(|name| name.contains("ductility")),
+        "nothing can yield"
+    );
+
+    let folder = temporary();
+    go(&compared, folder.path(), &RunSettings::default());
+    let wanted = [
+        "A.floor2.storey_drift_peak",
+        "A.floor2.storey_drift_peak_without_contact",
+        "A.floor2.storey_drift_peak_amplification",
+        "A-B.closing_without_contact_m",
+        "A-B.closing_peak_m",
+        "impact_count",
+    ];
+    let table =
+        read_columns(&compared, folder.path(), &wanted).unwrap_or_else(|error| panic!("{error}"));
+    let number = |name: &str, case: usize| table.numbers[name][case].unwrap_or(f64::NAN);
+    // The second gap is never closed: the run without contact is the run, and that of the first case too.
+    assert_eq!(number("impact_count", 1), 0.0);
+    assert!(number("impact_count", 0) > 0.0);
+    let apart = number(wanted[0], 1);
+    for case in [0, 1] {
+        let without = number(wanted[1], case);
+        assert!(
+            (without / apart - 1.0).abs() < 1e-3,
+            "{without} and {apart}"
+        );
+        let ratio = number(wanted[0], case) / without;
+        assert!((number(wanted[2], case) / ratio - 1.0).abs() < 1e-12);
+        let closing = number("A-B.closing_without_contact_m", case);
+        assert!((closing / number("A-B.closing_peak_m", 1) - 1.0).abs() < 1e-3);
+    }
+    assert!((number(wanted[2], 1) - 1.0).abs() < 1e-3);
+    assert!(
+        (number(wanted[2], 0) - 1.0).abs() > 1e-2,
+        "contact changes drifts"
+    );
 }

@@ -1,4 +1,4 @@
-//! Two free masses meet: contact laws against closed forms, in formulae and by stepping.
+//! Collisions of two free masses: contact laws against closed forms, in formulae and by stepping.
 
 use jostle::contact::{
     BilinearShape, FreeCollision, HERTZ_DURATION, ModifiedKelvin, effective_mass, hertz_damping,

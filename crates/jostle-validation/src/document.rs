@@ -55,7 +55,7 @@ pub fn page(families: &[Family], extent: Extent) -> String {
     page += "\n## Random models\n\n\
         Every peak of random models that the tolerance covers, and the closings and forces of links, are compared with an \
         independent reference. The figure shows \
-        the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [certify.md](certify.md).\n\n\
+        the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [Accuracy on random models](certify.md).\n\n\
         ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n\n## Families\n";
     page += "\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n";
     for family in families {

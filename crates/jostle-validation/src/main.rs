@@ -1,4 +1,4 @@
-//! Writes `docs/validation.md`, or only looks whether every number agrees.
+//! Writes `docs/validation.md`, or only compares every number.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

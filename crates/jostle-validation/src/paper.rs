@@ -1,4 +1,4 @@
-//! The built-in example after Zhang et al. (2019): what it must reproduce, and how well automatic steps do.
+//! The built-in example after Zhang et al. (2019): published results, and the error of automatic steps.
 
 use std::ops::ControlFlow;
 

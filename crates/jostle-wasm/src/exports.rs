@@ -1,4 +1,4 @@
-//! What the page calls.
+//! Functions that the page calls.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;

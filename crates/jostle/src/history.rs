@@ -1,6 +1,7 @@
 //! Results of a run: time histories, impacts, peaks, energies and work.
 
 use crate::hysteresis::{HysteresisMemory, Stage};
+use crate::quantity::Unit;
 use crate::system::System;
 
 /// Time histories at the recorded instants: one row per instant, one column per quantity.
@@ -21,6 +22,25 @@ pub struct History {
 }
 
 /// A recorded quantity.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Column, EnergyTerm, Settings, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// let history = outcome.history.expect("histories are recorded by default");
+/// let roof = history.column(Column::Displacement { building: 0, floor: 3 }).expect("it has three floors");
+/// let input = history.column(Column::Energy(EnergyTerm::Input)).expect("energies are recorded");
+/// assert_eq!(roof.len(), input.len());
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Column {
     /// Time \[s\].
@@ -60,6 +80,56 @@ pub enum Column {
     },
     /// A term of the energy balance \[J\].
     Energy(EnergyTerm),
+}
+
+/// What a column of a history records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Recorded {
+    /// Whose it is: `run`, `floor`, `contact`, `link` or `energy`.
+    pub owner: &'static str,
+    /// Name without unit.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: Unit,
+    /// Meaning, in one line.
+    pub meaning: &'static str,
+}
+
+impl Column {
+    /// What it records.
+    #[must_use]
+    #[rustfmt::skip]
+    pub fn recorded(self) -> Recorded {
+        let of = |owner, name, unit, meaning| Recorded { owner, name, unit, meaning };
+        match self {
+            Self::Time => of("run", "time", Unit::S, "instant"),
+            Self::GroundAcceleration => of("run", "ground_acceleration", Unit::M_S2, "ground acceleration"),
+            Self::Displacement { .. } => of("floor", "displacement", Unit::M, "displacement relative to the ground, positive to the right"),
+            Self::Velocity { .. } => of("floor", "velocity", Unit::M_S, "velocity relative to the ground"),
+            Self::TotalAcceleration { .. } => of("floor", "total_acceleration", Unit::M_S2, "acceleration, that of the ground included"),
+            Self::ContactForce { .. } => of("contact", "force", Unit::N, "contact force, positive in compression"),
+            Self::LinkForce { .. } => of("link", "force", Unit::N, "force of the link, positive in compression"),
+            Self::Energy(EnergyTerm::Input) => of("energy", "input", Unit::J, "work of the ground motion until then"),
+            Self::Energy(EnergyTerm::Kinetic) => of("energy", "kinetic", Unit::J, "kinetic energy relative to the ground"),
+            Self::Energy(EnergyTerm::Strain) => of("energy", "strain", Unit::J, "strain energy of members, and recoverable energy of hinges"),
+            Self::Energy(EnergyTerm::Damped) => of("energy", "damped", Unit::J, "dissipated by viscous damping until then"),
+            Self::Energy(EnergyTerm::Hysteretic) => of("energy", "hysteretic", Unit::J, "dissipated by hinges until then"),
+            Self::Energy(EnergyTerm::Contact) => of("energy", "contact", Unit::J, "energy of contacts: dissipated until then, and stored"),
+        }
+    }
+
+    /// Index of its building, contact or link, and its floor; zeros where it has none.
+    #[must_use]
+    pub fn place(self) -> [usize; 2] {
+        match self {
+            Self::Time | Self::GroundAcceleration | Self::Energy(_) => [0, 0],
+            Self::Displacement { building, floor }
+            | Self::Velocity { building, floor }
+            | Self::TotalAcceleration { building, floor } => [building, floor],
+            Self::ContactForce { contact } => [contact, 0],
+            Self::LinkForce { link } => [link, 0],
+        }
+    }
 }
 
 /// Terms of the energy balance.
@@ -166,6 +236,25 @@ impl History {
 }
 
 /// One closed episode of a contact with a force.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Impact, Settings, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// let strongest: Option<&Impact> = outcome.impacts.iter().max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
+/// let strongest = strongest.expect("they collide");
+/// assert!(strongest.start <= strongest.peak_force_at && strongest.peak_force_at <= strongest.end);
+/// assert!(strongest.impulse > 0.0);
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Index of the contact in the system.

@@ -95,6 +95,7 @@ pub mod method;
 pub mod model;
 pub mod motion;
 pub mod pushover;
+pub mod quantity;
 pub mod results;
 pub mod separation;
 pub mod state;
@@ -117,6 +118,7 @@ pub use model::{
     Solver, Structure,
 };
 pub use motion::{GroundMotion, Wave};
+pub use quantity::{Quantity, Unit};
 pub use results::summary::Summary;
 pub use results::{Run, springs_of};
 pub use state::State;

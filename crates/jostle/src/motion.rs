@@ -28,6 +28,14 @@ pub struct GroundMotion {
 }
 
 /// Shape of a ground motion before scaling.
+///
+/// ```
+/// use jostle::{GroundMotion, Wave};
+///
+/// let wave = Wave::Ricker { amplitude: 3.0, period: 0.6, centre: 0.9 };
+/// let pulse = GroundMotion { name: "pulse".into(), scale: 1.0, duration: 2.0, wave };
+/// assert!((pulse.acceleration(0.9) - 3.0).abs() < 1e-12);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Wave {
     /// Values at `0, step, 2·step, …`, linear between them.

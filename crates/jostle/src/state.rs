@@ -8,6 +8,21 @@ use crate::system::{BuildingSystem, System};
 /// The state of a row of buildings at one instant; a clone is a checkpoint.
 ///
 /// Vectors hold the degrees of freedom of all buildings, from left to right.
+///
+/// ```
+/// use jostle::State;
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+///
+/// let rest = State::at_rest(&system, motion.acceleration(0.0));
+/// let checkpoint = rest.clone();
+/// assert_eq!(checkpoint, rest);
+/// assert_eq!(rest.displacement.len(), 6); // two towers of three floors
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     /// Time \[s\].

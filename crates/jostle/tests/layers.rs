@@ -8,8 +8,9 @@ use std::path::Path;
 use imports::{collect, imports};
 
 /// From the bottom up. A module may import from those above it in this list, never from those below.
-const LAYERS: [&str; 21] = [
+const LAYERS: [&str; 22] = [
     "simd",
+    "quantity",
     "linear",
     "contact",
     "hysteresis",

@@ -98,7 +98,7 @@ fn never_more_often(model: &Model) {
     };
     let (short, _) = count(5.0, Pounding::Excluded);
     let (long, _) = count(50.0, Pounding::Excluded);
-    assert_eq!(short, long, "ten times the steps in free flight");
+    assert_eq!(short, long, "ten times the steps in free vibration");
     // With contact only the list of impacts grows, by doubling; factors of a new step size are made once.
     let (short, few) = count(5.0, Pounding::Included);
     let (long, many) = count(50.0, Pounding::Included);

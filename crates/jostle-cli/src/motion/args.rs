@@ -21,31 +21,34 @@ pub(crate) enum MotionCommand {
     Select(SelectArgs),
 }
 
+/// Heading of the options of [`RecordArgs`].
+const READING: &str = "Reading the record";
+
 /// A motion, and data that its file does not contain.
 #[derive(Debug, Args)]
 pub(crate) struct RecordArgs {
     /// A built-in name, or a file
     pub(crate) record: String,
     /// Unit of the numbers, if the file does not state it, such as g or cm/s2
-    #[arg(long, value_name = "UNIT")]
+    #[arg(long, value_name = "UNIT", help_heading = READING)]
     pub(crate) unit: Option<String>,
     /// Time step, if the file does not state it
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", help_heading = READING)]
     pub(crate) step: Option<String>,
     /// Column of the acceleration in a text file, counted from 1
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", help_heading = READING)]
     pub(crate) column: Option<usize>,
     /// Channel of a file with several: a number, a name, H1, H2, up, N-S, an azimuth
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help_heading = READING)]
     pub(crate) component: Option<String>,
-    /// Factor on the numbers of the file, such as the size of one count
-    #[arg(long, value_name = "FACTOR")]
+    /// Multiply the numbers of the file by this, for example the size of one count
+    #[arg(long, value_name = "FACTOR", help_heading = READING)]
     pub(crate) record_scale: Option<f64>,
-    /// Remove the mean
-    #[arg(long)]
+    /// Remove the mean of the record
+    #[arg(long, help_heading = READING)]
     pub(crate) remove_mean: bool,
     /// Format of the file, if auto-detection is wrong
-    #[arg(long, value_name = "FORMAT")]
+    #[arg(long, value_name = "FORMAT", help_heading = READING)]
     pub(crate) format: Option<String>,
 }
 
@@ -106,6 +109,9 @@ pub(crate) struct SpectrumArgs {
     pub(crate) force: bool,
 }
 
+/// Heading of the options of [`ConvertArgs`] that change the motion.
+const PROCESSING: &str = "Processing, in this order";
+
 /// Steps are applied in the order of these options.
 #[derive(Debug, Args)]
 pub(crate) struct ConvertArgs {
@@ -114,48 +120,49 @@ pub(crate) struct ConvertArgs {
     /// File to write: .at2 or .csv
     pub(crate) out: PathBuf,
     /// Keep from this time on
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", help_heading = PROCESSING)]
     pub(crate) from: Option<String>,
     /// Keep until this time
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", help_heading = PROCESSING)]
     pub(crate) to: Option<String>,
-    /// Subtract the best-fit polynomial of this degree from the acceleration
-    #[arg(long, value_name = "DEGREE")]
+    /// Fit a polynomial of this degree to the acceleration and subtract it
+    #[arg(long, value_name = "DEGREE", help_heading = PROCESSING)]
     pub(crate) detrend: Option<usize>,
-    /// Subtract the derivative of the best-fit polynomial of this degree of the velocity
-    #[arg(long, value_name = "DEGREE")]
+    /// Fit a polynomial of this degree to the velocity and subtract its derivative
+    #[arg(long, value_name = "DEGREE", help_heading = PROCESSING)]
     pub(crate) detrend_velocity: Option<usize>,
-    /// Zero-phase Butterworth high-pass
-    #[arg(long, value_name = "FREQUENCY")]
+    /// High-pass Butterworth filter without phase shift
+    #[arg(long, value_name = "FREQUENCY", help_heading = PROCESSING)]
     pub(crate) high_pass: Option<String>,
-    /// Zero-phase Butterworth low-pass
-    #[arg(long, value_name = "FREQUENCY")]
+    /// Low-pass Butterworth filter without phase shift
+    #[arg(long, value_name = "FREQUENCY", help_heading = PROCESSING)]
     pub(crate) low_pass: Option<String>,
-    /// Order of the filter in each direction: 2, 4, 6 or 8
-    #[arg(long, default_value_t = 4)]
+    /// Order of both filters, each applied forwards and backwards: 2, 4, 6 or 8
+    #[arg(long, default_value_t = 4, help_heading = PROCESSING)]
     pub(crate) order: usize,
     /// New time step
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", help_heading = PROCESSING)]
     pub(crate) resample: Option<String>,
     /// Time at rest before the motion
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", help_heading = PROCESSING)]
     pub(crate) pad_before: Option<String>,
     /// Time at rest after the motion
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", help_heading = PROCESSING)]
     pub(crate) pad_after: Option<String>,
     /// Correct the motion so that velocity and displacement end at zero
-    #[arg(long)]
+    #[arg(long, help_heading = PROCESSING)]
     pub(crate) at_rest: bool,
-    /// Multiply by a factor
+    /// Multiply the motion by this factor
     #[arg(
         long,
         allow_hyphen_values = true,
         value_name = "FACTOR",
-        conflicts_with = "pga"
+        conflicts_with = "pga",
+        help_heading = PROCESSING
     )]
     pub(crate) scale: Option<String>,
     /// Scale to this peak acceleration
-    #[arg(long, value_name = "QUANTITY")]
+    #[arg(long, value_name = "QUANTITY", help_heading = PROCESSING)]
     pub(crate) pga: Option<String>,
     /// Replace the file if it exists
     #[arg(long)]

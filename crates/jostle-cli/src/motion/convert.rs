@@ -1,4 +1,4 @@
-//! `jostle motion convert`: from any format to AT2 or CSV, with corrections on the way.
+//! `jostle motion convert`: reads any format, processes the motion and writes AT2 or CSV.
 
 use jostle_io::Dimension;
 use jostle_motion::{Accelerogram, Butterworth, butterworth};

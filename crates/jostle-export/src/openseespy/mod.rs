@@ -34,7 +34,7 @@ pub fn export(export: &Export<'_>) -> Result<Exported, Vec<ModelFault>> {
     })
 }
 
-/// Fields that can be told to be impossible from the model alone.
+/// Fields whose values OpenSees does not support, as far as the model alone shows.
 fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
     let mut faults = Vec::new();
     let model = export.model;

@@ -1,4 +1,4 @@
-//! Which displacements are one and the same, and how OpenSees can be told so.
+//! Displacements that are equal, as constraints of OpenSees.
 //!
 //! OpenSees' transformation handler takes one constraint for a node, and none for the node that others follow: it
 //! applies the first and ignores the rest. So horizontal ties come first, and anything that would need a second

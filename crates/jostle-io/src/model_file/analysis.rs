@@ -2,6 +2,7 @@
 
 use jostle::{Analysis, Integrator, Solver};
 
+use crate::choices::IntegratorMethod as Method;
 use crate::keys::{INTEGRATORS, SOLVERS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
@@ -87,13 +88,15 @@ fn check_accepted(reader: &mut Reader<'_>, field: &Field<'_>) {
 
 /// A word, or a table with the numbers of the method.
 fn integrator(reader: &mut Reader<'_>, field: &Field<'_>) -> Integrator {
-    let usual = |method: Option<&str>| match method {
-        Some("hht") => Integrator::hht(0.05),
-        Some("generalized-alpha") => Integrator::generalized_alpha(0.8),
-        _ => Integrator::default(),
+    let usual = |method: Method| match method {
+        Method::AverageAcceleration | Method::Newmark => Integrator::default(),
+        Method::Hht => Integrator::hht(0.05),
+        Method::GeneralizedAlpha => Integrator::generalized_alpha(0.8),
     };
     if !matches!(field.node.value, Value::Table(_)) {
-        return usual(reader.choice(field, INTEGRATORS, &[]));
+        let method = reader.choice(field, INTEGRATORS, &[]);
+        let method = method.and_then(Method::from_name);
+        return method.map_or_else(Integrator::default, usual);
     }
     let Some(view) = reader.open(field, &[Section::Integrator]) else {
         return Integrator::default();
@@ -105,21 +108,22 @@ fn integrator(reader: &mut Reader<'_>, field: &Field<'_>) -> Integrator {
             None
         }
     };
-    let Some(method) = method else {
+    let Some(method) = method.and_then(Method::from_name) else {
         return Integrator::default();
     };
     let belongs: &[&str] = match method {
-        "newmark" => &["beta", "gamma"],
-        "hht" => &["alpha"],
-        "generalized-alpha" => &["spectral_radius"],
-        _ => &[],
+        Method::AverageAcceleration => &[],
+        Method::Newmark => &["beta", "gamma"],
+        Method::Hht => &["alpha"],
+        Method::GeneralizedAlpha => &["spectral_radius"],
     };
+    let name = method.name();
     let mut number = |key: &'static str, range: std::ops::RangeInclusive<f64>| {
         let field = reader.get(&view, key)?;
         if !belongs.contains(&key) {
-            *reader.bad(&field, format!("does not belong to {method}")) = Some(match belongs {
+            *reader.bad(&field, format!("does not belong to {name}")) = Some(match belongs {
                 [] => "remove it".to_owned(),
-                keys => format!("{method} takes {}", keys.join(" and ")),
+                keys => format!("{name} takes {}", keys.join(" and ")),
             });
             return None;
         }
@@ -147,12 +151,12 @@ fn integrator(reader: &mut Reader<'_>, field: &Field<'_>) -> Integrator {
     let alpha = number("alpha", 0.0..=1.0 / 3.0);
     let radius = number("spectral_radius", 0.0..=1.0);
     match method {
-        "newmark" => Integrator::newmark(beta.unwrap_or(0.25), gamma.unwrap_or(0.5)),
-        "hht" => alpha.map_or_else(|| usual(Some(method)), Integrator::hht),
-        "generalized-alpha" => {
-            radius.map_or_else(|| usual(Some(method)), Integrator::generalized_alpha)
+        Method::AverageAcceleration => Integrator::default(),
+        Method::Newmark => Integrator::newmark(beta.unwrap_or(0.25), gamma.unwrap_or(0.5)),
+        Method::Hht => alpha.map_or_else(|| usual(method), Integrator::hht),
+        Method::GeneralizedAlpha => {
+            radius.map_or_else(|| usual(method), Integrator::generalized_alpha)
         }
-        _ => Integrator::default(),
     }
 }
 

@@ -2,11 +2,12 @@
 
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{FrameHinges, Hinges};
+use jostle::separation::BuildingCodes;
 use jostle::{Analysis, Base, Building, Damping, Gravity, Model, Structure};
 use std::path::Path;
 
 use super::reinforced::{self, ReinforcedMember};
-use super::{frame, given, hinges, shear};
+use super::{codes, frame, given, hinges, shear};
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -18,8 +19,8 @@ const MOST_BUILDINGS: usize = 1000;
 /// Most storeys of a building.
 const MOST_STOREYS: usize = 200;
 
-/// Buildings and their reinforced members.
-pub(super) type Buildings = (Vec<Building>, Vec<ReinforcedMember>);
+/// Buildings, their reinforced members and their factors in codes.
+pub(super) type Buildings = (Vec<Building>, Vec<ReinforcedMember>, Vec<BuildingCodes>);
 
 /// Reads the list of buildings; `None` if it is not a list.
 pub(super) fn read_all(
@@ -43,15 +44,28 @@ pub(super) fn read_all(
         );
         return None;
     }
-    let mut members = Vec::new();
+    let (mut members, mut of_codes) = (Vec::new(), Vec::new());
     let buildings = entries
         .iter()
         .enumerate()
-        .map(|(i, entry)| read(reader, entry, i, base, &mut members))
+        .map(|(i, entry)| {
+            let building = read(reader, entry, i, base, &mut members);
+            of_codes.push(read_codes(reader, entry));
+            building
+        })
         .collect::<Vec<_>>();
     // If a building is not a table, the positions of the others in the row are unknown.
     let buildings: Option<Vec<_>> = buildings.into_iter().collect();
-    Some((buildings?, members))
+    Some((buildings?, members, of_codes))
+}
+
+/// Factors of a building in codes.
+fn read_codes(reader: &mut Reader<'_>, field: &Field<'_>) -> BuildingCodes {
+    let view = reader.reopen(field, &[Section::Building]);
+    let own = view.and_then(|view| reader.get(&view, "codes"));
+    own.map_or_else(BuildingCodes::default, |field| {
+        codes::read_building(reader, &field)
+    })
 }
 
 fn read(
@@ -126,7 +140,7 @@ fn read(
     building.damping = match (damped, reader.get(&view, "damping")) {
         (Some(damping), None) => damping,
         (Some(damping), Some(field)) => {
-            *reader.bad(&field, "cannot stand beside a damping matrix") =
+            *reader.bad(&field, "cannot be combined with a damping matrix") =
                 Some("leave out damping, or the matrix C".into());
             damping
         }
@@ -247,7 +261,7 @@ pub(super) fn storeys(
 ) -> Option<usize> {
     let (storeys, floors) = (reader.get(view, "storeys"), reader.get(view, "floors"));
     if let (Some(_), Some(floors)) = (&storeys, &floors) {
-        *reader.bad(floors, "cannot stand beside storeys") =
+        *reader.bad(floors, "cannot be combined with storeys") =
             Some("keep either storeys or floors".into());
     }
     if let Some(field) = storeys.or(floors) {

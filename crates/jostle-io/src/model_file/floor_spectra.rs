@@ -161,10 +161,7 @@ fn read_floors(
 type WrongName = (String, Option<String>);
 
 /// The floors of a name.
-fn find(
-    name: &str,
-    buildings: &[Building],
-) -> Result<Vec<(usize, usize)>, WrongName> {
+fn find(name: &str, buildings: &[Building]) -> Result<Vec<(usize, usize)>, WrongName> {
     let index = |name: &str| buildings.iter().position(|building| building.name == name);
     if let Some(building) = index(name) {
         let floors = 1..=buildings[building].floors();

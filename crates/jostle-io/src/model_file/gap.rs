@@ -112,9 +112,10 @@ fn law(reader: &mut Reader<'_>, view: &View<'_>) -> ContactLaw {
     };
     ContactLaw {
         kind,
-        stiffness: stiffness.unwrap_or(match kind {
-            LawKind::Restitution => LASTING_STIFFNESS,
-            _ => CONCRETE_STIFFNESS,
+        stiffness: stiffness.unwrap_or(if kind == LawKind::Restitution {
+            LASTING_STIFFNESS
+        } else {
+            CONCRETE_STIFFNESS
         }),
         restitution: restitution.unwrap_or(CONCRETE_RESTITUTION),
         restitution_is: restitution_is

@@ -88,7 +88,7 @@ pub(super) fn read_frame(
     if source.is_some() {
         for key in ["column", "beam"] {
             if let Some(field) = reader.get(&view, key) {
-                *reader.bad(&field, "cannot stand beside from = \"section\"") = Some(
+                *reader.bad(&field, "cannot be combined with from = \"section\"") = Some(
                     "keep either the moments here, or from with bars in column and beam".into(),
                 );
             }

@@ -30,7 +30,8 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
     let (spectrum, value) = (reader.get(&view, "spectrum"), reader.get(&view, "value"));
     let to = match (spectrum, value) {
         (Some(_), Some(value)) => {
-            *reader.bad(&value, "cannot stand beside spectrum") = Some("keep one of both".into());
+            *reader.bad(&value, "cannot be combined with spectrum") =
+                Some("keep one of both".into());
             None
         }
         (Some(spectrum), None) => read_spectrum(reader, &spectrum, base).map(MatchTo::Spectrum),
@@ -55,7 +56,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
 fn place(reader: &mut Reader<'_>, view: &View<'_>) -> Option<MatchAt> {
     match (reader.get(view, "at"), reader.get(view, "periods")) {
         (Some(_), Some(periods)) => {
-            *reader.bad(&periods, "cannot stand beside at") = Some("keep one of both".into());
+            *reader.bad(&periods, "cannot be combined with at") = Some("keep one of both".into());
             None
         }
         (Some(at), None) => reader.positive(&at, Dimension::Time).map(MatchAt::Period),

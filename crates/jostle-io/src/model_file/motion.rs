@@ -35,7 +35,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
     let wave = reader.get(&view, "kind");
     let source = match (&record, &wave) {
         (Some(_), Some(wave)) => {
-            *reader.bad(wave, "cannot stand beside record") =
+            *reader.bad(wave, "cannot be combined with record") =
                 Some("keep either record or kind".into());
             None
         }
@@ -189,7 +189,7 @@ fn record_names(reader: &mut Reader<'_>, record: &Field<'_>) -> Option<Vec<Strin
         if name.trim().is_empty() {
             reader.bad(entry, "must not be empty");
         } else if names.contains(&name) {
-            *reader.bad(entry, format!("\"{name}\" stands in the list twice")) =
+            *reader.bad(entry, format!("\"{name}\" appears in the list twice")) =
                 Some("remove one of them".into());
         }
         names.push(name);
@@ -286,7 +286,7 @@ fn scaling(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Scaling {
             None => first = Some(field.path.clone()),
             Some(first) => {
                 let first = first.trim_start_matches("motion.").to_owned();
-                *reader.bad(field, format!("cannot stand beside {first}")) =
+                *reader.bad(field, format!("cannot be combined with {first}")) =
                     Some("keep one of pga, scale and match".into());
             }
         }

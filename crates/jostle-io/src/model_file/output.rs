@@ -1,4 +1,4 @@
-//! `[output]`: what results hold beyond the usual.
+//! `[output]`: optional results.
 
 use jostle::{Building, MemberRequest};
 

@@ -40,7 +40,7 @@ fn remedy(buildings: [&Building; 2], found: &UnmatchedFloors) -> String {
             format!("Write floors = \"all\" to include them, or {listed} to say that they cannot")
         }
         [false, false] => format!(
-            "Shear buildings have no columns to hit: describe them as frames, raise level_tolerance if slabs meet, or {listed} to say that no others can"
+            "Shear buildings have no columns to hit: describe them as frames, raise level_tolerance if slabs overlap, or {listed} to say that no others can"
         ),
         [left_has, _] => {
             // Floors of the shear building against columns of the frame.

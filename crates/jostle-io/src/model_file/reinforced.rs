@@ -6,8 +6,9 @@ use jostle::statics::{STANDARD_GRAVITY, compressions};
 use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
 use jostle_section::formula::Member;
-use jostle_section::{BarsError, Concrete, Reinforcement, Section, Steel, StrengthLevel, Ties};
+use jostle_section::{BarsError, Reinforcement, Section, Steel, StrengthLevel, Ties};
 
+use crate::grade::ConcreteGrade;
 use crate::keys::{self, SECTION_CONCRETES, STEELS, STRENGTHS};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Grade, Reader, View};
@@ -55,10 +56,10 @@ pub(super) enum Axial {
 
 /// Reads the reinforcement of all storeys of a frame; faults are noted.
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, storeys: usize) -> Reinforced {
-    let concrete = reader.get(view, "concrete").and_then(|field| {
-        let known = |name: &&&str| Some(**name) == field.as_text();
-        SECTION_CONCRETES.iter().find(known).copied()
-    });
+    // Faults are noted where the modulus is read.
+    let concrete = reader
+        .get(view, "concrete")
+        .and_then(|field| reader.quietly(|reader| reader.concrete_name(&field, SECTION_CONCRETES)));
     let mut of = |key: &'static str| {
         let Some(field) = reader.get(view, key) else {
             return vec![None; storeys];
@@ -82,7 +83,7 @@ fn read_one(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     is_column: bool,
-    of_building: Option<&'static str>,
+    of_building: Option<ConcreteGrade>,
 ) -> Option<(Section, Axial)> {
     // Its keys were checked where the size was read.
     let view = reader.reopen(
@@ -98,11 +99,8 @@ fn read_one(
         None => StrengthLevel::default(),
     };
     let grade = reader.get(&view, "concrete").map(|field| {
-        let grade = reader.grade(&field, SECTION_CONCRETES, "\"30 MPa\"")?;
-        match grade {
-            Grade::Named(name) => Concrete::grade(name, level),
-            Grade::Strength(strength) => Some(Concrete::of_strength(strength)),
-        }
+        let grade = reader.concrete(&field, SECTION_CONCRETES)?;
+        grade.at(level)
     });
     let steel = reader.get(&view, "steel").map(|field| {
         let grade = reader.grade(&field, STEELS, "\"400 MPa\"")?;
@@ -144,9 +142,9 @@ fn read_one(
     let concrete = match grade {
         Some(concrete) => concrete,
         None => {
-            let concrete = of_building.and_then(|name| Concrete::grade(name, level));
+            let concrete = of_building.and_then(|grade| grade.at(level));
             if concrete.is_none() {
-                reader.missing(&view, "concrete", "add concrete = \"C30\" (C20 to C60, or a strength such as \"30 MPa\") beside the bars");
+                reader.missing(&view, "concrete", "add concrete = \"C30\" (C20 to C60, \"C30/37\", \"f'c = 4 ksi\", or a strength such as \"30 MPa\") beside the bars");
             }
             concrete
         }
@@ -155,7 +153,7 @@ fn read_one(
         reader.missing(
             &view,
             "steel",
-            "add steel = \"HRB400\" (or a yield strength such as \"400 MPa\") beside the bars",
+            "add steel = \"HRB400\" (or \"B500\", \"Grade 60\", or a yield strength such as \"400 MPa\") beside the bars",
         );
     }
     let ties = match ties {

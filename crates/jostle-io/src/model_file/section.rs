@@ -1,12 +1,13 @@
 //! Cross-sections of columns and beams, and the material they are made of.
 
 use jostle::Section;
-use jostle_section::{Concrete, StrengthLevel};
+use jostle_section::StrengthLevel;
 
 use super::building::has_length;
+use crate::grade::ConcreteGrade;
 use crate::keys::{self, CONCRETES, SECTION_CONCRETES};
 use crate::quantity::Dimension;
-use crate::reader::{Field, Grade, Reader, View};
+use crate::reader::{Field, Reader, View};
 
 /// Modulus of elasticity of the concrete grades C20 … C80 \[GPa\] (GB 50010, table 4.1.5).
 const CONCRETE_MODULI: [f64; 13] = [
@@ -46,20 +47,29 @@ pub(super) fn read_modulus(reader: &mut Reader<'_>, view: &View<'_>) -> (Option<
     let concrete = reader.get(view, "concrete");
     let stated = modulus.is_some() || concrete.is_some();
     if let (Some(_), Some(concrete)) = (&modulus, &concrete) {
-        *reader.bad(concrete, "cannot stand beside elastic_modulus") =
+        *reader.bad(concrete, "cannot be combined with elastic_modulus") =
             Some("keep either concrete or elastic_modulus".into());
     }
     let value = match (modulus, concrete) {
         (Some(field), _) => reader.positive(&field, Dimension::Modulus),
-        (None, Some(field)) => reader.choice(&field, CONCRETES, &[]).and_then(|grade| {
-            let index = CONCRETES.iter().position(|known| *known == grade)?;
-            CONCRETE_MODULI
-                .get(index)
-                .map(|gigapascals| 1e9 * gigapascals)
-        }),
+        (None, Some(field)) => reader
+            .concrete_name(&field, CONCRETES)
+            .and_then(modulus_of_grade),
         (None, None) => None,
     };
     (value, stated && value.is_none())
+}
+
+/// E of a grade: of GB 50010 up to C80, of EN 1992-1-1 or of ACI 318 \[Pa\].
+fn modulus_of_grade(grade: ConcreteGrade) -> Option<f64> {
+    if let ConcreteGrade::Named(name) = grade {
+        let index = CONCRETES.iter().position(|known| *known == name)?;
+        if let Some(gigapascals) = CONCRETE_MODULI.get(index) {
+            return Some(1e9 * gigapascals);
+        }
+    }
+    let concrete = grade.at(StrengthLevel::Characteristic);
+    concrete.map(|concrete| concrete.modulus)
 }
 
 /// Sections of all storeys: one table for all, or a list from the ground up.
@@ -144,12 +154,8 @@ fn of_own_concrete(reader: &mut Reader<'_>, view: &View<'_>, material: Material)
         return material;
     };
     // Faults are noted where the reinforcement is read.
-    let grade = reader.quietly(|reader| reader.grade(&field, SECTION_CONCRETES, "\"30 MPa\""));
-    let own = match grade {
-        Some(Grade::Named(name)) => Concrete::grade(name, StrengthLevel::Characteristic),
-        Some(Grade::Strength(strength)) => Some(Concrete::of_strength(strength)),
-        None => None,
-    };
+    let grade = reader.quietly(|reader| reader.concrete(&field, SECTION_CONCRETES));
+    let own = grade.and_then(|grade| grade.at(StrengthLevel::Characteristic));
     let modulus = own.map(|concrete| concrete.modulus);
     Material {
         modulus: material

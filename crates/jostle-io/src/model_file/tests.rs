@@ -27,6 +27,7 @@ damping = { ratio = 0.1 }
 hinges = { rule = "normal", column = { positive = {}, negative = {} } }
 [[building]]
 kind = "shear"
+codes = { importance = 1 }
 base = { mass = 1 }
 hinges = { rule = "normal" }
 [[gap]]
@@ -36,6 +37,8 @@ stiffness = 1
 integrator = { method = "hht" }
 [output]
 members = true
+[codes]
+show = "asce7"
 "#,
     r#"
 building = []

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::error::RecordError;
-use super::format::RecordFormat;
+use super::formats::RecordFormat;
 use crate::quantity::shorten;
 
 /// Direction of a channel.

@@ -2,7 +2,7 @@
 
 use super::channel::{Channel, Direction};
 use super::error::RecordError;
-use super::format::RecordFormat;
+use super::formats::RecordFormat;
 use super::header::malformed;
 use super::lines::LineMap;
 use super::units::{acceleration_unit, option_unit};

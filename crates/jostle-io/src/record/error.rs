@@ -1,6 +1,6 @@
 //! Errors of records.
 
-use super::format::RecordFormat;
+use super::formats::RecordFormat;
 
 /// An error of a record. Displays as `:line: problem`, to follow the name of the file.
 #[derive(Debug, thiserror::Error)]
@@ -209,7 +209,7 @@ pub enum RecordError {
     },
     /// An option for what the file states itself.
     #[error(
-        ": the file states {what} itself ({stated}), and {key} contradicts it (read as {format}); leave {key} away"
+        ": the file states {what} itself ({stated}), and {key} contradicts it (read as {format}); omit {key}"
     )]
     Stated {
         /// Format in which the file was read.
@@ -274,7 +274,7 @@ pub enum RecordError {
     },
     /// The file's times contradict the stated step.
     #[error(
-        ": the times of the file have a step of {found} s, but step = {stated} s was asked for; leave step away"
+        ": the times of the file have a step of {found} s, but step = {stated} s is stated; omit step"
     )]
     StepConflict {
         /// Step of the file.

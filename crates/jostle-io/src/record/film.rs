@@ -4,7 +4,7 @@ use crate::record::RecordOptions;
 use crate::record::contents::{Peak, largest};
 use crate::record::error::RecordError;
 use crate::record::fixed::{Block, Fixed};
-use crate::record::format::RecordFormat;
+use crate::record::formats::RecordFormat;
 use crate::record::lines::LineMap;
 use crate::record::lines::Lines;
 

@@ -1,7 +1,7 @@
 //! Numbers in columns of fixed width without separators: Fortran formats such as `(8F10.6)`.
 
 use super::error::RecordError;
-use super::format::RecordFormat;
+use super::formats::RecordFormat;
 use super::lines::{LineMap, Lines, number};
 use crate::quantity::shorten;
 

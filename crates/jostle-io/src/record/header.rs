@@ -1,7 +1,7 @@
 //! Helpers for headers of `key: value` lines and for sentences with numbers.
 
 use super::error::RecordError;
-use super::format::RecordFormat;
+use super::formats::RecordFormat;
 use crate::quantity::shorten;
 
 /// An error in a line of a format.

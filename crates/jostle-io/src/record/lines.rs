@@ -176,7 +176,7 @@ impl LineMap {
     }
 }
 
-/// Numbers, or lines, looked at to see whether numbers are printed alike.
+/// Numbers, or lines, that are read to find whether all numbers have the same format.
 const ALIKE: usize = 12;
 
 /// Refuses a text that ends inside its last number: no line end, and fewer digits than the numbers before it, or

@@ -1,34 +1,23 @@
 //! Ground-motion records in files: equally spaced accelerations in SI.
 //!
-//! One file per format turns bytes into [`contents::Contents`]: channels of raw values with the data of the header.
-//! The code common to all formats is there: units, scale, checks, the choice of a channel.
+//! `formats` turns bytes into [`contents::Contents`]: channels of raw values with the data of the header.
+//! The code common to all formats is here: units, scale, checks, the choice of a channel.
 
-mod afad;
-mod at2;
 mod channel;
-mod columns;
 mod contents;
-mod cosmos;
-mod csmip;
 mod error;
-mod esm;
 mod film;
 mod fixed;
-mod format;
-mod geonet;
+mod formats;
 mod header;
-mod knet;
 mod lines;
-mod miniseed;
-mod sac;
-mod smc;
 mod units;
 
 use std::path::Path;
 
 pub use channel::{Channel, Direction};
 pub use error::RecordError;
-pub use format::RecordFormat;
+pub use formats::RecordFormat;
 pub(crate) use units::acceleration_unit;
 
 use crate::bounded::read_at_most;
@@ -130,7 +119,7 @@ impl RecordInfo {
 /// Largest record file \[bytes\].
 const LARGEST_FILE: usize = 64 << 20;
 
-/// Reads a record file; the format is told from its content.
+/// Reads a record file; the format is recognised from the content.
 ///
 /// # Errors
 /// [`RecordError`] naming the line and what would be right.
@@ -242,26 +231,7 @@ fn parse_contents(bytes: &[u8], options: &RecordOptions) -> Result<Contents, Rec
         Some(format) => format,
         None => RecordFormat::detect(bytes)?,
     };
-    let bytes = if matches!(format, RecordFormat::MiniSeed | RecordFormat::Sac) {
-        bytes
-    } else {
-        let text = lines::without_fill(bytes);
-        format::check_text(text)?;
-        text
-    };
-    let contents = match format {
-        RecordFormat::At2 => at2::read(bytes, options),
-        RecordFormat::Columns => columns::read(bytes, options),
-        RecordFormat::Cosmos => cosmos::read(bytes),
-        RecordFormat::Csmip => csmip::read(bytes, options),
-        RecordFormat::Knet => knet::read(bytes),
-        RecordFormat::Esm => esm::read(bytes),
-        RecordFormat::Smc => smc::read(bytes, options),
-        RecordFormat::GeoNet => geonet::read(bytes),
-        RecordFormat::Afad => afad::read(bytes),
-        RecordFormat::MiniSeed => miniseed::read(bytes),
-        RecordFormat::Sac => sac::read(bytes, options),
-    }?;
+    let contents = format.read(bytes, options)?;
     contents.check_peaks()?;
     Ok(contents)
 }

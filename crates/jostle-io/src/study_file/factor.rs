@@ -214,7 +214,7 @@ fn values(
         return None;
     };
     if let Some(second) = present.next() {
-        let problem = format!("cannot stand beside {}", field.path);
+        let problem = format!("cannot be combined with {}", field.path);
         *reader.bad(second, problem) = Some("keep one of them".into());
         return None;
     }

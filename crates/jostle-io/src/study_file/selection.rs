@@ -131,7 +131,7 @@ fn scaling(reader: &mut Reader<'_>, view: &View<'_>) -> Option<SelectionScaling>
         });
     };
     if unscaled {
-        *reader.bad(&peak, "cannot stand beside unscaled") = Some("keep one of both".into());
+        *reader.bad(&peak, "cannot be combined with unscaled") = Some("keep one of both".into());
         return None;
     }
     let peak = reader.positive(&peak, Dimension::Acceleration)?;

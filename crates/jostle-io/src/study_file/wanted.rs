@@ -1,5 +1,6 @@
 //! Evaluations of a study file: fragility curves and curves of demand over intensity.
 
+use crate::choices::FragilityMethod;
 use crate::keys::{FRAGILITY_METHODS, Section};
 use crate::quantity::{Dimension, split_number};
 use crate::reader::{Field, Reader, View};
@@ -23,17 +24,6 @@ pub struct FragilityWanted {
     pub bootstrap: usize,
     /// Confidence of the band, between 0 and 1 \[–\].
     pub confidence: f64,
-}
-
-/// How a fragility curve is fitted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FragilityMethod {
-    /// Maximum likelihood of the outcomes.
-    MultipleStripe,
-    /// Straight line through the logarithms of demand and intensity; demands of zero are left out.
-    Cloud,
-    /// The same, with logistic regressions for demands of zero and for collapse.
-    ModifiedCloud,
 }
 
 /// Curves of demand over intensity, one for each record or other varied key.
@@ -93,11 +83,9 @@ fn fragility(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<FragilityWant
         None => Some(Vec::new()),
     };
     let method = match reader.get(&view, "method") {
-        Some(field) => match reader.choice(&field, FRAGILITY_METHODS, &[])? {
-            "cloud" => FragilityMethod::Cloud,
-            "modified-cloud" => FragilityMethod::ModifiedCloud,
-            _ => FragilityMethod::MultipleStripe,
-        },
+        Some(field) => {
+            FragilityMethod::from_name(reader.choice(&field, FRAGILITY_METHODS, &[])?)?
+        }
         None => FragilityMethod::MultipleStripe,
     };
     let bootstrap = match reader.get(&view, "bootstrap") {

@@ -78,7 +78,7 @@ fn table(object: &ast::Object<'_>, repeated: &mut Vec<SyntaxError>) -> Table {
             repeated.push(SyntaxError {
                 span: key_span.clone(),
                 problem: format!(
-                    "the key \"{}\" stands here twice",
+                    "the key \"{}\" appears here twice",
                     crate::quantity::shorten(key)
                 ),
             });

@@ -12,11 +12,15 @@ mod opened;
 mod exported;
 mod notebook;
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use jostle_live::{Engine, Server};
 use opened::{Opened, open_address};
+
+/// Longest wait for the page: a map is 576 runs, and the machine may be busy.
+const PATIENCE: Duration = Duration::from_secs(120);
 
 fn serve(model: &str) -> Server {
     Server::start(Engine::open(Path::new(model)).unwrap(), 0).unwrap()
@@ -32,7 +36,7 @@ impl Opened {
     fn wait(&self, script: &str) {
         let begun = Instant::now();
         while self.value(script) != true {
-            if begun.elapsed() > Duration::from_secs(30) {
+            if begun.elapsed() > PATIENCE {
                 self.glance("waited-in-vain");
                 panic!("never true: {script}");
             }
@@ -388,6 +392,175 @@ fn the_curve_shows_the_smallest_gap_and_its_line_can_be_moved() {
     page.value("{ const o = document.getElementById('over'); o.value = 'gap[0].width'; o.dispatchEvent(new Event('change')); for (const b of [...document.querySelectorAll('#curve-records input')].slice(0, 2)) b.click(); }");
     page.wait("document.querySelectorAll('.line.thin').length === 2 && document.querySelector('.line.mean') !== null");
     page.glance("live-suite");
+    page.assert_content();
+}
+
+/// What somebody does who has never seen the page: types the acceleration where the page says so, and reads the gap.
+#[test]
+fn the_gap_without_pounding_is_in_sight_after_one_change() {
+    let server = serve("paper");
+    let Some(page) = open(&server, 1280, 800) else {
+        return;
+    };
+    page.value("{ const l = [...document.querySelectorAll('.knob-name')].find((l) => l.textContent.includes('acceleration')); const f = document.getElementById(l.htmlFor); f.scrollIntoView({ block: 'nearest' }); f.value = '70 cm/s2'; f.dispatchEvent(new Event('change')); }");
+    page.settled();
+    assert!(
+        page.headline().contains("No contact"),
+        "{}",
+        page.headline()
+    );
+    page.wait("document.getElementById('curve-note').textContent.includes('Smallest gap without pounding')");
+    page.wait("document.querySelector('.code-marks .needed') !== null");
+    let said = page.text(
+        "/pounding: ([\\d.]+) mm/.exec(document.getElementById('curve-note').textContent)[1]",
+    );
+    let tile = page.text("[...document.querySelectorAll('.tile')].find((t) => t.textContent.includes('Smallest gap')).querySelector('.tile-value').textContent");
+    assert_eq!(tile.replace('\u{a0}', " "), format!("{said} mm"));
+    let seen = "['#curve-note', '.code-marks .needed', '#headline'].every((s) => { const r = document.querySelector(s).getBoundingClientRect(); return r.top >= 0 && r.bottom <= innerHeight; })";
+    assert_eq!(page.value(seen), true, "the answer is out of sight");
+    page.glance("live-first-minute");
+    page.assert_content();
+}
+
+/// Accuracy of a run with one width, in the words of the command line.
+fn accuracy_of(width: &str) -> [String; 2] {
+    let mut tree = jostle_io::ModelTree::builtin("paper").unwrap();
+    let typed = jostle_io::TreeValue::typed(width);
+    tree.set("gap[0].width", &typed).unwrap();
+    let prepared = jostle_run::Workshop::default()
+        .assemble(tree.input().unwrap())
+        .unwrap_or_else(|error| panic!("{error}"));
+    let mut outcome = prepared.step(jostle::Settings::default(), |_| ControlFlow::Continue(()));
+    let words = |outcome: &jostle::Outcome| -> String {
+        prepared.summary(outcome, None, 0.0).promise.in_words()
+    };
+    let before = words(&outcome);
+    prepared.find_sensitivity(&mut outcome, |_| ControlFlow::Continue(()));
+    [before, words(&outcome)].map(|words| words.replacen("accuracy: ", "Accuracy: ", 1) + ".")
+}
+
+#[test]
+fn sensitive_results_are_found_after_the_frame() {
+    let server = serve("paper");
+    let Some(page) = open(&server, 1400, 1000) else {
+        return;
+    };
+    let shown = "document.getElementById('accuracy').textContent";
+    let [_, sound] = accuracy_of("100 mm");
+    page.wait(&format!("{shown} === {sound:?}"));
+    // A gap that the buildings just graze, as `jostle gap` finds it.
+    let note = "document.getElementById('curve-note').textContent";
+    page.wait(&format!("{note}.includes('Smallest gap without pounding')"));
+    let needed = page.text(&format!("/pounding: ([\\d.]+) mm/.exec({note})[1]"));
+    let width = format!("{needed} mm");
+    let [before, found] = accuracy_of(&width);
+    assert_ne!(before, found, "the graze makes no difference");
+    page.type_into("gap[0].width", &width);
+    page.wait(&format!("{shown} === {found:?}"));
+    // A newer change stops the search of the older one.
+    page.type_into("gap[0].width", "100 mm");
+    page.wait(&format!("{shown} === {sound:?}"));
+    page.assert_content();
+}
+
+#[test]
+fn ports_of_given_buildings_have_knobs() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("given.toml");
+    let text = r#"
+[motion]
+record = "el-centro-1940-ns"
+pga = "0.2 g"
+
+[[building]]
+name = "A"
+kind = "given"
+matrices = { stiffness = [[120e6, -60e6], [-60e6, 60e6]], mass = [40e3, 40e3] }
+damping = { ratio = 0.05, modes = [1, 2] }
+
+[building.ports]
+"1" = { dof = 1, height = "3 m" }
+roof = { dof = 2, height = "6 m" }
+
+[[building]]
+name = "B"
+kind = "shear"
+mass = ["60 t", "60 t"]
+stiffness = "20 MN/m"
+storey_height = "3 m"
+
+[[gap]]
+between = ["A", "B"]
+width = "10 mm"
+"#;
+    std::fs::write(&file, text).unwrap();
+    let server = serve(file.to_str().unwrap());
+    let Some(page) = open(&server, 1400, 1000) else {
+        return;
+    };
+    page.search("ports");
+    page.type_into("building[0].ports.roof.height", "3 kg");
+    let fault = page.fault_of("building[0].ports.roof.height");
+    assert!(fault.contains("expected a length"), "{fault}");
+    page.type_into("building[0].ports.roof.height", "6.5 m");
+    assert_eq!(page.fault_of("building[0].ports.roof.height"), "");
+    assert!(
+        page.model()
+            .contains("roof = { dof = 2, height = \"6.5 m\" }"),
+        "{}",
+        page.model()
+    );
+    // Drawn as high as it says.
+    let said = page.text(
+        "[...document.querySelectorAll('.dimension-name')].map((t) => t.textContent).join('|')",
+    );
+    assert!(said.contains("3.5") || said.contains("6.5 m"), "{said}");
+    // The slider moves the lower port, and the present value of the curve can be a port.
+    page.value("{ const s = [...document.querySelectorAll('.knob')].find((k) => k.querySelector('.knob-name').title.startsWith('building[0].ports.1.height:')).querySelector('.knob-slider'); s.focus(); s.value = Number(s.value) + 0.05; s.dispatchEvent(new Event('input')); }");
+    page.settled();
+    assert!(
+        !page
+            .model()
+            .contains("\"1\" = { dof = 1, height = \"3 m\" }"),
+        "{}",
+        page.model()
+    );
+    page.glance("live-ports");
+    page.assert_content();
+}
+
+#[test]
+fn panels_of_impacts_follow_the_run() {
+    let server = serve("paper");
+    let Some(page) = open(&server, 1400, 1000) else {
+        return;
+    };
+    page.value("document.getElementById('charts').scrollIntoView()");
+    page.wait("document.querySelectorAll('.disc').length === 1");
+    let name = "document.querySelector('.impact-name')?.textContent ?? ''";
+    let first = page.text(name);
+    assert!(first.contains("peak force 1283 kN"), "{first}");
+    assert_eq!(
+        page.number("document.querySelectorAll('.impact-pictures svg').length"),
+        2.0
+    );
+    page.type_into("gap[0].width", "30 mm");
+    let second = page.text(name);
+    assert!(
+        second.contains("the hardest of") && second != first,
+        "{second}"
+    );
+    assert!(page.number("document.querySelectorAll('.impact-panel').length") > 3.0);
+    assert!(page.number("document.querySelectorAll('.disc').length") > 3.0);
+    page.type_into("gap[0].width", "300 mm");
+    assert_eq!(
+        page.value("document.getElementById('impact-panels').hidden"),
+        true
+    );
+    assert_eq!(
+        page.number("document.querySelectorAll('.disc').length"),
+        0.0
+    );
     page.assert_content();
 }
 

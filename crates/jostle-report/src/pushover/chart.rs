@@ -168,7 +168,7 @@ impl Chart {
 }
 
 /// Round values from zero to an end, about `count` of them.
-fn ticks(end: f64, count: f64) -> Vec<f64> {
+pub(super) fn ticks(end: f64, count: f64) -> Vec<f64> {
     let raw = end / count;
     if !(raw.is_finite() && raw > 0.0) {
         return vec![0.0];

@@ -1,15 +1,17 @@
 //! The page of `jostle pushover`: capacity curves, deformed shapes with the states of hinges, events.
 
 mod chart;
+mod demand;
 mod shapes;
 
 use jostle::hysteresis::Stage;
 use jostle::pushover::{Bilinear, LoadPattern, PushEnd, PushPoint, PushedBuilding, Pushover};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::document::{POLICY, STYLE, theme_button};
 use crate::format;
-use crate::page::{POLICY, STYLE, theme_button};
 use chart::Chart;
+pub use demand::Demand;
 
 const OWN_STYLE: &str = include_str!("../../assets/pushover.css");
 const SCRIPT: &str = include_str!("../../assets/pushover.js");
@@ -17,9 +19,13 @@ const SCRIPT: &str = include_str!("../../assets/pushover.js");
 /// Hinges named at most in a row of the table.
 const NAMED: usize = 6;
 
-/// The whole page of capacity curves; it loads nothing from outside.
+/// The whole page of capacity curves, beside the demand of a ground motion if there is one; it loads nothing from outside.
 #[must_use]
-pub fn render_pushover(title: &str, pushed: &[PushedBuilding]) -> String {
+pub fn render_pushover(
+    title: &str,
+    pushed: &[PushedBuilding],
+    demand: Option<&Demand<'_>>,
+) -> String {
     let charts: Vec<Chart> = pushed.iter().map(Chart::of).collect();
     let headline: Vec<String> = pushed.iter().map(verdict).collect();
     let page = html! {
@@ -45,7 +51,7 @@ pub fn render_pushover(title: &str, pushed: &[PushedBuilding]) -> String {
                 main {
                     @for sentence in &headline { p.verdict { (sentence) } }
                     @for (index, (one, chart)) in pushed.iter().zip(&charts).enumerate() {
-                        (building(index, one, chart))
+                        (building(index, one, chart, demand))
                     }
                     (guide())
                 }
@@ -104,7 +110,12 @@ fn verdict(one: &PushedBuilding) -> String {
     text
 }
 
-fn building(index: usize, one: &PushedBuilding, chart: &Chart) -> Markup {
+fn building(
+    index: usize,
+    one: &PushedBuilding,
+    chart: &Chart,
+    demand: Option<&Demand<'_>>,
+) -> Markup {
     html! {
         section data-building=(index) {
             h2 { (one.building.name) }
@@ -120,7 +131,7 @@ fn building(index: usize, one: &PushedBuilding, chart: &Chart) -> Markup {
                     span.chart-title { "Capacity curve" }
                     span.legend {
                         @for (k, curve) in one.curves.iter().enumerate() {
-                            span.key { span.swatch style=(chart::colour(k)) {} "to the " (curve.settings.direction.name()) }
+                            span.key { span.swatch.dashed[k > 0] style=(chart::colour(k)) {} "to the " (curve.settings.direction.name()) }
                         }
                         span.key { span.swatch.dashed {} "bilinear, equal energy" }
                         span.key { span.swatch.round.cracked {} "cracks" }
@@ -129,6 +140,7 @@ fn building(index: usize, one: &PushedBuilding, chart: &Chart) -> Markup {
                 }
                 (chart.draw(one))
             }
+            @if let Some(demand) = demand { (demand::section(index, one, demand)) }
             figure.chart {
                 figcaption {
                     span.chart-title { "Deformed shape" }

@@ -3,6 +3,8 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
+use crate::envelope::ticks;
+use crate::format;
 
 /// A ranking.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +36,11 @@ const WIDTH: f64 = 520.0;
 const LEFT: f64 = 170.0;
 const RIGHT: f64 = 56.0;
 const ROW: f64 = 34.0;
+/// Room for the base value above, and for ticks and their title below.
+const TOP: f64 = 20.0;
+const BOTTOM: f64 = 40.0;
+/// Greatest length of a base value in letters, times their width.
+const LETTER: f64 = 6.2;
 
 pub(super) fn figure(bars: &Bars) -> Markup {
     let all = || {
@@ -47,7 +54,14 @@ pub(super) fn figure(bars: &Bars) -> Markup {
     );
     let span = if high > low { high - low } else { 1.0 };
     let px = |value: f64| LEFT + (WIDTH - LEFT - RIGHT) * (value - low) / span;
-    let height = ROW * bars.bars.len() as f64 + 26.0;
+    let below = TOP + ROW * bars.bars.len() as f64;
+    let height = below + BOTTOM;
+    let (marks, decimals) = ticks(low, low + span, 5.0);
+    let base = format!("base {} {}", number(bars.centre), bars.value.unit);
+    let base = base.trim_end();
+    // Kept within the picture.
+    let half = 0.5 * LETTER * base.chars().count() as f64;
+    let base_at = px(bars.centre).clamp(half, WIDTH - half);
     html! {
         figure.study-chart {
             figcaption {
@@ -59,8 +73,15 @@ pub(super) fn figure(bars: &Bars) -> Markup {
                 }
             }
             svg viewBox=(format!("0 0 {WIDTH} {height}")) role="img" aria-label=(bars.title) {
+                g.grid {
+                    @for mark in &marks {
+                        @let x = format!("{:.1}", px(*mark));
+                        line x1=(x) x2=(x) y1=(TOP) y2=(below) {}
+                        text x=(x) y=(below + 14.0) text-anchor="middle" { (format::fixed(*mark, decimals)) }
+                    }
+                }
                 @for (row, bar) in bars.bars.iter().enumerate() {
-                    @let y = ROW * row as f64 + 4.0;
+                    @let y = TOP + ROW * row as f64 + 4.0;
                     text x=(LEFT - 8.0) y=(y + 17.0) text-anchor="end" { (short(&bar.name)) title { (bar.name) } }
                     @for (index, end) in bar.ends.iter().enumerate() {
                         @let (from, to) = (px(bars.centre.min(*end)), px(bars.centre.max(*end)));
@@ -72,8 +93,9 @@ pub(super) fn figure(bars: &Bars) -> Markup {
                         text x=(WIDTH - RIGHT + 6.0) y=(top + 9.5) { (number(*end)) }
                     }
                 }
-                line.study-axis x1=(px(bars.centre)) x2=(px(bars.centre)) y1="0" y2=(height - 22.0) {}
-                text x=(LEFT) y=(height - 6.0) { (bars.value.label()) }
+                line.study-axis x1=(px(bars.centre)) x2=(px(bars.centre)) y1=(TOP - 4.0) y2=(below) {}
+                @if bars.centre != 0.0 { text.study-base x=(format!("{base_at:.1}")) y="11" text-anchor="middle" { (base) } }
+                text x=(LEFT + 0.5 * (WIDTH - LEFT - RIGHT)) y=(height - 6.0) text-anchor="middle" { (bars.value.label()) }
             }
         }
     }

@@ -19,6 +19,8 @@ pub struct Chart {
     pub levels: Vec<Level>,
     /// The least that the vertical axis reaches up to.
     pub reach: f64,
+    /// Whether the series are levels of one quantity from low to high, such as intensities, and not things of their own.
+    pub ordered: bool,
 }
 
 /// A horizontal line with its name.
@@ -64,7 +66,7 @@ pub enum Stroke {
 
 const WIDTH: f64 = 520.0;
 const HEIGHT: f64 = 300.0;
-const LEFT: f64 = 54.0;
+const LEFT: f64 = 66.0;
 const RIGHT: f64 = 12.0;
 const TOP: f64 = 10.0;
 const BOTTOM: f64 = 40.0;
@@ -120,6 +122,15 @@ pub(super) fn figure(chart: &Chart) -> Markup {
         let lower: Vec<[f64; 2]> = lower.map(|(p, band)| [p[0], band[0]]).collect();
         format!("{}Z", path(&[upper, lower].concat()))
     };
+    // Levels differ by lightness, from low to high; other series by hue.
+    let last = chart.series.iter().map(|series| series.colour).max();
+    let colour = |number: usize| match last {
+        Some(last) if chart.ordered => {
+            let share = 100.0 * number as f64 / last.max(1) as f64;
+            format!("--c:color-mix(in oklab, var(--high) {share:.0}%, var(--low))")
+        }
+        _ => format!("--c:var(--c{})", number % COLOURS),
+    };
     let named: Vec<&Series> = chart
         .series
         .iter()
@@ -165,14 +176,11 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                         }
                     }
                 }
-                text x=(LEFT) y=(HEIGHT - 6.0) { "→ " (chart.x.label()) "   ↑ " (chart.y.label()) }
+                text x=(0.5 * (LEFT + WIDTH - RIGHT)) y=(HEIGHT - 6.0) text-anchor="middle" { (chart.x.label()) }
+                text x="0" y="0" transform={ "translate(12 " (0.5 * (TOP + HEIGHT - BOTTOM)) ") rotate(-90)" } text-anchor="middle" { (chart.y.label()) }
             }
         }
     }
-}
-
-fn colour(number: usize) -> String {
-    format!("--c:var(--c{})", number % COLOURS)
 }
 
 #[cfg(test)]

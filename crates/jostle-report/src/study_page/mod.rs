@@ -7,8 +7,8 @@ mod suite;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::document::{POLICY, STYLE, theme_button, theme_script};
 use crate::format;
-use crate::page::{POLICY, STYLE, theme_button, theme_script};
 
 pub use bars::{Bar, Bars};
 pub use chart::{Chart, Level, Series, Stroke};

@@ -3,7 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::{OWN_STYLE, Section, charts};
-use crate::page::{CALCULATION_STYLE, POLICY, STYLE, theme_button, theme_script};
+use crate::document::{CALCULATION_STYLE, POLICY, STYLE, theme_button, theme_script};
 
 /// Everything the page of a suite shows.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -9,6 +9,9 @@
 
 #[path = "../fixture/mod.rs"]
 mod fixture;
+
+mod colours;
 mod motion_pages;
 mod opened;
+mod other_pages;
 mod run_page;

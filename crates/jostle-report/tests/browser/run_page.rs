@@ -190,6 +190,185 @@ fn a_row_of_the_impact_table_shows_its_impact() {
 }
 
 #[test]
+fn every_impact_has_a_panel_and_the_hardest_opens() {
+    let run = row_of_three();
+    let Some(page) = open(&run, 1280, 900) else {
+        return;
+    };
+    let contacts = run.summary.gaps.iter().flat_map(|gap| &gap.contacts);
+    let mut impacts: Vec<_> = contacts.flat_map(|contact| &contact.impacts).collect();
+    impacts.sort_by(|a, b| b.peak_force_n.total_cmp(&a.peak_force_n));
+    let name = "document.querySelector('.impact-name').textContent";
+    let said = page.text(name);
+    assert!(
+        said.contains("the hardest of") && said.contains(&format!("{:.3} s", impacts[0].start_s)),
+        "{said}"
+    );
+    let panels = "document.querySelectorAll('.impact-panel').length";
+    assert_eq!(page.number(panels), 24.0);
+    page.value("document.querySelector('.impact-strip > button:last-child').click()");
+    // One of a single recorded instant has no shape.
+    let all = page.number(panels);
+    assert!(
+        all >= impacts.len() as f64 - 1.0,
+        "{all} of {}",
+        impacts.len()
+    );
+    let bad = "[...document.querySelectorAll('#impact-panels path.line')].filter((l) => /NaN|Infinity|undefined/.test(l.getAttribute('d')) || l.getAttribute('d').split('L').length < 3).length";
+    assert_eq!(page.number(bad), 0.0, "panels without a shape");
+    // Force over time and over indentation.
+    assert_eq!(
+        page.number("document.querySelectorAll('.impact-pictures svg').length"),
+        2.0
+    );
+    page.picture("impact-panels");
+    // A panel goes to its impact in scene and charts; so does a row of the table, and the row says which one it is.
+    page.value("document.querySelectorAll('.impact-panel')[3].click()");
+    let clock = page.clock();
+    assert!(
+        impacts
+            .iter()
+            .any(|impact| (impact.peak_force_at_s - clock).abs() < 6e-4),
+        "no impact has its peak at {clock} s"
+    );
+    assert_ne!(page.text(name), said);
+    for row in [0, 7, 11] {
+        page.value(&format!(
+            "document.querySelectorAll('#impact-table tbody tr')[{row}].cells[2].click()"
+        ));
+        let start = page.number(&format!(
+            "Number(document.querySelectorAll('#impact-table tbody tr')[{row}].dataset.start)"
+        ));
+        let place = page.text(&format!(
+            "document.querySelectorAll('#impact-table tbody tr')[{row}].cells[0].textContent"
+        ));
+        let said = page.text(name);
+        assert!(
+            said.contains(&format!("{start:.3} s")) && said.contains(&place),
+            "row {row}, {place} at {start} s: {said}"
+        );
+    }
+    page.value("[...document.querySelectorAll('#impact-panels button')].find((b) => b.textContent === 'Hardest').click()");
+    assert_eq!(page.text(name), said);
+    page.assert_content();
+}
+
+#[test]
+fn impacts_stand_at_their_instant_and_height() {
+    let run = row_of_three();
+    let Some(page) = open(&run, 1280, 900) else {
+        return;
+    };
+    let contacts = run.summary.gaps.iter().flat_map(|gap| &gap.contacts);
+    let heights: Vec<(f64, f64)> = contacts
+        .flat_map(|c| {
+            c.impacts
+                .iter()
+                .map(move |i| (c.height_m, i.peak_force_at_s))
+        })
+        .collect();
+    let discs = page.text("[...document.querySelectorAll('.disc')].map((d) => [d.getAttribute('cx'), d.getAttribute('cy')].join(' ')).join()");
+    let discs: Vec<(f64, f64)> = discs
+        .split(',')
+        .map(|disc| {
+            let (x, y) = disc.split_once(' ').unwrap();
+            (x.parse().unwrap(), y.parse().unwrap())
+        })
+        .collect();
+    assert_eq!(discs.len(), heights.len());
+    // Straight axes: two discs give the scale of all.
+    let ends = |values: &dyn Fn(usize) -> f64, count: usize| {
+        let all = (0..count).map(values);
+        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        })
+    };
+    let count = discs.len();
+    let (left, right) = ends(&|i| discs[i].0, count);
+    let (top, bottom) = ends(&|i| discs[i].1, count);
+    let (first, last) = ends(&|i| heights[i].1, count);
+    let (low, high) = ends(&|i| heights[i].0, count);
+    for (height, at) in &heights {
+        let x = left + (at - first) / (last - first) * (right - left);
+        let y = bottom - (height - low) / (high - low) * (bottom - top);
+        assert!(
+            discs
+                .iter()
+                .any(|d| (d.0 - x).abs() < 0.3 && (d.1 - y).abs() < 0.3),
+            "no disc at {at} s, {height} m"
+        );
+    }
+    // A click on one goes to its impact.
+    page.value("document.querySelector('.disc').scrollIntoView({block: 'center'})");
+    std::thread::sleep(Duration::from_millis(200));
+    let [x, y] = ["left + r.width / 2", "top + r.height / 2"].map(|side| {
+        page.number(&format!("(() => {{ const r = document.querySelector('.disc:last-child').getBoundingClientRect(); return r.{side}; }})()"))
+    });
+    use Input::DispatchMouseEventTypeOption::{MousePressed, MouseReleased};
+    page.mouse(MousePressed, x, y);
+    page.mouse(MouseReleased, x, y);
+    let clock = page.clock();
+    assert!(
+        heights.iter().any(|(_, at)| (at - clock).abs() < 6e-4),
+        "the click led to {clock} s"
+    );
+    page.assert_content();
+}
+
+#[test]
+fn drawings_have_their_dimensions() {
+    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+        return;
+    };
+    let said = page.text(
+        "[...document.querySelectorAll('.dimension-name')].map((t) => t.textContent).join('|')",
+    );
+    for text in ["2.4 m", "6 m", "5 × 3.2 m = 16 m", "10 × 3.2 m = 32 m"] {
+        assert!(
+            said.split('|').any(|one| one == text),
+            "{text} is missing: {said}"
+        );
+    }
+    // As long as they say: 16 m to 32 m.
+    let lengths = page.text("[...document.querySelectorAll('.dimension')].map((p) => p.getAttribute('d')).filter((d) => d.includes('V')).map((d) => { const [, y0, y1] = /,([\\d.]+)V([\\d.]+)/.exec(d); return y0 - y1; }).join()");
+    let lengths: Vec<f64> = lengths.split(',').map(|l| l.parse().unwrap()).collect();
+    assert!((lengths[1] / lengths[0] - 2.0).abs() < 0.01, "{lengths:?}");
+    page.assert_content();
+}
+
+#[test]
+fn yielded_places_are_coloured_by_their_ductility() {
+    let run = yielding();
+    let Some(page) = open(&run, 1280, 900) else {
+        return;
+    };
+    page.value("{ const s = document.getElementById('scrub'); s.value = s.max; s.dispatchEvent(new Event('input')); }");
+    let floors = [1.0, 2.0, 4.0, 6.0, 8.0, f64::INFINITY];
+    let buildings = run.summary.buildings.iter().enumerate();
+    let yielded: Vec<(usize, f64)> = buildings
+        .flat_map(|(i, b)| b.hinges.list.iter().map(move |hinge| (i, hinge)))
+        .filter(|(_, hinge)| hinge.yielded_s.is_some())
+        .map(|(i, hinge)| (i, hinge.ductility))
+        .collect();
+    assert!(yielded.len() > 3);
+    for grade in 0..5 {
+        let within = |d: f64| floors[grade] <= d && d < floors[grade + 1];
+        // A storey has a mark at either side.
+        let expected: usize = yielded
+            .iter()
+            .filter(|(_, ductility)| within(*ductility))
+            .map(|(building, _)| 1 + building)
+            .sum();
+        let marks = page.number(&format!("[...document.querySelectorAll('#scene .grade-{grade}')].reduce((sum, p) => sum + (p.getAttribute('d').match(/M/g) ?? []).length, 0)"));
+        assert_eq!(marks, expected as f64, "ductility from {}", floors[grade]);
+    }
+    let colours = page.number("new Set([0, 1, 2, 3, 4].map((g) => getComputedStyle(document.querySelector(`#scene .grade-${g}`)).fill)).size");
+    assert_eq!(colours, 5.0, "every grade has a colour of its own");
+    page.picture("ductility");
+    page.assert_content();
+}
+
+#[test]
 fn marks_and_loops_follow_the_clock() {
     let Some(page) = open(&yielding(), 1180, 900) else {
         return;

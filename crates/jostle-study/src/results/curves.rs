@@ -60,6 +60,7 @@ impl Results<'_> {
                     series: series.take(MOST_LINES).map(short_name).collect(),
                     levels: Vec::new(),
                     reach: 0.0,
+                    ordered: true,
                 });
             }
         }
@@ -106,6 +107,7 @@ impl Results<'_> {
                 y: axis,
                 levels: Vec::new(),
                 reach: 0.0,
+                ordered: false,
             });
         }
         (!charts.is_empty()).then(|| Section {
@@ -209,6 +211,7 @@ impl Results<'_> {
                     series,
                     levels: Vec::new(),
                     reach: 0.0,
+                    ordered: false,
                 }],
                 ..Section::default()
             });

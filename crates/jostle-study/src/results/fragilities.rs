@@ -428,6 +428,7 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
             series,
             levels: Vec::new(),
             reach: 1.0,
+            ordered: false,
         }],
         bars: Vec::new(),
     }

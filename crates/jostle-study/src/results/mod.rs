@@ -290,7 +290,8 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
     }
     let file = writer.into_inner().map_err(|error| unwritable(&error))?;
     file.sync_all().map_err(|error| unwritable(&error))?;
-    std::fs::rename(&part, &path).map_err(|error| unwritable(&error))
+    drop(file);
+    Ok(jostle_io::put_in_place(&part, &path)?)
 }
 
 fn csv(columns: &[(String, Values)]) -> String {

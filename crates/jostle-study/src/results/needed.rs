@@ -172,6 +172,7 @@ impl Results<'_> {
                 series,
                 levels: codes,
                 reach: gap_size * widest,
+                ordered: false,
             }],
             ..Section::default()
         })

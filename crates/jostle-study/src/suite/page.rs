@@ -196,6 +196,7 @@ impl SuiteResults {
                 series,
                 levels: Vec::new(),
                 reach: 0.0,
+                ordered: false,
             }],
             ..Section::default()
         })
@@ -292,6 +293,7 @@ fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
         series,
         levels: Vec::new(),
         reach: 0.0,
+        ordered: false,
     })
 }
 

@@ -1,4 +1,4 @@
-//! One run of jostle held against the reference.
+//! One run of jostle compared with the reference.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

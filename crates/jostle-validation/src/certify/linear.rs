@@ -130,9 +130,12 @@ impl Component {
             }
             for (a, s) in &sides {
                 for (b, t) in &sides {
-                    let at = (a.dof - offset, b.dof - offset);
-                    other[at] += s * t * link.stiffness;
-                    dashpots[at] += s * t * link.damping;
+                    for &(row, c) in a.row.moved_down(offset).entries() {
+                        for &(column, d) in b.row.moved_down(offset).entries() {
+                            other[(row, column)] += s * t * c * d * link.stiffness;
+                            dashpots[(row, column)] += s * t * c * d * link.damping;
+                        }
+                    }
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Random models of kinds that few are of: rubber, pulses, springs below feet, and columns struck between floors.
+//! Random models of rarer kinds: rubber, pulses, springs below feet, and columns struck between floors.
 
 use serde_json::{Map, Value, json};
 

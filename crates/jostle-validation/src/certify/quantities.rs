@@ -97,13 +97,13 @@ pub(super) fn values_of(summary: &Summary, system: &System) -> Vec<f64> {
     let mut list = Vec::new();
     for building in &summary.buildings {
         let floors = || building.floors.iter();
-        list.extend(floors().map(|f| f.displacement_max_m));
-        list.extend(floors().map(|f| f.displacement_min_m));
-        list.extend(floors().map(|f| f.storey_drift_peak));
-        list.extend(floors().map(|f| f.total_acceleration_peak_m_s2));
-        list.extend(floors().map(|f| f.storey_shear_peak_n));
-        list.extend(floors().map(|f| f.overturning_moment_peak_n_m));
-        list.push(building.base_shear_peak_n);
+        list.extend(floors().map(|f| f.response.displacement_max_m));
+        list.extend(floors().map(|f| f.response.displacement_min_m));
+        list.extend(floors().map(|f| f.response.storey_drift_peak));
+        list.extend(floors().map(|f| f.response.total_acceleration_peak_m_s2));
+        list.extend(floors().map(|f| f.response.storey_shear_peak_n));
+        list.extend(floors().map(|f| f.response.overturning_moment_peak_n_m));
+        list.push(building.response.base_shear_peak_n);
     }
     // Contacts of a summary stand gap by gap, in the order of the system.
     let mut places = vec![0; summary.gaps.len()];

@@ -28,7 +28,7 @@ pub(super) fn check_given(faults: &mut Faults, path: &str, given: &Given, buildi
         ("heights", given.heights.len()),
     ] {
         faults.require(count == n, at("matrices"), || {
-            format!("the {what} of {count} displacements stand beside the masses of {n}")
+            format!("there are {what} for {count} displacements, but masses for {n}")
         });
     }
     for (field, mass) in each(&given.mass, &at("mass")) {

@@ -3,6 +3,15 @@
 use super::{BilinearShape, RubberBumper};
 
 /// The formula of a contact law.
+///
+/// ```
+/// use jostle::LawKind;
+///
+/// let law = LawKind::HertzDamp;
+/// assert_eq!(law.name(), "hertz-damp");
+/// assert!(law.is_hertzian()); // its stiffness is in N/m^1.5
+/// assert_eq!(LawKind::ALL.len(), 12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LawKind {
     /// F = k δ.

@@ -7,6 +7,7 @@
 //!
 //! [`FreeCollision`] integrates the collision of two free masses precisely, independent of any time step.
 
+mod advice;
 mod approach;
 mod bilinear;
 mod collision;
@@ -19,6 +20,10 @@ mod root;
 mod rubber;
 mod runge_kutta;
 
+pub use advice::{
+    Rod, RodCollision, Slab, SlabMaterial, effective_radius, hertz_of_force, hertz_peak_force,
+    hertz_stiffness, rod_collision, spring_of_duration, spring_of_force,
+};
 pub use bilinear::{Bilinear, BilinearShape};
 pub use collision::{CollisionPoint, FreeCollision};
 pub use force_law::{ContactResponse, ForceLaw, Memory};
@@ -62,6 +67,14 @@ pub struct ContactLaw {
 }
 
 /// Meaning of a coefficient of restitution.
+///
+/// ```
+/// use jostle::{ContactLaw, LawKind, RestitutionIs};
+///
+/// let law = |restitution_is| ContactLaw { kind: LawKind::HertzDamp, stiffness: 2e9, restitution: 0.65, restitution_is };
+/// assert!((law(RestitutionIs::Input).free_restitution() - 0.775).abs() < 1e-3);
+/// assert!((law(RestitutionIs::Realised).free_restitution() - 0.65).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum RestitutionIs {
     /// It goes into the published formula; the rebound of free masses may differ.

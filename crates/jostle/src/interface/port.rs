@@ -1,14 +1,15 @@
 //! The two points of a contact or a link: one on either side, on a building or on a rigid wall.
 
+use super::DofRow;
 use crate::contact::effective_mass;
 
-/// A point of a building with a horizontal degree of freedom.
+/// A point of a building that can be pushed in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Port {
     /// Index of the building.
     pub building: usize,
-    /// Degree of freedom in the vectors of a [`crate::State`].
-    pub dof: usize,
+    /// Its displacement along the direction, over the vectors of a [`crate::State`].
+    pub row: DofRow,
     /// Mass that moves with it, > 0 \[kg\].
     pub mass: f64,
     /// Floor, from 1; `None` for a point between floors.
@@ -28,14 +29,14 @@ impl PortPair {
     #[inline]
     pub fn closing(&self, values: &[f64]) -> f64 {
         let [left, right] = self.0;
-        left.map_or(0.0, |port| values[port.dof]) - right.map_or(0.0, |port| values[port.dof])
+        left.map_or(0.0, |port| port.row.of(values)) - right.map_or(0.0, |port| port.row.of(values))
     }
 
     /// Adds a force that separates the two sides to a load on all degrees of freedom \[N\].
     #[inline]
     pub fn push_apart(&self, force: f64, load: &mut [f64]) {
         for (port, sign) in self.sides() {
-            load[port.dof] += sign * force;
+            port.row.push(sign * force, load);
         }
     }
 

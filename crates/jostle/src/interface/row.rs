@@ -1,4 +1,4 @@
-//! What stands between the buildings of a model: from gaps and links to contacts and elements between points.
+//! From the gaps and links of a model to contacts and elements between points.
 
 use super::contact_points::{PointPair, SAME, point_pairs};
 use crate::model::{FloorPairs, Model};

@@ -1,8 +1,9 @@
-//! Matrices and vectors: what every solver stands on.
+//! Matrices and vectors that every solver uses.
 
 pub(crate) mod cholesky;
 pub(crate) mod counting_sort;
 pub(crate) mod diagonal_runs;
+pub(crate) mod envelope;
 pub(crate) mod full_matrix;
 pub(crate) mod sparse_cholesky;
 mod sparse_symmetric;

@@ -9,6 +9,13 @@
 ///
 /// N. M. Newmark (1959), J. Eng. Mech. Div. ASCE 85, 67–94; H. M. Hilber, T. J. R. Hughes, R. L. Taylor (1977),
 /// Earthq. Eng. Struct. Dyn. 5, 283–292; J. Chung, G. M. Hulbert (1993), J. Appl. Mech. 60, 371–375.
+///
+/// ```
+/// use jostle::Integrator;
+///
+/// assert_eq!(Integrator::default(), Integrator::newmark(0.25, 0.5));
+/// assert_eq!(Integrator::hht(0.05).to_string(), "HHT, α = 0.0500");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integrator {
     /// β > 0 \[–\].

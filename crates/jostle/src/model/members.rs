@@ -1,6 +1,13 @@
-//! Which forces of columns and beams a run should give.
+//! Columns and beams whose forces are requested.
 
 /// Which forces of columns and beams a run should give.
+///
+/// ```
+/// use jostle::MemberRequest;
+///
+/// let request = MemberRequest::with_histories(&["J1.column.3.2"]);
+/// assert!(request.envelopes); // the greatest forces of all members, too
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MemberRequest {
     /// Whether the greatest forces of all columns and beams of frames are asked for.

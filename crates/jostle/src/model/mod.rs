@@ -57,6 +57,25 @@ pub struct Model {
 }
 
 /// One building: its structure, its damping and where it yields.
+///
+/// ```
+/// use jostle::{Base, Building, Damping, Gravity, Shear, Structure};
+///
+/// let building = Building {
+///     name: "North".to_owned(),
+///     structure: Structure::Shear(Shear {
+///         mass: vec![40e3, 40e3],        // kg
+///         stiffness: vec![60e6, 60e6],   // N/m
+///         storey_heights: vec![4.0, 3.2], // m
+///     }),
+///     damping: Damping::Ratio { ratio: 0.02, modes: vec![1, 2] },
+///     base: Base::default(), // fixed
+///     gravity: Gravity::default(),
+///     hinges: None, // elastic
+/// };
+/// assert_eq!(building.floors(), 2);
+/// assert!(!building.may_yield());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Building {
     /// Name, unique in the model.
@@ -130,6 +149,13 @@ impl Base {
 }
 
 /// Effects of the weight of a building.
+///
+/// ```
+/// use jostle::Gravity;
+///
+/// let gravity = Gravity { p_delta: true, ..Gravity::default() };
+/// assert!(!gravity.preload);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Gravity {
     /// The run starts from the displacements under self weight.
@@ -261,6 +287,20 @@ pub struct Frame {
 }
 
 /// Cross-section of a member.
+///
+/// ```
+/// use jostle::Section;
+///
+/// // A column of 500 × 500 mm, E = 30 GPa, 70 % of EI for cracks.
+/// let (modulus, side): (f64, f64) = (30e9, 0.5);
+/// let column = Section {
+///     flexural_rigidity: 0.7 * modulus * side.powi(4) / 12.0,
+///     axial_rigidity: Some(modulus * side * side),
+///     shear_rigidity: None,
+///     line_mass: 2500.0 * side * side,
+/// };
+/// assert!((column.flexural_rigidity / 109.375e6 - 1.0).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
     /// Flexural rigidity EI, cracking factor included, > 0 \[N·m²\].
@@ -274,6 +314,13 @@ pub struct Section {
 }
 
 /// Axial behaviour of the members of a frame.
+///
+/// ```
+/// use jostle::Axial;
+///
+/// let axial = Axial { columns_flexible: true, ..Axial::default() };
+/// assert!(!axial.beams_flexible);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Axial {
     /// Columns are axially flexible (`true`) or rigid (`false`, the default, as in Zhang et al. 2019).
@@ -283,6 +330,13 @@ pub struct Axial {
 }
 
 /// Planar elastic hinge at both ends of every beam.
+///
+/// ```
+/// use jostle::Joint;
+///
+/// let joint = Joint { rotational_stiffness: Some(2e8), ..Joint::default() }; // N·m/rad
+/// assert_eq!(joint.vertical_stiffness, None); // rigid
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Joint {
     /// Rotational stiffness, > 0; `None` is rigid \[N·m/rad\].
@@ -294,6 +348,13 @@ pub struct Joint {
 }
 
 /// Shear building: floor masses joined by storey springs.
+///
+/// ```
+/// use jostle::Shear;
+///
+/// let shear = Shear { mass: vec![40e3; 3], stiffness: vec![60e6; 3], storey_heights: vec![3.2; 3] };
+/// assert_eq!(shear.mass.len(), shear.stiffness.len());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shear {
     /// Floor masses from the ground up, > 0 \[kg\].
@@ -482,6 +543,17 @@ pub enum FloorPairs {
 }
 
 /// A point on a side of a building.
+///
+/// ```
+/// use jostle::{FloorPairs, Level};
+///
+/// // Floor 4 against floor 5, and floor 3 against the column at 9.6 m.
+/// let pairs = FloorPairs::Listed(vec![
+///     [Level::Floor(4), Level::Floor(5)],
+///     [Level::Floor(3), Level::Height(9.6)],
+/// ]);
+/// assert_ne!(pairs, FloorPairs::All);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Level {
     /// A floor, counted from 1.
@@ -560,6 +632,13 @@ impl Default for Analysis {
 }
 
 /// Solver of the step equations; all give the same result within rounding.
+///
+/// ```
+/// use jostle::Solver;
+///
+/// assert_eq!(Solver::from_name("modal"), Some(Solver::Modal));
+/// assert_eq!(Solver::Riccati.description(), "Riccati transfer matrices");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
     /// Riccati transfer recursion along beams, column lines and storeys.
@@ -607,6 +686,19 @@ impl Solver {
 }
 
 /// One fault of a model.
+///
+/// ```
+/// use jostle::System;
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # use towers::pair;
+///
+/// let mut model = pair(0.02);
+/// model.buildings[0].name = "stiff".to_owned(); // the name of its neighbour
+/// model.analysis.tolerance = -1.0;
+/// let faults = model.check().expect_err("two faults");
+/// assert!(faults.iter().any(|fault| fault.path == "analysis.tolerance"), "{faults:?}");
+/// assert!(System::assemble(&model).is_err());
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{path}: {problem}")]
 pub struct ModelFault {

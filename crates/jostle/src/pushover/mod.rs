@@ -1,9 +1,11 @@
 //! Pushover of a building to a target drift or loss of strength.
 
 mod bilinear;
+mod equivalent;
 mod pattern;
 
 pub use bilinear::Bilinear;
+pub use equivalent::EquivalentOscillator;
 pub use pattern::LoadPattern;
 
 use crate::hysteresis::{HysteresisMemory, Side, Stage};

@@ -67,6 +67,16 @@ impl LoadPattern {
     }
 }
 
+/// Mass that a uniform load acts on: all above the base \[kg\].
+pub(super) fn loaded_mass(building: &BuildingSystem) -> f64 {
+    let masses = floor_masses(building).into_iter().enumerate();
+    let loaded = masses.filter(|(node, mass)| {
+        let height = building.discretization.stick_model.nodes[*node].y;
+        *mass > 0.0 && height > LEVEL_TOLERANCE && building.equations.dof((*node, X)).is_some()
+    });
+    loaded.map(|(_, mass)| mass).sum()
+}
+
 /// Mass of every node, those between floors moved to the nodes above and below on the same line \[kg\].
 fn floor_masses(building: &BuildingSystem) -> Vec<f64> {
     let nodes = &building.discretization.stick_model.nodes;

@@ -1,4 +1,4 @@
-//! How results depend on the contact stiffness and on the restitution, of which nobody knows more than an order.
+//! Dependence of results on the contact stiffness and the restitution, which are known only to an order of magnitude.
 
 use serde::Serialize;
 

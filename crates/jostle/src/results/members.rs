@@ -2,6 +2,7 @@
 
 use super::summarise::{Run, counted_impacts};
 use super::summary::{MemberSummary, SectionSummary, StruckSummary};
+use crate::interface::DofRow;
 use crate::structure::{MemberPlace, MemberSection, MemberSections, SectionAt};
 use crate::system::BuildingSystem;
 
@@ -70,7 +71,8 @@ fn impacts_at(building: usize, section: &MemberSection, run: &Run) -> (usize, f6
     for (index, contact) in run.system.contacts.iter().enumerate() {
         let mut ports = contact.ports.0.into_iter().flatten();
         let here = ports.any(|port| {
-            port.building == building && section.dof.is_some_and(|dof| port.dof == offset + dof)
+            let own = section.dof.map(|dof| DofRow::single(offset + dof));
+            port.building == building && own == Some(port.row)
         });
         if here {
             let gap = &run.model.gaps[contact.gap];

@@ -4,6 +4,8 @@ pub mod contact_sensitivity;
 mod counted_impact;
 pub mod floor_spectra;
 mod members;
+pub mod registry;
+pub mod response;
 mod summarise;
 pub mod summary;
 

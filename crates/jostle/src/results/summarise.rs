@@ -1,16 +1,19 @@
 //! Computes the numbers of `summary.json` from the outcome of a run.
 
 use crate::contact::{LawKind, RestitutionIs};
-use crate::history::{FloorPeaks, Impact};
+use crate::history::Impact;
 use crate::hysteresis::{Side, Stage};
 use crate::model::WALL;
 use crate::model::{Gap, Model};
 use crate::motion::GroundMotion;
 use crate::results::members::members_of;
+use crate::results::response::{
+    Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
+};
 use crate::results::summary::{
-    BuildingSummary, BuildingWithoutContact, ContactSummary, EnergySummary, FloorSummary,
-    FloorWithoutContact, GapSummary, HingeSummary, ImpactSummary, LinkFloorSummary, LinkSummary,
-    MotionSummary, PromiseSummary, SpringSummary, Summary, WorkSummary,
+    BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
+    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SpringSummary,
+    Summary, WorkSummary,
 };
 use crate::results::{CountedImpact, counted, find_simultaneous};
 use crate::stepping::{Accuracy, Outcome, Plan, RunEnd};
@@ -127,30 +130,29 @@ impl Summary {
 }
 
 fn building_summary(index: usize, run: &Run) -> BuildingSummary {
-    let outcome = run.outcome;
     let building = &run.system.buildings[index];
-    let floors = building
-        .floors
-        .iter()
-        .zip(&outcome.floors[index])
-        .zip(residual_drifts(building, outcome))
-        .enumerate()
-        .map(|(k, ((floor, peaks), residual_drift))| FloorSummary {
+    let hinges = hinge_summary(building, run.outcome);
+    let own = floor_responses(index, building, run.outcome);
+    let response = building_response(index, building, run.outcome, &own, &hinges);
+    let without = run.without_contact.map(|outcome| {
+        let floors = floor_responses(index, building, outcome);
+        let hinges = hinge_summary(building, outcome);
+        let response = building_response(index, building, outcome, &floors, &hinges);
+        (floors, response)
+    });
+    let without_contact = without.as_ref().map(|(_, response)| *response);
+    let floors = building.floors.iter().zip(own).enumerate();
+    let floors = floors.map(|(k, (floor, response))| {
+        let without_contact = without.as_ref().map(|(floors, _)| floors[k]);
+        FloorSummary {
             floor: k + 1,
             height_m: floor.height,
-            displacement_max_m: peaks.displacement_max.value,
-            displacement_max_at_s: peaks.displacement_max.at,
-            displacement_min_m: peaks.displacement_min.value,
-            displacement_min_at_s: peaks.displacement_min.at,
-            total_acceleration_peak_m_s2: peaks.total_acceleration,
-            storey_drift_peak: peaks.storey_drift,
-            storey_shear_peak_n: peaks.storey_shear,
-            overturning_moment_peak_n_m: peaks.overturning_moment,
-            residual_drift,
-            without_contact: run
-                .without_contact
-                .map(|without| floor_without_contact(&without.floors[index][k])),
-        });
+            response,
+            without_contact,
+            amplification: without_contact
+                .map(|without| Amplification::new(FloorResponse::QUANTITIES, &response, &without)),
+        }
+    });
     BuildingSummary {
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),
@@ -161,26 +163,12 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         rayleigh_alpha_per_s: building.equations.alpha,
         rayleigh_beta_s: building.equations.beta,
         floors: floors.collect(),
-        base_shear_peak_n: outcome.base_shear[index],
-        without_contact: run.without_contact.map(|without| BuildingWithoutContact {
-            base_shear_peak_n: without.base_shear[index],
-        }),
-        residual_roof_displacement_m: roof_displacement(building, outcome),
-        hinges: hinge_summary(building, outcome),
+        response,
+        without_contact,
+        amplification: without_contact
+            .map(|without| Amplification::new(BuildingResponse::QUANTITIES, &response, &without)),
+        hinges,
         members: members_of(index, run),
-    }
-}
-
-fn floor_without_contact(peaks: &FloorPeaks) -> FloorWithoutContact {
-    FloorWithoutContact {
-        displacement_max_m: peaks.displacement_max.value,
-        displacement_max_at_s: peaks.displacement_max.at,
-        displacement_min_m: peaks.displacement_min.value,
-        displacement_min_at_s: peaks.displacement_min.at,
-        total_acceleration_peak_m_s2: peaks.total_acceleration,
-        storey_drift_peak: peaks.storey_drift,
-        storey_shear_peak_n: peaks.storey_shear,
-        overturning_moment_peak_n_m: peaks.overturning_moment,
     }
 }
 
@@ -246,25 +234,6 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
     springs.map(summary).collect()
 }
 
-/// Drift ratios of the storeys at the end \[–\].
-fn residual_drifts(building: &BuildingSystem, outcome: &Outcome) -> Vec<f64> {
-    let u = &outcome.state.displacement;
-    let mut below = building.foot.map_or(0.0, |dof| u[dof]);
-    let mut drift = |floor: &crate::system::Floor| {
-        let rise = u[floor.dof] - below;
-        below = u[floor.dof];
-        rise / floor.storey_height
-    };
-    building.floors.iter().map(&mut drift).collect()
-}
-
-fn roof_displacement(building: &BuildingSystem, outcome: &Outcome) -> f64 {
-    building
-        .floors
-        .last()
-        .map_or(0.0, |roof| outcome.state.displacement[roof.dof])
-}
-
 fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
     let Run {
         system, outcome, ..
@@ -283,6 +252,10 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
         .map(|(&contact, impacts)| contact_summary(contact, impacts, system, outcome))
         .collect();
     let impacts = contacts.iter().flat_map(|contact| &contact.impacts);
+    let total = outcome.gap_forces.get(index);
+    // Contact that is no impact has a force as well.
+    let total =
+        total.filter(|total| total.value > 0.0 && counted.iter().any(|own| !own.is_empty()));
     GapSummary {
         between: names(gap.between, system),
         width_m: gap.width(),
@@ -301,6 +274,8 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
             .iter()
             .map(|contact| contact.peak_force_n)
             .fold(0.0, f64::max),
+        total_force_peak_n: total.map_or(0.0, |total| total.value),
+        total_force_peak_at_s: total.map(|total| total.at),
         first_impact_s: impacts.map(|impact| impact.start_s).min_by(f64::total_cmp),
         closing_without_contact_m: run.without_contact.map(|outcome| {
             let needed = |&contact: &usize| {

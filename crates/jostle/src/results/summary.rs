@@ -1,11 +1,41 @@
-//! The numbers of a run in the shape of `summary.json`: names carry their units.
+//! The numbers of a run in the shape of `summary.json`: names carry their units. Every part lists its numbers below it, one line
+//! each.
 
 use serde::Serialize;
 
 use super::contact_sensitivity::ContactSensitivity;
 use super::floor_spectra::FloorSpectra;
+use super::response::{Amplification, BuildingResponse, FloorResponse};
+use crate::quantity::{Quantity, Unit};
 
 /// Results of a run without histories.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Run, Settings, Summary, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// let summary = Summary::of(&Run {
+///     model: &model,
+///     system: &system,
+///     motion: &motion,
+///     plan: &plan,
+///     outcome: &outcome,
+///     without_contact: None,
+///     wall: 0.0,
+/// });
+/// let roof = &summary.buildings[0].floors[2];
+/// assert!(roof.displacement_max_m > 0.0 && roof.storey_shear_peak_n > 0.0);
+/// assert!(summary.promise.met == Some(true));
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct Summary {
     /// Title of the model.
@@ -40,6 +70,18 @@ pub struct Summary {
     pub notes: Vec<String>,
 }
 
+#[rustfmt::skip]
+impl Summary {
+    /// Numbers of all gaps together; none if there is no gap.
+    pub const POUNDING: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("impact_count", "impacts of all gaps", |s| s.gaps.iter().map(|gap| gap.impact_count).sum()).not_in_summary().in_study(),
+        Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any contact", |s| s.gaps.iter().map(|gap| gap.peak_force_n).fold(0.0, f64::max)).not_in_summary().in_study(),
+        Quantity::<Self>::optional("first_impact_s", Unit::S, "instant of the first impact", |s| s.gaps.iter().filter_map(|gap| gap.first_impact_s).min_by(f64::total_cmp)).not_in_summary().in_study(),
+        Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of all contact forces", |s| s.gaps.iter().fold(0.0, |sum, gap| sum + gap.impulse_n_s())).not_in_summary().in_study(),
+        Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing of any contact", |s| s.gaps.iter().map(GapSummary::closing_peak_m).fold(0.0, f64::max)).not_in_summary().in_study(),
+    ];
+}
+
 /// Ground motion as used.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct MotionSummary {
@@ -57,8 +99,20 @@ pub struct MotionSummary {
     pub duration_s: f64,
 }
 
+#[rustfmt::skip]
+impl MotionSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("points", "values of the record; 0 for analytic waves", |m| m.points),
+        Quantity::<Self>::real("step_s", Unit::S, "time step of the record; 0 for analytic waves", |m| m.step_s),
+        Quantity::<Self>::real("pga_m_s2", Unit::M_S2, "peak ground acceleration, after scaling", |m| m.pga_m_s2).in_study(),
+        Quantity::<Self>::real("scale", Unit::NONE, "factor on the record, negative if reversed", |m| m.scale),
+        Quantity::<Self>::real("duration_s", Unit::S, "length of the analysis", |m| m.duration_s),
+    ];
+}
+
 /// One building.
-#[derive(Clone, Debug, Serialize, PartialEq)]
+#[derive(Clone, Debug, Default, Serialize, PartialEq)]
 pub struct BuildingSummary {
     /// Name.
     pub name: String,
@@ -72,17 +126,29 @@ pub struct BuildingSummary {
     pub rayleigh_beta_s: f64,
     /// Floors from the ground up.
     pub floors: Vec<FloorSummary>,
-    /// Greatest elastic base shear, either sign \[N\].
-    pub base_shear_peak_n: f64,
-    /// The same of the run without contact, if it exists.
-    pub without_contact: Option<BuildingWithoutContact>,
-    /// Roof displacement at the end \[m\].
-    pub residual_roof_displacement_m: f64,
+    /// Its peaks, and what is left at the end.
+    #[serde(flatten)]
+    pub response: BuildingResponse,
+    /// The same in the run without contact, if it exists.
+    pub without_contact: Option<BuildingResponse>,
+    /// The former over the latter, if that run exists.
+    pub amplification: Option<Amplification>,
     /// Hinge counts.
     pub hinges: HingeSummary,
     /// Columns and beams, storey by storey from the ground up, columns first; absent unless asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberSummary>,
+}
+
+#[rustfmt::skip]
+impl BuildingSummary {
+    /// Numbers that do not depend on the motion.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("mass_kg", Unit::KG, "vibrating mass", |b| b.mass_kg),
+        Quantity::<Self>::optional("period_s", Unit::S, "period of the first lateral mode", |b| b.periods_s.first().copied()).not_in_summary().in_study(),
+        Quantity::<Self>::real("rayleigh_alpha_per_s", Unit::PER_S, "Rayleigh damping: coefficient of the mass", |b| b.rayleigh_alpha_per_s),
+        Quantity::<Self>::real("rayleigh_beta_s", Unit::S, "Rayleigh damping: coefficient of the stiffness", |b| b.rayleigh_beta_s),
+    ];
 }
 
 /// Greatest forces of one column or beam.
@@ -111,6 +177,17 @@ pub struct SectionSummary {
     pub moment_peak_n_m: f64,
 }
 
+#[rustfmt::skip]
+impl SectionSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("axial_max_n", Unit::N, "greatest axial force, positive in tension", |s| s.axial_max_n),
+        Quantity::<Self>::real("axial_min_n", Unit::N, "least axial force, negative in compression", |s| s.axial_min_n),
+        Quantity::<Self>::real("shear_peak_n", Unit::N, "greatest shear", |s| s.shear_peak_n),
+        Quantity::<Self>::real("moment_peak_n_m", Unit::NM, "greatest moment", |s| s.moment_peak_n_m),
+    ];
+}
+
 /// A point of a column between its ends where a neighbour can strike it.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 pub struct StruckSummary {
@@ -124,6 +201,16 @@ pub struct StruckSummary {
     pub below: SectionSummary,
     /// Just above it.
     pub above: SectionSummary,
+}
+
+#[rustfmt::skip]
+impl StruckSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |s| s.height_m),
+        Quantity::<Self>::whole("impact_count", "impacts on the point", |s| s.impact_count),
+        Quantity::<Self>::real("peak_force_n", Unit::N, "greatest contact force on it", |s| s.peak_force_n),
+    ];
 }
 
 /// Numbers of hinges, or storeys of a shear building, beyond the elastic range, and their peaks.
@@ -143,6 +230,19 @@ pub struct HingeSummary {
     pub dissipated_j: f64,
     /// Those that left the elastic range, in the order in which they yielded, then as they cracked.
     pub list: Vec<SpringSummary>,
+}
+
+#[rustfmt::skip]
+impl HingeSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("total", "places that can crack or yield", |h| h.total),
+        Quantity::<Self>::whole("cracked", "those that cracked", |h| h.cracked),
+        Quantity::<Self>::whole("yielded", "those that yielded", |h| h.yielded),
+        Quantity::<Self>::optional("first_yield_s", Unit::S, "instant of the first yield", |h| h.first_yield_s),
+        Quantity::<Self>::real("ductility", Unit::NONE, "greatest ductility of any of them", |h| h.ductility),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy that they dissipated", |h| h.dissipated_j),
+    ];
 }
 
 /// One hinge, or one storey of a shear building.
@@ -170,54 +270,44 @@ pub struct SpringSummary {
     pub dissipated_j: f64,
 }
 
-/// Peaks of one floor.
-#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+#[rustfmt::skip]
+impl SpringSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("index", "number among the hinges of the building, from 0", |s| s.index).not_in_table(),
+        Quantity::<Self>::optional("cracked_s", Unit::S, "instant of cracking; 0 if self weight alone causes it", |s| s.cracked_s),
+        Quantity::<Self>::optional("yielded_s", Unit::S, "instant of yielding; 0 if self weight alone causes it", |s| s.yielded_s),
+        Quantity::<Self>::real("deformation_max", Unit::RAD_OR_M, "greatest deformation of the positive side", |s| s.deformation_max),
+        Quantity::<Self>::real("deformation_min", Unit::RAD_OR_M, "greatest deformation of the negative side", |s| s.deformation_min),
+        Quantity::<Self>::real("ductility", Unit::NONE, "greatest rotation of the member end over that at yield; of storeys, deformation over that at yield", |s| s.ductility),
+        Quantity::<Self>::real("peak_force", Unit::NM_OR_N, "greatest moment; of storeys, shear", |s| s.peak_force),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |s| s.dissipated_j),
+    ];
+}
+
+/// One floor.
+#[derive(Clone, Debug, Default, Serialize, PartialEq)]
 pub struct FloorSummary {
     /// Floor, from 1.
     pub floor: usize,
     /// Height above the base \[m\].
     pub height_m: f64,
-    /// Greatest displacement to the right \[m\].
-    pub displacement_max_m: f64,
-    /// Its instant \[s\].
-    pub displacement_max_at_s: f64,
-    /// Greatest displacement to the left \[m\].
-    pub displacement_min_m: f64,
-    /// Its instant \[s\].
-    pub displacement_min_at_s: f64,
-    /// Greatest total acceleration, either sign \[m/s²\].
-    pub total_acceleration_peak_m_s2: f64,
-    /// Greatest drift ratio of the storey below, either sign \[–\].
-    pub storey_drift_peak: f64,
-    /// Greatest shear of the storey below, either sign: the horizontal forces above its base \[N\].
-    pub storey_shear_peak_n: f64,
-    /// Greatest moment of these forces about the base of the storey below, either sign \[N·m\].
-    pub overturning_moment_peak_n_m: f64,
-    /// Drift ratio of the storey below at the end, positive to the right \[–\].
-    pub residual_drift: f64,
-    /// The same peaks of the run without contact, if it exists.
-    pub without_contact: Option<FloorWithoutContact>,
+    /// Its peaks, and what is left at the end.
+    #[serde(flatten)]
+    pub response: FloorResponse,
+    /// The same in the run without contact, if it exists.
+    pub without_contact: Option<FloorResponse>,
+    /// The former over the latter, if that run exists.
+    pub amplification: Option<Amplification>,
 }
 
-/// Peaks of one floor without contact; meanings as in [`FloorSummary`].
-#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
-#[allow(missing_docs, reason = "the names of FloorSummary")]
-pub struct FloorWithoutContact {
-    pub displacement_max_m: f64,
-    pub displacement_max_at_s: f64,
-    pub displacement_min_m: f64,
-    pub displacement_min_at_s: f64,
-    pub total_acceleration_peak_m_s2: f64,
-    pub storey_drift_peak: f64,
-    pub storey_shear_peak_n: f64,
-    pub overturning_moment_peak_n_m: f64,
-}
-
-/// Peaks of one building without contact.
-#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
-pub struct BuildingWithoutContact {
-    /// Greatest elastic base shear, either sign \[N\].
-    pub base_shear_peak_n: f64,
+#[rustfmt::skip]
+impl FloorSummary {
+    /// Where it is.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("floor", "floor, from 1", |f| f.floor),
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |f| f.height_m),
+    ];
 }
 
 /// One gap and its contacts.
@@ -247,11 +337,58 @@ pub struct GapSummary {
     pub most_at_once: usize,
     /// Greatest force of any contact \[N\].
     pub peak_force_n: f64,
+    /// Greatest sum of the forces of all contacts at one instant \[N\].
+    pub total_force_peak_n: f64,
+    /// Its instant; `null` without an impact \[s\].
+    pub total_force_peak_at_s: Option<f64>,
     /// Instant of the first impact \[s\].
     pub first_impact_s: Option<f64>,
     /// Greatest closing of any contact when the buildings pass through each other, less what it is wider than the
     /// others: the smallest gap without pounding; `null` when that run was not made \[m\].
     pub closing_without_contact_m: Option<f64>,
+}
+
+#[rustfmt::skip]
+impl GapSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("width_m", Unit::M, "width at rest, the least of its contacts", |g| g.width_m).in_study(),
+        Quantity::<Self>::real("clearance_m", Unit::M, "smallest distance during the run; negative: indentation", |g| g.clearance_m),
+        Quantity::<Self>::real("free_restitution", Unit::NONE, "restitution of free masses under the contact law", |g| g.free_restitution),
+        Quantity::<Self>::whole("impact_count", "impacts of all its contacts", |g| g.impact_count).in_study(),
+        Quantity::<Self>::real("minimum_separation_s", Unit::S, "impacts of one contact that follow each other sooner count as one", |g| g.minimum_separation_s),
+        Quantity::<Self>::whole("pounding_count", "intervals in which at least one contact is in impact", |g| g.pounding_count).in_study(),
+        Quantity::<Self>::whole("multiple_pounding_count", "those with impacts at two or more contacts at once", |g| g.multiple_pounding_count),
+        Quantity::<Self>::whole("most_at_once", "greatest number of contacts in impact at one instant", |g| g.most_at_once).in_study(),
+        Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any of its contacts", |g| g.peak_force_n).in_study(),
+        Quantity::<Self>::optional("first_impact_s", Unit::S, "instant of the first impact", |g| g.first_impact_s).in_study(),
+        Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the forces of all its contacts", Self::impulse_n_s).not_in_summary().in_study(),
+        Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing of any of its contacts", Self::closing_peak_m).not_in_summary().in_study(),
+    ];
+
+    /// Numbers of the run without contact; in studies if they ask for it.
+    pub const WITHOUT_CONTACT: &[Quantity<Self>] = &[
+        Quantity::<Self>::optional("closing_without_contact_m", Unit::M, "greatest closing without contact: the smallest gap without pounding", |g| g.closing_without_contact_m).in_study(),
+    ];
+}
+
+impl GapSummary {
+    /// Time integral of the forces of all contacts \[N·s\].
+    #[must_use]
+    pub fn impulse_n_s(&self) -> f64 {
+        // An empty sum would be −0.
+        let contacts = self.contacts.iter();
+        contacts.fold(0.0, |sum, contact| sum + contact.impulse_n_s)
+    }
+
+    /// Greatest closing of any contact, at least zero \[m\].
+    #[must_use]
+    pub fn closing_peak_m(&self) -> f64 {
+        let contacts = self.contacts.iter();
+        contacts
+            .map(|contact| contact.closing_peak_m)
+            .fold(0.0, f64::max)
+    }
 }
 
 /// One contact.
@@ -279,6 +416,21 @@ pub struct ContactSummary {
     pub impacts: Vec<ImpactSummary>,
 }
 
+#[rustfmt::skip]
+impl ContactSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |c| c.height_m),
+        Quantity::<Self>::real("width_m", Unit::M, "width at rest", |c| c.width_m),
+        Quantity::<Self>::whole("impact_count", "impacts", |c| c.impact_count).in_study(),
+        Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force", |c| c.peak_force_n).in_study(),
+        Quantity::<Self>::optional("peak_force_at_s", Unit::S, "its instant; absent without an impact", |c| c.peak_force_at_s),
+        Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the force", |c| c.impulse_n_s).in_study(),
+        Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing", |c| c.closing_peak_m).in_study(),
+        Quantity::<Self>::real("closing_peak_at_s", Unit::S, "its instant", |c| c.closing_peak_at_s),
+    ];
+}
+
 /// Springs and dashpots between two neighbours.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct LinkSummary {
@@ -296,6 +448,17 @@ pub struct LinkSummary {
     pub floors: Vec<LinkFloorSummary>,
 }
 
+#[rustfmt::skip]
+impl LinkSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("stiffness_n_m", Unit::N_PER_M, "stiffness of each spring", |l| l.stiffness_n_m),
+        Quantity::<Self>::real("damping_n_s_m", Unit::NS_PER_M, "damping of each dashpot", |l| l.damping_n_s_m),
+        Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any of them", |l| l.peak_force_n),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in the dashpots", |l| l.dissipated_j),
+    ];
+}
+
 /// One spring and dashpot between two points.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 pub struct LinkFloorSummary {
@@ -311,6 +474,18 @@ pub struct LinkFloorSummary {
     pub peak_stroke_m: f64,
     /// Energy dissipated in its dashpot \[J\].
     pub dissipated_j: f64,
+}
+
+#[rustfmt::skip]
+impl LinkFloorSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |l| l.height_m),
+        Quantity::<Self>::real("peak_force_n", Unit::N, "force of greatest magnitude, positive in compression", |l| l.peak_force_n),
+        Quantity::<Self>::real("peak_force_at_s", Unit::S, "its instant", |l| l.peak_force_at_s),
+        Quantity::<Self>::real("peak_stroke_m", Unit::M, "greatest change of length", |l| l.peak_stroke_m),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in the dashpot", |l| l.dissipated_j),
+    ];
 }
 
 /// One impact.
@@ -344,6 +519,27 @@ pub struct ImpactSummary {
     pub simultaneous: usize,
 }
 
+#[rustfmt::skip]
+impl ImpactSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("start_s", Unit::S, "instant of first contact", |i| i.start_s),
+        Quantity::<Self>::real("end_s", Unit::S, "last instant of force", |i| i.end_s),
+        Quantity::<Self>::real("duration_s", Unit::S, "time from first contact to the last instant of force", |i| i.end_s - i.start_s).not_in_summary(),
+        Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force", |i| i.peak_force_n),
+        Quantity::<Self>::real("peak_force_at_s", Unit::S, "its instant", |i| i.peak_force_at_s),
+        Quantity::<Self>::real("peak_indentation_m", Unit::M, "greatest indentation", |i| i.peak_indentation_m),
+        Quantity::<Self>::real("impact_speed_m_s", Unit::M_S, "closing rate at first contact", |i| i.impact_speed_m_s),
+        Quantity::<Self>::real("separation_speed_m_s", Unit::M_S, "opening rate at the end; 0 if the run ended first", |i| i.separation_speed_m_s),
+        Quantity::<Self>::real("realised_restitution", Unit::NONE, "separation speed ÷ impact speed", |i| i.realised_restitution),
+        Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the force", |i| i.impulse_n_s),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated by the contact", |i| i.dissipated_j),
+        Quantity::<Self>::whole("finished", "whether it ended within the run", |i| usize::from(i.finished)),
+        Quantity::<Self>::whole("touches", "closed episodes counted as this one impact", |i| i.touches),
+        Quantity::<Self>::whole("simultaneous", "greatest number of contacts of the gap in impact at one instant of it", |i| i.simultaneous),
+    ];
+}
+
 /// Energies at the end of the run \[J\].
 #[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
 pub struct EnergySummary {
@@ -367,6 +563,22 @@ pub struct EnergySummary {
     pub worst_imbalance: f64,
 }
 
+#[rustfmt::skip]
+impl EnergySummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("input_j", Unit::J, "work of the ground motion", |e| e.input_j).in_study(),
+        Quantity::<Self>::real("kinetic_j", Unit::J, "kinetic energy", |e| e.kinetic_j),
+        Quantity::<Self>::real("strain_j", Unit::J, "strain energy", |e| e.strain_j),
+        Quantity::<Self>::real("damped_j", Unit::J, "dissipated by viscous damping, that of links included", |e| e.damped_j).in_study(),
+        Quantity::<Self>::real("links_j", Unit::J, "the part of links", |e| e.links_j),
+        Quantity::<Self>::real("hysteretic_j", Unit::J, "energy of hinges", |e| e.hysteretic_j).in_study(),
+        Quantity::<Self>::real("contact_j", Unit::J, "energy of contacts", |e| e.contact_j).in_study(),
+        Quantity::<Self>::real("imbalance", Unit::NONE, "energy imbalance at the end, relative to the input", |e| e.imbalance).in_study(),
+        Quantity::<Self>::real("worst_imbalance", Unit::NONE, "greatest imbalance over time, relative to the greatest energy until then", |e| e.worst_imbalance).in_study(),
+    ];
+}
+
 /// Whether the errors of all reported peaks, relative to the greatest of their kind in the building or gap, stay within the
 /// tolerance.
 #[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
@@ -381,6 +593,17 @@ pub struct PromiseSummary {
     pub residual: Option<f64>,
     /// Instant from which results depend on contacts made or missed within the tolerance; `null` if none do \[s\].
     pub sensitive_from_s: Option<f64>,
+}
+
+#[rustfmt::skip]
+impl PromiseSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("tolerance", Unit::NONE, "tolerance of peaks", |p| p.tolerance),
+        Quantity::<Self>::optional("met", Unit::NONE, "whether the estimate stays within the tolerance", |p| p.met.map(|met| f64::from(u8::from(met)))),
+        Quantity::<Self>::optional("residual", Unit::NONE, "estimated error of the least accurate peak of a building", |p| p.residual),
+        Quantity::<Self>::optional("sensitive_from_s", Unit::S, "instant from which results depend on contacts made or missed within the tolerance", |p| p.sensitive_from_s),
+    ];
 }
 
 impl PromiseSummary {
@@ -441,4 +664,25 @@ pub struct WorkSummary {
     pub contact_step_s: Option<f64>,
     /// Wall time of the stepping \[s\].
     pub wall_s: f64,
+}
+
+#[rustfmt::skip]
+impl WorkSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("steps", "accepted steps", |w| w.steps as usize).in_study(),
+        Quantity::<Self>::whole("contact_steps", "those with a closed contact", |w| w.contact_steps as usize).in_study(),
+        Quantity::<Self>::whole("repeated_steps", "steps repeated at an event", |w| w.repeated_steps as usize),
+        Quantity::<Self>::whole("factorizations", "factorisations", |w| w.factorizations as usize).in_study(),
+        Quantity::<Self>::whole("solves", "solutions", |w| w.solves as usize).in_study(),
+        Quantity::<Self>::whole("iterations", "Newton iterations on contact forces", |w| w.iterations as usize).in_study(),
+        Quantity::<Self>::whole("outer_iterations", "iterations on springs that yield, one per trial step", |w| w.outer_iterations as usize),
+        Quantity::<Self>::whole("halved_steps", "steps halved because those did not converge", |w| w.halved_steps as usize),
+        Quantity::<Self>::whole("coupling_operations", "multiply-adds spent on the forces of contacts and links", |w| w.coupling_operations as usize),
+        Quantity::<Self>::whole("shapes", "shapes of modal stepping; 0 for other solvers", |w| w.shapes as usize),
+        Quantity::<Self>::whole("repeated_runs", "runs repeated with more shapes or finer steps", |w| w.repeated_runs as usize),
+        Quantity::<Self>::real("step_s", Unit::S, "regular free-vibration step", |w| w.step_s),
+        Quantity::<Self>::optional("contact_step_s", Unit::S, "smallest regular step in contact", |w| w.contact_step_s),
+        Quantity::<Self>::real("wall_s", Unit::S, "wall time of the stepping", |w| w.wall_s),
+    ];
 }

@@ -5,6 +5,8 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Clock {
     step: f64,
+    /// The shortest remainder at the end of a free-vibration step that is not joined to the next step, as a fraction.
+    shortest: f64,
     index: u64,
     offset: f64,
 }
@@ -22,13 +24,25 @@ pub(crate) struct NextStep {
 
 /// A remainder shorter than this fraction of a step is joined to the next step.
 const SHORTEST: f64 = 0.25;
+/// The same where steps are exact between the points of a record, at such a point: the slope of the ground acceleration
+/// jumps there, and a step across it would miss that at any tolerance.
+const SHORTEST_AT_RECORD_POINT: f64 = 1e-4;
 
 impl Clock {
     pub(crate) fn new(step: f64) -> Self {
         Self {
             step,
+            shortest: SHORTEST,
             index: 0,
             offset: 0.0,
+        }
+    }
+
+    /// The same for steps that end at the points of a record, which are ends of free-vibration steps.
+    pub(crate) fn ending_at_record_points(step: f64) -> Self {
+        Self {
+            shortest: SHORTEST_AT_RECORD_POINT,
+            ..Self::new(step)
         }
     }
 
@@ -42,13 +56,18 @@ impl Clock {
         let passed = (self.offset / part + 1e-9).floor() as u32;
         let on_grid = self.offset == f64::from(passed) * part;
         let mut next = passed + 1;
-        if !on_grid && f64::from(next) * part - self.offset < SHORTEST * part {
+        let shortest = if next.is_multiple_of(division) {
+            self.shortest
+        } else {
+            SHORTEST
+        };
+        if !on_grid && f64::from(next) * part - self.offset < shortest * part {
             next += 1;
         }
         let end = Self {
-            step: self.step,
             index: self.index + u64::from(next / division),
             offset: f64::from(next % division) * part,
+            ..*self
         };
         if on_grid {
             return NextStep {
@@ -75,9 +94,9 @@ impl Clock {
         let offset = self.offset + length;
         let whole = (offset / self.step).floor();
         Self {
-            step: self.step,
             index: self.index + whole as u64,
             offset: offset - whole * self.step,
+            ..*self
         }
     }
 }
@@ -94,14 +113,7 @@ mod tests {
             assert!(next.regular, "{clock:?}");
             clock = next.end;
         }
-        assert_eq!(
-            clock,
-            Clock {
-                step: 0.002,
-                index: 1,
-                offset: 0.0
-            }
-        );
+        assert_eq!((clock.index, clock.offset), (1, 0.0));
         assert!(clock.next_step(1).regular);
     }
 
@@ -115,13 +127,21 @@ mod tests {
         // Too little is left of this part: the step includes the next one, past the free-vibration grid.
         let late = Clock::new(0.01).after(0.0099).next_step(4);
         assert!((late.length - 0.0026).abs() < 1e-15, "{late:?}");
-        assert_eq!(
-            late.end,
-            Clock {
-                step: 0.01,
-                index: 1,
-                offset: 0.0025
-            }
-        );
+        assert_eq!((late.end.index, late.end.offset), (1, 0.0025));
+    }
+
+    #[test]
+    fn no_step_leads_across_a_point_of_the_record() {
+        let start = Clock::ending_at_record_points(0.01);
+        for (offset, division) in [(0.0099, 4), (0.0085, 1), (0.009_999, 2)] {
+            let next = start.after(offset).next_step(division);
+            assert!((next.length - (0.01 - offset)).abs() < 1e-15, "{next:?}");
+            assert_eq!((next.end.index, next.end.offset), (1, 0.0));
+        }
+        // Elsewhere, or where next to nothing is left, steps are joined.
+        let joined = start.after(0.0024).next_step(4);
+        assert!((joined.length - 0.0026).abs() < 1e-15, "{joined:?}");
+        let joined = start.after(0.01 - 1e-7).next_step(4);
+        assert!((joined.length - 0.002_500_1).abs() < 1e-15, "{joined:?}");
     }
 }

@@ -1,8 +1,8 @@
 //! Closed contacts and links: the forces that couple the buildings in a step (theory, Eqs. P1–P5, L2).
 
-use super::band::Band;
 use crate::contact::{ContactResponse, ForceLaw, Memory};
 use crate::history::Extreme;
+use crate::linear::envelope::Envelope;
 
 /// One closed contact, or one link, in the step to be solved.
 #[derive(Clone, Copy, Debug)]
@@ -30,20 +30,21 @@ pub(crate) struct Closed {
 /// Newton's method on the indentations: δ + W f(δ, δ̇) = δ_free.
 ///
 /// The left side increases monotonically with δ for every law, so the solution is unique; corrections that do not
-/// reduce the residual are halved. From left to right W is banded: only forces on the same building are coupled.
+/// reduce the residual are halved. Only forces on the same building are coupled: in the order of
+/// [`InterfaceGraph`](crate::interface::InterfaceGraph), W has a small envelope.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactEquations {
-    /// From left to right.
+    /// In the order of the graph of contacts and links.
     pub(crate) closed: Vec<Closed>,
-    /// Indices of these in the order of all contacts and links.
-    pub(super) places: Vec<usize>,
+    /// Their places in that order.
+    pub(in crate::stepping) places: Vec<usize>,
     /// W.
-    pub(super) compliance: Band,
+    pub(super) compliance: Envelope,
     /// Multiply-adds spent so far.
     pub(crate) operations: u64,
     responses: Vec<ContactResponse>,
     residual: Vec<f64>,
-    jacobian: Band,
+    jacobian: Envelope,
     roots: Vec<f64>,
     update: Vec<f64>,
     start: Vec<f64>,
@@ -136,7 +137,7 @@ impl ContactEquations {
             self.residual
                 .push(closed.indentation + opened - closed.free);
         }
-        self.operations += (self.closed.len() * (2 * self.compliance.reach() + 1)) as u64;
+        self.operations += self.compliance.stored() as u64;
         self.residual
             .iter()
             .fold(0.0, |largest, residual| largest.max(residual.abs()))
@@ -152,14 +153,14 @@ impl ContactEquations {
             let slope = response.by_indentation + closed.rate_gain * response.by_rate;
             slope.max(0.0).sqrt()
         }));
-        scaled_band(&self.compliance, &self.roots, &mut self.jacobian);
+        scaled_compliance(&self.compliance, &self.roots, &mut self.jacobian);
         self.operations += self.jacobian.factorize();
         self.update.clear();
         let scaled = self.residual.iter().zip(&self.roots);
         self.update
             .extend(scaled.map(|(residual, root)| -root * residual));
         self.jacobian.solve(&mut self.update);
-        self.operations += (2 * n * (self.compliance.reach() + 1)) as u64;
+        self.operations += self.compliance.stored() as u64;
         // Back from y: by division where the force is stiff, otherwise by −residual − W S^½ y.
         self.start.clear();
         for i in 0..n {
@@ -176,8 +177,8 @@ impl ContactEquations {
 }
 
 /// I + S^½ W S^½ for the roots of the slopes S.
-pub(super) fn scaled_band(compliance: &Band, roots: &[f64], scaled: &mut Band) {
-    scaled.reset(compliance.size(), compliance.reach());
+pub(super) fn scaled_compliance(compliance: &Envelope, roots: &[f64], scaled: &mut Envelope) {
+    scaled.reset_like(compliance);
     for i in 0..compliance.size() {
         for j in compliance.columns(i).start..=i {
             // Rounding of symmetric entries of W may differ.

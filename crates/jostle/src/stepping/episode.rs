@@ -1,6 +1,7 @@
 //! A closed contact in one step, for every solver.
 
 use super::events::{Cubic, bisect};
+use super::gap_forces::StepForce;
 use super::runner::{ContactTrial, TOGETHER};
 use crate::contact::ForceLaw;
 use crate::history::Extreme;
@@ -38,6 +39,7 @@ impl Episode {
     }
 
     /// Adds the force over the same step, with its `slopes` at the ends \[N/s\]: the peak may lie within the step.
+    /// Returns the force over the step.
     pub(super) fn follow_force(
         &mut self,
         law: &ForceLaw,
@@ -46,11 +48,12 @@ impl Episode {
         turn: Option<Extreme>,
         start: f64,
         step: f64,
-    ) {
+    ) -> StepForce {
         let mut peak = Extreme {
             value: trial.force,
             at: start + step,
         };
+        let mut smooth = None;
         if self.force > 0.0 && trial.force > 0.0 {
             if let Some(turn) = turn.filter(|_| law.has_corner_at_turn()) {
                 // A cubic would miss or overshoot the corner.
@@ -61,10 +64,16 @@ impl Episode {
             } else {
                 let curve = Cubic::new(self.force, slopes[0], trial.force, slopes[1], step);
                 peak = curve.peak(start, step).unwrap_or(peak);
+                smooth = Some(curve);
             }
         }
         if peak.value > self.peak_force {
             (self.peak_force, self.peak_force_at) = (peak.value, peak.at);
+        }
+        StepForce {
+            ends: [self.force, trial.force],
+            curve: smooth,
+            peak,
         }
     }
 

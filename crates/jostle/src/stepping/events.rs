@@ -29,6 +29,16 @@ impl Cubic {
         }
     }
 
+    /// Sum of two cubics over the same step.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self {
+            start: self.start + other.start,
+            end: self.end + other.end,
+            start_rise: self.start_rise + other.start_rise,
+            end_rise: self.end_rise + other.end_rise,
+        }
+    }
+
     /// Value at a fraction of the step.
     pub(crate) fn value(&self, at: f64) -> f64 {
         let [c0, c1, c2, c3] = self.powers();

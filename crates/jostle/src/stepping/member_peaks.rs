@@ -28,7 +28,7 @@ impl MemberPeaks {
         }
     }
 
-    /// Takes in a state; `links`: forces of links \[N\].
+    /// Adds a state; `links`: forces of links \[N\].
     pub(crate) fn take(&mut self, system: &System, state: &State, links: &[f64], ground: f64) {
         for (index, building) in system.buildings.iter().enumerate() {
             let (values, extremes) = (&mut self.values[index], &mut self.extremes[index]);

@@ -4,7 +4,6 @@
 //! only `coupling` joins them. A step in which a contact closes is repeated so that it ends at first contact.
 
 mod acceleration_parts;
-mod band;
 mod clock;
 mod control;
 mod coupling;
@@ -13,6 +12,7 @@ mod energy;
 mod episode;
 mod events;
 mod expected_work;
+mod gap_forces;
 mod member_peaks;
 pub mod modal;
 mod outcome;

@@ -1,6 +1,8 @@
 //! Settings and results of a run.
 
 use super::acceleration_parts::AccelerationParts;
+use std::ops::ControlFlow;
+
 use crate::history::{
     Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, MemberHistory, SpringEvent,
     SpringHistory, SpringTotals, Work,
@@ -10,6 +12,14 @@ use crate::state::State;
 use crate::system::{BuildingSystem, System};
 
 /// Settings of a run.
+///
+/// ```
+/// use jostle::{Pounding, Settings};
+///
+/// // Peaks and impacts only, buildings that pass through each other.
+/// let settings = Settings { pounding: Pounding::Excluded, record_interval: None };
+/// assert_ne!(settings, Settings::default());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Whether contact forces act.
@@ -46,7 +56,29 @@ pub struct Progress {
     pub duration: f64,
 }
 
+/// Is called now and then, and may stop a run. A trait object keeps stepping out of generic code, which every crate that
+/// runs a simulation would compile again, without inlining the functions of this one.
+pub(super) type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
+
 /// Results of a run.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Outcome, RunEnd, Settings, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome: Outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// assert_eq!(outcome.end, RunEnd::Completed);
+/// let strongest = outcome.impacts.iter().map(|impact| impact.peak_force).fold(0.0, f64::max);
+/// assert!(outcome.gap_forces[0].value >= strongest); // of all contacts of the gap together
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Time histories, if requested.
@@ -57,6 +89,8 @@ pub struct Outcome {
     pub floors: Vec<Vec<FloorPeaks>>,
     /// Greatest closing u_left − u_right of every contact \[m\].
     pub closing: Vec<Extreme>,
+    /// Greatest sum of the contact forces of a gap at one instant, for each gap up to the last one with a contact \[N\].
+    pub gap_forces: Vec<Extreme>,
     /// Greatest elastic base shear of every building \[N\].
     pub base_shear: Vec<f64>,
     /// Peak accelerations in parts of a direct run.
@@ -106,6 +140,22 @@ pub struct Accuracy {
 }
 
 /// Reason for the end of a run.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{RunEnd, Settings, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let stopped = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Break(()));
+/// assert_eq!(stopped.end, RunEnd::Stopped);
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum RunEnd {
     /// The end of the motion was reached.
@@ -117,6 +167,13 @@ pub enum RunEnd {
 }
 
 /// A failed step.
+///
+/// ```
+/// use jostle::StepError;
+///
+/// let error = StepError::NotFinite { time: 1.5 };
+/// assert!(error.to_string().starts_with("displacements are no longer finite at t = 1.500000 s"));
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
@@ -161,7 +218,7 @@ pub enum StepError {
     },
     /// A storey drift is beyond collapse.
     #[error(
-        "\"{building}\" collapses at t = {time:.3} s: storey {storey} leans by {:.0} % of its height", 100.0 * drift
+        "\"{building}\" collapses at t = {time:.3} s: storey {storey} has a drift of {:.0} %", 100.0 * drift
     )]
     Collapse {
         /// Name of the building.
@@ -201,6 +258,7 @@ impl Outcome {
             impacts: Vec::new(),
             floors: system.buildings.iter().map(floors).collect(),
             closing: vec![Extreme::default(); system.contacts.len()],
+            gap_forces: Vec::new(),
             base_shear: vec![0.0; system.buildings.len()],
             acceleration_parts: AccelerationParts::default(),
             spring_events: Vec::new(),

@@ -10,6 +10,19 @@ use crate::system::{BuildingSystem, System};
 use crate::transfer::{ProductEquations, ProductRefusal};
 
 /// Step sizes and solver of a run.
+///
+/// ```
+/// use jostle::{Plan, Solver};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+///
+/// let plan = Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+/// assert_eq!(plan.solver, Solver::Modal); // elastic buildings, automatic steps
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
     /// Free-vibration step \[s\].

@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use super::outcome::{Outcome, Progress, RunEnd, Settings};
+use super::outcome::{Observer, Outcome, Progress, RunEnd, Settings};
 use super::peak_change::{change_of_peaks, impacts};
 use super::plan::Plan;
 use super::simulate::simulate_once;
@@ -39,9 +39,9 @@ pub fn find_sensitivity(
     motion: &GroundMotion,
     plan: &Plan,
     outcome: &mut Outcome,
-    observer: impl FnMut(Progress) -> ControlFlow<()>,
+    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) {
-    let found = sensitive_from(system, motion, plan, outcome, observer);
+    let found = sensitive_from(system, motion, plan, outcome, &mut observer);
     if let Some(accuracy) = &mut outcome.accuracy {
         accuracy.sensitive_from = found;
     }
@@ -52,7 +52,7 @@ fn sensitive_from(
     motion: &GroundMotion,
     plan: &Plan,
     outcome: &Outcome,
-    observer: impl FnMut(Progress) -> ControlFlow<()>,
+    observer: &mut Observer<'_>,
 ) -> Option<f64> {
     let tolerance = plan.tolerance();
     let doubtful = outcome.accuracy.and_then(|accuracy| accuracy.doubtful_from);

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::direct::{run_directly, within_tolerance};
 use super::modal;
-use super::outcome::{Outcome, Progress, Settings, StepError};
+use super::outcome::{Observer, Outcome, Progress, Settings, StepError};
 use super::plan::Plan;
 use crate::model::Solver;
 use crate::motion::GroundMotion;
@@ -17,6 +17,23 @@ use crate::transfer::riccati::RiccatiSweep;
 /// Runs a system from rest through a ground motion. `observer` is called now and then and may stop the run.
 ///
 /// The answer depends on nothing but the arguments, bit for bit.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use jostle::{Settings, simulate};
+/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
+/// # let model = towers::pair(0.02);
+/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
+/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
+/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
+/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
+///
+/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
+/// assert!(!outcome.impacts.is_empty());
+/// assert!(outcome.energy.worst_imbalance < 1e-6);
+/// # Ok::<(), jostle::ModelFault>(())
+/// ```
 pub fn simulate(
     system: &System,
     motion: &GroundMotion,
@@ -47,15 +64,14 @@ pub fn simulate_from(
     step_through(system, motion, plan, settings, state, &mut observer)
 }
 
-/// [`simulate_from`] for any observer. A trait object keeps stepping out of generic code, which every crate that runs a
-/// simulation would compile again, without inlining the functions of this one.
+/// [`simulate_from`] for any observer.
 fn step_through(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
     settings: Settings,
     state: State,
-    observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    observer: &mut Observer<'_>,
 ) -> Outcome {
     if plan.solver != Solver::Modal
         && let Some(building) = system.buildings.iter().find(|b| b.modal_damping.is_some())
@@ -72,7 +88,7 @@ fn step_through(
             Outcome::not_begun(system, StepError::Unsuited { reason })
         }
         Solver::Modal => match modal::Reduction::of(system, plan) {
-            Ok(shapes) => modal::simulate(system, motion, plan, settings, &shapes, observer),
+            Ok(shapes) => modal::simulate_with(system, motion, plan, settings, &shapes, observer),
             Err(error) => Outcome::not_begun(system, error),
         },
         Solver::Riccati => {
@@ -93,7 +109,7 @@ pub(super) fn simulate_once(
     motion: &GroundMotion,
     plan: &Plan,
     settings: Settings,
-    observer: impl FnMut(Progress) -> ControlFlow<()>,
+    observer: &mut Observer<'_>,
 ) -> Outcome {
     let rest = || State::at_rest(system, motion.acceleration(0.0));
     match plan.solver {

@@ -1,4 +1,4 @@
-//! One building as equations: lumped masses, massless elements, and the matrices they make.
+//! One building as equations: lumped masses, massless elements, and their matrices.
 
 mod assembled_building;
 mod discretization;

@@ -1,4 +1,4 @@
-//! Where the springs of a building sit that yield.
+//! Places of the springs of a building that yield.
 
 /// Which end of a member a hinge is at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -163,8 +163,11 @@ fn ports(
 fn closing_at_rest(system: &System, ports: &PortPair) -> f64 {
     let displacement = |port: Port| {
         let building = &system.buildings[port.building];
-        let own = building.rest.displacement.get(port.dof - building.offset);
-        own.copied().unwrap_or(0.0)
+        let rest = &building.rest.displacement;
+        if rest.is_empty() {
+            return 0.0;
+        }
+        port.row.moved_down(building.offset).of(rest)
     };
     ports
         .sides()

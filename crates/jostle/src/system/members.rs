@@ -1,7 +1,7 @@
 //! Which forces of columns and beams a run follows.
 
 use super::System;
-use crate::interface::PortPair;
+use crate::interface::{DofRow, PortPair};
 use crate::model::MemberRequest;
 use crate::structure::MemberForces;
 
@@ -39,7 +39,8 @@ impl System {
         let is_struck = |dof: usize| {
             let contacts = self.contacts.iter().map(|contact| contact.ports);
             let mut ports = contacts.flat_map(|ports| ports.0).flatten();
-            ports.any(|port| port.building == index && port.dof == building.offset + dof)
+            let struck = DofRow::single(building.offset + dof);
+            ports.any(|port| port.building == index && port.row == struck)
         };
         let mut forces = MemberForces::new(&building.structure, gravity, is_struck);
         for form in &mut forces.forms {

@@ -5,7 +5,7 @@ mod building;
 mod finite;
 mod members;
 
-use crate::interface::{Contact, LinkElement, Port, PortPair};
+use crate::interface::{Contact, DofRow, LinkElement, Port, PortPair};
 use crate::model::LEVEL_TOLERANCE;
 
 pub use building::{BuildingSystem, Floor};
@@ -115,7 +115,7 @@ impl System {
             .position(|floor| (floor.height - height).abs() <= LEVEL_TOLERANCE);
         Ok(Port {
             building,
-            dof: own.offset + dof,
+            row: DofRow::single(own.offset + dof),
             mass,
             floor: floor.map(|index| index + 1),
             height,

@@ -190,7 +190,7 @@ fn bad_matrices_are_refused() {
             |g| g.heights[2] = 1.0,
             "by the heights of the displacements",
         ),
-        (|g| g.heights.truncate(1), "the heights of 1 displacements"),
+        (|g| g.heights.truncate(1), "heights for 1 displacements"),
         (
             |g| g.storey_heights.truncate(1),
             "has 1 entries for 3 floors",

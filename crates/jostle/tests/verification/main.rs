@@ -21,5 +21,6 @@ mod rows_of_buildings;
 mod same_input_same_bits;
 mod storey_forces;
 mod support;
+mod total_force_of_a_gap;
 mod wide_gap_leaves_buildings_independent;
 mod yielding_frames;

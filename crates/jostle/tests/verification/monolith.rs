@@ -18,10 +18,15 @@ fn push(
     tangent: &mut Option<Mat<f64>>,
 ) {
     for (port, sign) in ports.sides() {
-        residual[port.dof] += sign * force;
+        port.row.push(sign * force, residual);
+        let Some(tangent) = tangent.as_mut() else {
+            continue;
+        };
         for (other, other_sign) in ports.sides() {
-            if let Some(tangent) = tangent.as_mut() {
-                tangent[(port.dof, other.dof)] += sign * other_sign * slope;
+            for &(row, a) in port.row.entries() {
+                for &(column, b) in other.row.entries() {
+                    tangent[(row, column)] += sign * other_sign * a * b * slope;
+                }
             }
         }
     }

@@ -262,7 +262,13 @@ fn a_point_put_into_a_column_changes_neither_statics_nor_mass() {
             jostle::structure::solve_once::<jostle::RiccatiSweep>(building, &statics, &unit);
         solved.expect("it stands")[dof]
     };
-    let [point, floor] = [0, 1].map(|c| system.contacts[c].ports.0[0].expect("a building").dof);
+    let [point, floor] = [0, 1].map(|c| {
+        system.contacts[c].ports.0[0]
+            .expect("a building")
+            .row
+            .only()
+            .expect("one alone")
+    });
     let known = plain.buildings[0].floors[0].dof;
     let (got, expected) = (
         flexibility(&system, floor, floor),
@@ -275,7 +281,11 @@ fn a_point_put_into_a_column_changes_neither_statics_nor_mass() {
     assert!(flexibility(&system, point, point) > 0.0);
     // Between rigid floors: a beam with fixed ends, and the storey that sways under what arrives at its top.
     let system = struck(rigid);
-    let point = system.contacts[0].ports.0[0].expect("a building").dof;
+    let point = system.contacts[0].ports.0[0]
+        .expect("a building")
+        .row
+        .only()
+        .expect("one alone");
     let b = length - a;
     let share = a / length;
     let arrives = 3.0 * share * share - 2.0 * share.powi(3);

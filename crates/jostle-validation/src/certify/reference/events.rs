@@ -1,4 +1,4 @@
-//! Touches, blows, corners and releases.
+//! First contacts, momentum impacts, corners and releases.
 
 use faer::c64;
 

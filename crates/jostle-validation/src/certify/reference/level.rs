@@ -1,4 +1,4 @@
-//! What a step of some length does to modes and contacts.
+//! The effect of a step of one length on modes and contacts.
 
 use std::collections::HashMap;
 use std::rc::Rc;

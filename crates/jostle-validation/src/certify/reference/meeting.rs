@@ -1,4 +1,4 @@
-//! Places where buildings meet.
+//! Contacts between buildings.
 
 use faer::c64;
 use jostle::System;
@@ -61,9 +61,10 @@ impl Meeting {
             let mut by_component: Vec<(usize, Vec<(usize, f64)>)> = Vec::new();
             for (face, sign) in contact.ports.sides() {
                 let component = of_building(face.building);
+                let weights = face.row.entries().iter().map(|&(dof, c)| (dof, sign * c));
                 match by_component.iter_mut().find(|(c, _)| *c == component) {
-                    Some((_, list)) => list.push((face.dof, sign)),
-                    None => by_component.push((component, vec![(face.dof, sign)])),
+                    Some((_, list)) => list.extend(weights),
+                    None => by_component.push((component, weights.collect())),
                 }
             }
             let mut rest = 0.0;

@@ -1,4 +1,4 @@
-//! What a reference run finds.
+//! Peaks of a reference run.
 
 use jostle::System;
 

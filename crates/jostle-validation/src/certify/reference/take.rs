@@ -1,4 +1,4 @@
-//! Peaks on the way.
+//! Peaks between the ends of steps.
 
 use faer::c64;
 

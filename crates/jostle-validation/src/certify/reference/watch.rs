@@ -1,4 +1,4 @@
-//! What is watched of the buildings of a component.
+//! Outputs of the buildings of a component that are followed.
 
 use faer::c64;
 use jostle::System;
@@ -99,8 +99,16 @@ impl Watch {
                 continue;
             }
             // A face pushed right by a compressed link shortens it by moving left.
-            let weights: Vec<(usize, f64)> =
-                (element.ports.sides().map(|(face, sign)| (face.dof, -sign))).collect();
+            let sides = element.ports.sides();
+            let weights: Vec<(usize, f64)> = sides
+                .flat_map(|(face, sign)| {
+                    face.row
+                        .entries()
+                        .to_vec()
+                        .into_iter()
+                        .map(move |(dof, c)| (dof, -sign * c))
+                })
+                .collect();
             let row = component.output(&weights);
             let rate = times(&row, component, 1);
             let both = row.iter().zip(&rate);

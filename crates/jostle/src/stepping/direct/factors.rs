@@ -4,6 +4,7 @@ use super::integrator::{BuildingCoefficients, Coefficients};
 use super::joints::Joints;
 use super::links::LinkFactor;
 use crate::history::Work;
+use crate::interface::Port;
 use crate::linear::NotPositive;
 use crate::model::Integrator;
 use crate::structure::StepEquations;
@@ -109,7 +110,7 @@ impl<E: StepEquations> StepFactors<E> {
             }
             work.factorizations += 1;
             for (ready, point) in self.ready.iter_mut().zip(&joints.points) {
-                *ready &= point.0 != index;
+                *ready &= point.building != index;
             }
             self.links.forget();
         }
@@ -147,11 +148,12 @@ impl<E: StepEquations> StepFactors<E> {
             if self.ready[point] {
                 continue;
             }
-            let (building, dof) = joints.points[point];
+            let Port { building, row, .. } = joints.points[point];
+            let own = &system.buildings[building];
             let column = &mut self.columns[point];
             column.clear();
-            column.resize(system.buildings[building].equations.len(), 0.0);
-            column[dof - system.buildings[building].offset] = 1.0;
+            column.resize(own.equations.len(), 0.0);
+            row.moved_down(own.offset).push(1.0, column);
             equations[building].solve(&self.factors[building], column);
             work.solves += 1;
             self.ready[point] = true;
@@ -167,10 +169,11 @@ impl<E: StepEquations> StepFactors<E> {
                 let (Some(own), Some(other)) = (own, other) else {
                     continue;
                 };
-                let ((building, dof), (pushed, _)) = (joints.points[own], joints.points[other]);
-                if building == pushed {
-                    let offset = system.buildings[building].offset;
-                    sum += own_sign * sign * self.columns[other][dof - offset];
+                let (shown, pushed) = (&joints.points[own], &joints.points[other]);
+                if shown.building == pushed.building {
+                    let offset = system.buildings[shown.building].offset;
+                    let row = shown.row.moved_down(offset);
+                    sum += own_sign * sign * row.of(&self.columns[other]);
                 }
             }
         }
@@ -188,7 +191,7 @@ impl<E: StepEquations> StepFactors<E> {
     ) {
         for (point, force) in joints.sides[index].into_iter().zip([-force, force]) {
             let Some(point) = point else { continue };
-            let range = system.buildings[joints.points[point].0].range();
+            let range = system.buildings[joints.points[point].building].range();
             let column = &self.columns[point];
             for (value, unit) in displacement[range].iter_mut().zip(column) {
                 *value += force * unit;

@@ -4,9 +4,9 @@ use super::Direct;
 use crate::contact::ForceLaw;
 use crate::history::{Extreme, LinkTotals};
 use crate::interface::LinkElement;
+use crate::linear::envelope::Envelope;
 use crate::state::State;
-use crate::stepping::band::Band;
-use crate::stepping::coupling::{Closed, scaled_band};
+use crate::stepping::coupling::{Closed, scaled_compliance};
 use crate::stepping::runner::RunState;
 use crate::structure::StepEquations;
 use crate::system::System;
@@ -15,8 +15,8 @@ use crate::system::System;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LinkFactor {
     known: bool,
-    /// I + S^½ W S^½ of the links from left to right, factorised.
-    scaled: Band,
+    /// I + S^½ W S^½ of the links, factorised.
+    scaled: Envelope,
     /// S^½.
     roots: Vec<f64>,
 }
@@ -118,7 +118,7 @@ impl<E: StepEquations> Direct<E> {
             links
                 .roots
                 .extend(closed.iter().map(|link| slope(link).sqrt()));
-            scaled_band(&run.coupling.compliance, &links.roots, &mut links.scaled);
+            scaled_compliance(&run.coupling.compliance, &links.roots, &mut links.scaled);
             run.coupling.operations += links.scaled.factorize();
             links.known = true;
         }
@@ -130,7 +130,7 @@ impl<E: StepEquations> Direct<E> {
             unknowns.push(free.force / root);
         }
         links.scaled.solve(unknowns);
-        run.coupling.operations += (2 * unknowns.len() * (links.scaled.reach() + 1)) as u64;
+        run.coupling.operations += links.scaled.stored() as u64;
         for ((link, root), unknown) in closed.iter_mut().zip(&links.roots).zip(unknowns) {
             link.force = root * *unknown;
         }
@@ -158,16 +158,26 @@ impl<E: StepEquations> Direct<E> {
         }
     }
 
-    /// A sudden change of velocity of one degree of freedom changes the forces of the dashpots there, and these the
-    /// accelerations of both ends.
-    pub(super) fn jerk_links(&mut self, system: &System, dof: usize, change: f64) {
+    /// Sudden changes of velocity of one building change the forces of the dashpots there, and these the accelerations of
+    /// both ends.
+    pub(super) fn jerk_links(&mut self, system: &System, building: usize) {
+        let offset = system.buildings[building].offset;
         for (link, force) in system.links.iter().zip(&mut self.links.forces) {
             for (port, sign) in link.ports.sides() {
-                if port.dof == dof {
-                    let jump = -sign * link.damping * change;
-                    *force += jump;
-                    for (end, sign) in link.ports.sides() {
-                        self.state.acceleration[end.dof] += sign * jump / end.mass;
+                if port.building != building {
+                    continue;
+                }
+                let change = port.row.moved_down(offset).of(&self.jump.velocity);
+                let jump = -sign * link.damping * change;
+                if jump == 0.0 {
+                    continue;
+                }
+                *force += jump;
+                for (end, sign) in link.ports.sides() {
+                    let own = &system.buildings[end.building];
+                    for &(dof, share) in end.row.entries() {
+                        let mass = own.equations.mass[dof - own.offset];
+                        self.state.acceleration[dof] += share * sign * jump / mass;
                     }
                 }
             }

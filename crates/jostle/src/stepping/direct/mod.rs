@@ -12,8 +12,6 @@ mod within_tolerance;
 
 pub(super) use within_tolerance::within_tolerance;
 
-use std::ops::ControlFlow;
-
 use crate::model::Integrator;
 use crate::motion::GroundMotion;
 use crate::simd;
@@ -23,7 +21,7 @@ use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::control::{Observed, half_cycle, next_division};
 use crate::stepping::energy::EnergyAudit;
 use crate::stepping::events::Cubic;
-use crate::stepping::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
+use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::recorder::{Instant, Recorder};
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
@@ -43,7 +41,7 @@ pub(super) fn run_directly<E: StepEquations>(
     plan: &Plan,
     settings: Settings,
     state: State,
-    observer: impl FnMut(Progress) -> ControlFlow<()>,
+    observer: &mut Observer<'_>,
 ) -> Outcome {
     let mut run = RunState::new(system, motion, plan, settings);
     (run.time, run.phases) = (state.time, state.contacts.clone());
@@ -91,7 +89,7 @@ const COLLAPSE_DRIFT: f64 = 0.25;
 impl<E: StepEquations> Direct<E> {
     fn new(run: &RunState<'_>, settings: Settings, state: State) -> Self {
         let (system, motion, plan) = (run.system, run.motion, run.plan);
-        let joints = Joints::of(system);
+        let joints = Joints::new(system);
         let links = Links::starting_from(system, &state);
         let steps = motion.duration / plan.step;
         let mut recorder = Recorder::new(system, motion.duration, settings.record_interval);
@@ -137,6 +135,7 @@ impl<E: StepEquations> Direct<E> {
             impacts: run.impacts,
             floors: std::mem::take(&mut self.recorder.floors),
             closing: std::mem::take(&mut self.recorder.closing),
+            gap_forces: run.gap_forces.peaks,
             base_shear: std::mem::take(&mut self.recorder.base_shear),
             acceleration_parts: std::mem::take(&mut self.recorder.parts),
             spring_history: self.recorder.springs.take(),
@@ -470,7 +469,11 @@ impl<E: StepEquations> Stepper for Direct<E> {
     /// Changes the accelerations of the two faces (theory, Eq. H2).
     fn change_force(&mut self, run: &RunState<'_>, contact: usize, change: f64) {
         for (port, sign) in run.system.contacts[contact].ports.sides() {
-            self.state.acceleration[port.dof] += sign * change / port.mass;
+            let building = &run.system.buildings[port.building];
+            for &(dof, share) in port.row.entries() {
+                let mass = building.equations.mass[dof - building.offset];
+                self.state.acceleration[dof] += share * sign * change / mass;
+            }
         }
     }
 

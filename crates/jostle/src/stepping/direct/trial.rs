@@ -132,11 +132,12 @@ impl<E: StepEquations> Direct<E> {
         for ((ports, at_rest), trial) in contacts.chain(links).zip(&mut run.trials) {
             let mut closed_by = 0.0;
             for (port, sign) in ports.sides() {
-                let dof = port.dof;
-                let rate_term = k.d_v * v[dof] + k.d_a * a[dof];
-                let increment =
-                    self.increment[dof] - factors.buildings[port.building].shift * rate_term;
-                closed_by -= sign * increment;
+                let shift = factors.buildings[port.building].shift;
+                for &(dof, share) in port.row.entries() {
+                    let rate_term = k.d_v * v[dof] + k.d_a * a[dof];
+                    let increment = self.increment[dof] - shift * rate_term;
+                    closed_by -= sign * share * increment;
+                }
             }
             trial.indentation = ports.closing(u) - at_rest + closed_by;
             trial.rate =
@@ -145,12 +146,11 @@ impl<E: StepEquations> Direct<E> {
         }
     }
 
-    /// Lists the closed contacts and the links from left to right, with the indentations they would have if none
-    /// pushed.
+    /// Lists the closed contacts and the links, with the indentations they would have if none pushed.
     fn list_closed(&mut self, run: &mut RunState<'_>, slot: usize) {
         run.coupling.clear();
         let rate_gain = self.factors[slot].coefficients.c;
-        for (place, &index) in self.joints.order.iter().enumerate() {
+        for (place, &index) in self.joints.graph.order.iter().enumerate() {
             let closed = if self.joints.is_link(index) {
                 self.link_in_step(run, index, rate_gain)
             } else if let ContactPhase::Closed(episode) = &run.phases[index] {
@@ -222,8 +222,8 @@ impl<E: StepEquations> Direct<E> {
                 &mut run.work,
             );
         }
-        let reach = self.joints.reach(&coupling.places);
-        coupling.compliance.reset(coupling.closed.len(), reach);
+        let firsts = self.joints.graph.first_coupled(&coupling.places);
+        coupling.compliance.reset(firsts);
         for row in 0..coupling.closed.len() {
             for column in coupling.compliance.columns(row) {
                 let [own, other] = [row, column].map(|i| coupling.closed[i].contact);

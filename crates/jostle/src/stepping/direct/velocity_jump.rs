@@ -65,7 +65,7 @@ impl<E: StepEquations> JumpFactor<E> {
 /// Scratch vector for the changes of one building.
 #[derive(Clone, Debug, Default)]
 pub(super) struct JumpScratch {
-    velocity: Vec<f64>,
+    pub(super) velocity: Vec<f64>,
     acceleration: Vec<f64>,
     load: Vec<f64>,
 }
@@ -102,7 +102,7 @@ impl<E: StepEquations> Direct<E> {
         let mass = contact.effective_mass();
         let impulse = momentum::impulse(restitution, mass, rate);
         for (port, sign) in contact.ports.sides() {
-            self.push_at_once(run, port, sign * impulse / port.mass);
+            self.push_at_once(run, port, sign * impulse);
         }
         let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);
         self.audit.contact += dissipated;
@@ -113,9 +113,9 @@ impl<E: StepEquations> Direct<E> {
         }
     }
 
-    /// Changes the velocity of one degree of freedom, of the massless ones that follow it, and the accelerations by
-    /// what the dampers then say: M Δa = −(α M + β K + C′) Δv.
-    fn push_at_once(&mut self, run: &mut RunState<'_>, port: Port, change: f64) {
+    /// Changes velocities by an impulse on a point, those of massless degrees of freedom that follow, and accelerations
+    /// by what the dampers then say: M Δa = −(α M + β K + C′) Δv.
+    fn push_at_once(&mut self, run: &mut RunState<'_>, port: Port, impulse: f64) {
         let building = port.building;
         let system = &run.system.buildings[building];
         let (range, own) = (system.range(), &system.equations);
@@ -130,7 +130,9 @@ impl<E: StepEquations> Direct<E> {
             acceleration,
             load,
         } = &mut self.jump;
-        velocity[port.dof - system.offset] = change;
+        for &(dof, share) in port.row.moved_down(system.offset).entries() {
+            velocity[dof] = share * impulse / own.mass[dof];
+        }
         let mut follow = |motion: &mut [f64]| {
             if let Some(jump) = self.jump_factors[building].as_ref().filter(|_| massless) {
                 jump.follow(&self.equations[building], &own.mass, motion, load);
@@ -159,6 +161,6 @@ impl<E: StepEquations> Direct<E> {
         accelerations
             .zip(&*acceleration)
             .for_each(|(a, change)| *a += change);
-        self.jerk_links(run.system, port.dof, change);
+        self.jerk_links(run.system, building);
     }
 }

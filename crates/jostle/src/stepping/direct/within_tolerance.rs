@@ -1,11 +1,9 @@
 //! Direct runs at two step sizes, whose difference measures the error of every reported peak.
 
-use std::ops::ControlFlow;
-
 use super::run_directly;
 use crate::motion::GroundMotion;
 use crate::state::State;
-use crate::stepping::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings};
+use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings};
 use crate::stepping::peak_change::change_of_peaks;
 use crate::stepping::plan::Plan;
 use crate::stepping::sensitivity::first_parted;
@@ -31,7 +29,7 @@ const LOST: f64 = 0.1;
 /// Contribution of rounding to the error: motion with the energy of the imbalance, relative to all motion \[–\].
 ///
 /// Steps balance their energy exactly, apart from rounding and the quadrature of contact forces. The latter falls with
-/// the step; what rises is rounding. Very short steps lose digits, and two of them may lose them alike.
+/// the step; what rises is rounding. Very short steps lose digits, and two runs may lose the same ones.
 fn rounding([coarse, fine]: [&Outcome; 2]) -> f64 {
     let [before, after] = [coarse, fine].map(|outcome| outcome.energy.imbalance());
     LOST * (after - before).max(0.0).sqrt()
@@ -98,11 +96,10 @@ pub(in crate::stepping) fn within_tolerance<E: StepEquations>(
     plan: &Plan,
     settings: Settings,
     state: State,
-    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
+    observer: &mut Observer<'_>,
 ) -> Outcome {
-    let mut run = |plan: &Plan| {
-        run_directly::<E>(system, motion, plan, settings, state.clone(), &mut observer)
-    };
+    let mut run =
+        |plan: &Plan| run_directly::<E>(system, motion, plan, settings, state.clone(), observer);
     if !plan.is_automatic(system, motion) || plan.frequency_error(system, motion).is_none() {
         return run(plan);
     }

@@ -2,6 +2,7 @@
 
 use super::defects;
 use super::span::{RitzModes, Span};
+use crate::interface::DofRow;
 use crate::linear::NotPositive;
 use crate::linear::cholesky::Cholesky;
 use crate::simd;
@@ -22,10 +23,10 @@ pub(super) struct Basis {
 
 /// Points and tolerance of the comparison of basis and building.
 pub(super) struct Demand<'a> {
-    /// Degrees of freedom of the building that contacts push.
-    pub(super) ports: &'a [usize],
-    /// Degrees of freedom of its floors.
-    pub(super) floors: &'a [usize],
+    /// Points of the building that contacts push.
+    pub(super) ports: &'a [DofRow],
+    /// Displacements of its floors.
+    pub(super) floors: &'a [DofRow],
     /// Rates s ≥ 0 at which the flexibilities gᵀ(K + s²M)⁻¹g are exact; the last is that of further vectors
     /// \[1/s\].
     pub(super) met: &'a [f64],
@@ -182,7 +183,7 @@ impl<'a> Growing<'a> {
         }
         let factors = sweep.factorize_at(&rates)?;
         let loads: Vec<Vec<f64>> = std::iter::once(building.equations.driven_mass.clone())
-            .chain(demand.ports.iter().map(|port| push_on(building, *port)))
+            .chain(demand.ports.iter().map(|port| push_on(building, port)))
             .collect();
         let answers: Vec<Vec<PerRate>> = loads
             .iter()
@@ -201,7 +202,11 @@ impl<'a> Growing<'a> {
                 .zip(loaded(demand))
                 .map(|(answer, own)| {
                     let places = demand.floors.iter().chain(own);
-                    places.map(|place| answer[*place][met + index]).collect()
+                    let shown = |place: &DofRow| {
+                        let entries = place.entries().iter();
+                        entries.map(|&(dof, c)| c * answer[dof][met + index]).sum()
+                    };
+                    places.map(shown).collect()
                 })
                 .collect(),
         });
@@ -248,8 +253,9 @@ impl<'a> Growing<'a> {
 
     /// Whether the responses in the basis agree with those of the building.
     fn is_close(&self) -> Result<bool, NotPositive> {
-        let shown =
-            |place: &usize| -> Vec<f64> { self.span.vectors.iter().map(|v| v[*place]).collect() };
+        let shown = |place: &DofRow| -> Vec<f64> {
+            self.span.vectors.iter().map(|v| place.of(v)).collect()
+        };
         let ports = self.demand.ports.iter().map(shown);
         let loads: Vec<Vec<f64>> = std::iter::once(self.span.driven.clone())
             .chain(ports)
@@ -327,13 +333,13 @@ pub(super) fn at_once(equations: &Equations) -> f64 {
 }
 
 /// The contact point of every load: none for the ground motion, then one after the other.
-fn loaded<'a>(demand: &Demand<'a>) -> impl Iterator<Item = Option<&'a usize>> + use<'a> {
+fn loaded<'a>(demand: &Demand<'a>) -> impl Iterator<Item = Option<&'a DofRow>> + use<'a> {
     std::iter::once(None).chain(demand.ports.iter().map(Some))
 }
 
-/// A unit force on one degree of freedom.
-fn push_on(building: &BuildingSystem, port: usize) -> Vec<f64> {
+/// A unit force on a point.
+fn push_on(building: &BuildingSystem, port: &DofRow) -> Vec<f64> {
     let mut load = vec![0.0; building.equations.len()];
-    load[port] = 1.0;
+    port.push(1.0, &mut load);
     load
 }

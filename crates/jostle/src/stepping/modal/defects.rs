@@ -6,6 +6,7 @@
 
 use super::reduced::{forces_count, forces_of};
 use super::span::RitzModes;
+use crate::interface::DofRow;
 use crate::linear::NotPositive;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::rates::RATES;
@@ -28,7 +29,7 @@ impl Defects {
     pub(super) fn of(
         building: &BuildingSystem,
         modes: &RitzModes,
-        places: &[usize],
+        places: &[DofRow],
     ) -> Result<Self, NotPositive> {
         let count = modes.stiffness.len();
         let mut found = Self {
@@ -40,7 +41,7 @@ impl Defects {
         for_each_defect(building, modes, &all, |mode, whole, shape, answer| {
             let theta = modes.stiffness[mode];
             for (row, place) in found.rows.iter_mut().zip(places) {
-                row[mode] = (shape[*place] - whole * answer[*place]) / theta;
+                row[mode] = (place.of(shape) - whole * place.of(answer)) / theta;
             }
             let shear = |vector: &[f64]| building.equations.base_shear(vector);
             let bases = [shape, answer].map(shear);

@@ -2,6 +2,7 @@
 
 use super::mode_kernels::AddUp;
 use super::stepper::ModalStepper;
+use crate::linear::envelope::{Envelope, PivotedEnvelope};
 use crate::stepping::coupling::Closed;
 use crate::stepping::outcome::StepError;
 use crate::stepping::runner::RunState;
@@ -38,18 +39,22 @@ impl ModalStepper<'_> {
 
     /// How far and how fast end forces open the closed contacts.
     fn couple(&mut self, run: &RunState<'_>, slot: usize) {
-        self.equations.openings.clear();
         let reduced = self.reduced;
         let closed = &run.coupling.closed;
         for column in closed {
             self.tables[slot].find_unit_response(column.contact, reduced);
         }
-        for row in closed {
-            let openings = closed.iter().map(|column| {
-                let answer = self.tables[slot].answer(column.contact);
-                answer.opening(row.contact, column.contact, reduced)
-            });
-            self.equations.openings.extend(openings);
+        let [openings, rates] = &mut self.equations.openings;
+        openings.reset(reduced.graph.first_coupled(&run.coupling.places));
+        rates.reset_like(openings);
+        for (row, own) in closed.iter().enumerate() {
+            for column in openings.columns(row) {
+                let from = closed[column].contact;
+                let answer = self.tables[slot].answer(from);
+                let [opening, rate] = answer.opening(own.contact, from, reduced);
+                openings.set(row, column, opening);
+                rates.set(row, column, rate);
+            }
         }
     }
 
@@ -82,16 +87,14 @@ impl ModalStepper<'_> {
             closed: n,
         };
         let ForceEquations {
-            openings, forces, ..
+            openings: [openings, rates],
+            forces,
+            ..
         } = &mut self.equations;
-        run.coupling.compliance.reset(n, n - 1);
+        run.coupling.compliance.clone_from(openings);
         for row in 0..n {
-            for column in 0..n {
-                let [opening, _] = openings[row * n + column];
-                run.coupling.compliance.set(row, column, opening);
-            }
-            let [own, own_rate] = openings[row * n + row];
-            run.coupling.closed[row].rate_gain = own_rate / own;
+            let gain = rates.get(row, row) / openings.get(row, row);
+            run.coupling.closed[row].rate_gain = gain;
         }
         run.coupling.press(|at| forces[at]);
         let mut last = f64::INFINITY;
@@ -99,9 +102,9 @@ impl ModalStepper<'_> {
             for row in 0..n {
                 let closed = &mut run.coupling.closed[row];
                 let gain = closed.rate_gain;
-                let others = openings[row * n..].iter().zip(&*forces);
+                let others = openings.columns(row);
                 let beyond: f64 = others
-                    .map(|([opening, rate], force)| (gain * opening - rate) * force)
+                    .map(|at| (gain * openings.get(row, at) - rates.get(row, at)) * forces[at])
                     .sum();
                 closed.free_rate = run.trials[closed.contact].rate + beyond;
             }
@@ -165,12 +168,12 @@ impl ModalStepper<'_> {
 /// F = f(δ⁰ − W F, δ̇⁰ − V F) of the laws f of all closed contacts.
 #[derive(Debug, Default)]
 pub(super) struct ForceEquations {
-    /// W and V, row by row: opening and opening rate of a contact due to a unit force of another \[m/N, m/(N s)\].
-    pub(super) openings: Vec<[f64; 2]>,
+    /// W and V: opening and opening rate of a contact due to a unit force of another \[m/N, m/(N s)\].
+    pub(super) openings: [Envelope; 2],
     /// F of every closed contact \[N\].
     pub(super) forces: Vec<f64>,
     /// I + diag(∂f/∂δ) W + diag(∂f/∂δ̇) V.
-    matrix: Vec<f64>,
+    matrix: PivotedEnvelope,
     change: Vec<f64>,
     /// Multiply-adds spent so far.
     pub(super) operations: u64,
@@ -180,12 +183,10 @@ impl ForceEquations {
     /// Solves for the forces, starting from `forces`, and stores them and their indentations; returns the number of
     /// iterations, or `None` without convergence, as at corners of a law.
     pub(super) fn solve(&mut self, closed: &mut [Closed]) -> Option<u64> {
-        let n = closed.len();
         let mut last = f64::INFINITY;
         for round in 1..=QUICK_ROUNDS {
             self.linearise(closed);
-            eliminate(&mut self.matrix, &mut self.change)?;
-            self.operations += (n * n * (n + 6) / 3) as u64;
+            self.operations += self.matrix.eliminate(&mut self.change)?;
             let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
             for (force, step) in self.forces.iter_mut().zip(&self.change) {
                 *force += step;
@@ -210,74 +211,48 @@ impl ForceEquations {
 
     /// Indentation and its rate of one contact under the forces.
     fn pressed(&self, row: usize, closed: &Closed) -> (f64, f64) {
-        let openings = &self.openings[row * self.forces.len()..];
+        let [openings, rates] = &self.openings;
         let (mut indentation, mut rate) = (closed.free, closed.free_rate);
-        for ([opening, opening_rate], force) in openings.iter().zip(&self.forces) {
-            indentation -= opening * force;
-            rate -= opening_rate * force;
+        for column in openings.columns(row) {
+            indentation -= openings.get(row, column) * self.forces[column];
+            rate -= rates.get(row, column) * self.forces[column];
         }
         (indentation, rate)
     }
 
     /// The matrix of Newton's method, and the residual of the laws.
     fn linearise(&mut self, closed: &[Closed]) {
-        self.matrix.clear();
+        let [openings, rates] = &self.openings;
+        self.matrix.reset_like(openings);
         self.change.clear();
         for (row, closed) in closed.iter().enumerate() {
             let (indentation, rate) = self.pressed(row, closed);
             let response = closed.law.follow(indentation, rate, &closed.memory);
             self.change.push(response.force - self.forces[row]);
-            let from = row * self.forces.len();
-            let openings = &self.openings[from..from + self.forces.len()];
-            let slopes = openings.iter().map(|[opening, opening_rate]| {
-                response.by_indentation * opening + response.by_rate * opening_rate
-            });
-            self.matrix.extend(slopes);
-            self.matrix[from + row] += 1.0;
+            for column in openings.columns(row) {
+                let slope = response.by_indentation * openings.get(row, column)
+                    + response.by_rate * rates.get(row, column);
+                let unit = if column == row { 1.0 } else { 0.0 };
+                self.matrix.set(row, column, slope + unit);
+            }
         }
     }
-}
-
-/// Replaces the right-hand side by the solution, with row exchanges; `None` if the matrix is singular.
-fn eliminate(matrix: &mut [f64], side: &mut [f64]) -> Option<()> {
-    let n = side.len();
-    for pivot in 0..n {
-        let size = |row: &usize| matrix[row * n + pivot].abs();
-        let best = (pivot..n).max_by(|a, b| size(a).total_cmp(&size(b)))?;
-        if best != pivot {
-            for column in pivot..n {
-                matrix.swap(pivot * n + column, best * n + column);
-            }
-            side.swap(pivot, best);
-        }
-        let (above, below) = matrix.split_at_mut((pivot + 1) * n);
-        let own = &above[pivot * n..];
-        if own[pivot] == 0.0 {
-            return None;
-        }
-        for (at, row) in below.chunks_exact_mut(n).enumerate() {
-            let share = row[pivot] / own[pivot];
-            if share == 0.0 {
-                continue;
-            }
-            for column in pivot + 1..n {
-                row[column] -= share * own[column];
-            }
-            side[pivot + 1 + at] -= share * side[pivot];
-        }
-    }
-    for row in (0..n).rev() {
-        let own = &matrix[row * n..(row + 1) * n];
-        let known: f64 = (row + 1..n).map(|column| own[column] * side[column]).sum();
-        side[row] = (side[row] - known) / own[row];
-    }
-    Some(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::contact::ForceLaw;
+
+    /// A full matrix, row by row.
+    fn filled(n: usize, entries: &[f64]) -> Envelope {
+        let mut matrix = Envelope::default();
+        matrix.reset(std::iter::repeat_n(0, n));
+        for (place, entry) in entries.iter().enumerate() {
+            matrix.set(place / n, place % n, *entry);
+        }
+        matrix
+    }
 
     fn closed(law: ForceLaw, free: f64, free_rate: f64) -> Closed {
         Closed {
@@ -305,24 +280,11 @@ mod tests {
             tension: false,
         };
         let mut equations = ForceEquations {
-            openings: vec![[1e-11, 1e-9]],
+            openings: [filled(1, &[1e-11]), filled(1, &[1e-9])],
             forces: vec![0.0],
             ..ForceEquations::default()
         };
         assert!(equations.solve(&mut [closed(law, 1e-6, 0.4)]).is_none());
-    }
-
-    #[test]
-    fn elimination_exchanges_rows() {
-        // x = (2, −1, 3); the first pivot is zero.
-        let mut matrix = vec![0.0, 2.0, 1.0, 1.0, -1.0, 2.0, 4.0, 1.0, -3.0];
-        let mut side = vec![1.0, 9.0, -2.0];
-        assert!(eliminate(&mut matrix, &mut side).is_some());
-        for (found, exact) in side.iter().zip([2.0, -1.0, 3.0]) {
-            assert!((found - exact).abs() < 1e-14, "{side:?}");
-        }
-        let mut singular = vec![1.0, 2.0, 2.0, 4.0];
-        assert!(eliminate(&mut singular, &mut [1.0, 1.0]).is_none());
     }
 
     /// Three coupled contacts, one of which is open at the end: every force equals that of its law for the motion
@@ -336,16 +298,17 @@ mod tests {
         let mut contacts =
             [(4e-3, 0.3), (6e-3, -0.1), (-1e-3, -0.4)].map(|(free, rate)| closed(law, free, rate));
         let mut equations = ForceEquations {
-            openings: vec![
-                [2e-9, 3e-6],
-                [-8e-10, -2e-6],
-                [1e-10, 2e-7],
-                [-7e-10, -1e-6],
-                [3e-9, 5e-6],
-                [-5e-10, -1e-6],
-                [2e-10, 3e-7],
-                [-6e-10, -2e-6],
-                [2e-9, 4e-6],
+            openings: [
+                filled(
+                    3,
+                    &[
+                        2e-9, -8e-10, 1e-10, -7e-10, 3e-9, -5e-10, 2e-10, -6e-10, 2e-9,
+                    ],
+                ),
+                filled(
+                    3,
+                    &[3e-6, -2e-6, 2e-7, -1e-6, 5e-6, -1e-6, 3e-7, -2e-6, 4e-6],
+                ),
             ],
             forces: vec![2e5, 2e5, 1e4],
             ..ForceEquations::default()
@@ -355,9 +318,8 @@ mod tests {
         for (row, contact) in contacts.iter().enumerate() {
             let (mut indentation, mut rate) = (contact.free, contact.free_rate);
             for (column, force) in forces.iter().enumerate() {
-                let [opening, opening_rate] = equations.openings[3 * row + column];
-                indentation -= opening * force;
-                rate -= opening_rate * force;
+                indentation -= equations.openings[0].get(row, column) * force;
+                rate -= equations.openings[1].get(row, column) * force;
             }
             let expected = law.follow(indentation, rate, &contact.memory).force;
             assert!(

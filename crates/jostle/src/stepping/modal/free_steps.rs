@@ -468,7 +468,7 @@ mod tests {
         let refinement = Refinement { division: 1, work };
         let mut runner = runner(&system, &motion, &plan, settings, &reduced, refinement);
         runner.stepper.free_steps.ahead = most;
-        finish(runner, |_| ControlFlow::Continue(())).0
+        finish(runner, &mut |_| ControlFlow::Continue(())).0
     }
 
     #[test]

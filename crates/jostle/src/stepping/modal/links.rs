@@ -132,11 +132,11 @@ pub(super) fn refusal(building: &BuildingSystem) -> Option<String> {
     let massless = |dof: &Option<usize>| dof.is_some_and(|dof| mass[dof] <= 0.0);
     if dashpots.len() > MOST_DASHPOTS {
         return Some(format!(
-            "\"{name}\" leans on P-Delta or stands on springs, which its stiffness-proportional damping does not act on, so that its modes do not damp alone: damp it by one mode, by the masses"
+            "stiffness-proportional damping does not act on P-Delta and on the springs under \"{name}\", which couples its modes by more than {MOST_DASHPOTS} dashpots: use damping proportional to the masses, as modes = [1]"
         ));
     }
     dashpots.iter().any(|(dofs, _)| dofs.iter().any(massless)).then(|| {
-        format!("\"{name}\" is damped where it has no mass, as under a base without mass: its modes do not see that; give the base its mass")
+        format!("\"{name}\" has damping at points without mass, such as a base without mass, which modes do not include: give the base a mass")
     })
 }
 

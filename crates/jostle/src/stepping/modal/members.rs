@@ -258,7 +258,7 @@ impl MemberPeaks {
         }
     }
 
-    /// Takes in what happened since the last instant.
+    /// Adds the forces since the last instant.
     pub(super) fn follow(&mut self, reduced: &Reduced, now: Instant<'_>) {
         let step = now.time - self.time;
         self.modal.swap(0, 1);

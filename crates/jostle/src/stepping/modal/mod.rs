@@ -29,7 +29,7 @@ mod unit_force;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use super::outcome::{Accuracy, Outcome, Progress, RunEnd, Settings, StepError};
+use super::outcome::{Accuracy, Observer, Outcome, Progress, RunEnd, Settings, StepError};
 use super::plan::{Plan, USUAL_TOLERANCE};
 use crate::history::Work;
 use crate::model::Integrator;
@@ -111,6 +111,18 @@ pub fn simulate(
     reduction: &Reduction,
     mut observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
+    simulate_with(system, motion, plan, settings, reduction, &mut observer)
+}
+
+/// [`simulate`] for any observer.
+pub(super) fn simulate_with(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    reduction: &Reduction,
+    observer: &mut Observer<'_>,
+) -> Outcome {
     let tolerance = plan.tolerance();
     let mut refinement = Refinement {
         division: 1,
@@ -121,7 +133,7 @@ pub fn simulate(
     loop {
         let reduced = enriched.as_ref().unwrap_or(&reduction.reduced);
         let run = runner(system, motion, plan, settings, reduced, refinement);
-        let (mut outcome, verdict) = finish(run, &mut observer);
+        let (mut outcome, verdict) = finish(run, observer);
         let between = verdict.estimate.between;
         let residual = verdict.estimate.both();
         outcome.work.shapes = reduced.modes() as u64;

@@ -11,7 +11,7 @@ use crate::stepping::runner::{Jump, RunState};
 const AFTER_JUMP: [u32; 2] = [16, 1024];
 /// Steps then in which accelerations are taken at their ends only.
 pub(super) const STRUCK_STEPS: u32 = 2;
-/// Steps per radian of the quickest mode after a blow.
+/// Steps per radian of the highest mode after a momentum impact.
 const STEPS_PER_RADIAN: f64 = 2.0;
 /// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
 pub(super) const AHEAD: f64 = 1e-3;
@@ -99,15 +99,15 @@ impl ModalStepper<'_> {
         }
     }
 
-    /// Division of free steps with which the quickest modes of buildings that have struck each other are seen.
+    /// Division of free-vibration steps that resolves the highest modes of buildings after a momentum impact.
     fn division_after_jump(&self, run: &RunState<'_>, index: usize) -> u32 {
         let struck = run.system.contacts[index].ports.buildings();
         let modes = struck.into_iter().flatten().flat_map(|building| {
             let modes = self.reduced.buildings[building].modes.clone();
             &self.reduced.stiffness[modes]
         });
-        let quickest = modes.fold(0.0_f64, |most, k| most.max(*k)).sqrt();
-        let wanted = (STEPS_PER_RADIAN * quickest * run.plan.step).ceil() as u32;
+        let highest = modes.fold(0.0_f64, |most, k| most.max(*k)).sqrt();
+        let wanted = (STEPS_PER_RADIAN * highest * run.plan.step).ceil() as u32;
         let [fewest, most] = AFTER_JUMP;
         wanted.next_power_of_two().clamp(fewest, most)
     }
@@ -117,7 +117,7 @@ impl ModalStepper<'_> {
     pub(super) fn predict_forces(&mut self, run: &mut RunState<'_>, step: f64) {
         self.bend.fill(0.0);
         run.coupling.clear();
-        for index in 0..run.phases.len() {
+        for (place, &index) in self.reduced.graph.order.iter().enumerate() {
             let ContactPhase::Closed(episode) = &run.phases[index] else {
                 continue;
             };
@@ -138,6 +138,7 @@ impl ModalStepper<'_> {
             let bend = predicted.bend(episode.force, 0.0);
             self.reduced.push_apart(index, bend, &mut self.bend);
             run.coupling.closed.push(closed);
+            run.coupling.places.push(place);
             self.predicted[index] = predicted;
         }
     }

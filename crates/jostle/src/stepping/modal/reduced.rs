@@ -15,6 +15,7 @@ use super::response::{INPUTS, PRODUCTS, Responses};
 use super::unit_force::{UnitForce, UnitResponse};
 use crate::contact::ForceLaw;
 use crate::history::Work;
+use crate::interface::{DofRow, InterfaceGraph};
 use crate::linear::NotPositive;
 use crate::simd;
 use crate::system::{BuildingSystem, System};
@@ -36,6 +37,8 @@ pub(super) struct Reduced {
     pub(super) unit_forces: Vec<UnitForce>,
     /// Links of the system, then damping of buildings that couples their modes.
     pub(super) links: Vec<ModalLink>,
+    /// The order in which forces of contacts are solved for.
+    pub(super) graph: InterfaceGraph,
 }
 
 /// A contact point: its building, and its index among all monitored displacements.
@@ -189,6 +192,7 @@ impl Reduced {
             ports: vec![[None; 2]; system.contacts.len()],
             unit_forces: Vec::new(),
             links: Vec::new(),
+            graph: InterfaceGraph::default(),
         };
         for (index, basis) in bases.into_iter().enumerate() {
             let added = reduced.add_building(system, index, basis, work);
@@ -202,13 +206,17 @@ impl Reduced {
         reduced.unit_forces = contacts
             .map(|contact| UnitForce::of(&reduced, contact))
             .collect();
+        let ports = system.contacts.iter().map(|contact| &contact.ports);
+        let groups = (0..reduced.buildings.len()).map(|own| reduced.linked_with(own).start);
+        let groups: Vec<usize> = groups.collect();
+        reduced.graph = InterfaceGraph::new(ports, groups.len(), |own| groups[own]);
         Ok(reduced)
     }
 
     fn add_links(&mut self, system: &System) {
-        let shown = |building: usize, dof: usize| {
+        let shown = |building: usize, row: DofRow| {
             let Watched { places, .. } = Watched::of(system, building);
-            let place = places.iter().position(|own| *own == dof)?;
+            let place = places.iter().position(|own| *own == row)?;
             Some(Shown {
                 building,
                 watched: self.buildings[building].watched.start + place,
@@ -218,17 +226,15 @@ impl Reduced {
         for (index, link) in system.links.iter().enumerate() {
             let ports = link.ports.0.map(|port| {
                 let port = port?;
-                shown(
-                    port.building,
-                    port.dof - system.buildings[port.building].offset,
-                )
+                let offset = system.buildings[port.building].offset;
+                shown(port.building, port.row.moved_down(offset))
             });
             let factors = [link.stiffness, link.damping];
             links.push(ModalLink::new(self, Some(index), ports, factors));
         }
         for (index, building) in system.buildings.iter().enumerate() {
             for (dofs, damping) in own_dashpots(building) {
-                let ports = dofs.map(|dof| shown(index, dof?));
+                let ports = dofs.map(|dof| shown(index, DofRow::single(dof?)));
                 links.push(ModalLink::new(self, None, ports, [0.0, damping]));
             }
         }
@@ -269,9 +275,8 @@ impl Reduced {
                 let Some(port) = port.filter(|port| port.building == index) else {
                     continue;
                 };
-                let place = places
-                    .iter()
-                    .position(|dof| *dof == port.dof - building.offset);
+                let row = port.row.moved_down(building.offset);
+                let place = places.iter().position(|place| *place == row);
                 *shown = place.map(|place| Shown {
                     building: index,
                     watched: watching + place,
@@ -290,7 +295,7 @@ impl Reduced {
         let shear = basis.of_shapes(|vector| equations.base_shear(vector));
         let shown: Vec<Vec<f64>> = places
             .iter()
-            .map(|&dof| basis.of_shapes(|vector| vector[dof]))
+            .map(|place| basis.of_shapes(|vector| place.of(vector)))
             .chain([shear])
             .collect();
         let mut storeys = storey_forms(building, &basis);
@@ -477,19 +482,21 @@ impl Reduced {
     }
 }
 
-/// Monitored degrees of freedom of a building: its floors from the ground up, then other points of contacts, links and
+/// Monitored displacements of a building: its floors from the ground up, then other points of contacts, links and
 /// dashpots; and those of contacts, links and dashpots.
 struct Watched {
-    places: Vec<usize>,
-    ports: Vec<usize>,
+    places: Vec<DofRow>,
+    ports: Vec<DofRow>,
 }
 
 impl Watched {
     fn of(system: &System, index: usize) -> Self {
         let building = &system.buildings[index];
-        let floors = building.floors.iter();
-        let mut places: Vec<usize> = floors.map(|floor| floor.dof - building.offset).collect();
-        places.extend(building.foot.map(|dof| dof - building.offset));
+        let floors = building.floors.iter().map(|floor| floor.dof);
+        let mut places: Vec<DofRow> = floors
+            .chain(building.foot)
+            .map(|dof| DofRow::single(dof - building.offset))
+            .collect();
         let mut ports = Vec::new();
         let contacts = system.contacts.iter().map(|contact| contact.ports.0);
         let links = system.links.iter().map(|link| link.ports.0);
@@ -497,10 +504,11 @@ impl Watched {
         let joined = all.filter(|port| port.building == index);
         let damped = own_dashpots(building).into_iter();
         let damped = damped.flat_map(|(dofs, _)| dofs).flatten();
-        for dof in joined.map(|port| port.dof - building.offset).chain(damped) {
+        let joined = joined.map(|port| port.row.moved_down(building.offset));
+        for row in joined.chain(damped.map(DofRow::single)) {
             for list in [&mut places, &mut ports] {
-                if !list.contains(&dof) {
-                    list.push(dof);
+                if !list.contains(&row) {
+                    list.push(row);
                 }
             }
         }

@@ -1,7 +1,6 @@
 //! Stepping in modal coordinates.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use super::damped::Rules;
 use super::energy::Audit;
@@ -22,7 +21,7 @@ use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::control::{Observed, next_division};
 use crate::stepping::events::Cubic;
-use crate::stepping::outcome::{Outcome, Progress, RunEnd, Settings, StepError};
+use crate::stepping::outcome::{Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::system::System;
@@ -140,7 +139,7 @@ pub(super) fn runner<'a>(
 /// Runs to the end of the motion; with how far peaks may be off.
 pub(super) fn finish(
     mut runner: Runner<'_, ModalStepper<'_>>,
-    observer: impl FnMut(Progress) -> ControlFlow<()>,
+    observer: &mut Observer<'_>,
 ) -> (Outcome, Verdict) {
     let end = runner.run_to_end(observer);
     let verdict = runner.stepper.verdict(&runner.run);
@@ -243,6 +242,7 @@ impl<'a> ModalStepper<'a> {
             acceleration_parts: AccelerationParts::default(),
             floors: std::mem::take(&mut self.peaks.floors),
             closing: std::mem::take(&mut self.peaks.closing),
+            gap_forces: run.gap_forces.peaks,
             base_shear: std::mem::take(&mut self.peaks.base_shear),
             spring_history: None,
             members,
@@ -341,7 +341,7 @@ impl<'a> ModalStepper<'a> {
         }
     }
 
-    /// Takes in the peaks of a step that was taken, whose modal accelerations at the end stand in `scratch` and whose
+    /// Adds the peaks of an accepted step, whose modal accelerations at the end are in `scratch` and whose
     /// jerks without the load term, in `jerk`.
     fn look(&mut self, run: &RunState<'_>, ground: [f64; 2], start: f64, step: f64) {
         let reduced = self.reduced;

@@ -1,5 +1,5 @@
 //! Accelerations at turning points within a step, from the exact motion of the modes: cubics between the ends lose the
-//! quickest modes, of which accelerations hold most.
+//! highest modes, to which accelerations are most sensitive.
 
 use super::mode_kernels::LANES;
 use super::peaks::Ends;

@@ -37,7 +37,8 @@ impl<S: Stepper> Runner<'_, S> {
                 self.stepper
                     .end_slope(&self.run, index, &trial, &episode, step),
             ];
-            episode.follow_force(&contact.law, &trial, slopes, turn, start, step);
+            let force = episode.follow_force(&contact.law, &trial, slopes, turn, start, step);
+            self.run.gap_forces.add(contact.gap, force);
             let strongest = &mut self.run.strongest[contact.gap];
             *strongest = strongest.max(episode.peak_force);
             let division = self
@@ -53,5 +54,6 @@ impl<S: Stepper> Runner<'_, S> {
                 ContactPhase::Closed(episode)
             };
         }
+        self.run.gap_forces.finish_step(start, step);
     }
 }

@@ -1,4 +1,4 @@
-//! A run: from one accepted step to the next, however the buildings are stepped.
+//! A run: from one accepted step to the next, the same for every stepper.
 
 mod contact_events;
 mod corners;
@@ -6,15 +6,13 @@ mod episodes;
 mod run_state;
 mod stepper;
 
-use std::ops::ControlFlow;
-
 use contact_events::Landing;
 pub(super) use contact_events::{ContactTrial, TOGETHER};
 pub(super) use run_state::RunState;
 pub(super) use stepper::{Jump, Stepper};
 
 use super::clock::{Clock, NextStep};
-use super::outcome::{Progress, RunEnd, StepError};
+use super::outcome::{Observer, Progress, RunEnd, StepError};
 use crate::state::ContactPhase;
 
 /// Steps between calls of the observer.
@@ -34,10 +32,7 @@ pub(super) struct Runner<'a, S> {
 
 impl<S: Stepper> Runner<'_, S> {
     /// To the end of the motion.
-    pub(super) fn run_to_end(
-        &mut self,
-        mut observer: impl FnMut(Progress) -> ControlFlow<()>,
-    ) -> RunEnd {
+    pub(super) fn run_to_end(&mut self, observer: &mut Observer<'_>) -> RunEnd {
         let duration = self.run.motion.duration;
         self.stepper.record_start(&mut self.run);
         let mut next_call = 0;

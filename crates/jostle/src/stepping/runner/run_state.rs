@@ -1,11 +1,13 @@
-//! What a run knows that does not depend on how the buildings are stepped.
+//! Data of a run that do not depend on the stepper.
 
 use super::contact_events::{ContactTrial, impact_of};
 use crate::history::{Impact, Work};
+use crate::model::Solver;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::clock::Clock;
 use crate::stepping::coupling::ContactEquations;
+use crate::stepping::gap_forces::GapForces;
 use crate::stepping::outcome::{Pounding, Settings};
 use crate::stepping::plan::Plan;
 use crate::system::System;
@@ -29,6 +31,7 @@ pub(in crate::stepping) struct RunState<'a> {
     pub(in crate::stepping) finest_in_contact: u32,
     /// Greatest force of every gap so far, measured or expected of an impact under way \[N\].
     pub(in crate::stepping) strongest: Vec<f64>,
+    pub(in crate::stepping) gap_forces: GapForces,
     pub(in crate::stepping) coupling: ContactEquations,
     /// Whether this step ends at a corner of a contact force.
     pub(in crate::stepping) at_corner: bool,
@@ -51,7 +54,11 @@ impl<'a> RunState<'a> {
             motion,
             plan,
             pounding: settings.pounding == Pounding::Included,
-            clock: Clock::new(plan.step),
+            clock: if plan.solver == Solver::Modal {
+                Clock::ending_at_record_points(plan.step)
+            } else {
+                Clock::new(plan.step)
+            },
             time: 0.0,
             ground: [ground, ground],
             phases: vec![ContactPhase::Open; contacts],
@@ -59,6 +66,7 @@ impl<'a> RunState<'a> {
             contact_division: vec![1; contacts],
             finest_in_contact: 0,
             strongest: vec![0.0; gaps.max().unwrap_or(0)],
+            gap_forces: GapForces::new(system),
             coupling: ContactEquations::default(),
             at_corner: false,
             impacts: Vec::new(),

@@ -1,4 +1,4 @@
-//! What a runner asks of the way in which buildings are stepped.
+//! The interface between the runner and a stepper.
 
 use super::{ContactTrial, RunState};
 use crate::state::Episode;

@@ -1,0 +1,166 @@
+//! `jostle contact-advice`: stiffness and restitution of contacts from slabs, material and masses.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use jostle_io::Overrides;
+use jostle_run::{AdviceOptions, BOLD, ContactAdvice, DIM, RangeAdvice, kn, open, styled};
+
+use crate::failure::Failure;
+use crate::terminal;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct ContactAdviceArgs {
+    /// Model file (TOML or JSON), or the name of a built-in example: gives the colliding masses
+    model: Option<PathBuf>,
+    /// Colliding masses, such as "40 t" or "40 t, 60 t" (left, right); needed without a model
+    #[arg(long, value_name = "QUANTITY")]
+    mass: Option<String>,
+    /// Length of the slabs in the direction of the impact; with --width and --thickness: E A/L and waves
+    #[arg(long, value_name = "QUANTITY")]
+    length: Option<String>,
+    /// Width of the slabs that meets
+    #[arg(long, value_name = "QUANTITY")]
+    width: Option<String>,
+    /// Thickness of the slabs
+    #[arg(long, value_name = "QUANTITY")]
+    thickness: Option<String>,
+    /// Concrete, which gives the modulus: C30, C30/37, "f'c = 4 ksi"
+    #[arg(long, value_name = "GRADE")]
+    concrete: Option<String>,
+    /// Modulus of elasticity instead [default: 30 GPa]
+    #[arg(long, value_name = "QUANTITY")]
+    modulus: Option<String>,
+    /// Poisson's ratio
+    #[arg(long, value_name = "NUMBER", default_value = "0.2")]
+    poisson_ratio: String,
+    /// Density
+    #[arg(long, value_name = "QUANTITY", default_value = "2500 kg/m3")]
+    density: String,
+    /// Impact speed
+    #[arg(long, value_name = "QUANTITY", default_value = "0.4 m/s")]
+    speed: String,
+    /// Print JSON and nothing else
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn contact_advice(args: &ContactAdviceArgs) -> Result<(), Failure> {
+    let opened = match &args.model {
+        Some(path) => Some(open(Some(path), &Overrides::default(), false)?),
+        None => None,
+    };
+    let options = AdviceOptions {
+        mass: args.mass.clone(),
+        length: args.length.clone(),
+        width: args.width.clone(),
+        thickness: args.thickness.clone(),
+        concrete: args.concrete.clone(),
+        modulus: args.modulus.clone(),
+        poisson_ratio: args.poisson_ratio.clone(),
+        density: args.density.clone(),
+        speed: args.speed.clone(),
+    };
+    let advice = jostle_run::contact_advice(opened.as_ref(), &options)?;
+    if args.json {
+        let value = serde_json::json!({ "contacts": advice });
+        return terminal::print(&serde_json::to_string_pretty(&value).unwrap_or_default());
+    }
+    let mut text = String::new();
+    for one in &advice {
+        // Writing to a string cannot fail.
+        let _ = describe(&mut text, one);
+    }
+    terminal::print(&text)
+}
+
+fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
+    let mass = |mass: Option<f64>| match mass {
+        Some(mass) => format!("{:.1} t", 1e-3 * mass),
+        None => "a rigid wall".to_owned(),
+    };
+    let place = match advice.height_m {
+        Some(height) => format!(", floors at {height:.2} m"),
+        None => String::new(),
+    };
+    let heading = format!(
+        "{} – {}{place}: {} against {} at {} m/s",
+        advice.between[0],
+        advice.between[1],
+        mass(advice.masses_kg[0]),
+        mass(advice.masses_kg[1]),
+        advice.speed_m_s
+    );
+    writeln!(text, "{}", styled(BOLD, &heading))?;
+    if let Some(wave) = &advice.wave {
+        writeln!(
+            text,
+            "Waves run along the floors in {:.2} and {:.2} ms. As elastic rods they push each other with {} kN for {:.2} ms and part with {:.2} of the speed.",
+            1e3 * wave.transit_s[0],
+            1e3 * wave.transit_s[1],
+            kn(wave.peak_force_n),
+            1e3 * wave.duration_s,
+            wave.restitution
+        )?;
+    }
+    writeln!(
+        text,
+        "\nstiffness                             value        peak force    duration"
+    )?;
+    for estimate in &advice.estimates {
+        let value = format!("{:.3e} {}", estimate.stiffness, estimate.unit);
+        writeln!(
+            text,
+            "{:30} {value:>20}  {:>8} kN  {:>7.2} ms{}",
+            estimate.name,
+            kn(estimate.peak_force_n),
+            1e3 * estimate.duration_s,
+            if estimate.is_valid {
+                ""
+            } else {
+                "   outside its validity"
+            }
+        )?;
+        let words = format!("  {}: {}", estimate.source, estimate.validity);
+        writeln!(text, "{}", styled(DIM, &words))?;
+    }
+    writeln!(text, "\nRecommended for the [[gap]]:\n")?;
+    let e = advice.restitution;
+    writeln!(text, "law = \"hertz-damp\"")?;
+    writeln!(text, "{}", stiffness(advice.hertz, "N/m^1.5"))?;
+    writeln!(
+        text,
+        "restitution = {:.2}   # {:.2} to {:.2}",
+        e.value, e.low, e.high
+    )?;
+    writeln!(text, "restitution_is = \"realised\"")?;
+    if let Some(linear) = advice.linear {
+        writeln!(
+            text,
+            "\nor, with a linear spring:\n\nlaw = \"kelvin-no-tension\""
+        )?;
+        writeln!(text, "{}", stiffness(linear, "N/m"))?;
+        writeln!(
+            text,
+            "restitution = {:.2}   # {:.2} to {:.2}",
+            e.value, e.low, e.high
+        )?;
+    }
+    writeln!(text)?;
+    for note in &advice.notes {
+        writeln!(text, "{note}")?;
+    }
+    writeln!(
+        text,
+        "The stiffness is known to an order of magnitude. \"jostle run --sensitivity\" repeats a run with half and twice the stiffness and\n\
+         restitution ± 0.15, and gives the spread of every result."
+    )?;
+    writeln!(text)
+}
+
+fn stiffness(range: RangeAdvice, unit: &str) -> String {
+    format!(
+        "stiffness = \"{:.2e} {unit}\"   # {:.1e} to {:.1e}",
+        range.value, range.low, range.high
+    )
+}

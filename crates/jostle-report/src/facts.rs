@@ -1,0 +1,46 @@
+//! Facts as names and values, and lists of values in words.
+
+/// Names and values of a description list.
+pub(crate) type Facts = Vec<(&'static str, String)>;
+
+/// Values from the ground up, with equal neighbours merged: "3.2", "1–3: 60, 4: 40".
+pub(crate) fn grouped(values: &[f64], text: impl Fn(f64) -> String) -> String {
+    let mut groups: Vec<(usize, usize, f64)> = Vec::new();
+    for (i, value) in values.iter().enumerate() {
+        match groups.last_mut() {
+            Some((_, last, same)) if same == value => *last = i + 1,
+            _ => groups.push((i + 1, i + 1, *value)),
+        }
+    }
+    match &groups[..] {
+        [(_, _, value)] => text(*value),
+        groups if groups.len() > 8 => {
+            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            format!("{} to {}", text(low), text(high))
+        }
+        groups => {
+            let texts: Vec<String> = groups
+                .iter()
+                .map(|(first, last, value)| match first == last {
+                    true => format!("{first}: {}", text(*value)),
+                    false => format!("{first}–{last}: {}", text(*value)),
+                })
+                .collect();
+            texts.join(", ")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format;
+
+    #[test]
+    fn equal_storeys_are_said_once() {
+        let text = |values: &[f64]| grouped(values, |v| format::plain(v, 2));
+        assert_eq!(text(&[3.2, 3.2]), "3.2");
+        assert_eq!(text(&[60.0, 60.0, 40.0]), "1–2: 60, 3: 40");
+    }
+}

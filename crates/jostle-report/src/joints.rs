@@ -1,0 +1,214 @@
+//! Gaps required by codes, compared with the gap of the model and the smallest one without pounding.
+
+use jostle::Gap;
+use jostle::results::summary::{BuildingSummary, GapSummary};
+use jostle::separation::{
+    Neighbours, Place, Requirements, Side, ddc_coefficient, floors_are_level, peak_at_height,
+    required_gaps,
+};
+use maud::{Markup, html};
+
+use crate::envelope::Envelope;
+use crate::verdict::peak_closing;
+use crate::{Page, format};
+
+/// A length to compare with the gap.
+struct Width {
+    name: String,
+    metres: f64,
+    class: &'static str,
+}
+
+/// Required gaps as bars: the gap of the model, the smallest gap without pounding, the gaps of rules.
+pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
+    let envelopes = without.unwrap_or(run);
+    let of_gap = |summary: &GapSummary, gap: &Gap| {
+        let required = required_gaps(&neighbours(page, summary, gap, envelopes), page.codes);
+        (widths(summary, &required), required)
+    };
+    let gaps: Vec<_> = page
+        .gaps()
+        .map(|(summary, gap)| (summary, gap, of_gap(summary, gap)))
+        .collect();
+    let mut rules = gaps.iter().flat_map(|(_, _, (_, found))| &found.rules);
+    let combined = rules.any(|rule| rule.name == "SRSS");
+    html! {
+        @for (summary, gap, (widths, required)) in &gaps {
+            @let longest = widths.iter().map(|w| w.metres).fold(1e-9, f64::max);
+            div.joint {
+                h3 {
+                    (summary.between[0]) " and " (summary.between[1])
+                    @if let Some(height) = lower_height(page, gap.between) {
+                        span.quiet { " · lower building " (format::plain(height, 4)) " m high" }
+                    }
+                }
+                div.bars role="table" {
+                    @for width in widths {
+                        div.bar-row role="row" {
+                            span.bar-name role="rowheader" { (width.name) }
+                            span.bar-track role="presentation" {
+                                span.bar.(width.class) style=(format!("width:{:.2}%", width.metres / longest * 100.0)) {}
+                                span.bar-gap style=(format!("left:{:.2}%", summary.width_m / longest * 100.0)) {}
+                            }
+                            span.bar-value role="cell" { (format::millimetres(width.metres)) }
+                        }
+                    }
+                }
+                (sources(required))
+            }
+        }
+        p.quiet {
+            "The line marks the gap."
+            @if combined {
+                " SRSS and ABS combine the peak displacements where the buildings can touch, "
+                @if without.is_some() { "of the run without contact." } @else { "of this run, impacts included." }
+                " Codes take the same displacements."
+            }
+        }
+    }
+}
+
+/// Sources of the rules and the inputs that they used, folded.
+fn sources(required: &Requirements) -> Markup {
+    let codes: Vec<_> = required
+        .rules
+        .iter()
+        .filter(|rule| rule.code.is_some())
+        .collect();
+    html! {
+        @if !codes.is_empty() {
+            details.rules {
+                summary { "Clauses and inputs of the codes" }
+                div.scroll {
+                    table {
+                        thead { tr {
+                            th scope="col" { "rule" }
+                            th scope="col" { "clause" }
+                            th scope="col" { "inputs" }
+                            th scope="col" { "distance from the property line" }
+                        } }
+                        tbody {
+                            @for rule in codes {
+                                tr {
+                                    th scope="row" { (rule.name) }
+                                    td { (rule.source) }
+                                    td { (rule.inputs.join("; ")) }
+                                    td {
+                                        @if let Some([left, right]) = rule.setbacks {
+                                            (format::millimetres(left)) " and " (format::millimetres(right))
+                                        }
+                                    }
+                                }
+                            }
+                        }
+                    }
+                }
+                @for rule in &required.left_out {
+                    p.quiet { (rule.name) " is left out: it needs " (rule.needs) " in " code { "[codes]" } "." }
+                }
+            }
+        }
+    }
+}
+
+/// Height of the lower of two neighbours; `None` beside a wall, for which codes have no rule.
+fn lower_height(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
+    let [left, right] = between;
+    let buildings = [left?, right?].map(|building| page.model.buildings.get(building));
+    buildings
+        .into_iter()
+        .filter_map(|building| building?.floor_heights().last().copied())
+        .min_by(f64::total_cmp)
+}
+
+/// Two neighbours as rules see them. Between floors, and beside walls, only rules of heights apply.
+fn neighbours(page: &Page, summary: &GapSummary, gap: &Gap, envelopes: &[Envelope]) -> Neighbours {
+    let sides = gap.between.map(|building| {
+        let building = building.filter(|_| gap.between.iter().all(Option::is_some))?;
+        let own = page.model.buildings.get(building)?;
+        let heights = own.floor_heights();
+        Some(Side {
+            building,
+            name: own.name.clone(),
+            height: heights.last().copied().unwrap_or(0.0),
+            storeys: heights.len(),
+            yields: own.may_yield(),
+        })
+    });
+    let peak = |building: Option<usize>, height: f64| {
+        let building = building?;
+        let heights = page.model.buildings.get(building)?.floor_heights();
+        let envelope = envelopes.get(building)?;
+        let peaks = envelope.greatest.iter().zip(&envelope.least);
+        let peaks = peaks.map(|(greatest, least)| greatest.max(-least));
+        let peak = peak_at_height(heights.into_iter().zip(peaks), height);
+        peak.is_finite().then_some(peak)
+    };
+    let contacts = summary.contacts.iter();
+    let between_floors = contacts.filter(|contact| contact.floors.iter().all(Option::is_some));
+    let places = between_floors.filter_map(|contact| {
+        let [left, right] = gap.between;
+        let height = contact.height_m;
+        Some(Place {
+            height,
+            peaks: [peak(left, height)?, peak(right, height)?],
+        })
+    });
+    Neighbours {
+        sides,
+        places: places.collect(),
+        floors_are_level: floors_are_level(page.model, gap),
+        correlation: correlation(page, gap.between),
+        peak_ground_acceleration: page.summary.motion.pga_m_s2,
+    }
+}
+
+/// Correlation of the double difference; `None` without periods or damping.
+fn correlation(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
+    let of = |building: Option<usize>| {
+        let own: &BuildingSummary = page.summary.buildings.get(building?)?;
+        let period = own
+            .periods_s
+            .first()
+            .copied()
+            .filter(|period| *period > 0.0)?;
+        let omega = std::f64::consts::TAU / period;
+        let damping = 0.5 * (own.rayleigh_alpha_per_s / omega + own.rayleigh_beta_s * omega);
+        (damping > 0.0 && damping.is_finite()).then_some((period, damping))
+    };
+    let [left, right] = between;
+    let ((t1, d1), (t2, d2)) = (of(left)?, of(right)?);
+    Some(ddc_coefficient([t1, t2], [d1, d2]))
+}
+
+fn widths(summary: &GapSummary, required: &Requirements) -> Vec<Width> {
+    let mut widths = vec![Width {
+        name: "gap".into(),
+        metres: summary.width_m,
+        class: "of-gap",
+    }];
+    let mut add = |name: &str, metres: Option<f64>, class| {
+        if let Some(metres) = metres.filter(|m| m.is_finite() && *m >= 0.0) {
+            widths.push(Width {
+                name: name.into(),
+                metres,
+                class,
+            });
+        }
+    };
+    add("peak closing", peak_closing(summary), "of-run");
+    add(
+        "smallest gap without pounding",
+        summary.closing_without_contact_m,
+        "of-run",
+    );
+    for rule in &required.rules {
+        let class = if rule.code.is_some() {
+            "of-code"
+        } else {
+            "of-rule"
+        };
+        add(&rule.name, Some(rule.width), class);
+    }
+    widths
+}

@@ -1,0 +1,114 @@
+//! How far the main results spread with the contact stiffness and the restitution.
+
+use jostle::results::contact_sensitivity::{BuildingChange, ContactVariant, GapSpread};
+use maud::{Markup, html};
+
+use crate::{Page, format};
+
+/// A change of the results of a building: name and value \[–\].
+type Change = (&'static str, fn(&BuildingChange) -> f64);
+
+const CHANGES: [Change; 5] = [
+    ("displacement", |change| change.displacement),
+    ("storey drift", |change| change.storey_drift),
+    ("total acceleration", |change| change.total_acceleration),
+    ("storey shear", |change| change.storey_shear),
+    ("overturning moment", |change| change.overturning_moment),
+];
+
+/// The section; `None` if no runs with other contacts were made.
+pub(crate) fn section(page: &Page) -> Option<Markup> {
+    let found = page.summary.contact_sensitivity.as_ref()?;
+    let several = found.gaps.len() > 1;
+    let greatest = page.summary.gaps.iter().map(|gap| gap.peak_force_n);
+    let greatest = greatest.fold(0.0, f64::max);
+    let impacts: usize = page.summary.gaps.iter().map(|gap| gap.impact_count).sum();
+    Some(html! {
+        section #spread.spread {
+            h2 { "Spread over contacts" }
+            p.quiet {
+                "Nobody knows contact stiffness and restitution closely. These are the results of this run, and the least and the greatest of it and of "
+                (found.variants.len()) " runs with other contacts."
+            }
+            div.scroll { table {
+                thead { tr {
+                    th scope="col" { "result" } th.number scope="col" { "this run" } th.number scope="col" { "least" } th.number scope="col" { "greatest" }
+                    th scope="col" { "from zero to the greatest" }
+                } }
+                tbody {
+                    @for (gap, own) in found.gaps.iter().zip(&page.summary.gaps) {
+                        (row(&named("peak force [kN]", gap, several), [own.peak_force_n, gap.peak_force_min_n, gap.peak_force_max_n], |force| format::significant(force * 1e-3, 4)))
+                        @let counts = [own.impact_count, gap.impact_count_min, gap.impact_count_max].map(|count| count as f64);
+                        (row(&named("impacts", gap, several), counts, |count| format::fixed(count, 0)))
+                    }
+                }
+            } }
+            div.scroll { table {
+                thead { tr {
+                    th scope="col" { "contact" } th.number scope="col" { "peak force" br; span.unit { "[kN]" } } th.number scope="col" { "impacts" }
+                } }
+                tbody {
+                    tr { th scope="row" { "of this run" } td.number { (format::significant(greatest * 1e-3, 4)) } td.number { (impacts) } }
+                    @for variant in &found.variants {
+                        tr { th scope="row" { (in_words(variant.contact)) } td.number { (format::significant(variant.peak_force_n * 1e-3, 4)) } td.number { (variant.impact_count) } }
+                    }
+                }
+            } }
+            div.scroll { table {
+                thead { tr {
+                    th scope="col" { "changes of peaks by up to" }
+                    @for (name, _) in CHANGES { th.number scope="col" { (name) br; span.unit { "[%]" } } }
+                } }
+                tbody {
+                    @for building in &found.buildings {
+                        tr {
+                            th scope="row" { (building.name) }
+                            @for (_, of) in CHANGES { td.number { (format::fixed(100.0 * of(building), 1)) } }
+                        }
+                    }
+                }
+            } }
+            p.quiet { "Changes are those of any floor or storey, relative to the greatest peak of their kind in the building." }
+        }
+    })
+}
+
+/// A result with its range; values of this run, the least and the greatest.
+fn row(name: &str, [own, least, greatest]: [f64; 3], text: impl Fn(f64) -> String) -> Markup {
+    let share = |value: f64| {
+        let share = if greatest > 0.0 {
+            value / greatest
+        } else {
+            0.0
+        };
+        format!("{:.1}%", 100.0 * share.clamp(0.0, 1.0))
+    };
+    let width = if greatest > 0.0 {
+        format!("{:.1}%", 100.0 * (greatest - least) / greatest)
+    } else {
+        "0%".into()
+    };
+    html! {
+        tr {
+            th scope="row" { (name) }
+            td.number { (text(own)) } td.number { (text(least)) } td.number { (text(greatest)) }
+            td { span.range aria-hidden="true" { i style=(format!("left:{};width:{width}", share(least))) {} b style=(format!("left:{}", share(own))) {} } }
+        }
+    }
+}
+
+fn named(name: &str, gap: &GapSpread, several: bool) -> String {
+    if several {
+        format!("{}–{}, {name}", gap.between[0], gap.between[1])
+    } else {
+        name.to_owned()
+    }
+}
+
+fn in_words(contact: ContactVariant) -> String {
+    match (contact.stiffness_factor, contact.restitution_change) {
+        (factor, 0.0) => format!("stiffness × {}", format::plain(factor, 3)),
+        (_, change) if change < 0.0 => format!("restitution − {}", format::plain(-change, 3)),
+        (_, change) => format!("restitution + {}", format::plain(change, 3)),
+    }
+}

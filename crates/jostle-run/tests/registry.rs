@@ -1,0 +1,210 @@
+//! Keys of `summary.json` and the lists of quantities are the same, and so are their values.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use jostle::results::registry::owners;
+use jostle::results::response::{BuildingResponse, FloorResponse};
+use jostle::results::summary::{
+    ContactSummary, EnergySummary, GapSummary, HingeSummary, ImpactSummary, LinkFloorSummary,
+    LinkSummary, SectionSummary, SpringSummary, WorkSummary,
+};
+use jostle::{Quantity, Summary};
+use jostle_io::{Format, ModelTree};
+use jostle_run::Workshop;
+use serde::Serialize;
+use serde_json::Value;
+
+/// A storey that yields beside a frame with members, with a gap and a link.
+const MODEL: &str = r#"
+title = "Everything that has numbers"
+[motion]
+record = "el-centro-1940-ns"
+pga = "0.5 g"
+duration = "4 s"
+[[building]]
+name = "A"
+kind = "shear"
+mass = ["40 t", "40 t"]
+stiffness = "30 MN/m"
+storey_height = "3 m"
+hinges = { rule = "peak-oriented", cracking = "4 mm", yield = "12 mm", post_cracking = 0.3, post_yield = 0.05 }
+[[building]]
+name = "B"
+storeys = 3
+storey_height = "3.6 m"
+spans = ["5 m"]
+column = { width = "400 mm", depth = "400 mm" }
+beam = { width = "250 mm", depth = "500 mm" }
+concrete = "C30"
+beam_mass = "3 t/m"
+[[gap]]
+between = ["A", "B"]
+width = "5 mm"
+floors = "all"
+[[link]]
+between = ["A", "B"]
+floors = [[1, "3 m"]]
+damping = "100 kN.s/m"
+[output]
+members = true
+"#;
+
+fn summary() -> Summary {
+    let tree = ModelTree::parse("m", MODEL, Format::Toml, Path::new(""))
+        .unwrap_or_else(|error| panic!("{error}"));
+    let input = tree.input().unwrap_or_else(|error| panic!("{error}"));
+    let prepared = Workshop::default()
+        .assemble(input)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let settings = prepared.settings(false);
+    let mut ran = prepared.run(settings, &mut |_, _| ControlFlow::Continue(()));
+    ran.run_without_contact(settings, &mut |_, _| ControlFlow::Continue(()));
+    ran.summary()
+}
+
+/// All objects at a path such as `gaps[].contacts[]`.
+fn objects<'v>(root: &'v Value, key: &str) -> Vec<&'v Value> {
+    let mut found = vec![root];
+    for part in key.split('.').filter(|part| !part.is_empty()) {
+        let name = part.trim_end_matches("[]");
+        let values = found
+            .into_iter()
+            .map(|value| value.get(name).unwrap_or(&Value::Null));
+        found = if name == part {
+            values.collect()
+        } else {
+            values
+                .flat_map(|list| list.as_array().into_iter().flatten())
+                .collect()
+        };
+    }
+    found.retain(|value| value.is_object());
+    found
+}
+
+#[test]
+fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
+    let summary = serde_json::to_value(summary()).expect("a summary is JSON");
+    for owner in owners().iter().filter(|owner| !owner.key.is_empty()) {
+        let found = objects(&summary, owner.key);
+        assert!(!found.is_empty(), "the model has no {}", owner.title);
+        let names = owner.entries.iter().filter(|entry| entry.places.summary);
+        let names: BTreeSet<&str> = names.map(|entry| entry.name).collect();
+        for object in found {
+            let fields = object.as_object().expect("an object");
+            let numbers = fields
+                .iter()
+                .filter(|(_, value)| value.is_number() || value.is_boolean() || value.is_null());
+            let keys: BTreeSet<&str> = numbers.map(|(key, _)| &key[..]).collect();
+            assert_eq!(keys, names, "{}", owner.title);
+        }
+    }
+}
+
+#[test]
+fn names_end_with_their_units_and_occur_once() {
+    for owner in owners() {
+        let names: BTreeSet<&str> = owner.entries.iter().map(|entry| entry.name).collect();
+        assert_eq!(names.len(), owner.entries.len(), "{}", owner.title);
+    }
+    fn check<T>(quantities: &[Quantity<T>]) {
+        for quantity in quantities {
+            assert!(
+                quantity.name.ends_with(quantity.unit.suffix),
+                "{}",
+                quantity.name
+            );
+            let plain = quantity.unit.suffix.is_empty();
+            let units = ["_m", "_s", "_n", "_j", "_kg", "_m_s2"];
+            let bare = units.iter().all(|unit| !quantity.name.ends_with(unit));
+            assert!(!plain || bare, "{} has no unit", quantity.name);
+        }
+    }
+    check(BuildingResponse::QUANTITIES);
+    check(FloorResponse::QUANTITIES);
+    check(GapSummary::QUANTITIES);
+    check(ContactSummary::QUANTITIES);
+    check(ImpactSummary::QUANTITIES);
+    check(HingeSummary::QUANTITIES);
+    check(SpringSummary::QUANTITIES);
+    check(SectionSummary::QUANTITIES);
+    check(LinkSummary::QUANTITIES);
+    check(LinkFloorSummary::QUANTITIES);
+    check(EnergySummary::QUANTITIES);
+    check(WorkSummary::QUANTITIES);
+}
+
+/// Compares what a list reads with the JSON of its owner.
+fn same<T: Serialize>(quantities: &[Quantity<T>], owner: &T) {
+    let json = serde_json::to_value(owner).expect("JSON");
+    for quantity in quantities.iter().filter(|quantity| quantity.places.summary) {
+        let written = match &json[quantity.name] {
+            Value::Bool(yes) => Some(f64::from(u8::from(*yes))),
+            value => value.as_f64(),
+        };
+        assert_eq!(quantity.value(owner), written, "{}", quantity.name);
+    }
+}
+
+#[test]
+fn lists_read_the_values_of_the_summary() {
+    let summary = summary();
+    for building in &summary.buildings {
+        same(BuildingResponse::QUANTITIES, &building.response);
+        same(HingeSummary::QUANTITIES, &building.hinges);
+        building
+            .hinges
+            .list
+            .iter()
+            .for_each(|spring| same(SpringSummary::QUANTITIES, spring));
+        for floor in &building.floors {
+            same(FloorResponse::QUANTITIES, &floor.response);
+        }
+        let ends = building.members.iter().flat_map(|member| &member.ends);
+        ends.for_each(|end| same(SectionSummary::QUANTITIES, end));
+    }
+    for gap in &summary.gaps {
+        same(GapSummary::QUANTITIES, gap);
+        gap.contacts
+            .iter()
+            .for_each(|contact| same(ContactSummary::QUANTITIES, contact));
+        let impacts = gap.contacts.iter().flat_map(|contact| &contact.impacts);
+        impacts.for_each(|impact| same(ImpactSummary::QUANTITIES, impact));
+    }
+    for link in &summary.links {
+        same(LinkSummary::QUANTITIES, link);
+        link.floors
+            .iter()
+            .for_each(|floor| same(LinkFloorSummary::QUANTITIES, floor));
+    }
+    same(EnergySummary::QUANTITIES, &summary.energy);
+    same(WorkSummary::QUANTITIES, &summary.work);
+}
+
+#[test]
+fn amplifications_are_ratios_to_the_run_without_contact() {
+    let summary = serde_json::to_value(summary()).expect("a summary is JSON");
+    let mut compared = 0;
+    for owner in objects(&summary, "buildings[].floors[]")
+        .into_iter()
+        .chain(objects(&summary, "buildings[]"))
+    {
+        let ratios = owner["amplification"].as_object().expect("it was compared");
+        for (stem, ratio) in ratios {
+            let unit = ["", "_m", "_n", "_n_m", "_m_s2"];
+            let read = |from: &Value| {
+                let mut values = unit
+                    .iter()
+                    .filter_map(|unit| from.get(format!("{stem}{unit}")));
+                values.next_back().and_then(Value::as_f64)
+            };
+            let without = read(&owner["without_contact"]).unwrap_or(0.0);
+            let wanted = read(owner).map(|with| (with / without).abs());
+            assert_eq!(ratio.as_f64(), wanted.filter(|_| without != 0.0), "{stem}");
+            compared += usize::from(ratio.is_number());
+        }
+    }
+    assert!(compared > 40, "{compared}");
+}

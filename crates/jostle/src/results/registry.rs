@@ -1,0 +1,75 @@
+//! Every reported number: all lists of quantities in one.
+
+use serde::Serialize;
+
+use super::response::{BuildingResponse, FloorResponse};
+use super::summary::{
+    BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
+    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SectionSummary,
+    SpringSummary, StruckSummary, Summary, WorkSummary,
+};
+use crate::quantity::{Places, Quantity};
+
+/// What has numbers: a floor, a building, an impact.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Owner {
+    /// Its name, in the plural.
+    pub title: &'static str,
+    /// Where it stands in `summary.json`; empty for the file itself.
+    pub key: &'static str,
+    /// The table with one row for each, if there is one.
+    pub table: Option<&'static str>,
+    /// How its columns in studies begin, by example.
+    pub study: &'static str,
+    /// Its numbers, in the order of tables.
+    pub entries: Vec<Entry>,
+}
+
+/// A number of an owner, without the function that reads it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Entry {
+    /// Name.
+    pub name: &'static str,
+    /// Symbol of its unit.
+    pub unit: &'static str,
+    /// Meaning, in one line.
+    pub meaning: &'static str,
+    /// Where it appears.
+    #[serde(flatten)]
+    pub places: Places,
+}
+
+fn entries<T>(quantities: &[Quantity<T>]) -> Vec<Entry> {
+    let entry = |quantity: &Quantity<T>| Entry {
+        name: quantity.name,
+        unit: quantity.unit.symbol,
+        meaning: quantity.meaning,
+        places: quantity.places,
+    };
+    quantities.iter().map(entry).collect()
+}
+
+/// All owners with their numbers, in the order of the documentation.
+#[must_use]
+#[rustfmt::skip]
+pub fn owners() -> Vec<Owner> {
+    let owner = |title, key, table, study, entries: &[Vec<Entry>]| Owner { title, key, table, study, entries: entries.concat() };
+    vec![
+        owner("Ground motion", "motion", None, "", &[entries(MotionSummary::QUANTITIES)]),
+        owner("All gaps together", "", None, "", &[entries(Summary::POUNDING)]),
+        owner("Buildings", "buildings[]", Some("buildings.parquet"), "J1.", &[entries(BuildingSummary::QUANTITIES), entries(BuildingResponse::QUANTITIES)]),
+        owner("Floors", "buildings[].floors[]", Some("floors.parquet"), "J1.floor3.", &[entries(FloorSummary::QUANTITIES), entries(FloorResponse::QUANTITIES)]),
+        owner("Hinges of a building", "buildings[].hinges", None, "", &[entries(HingeSummary::QUANTITIES)]),
+        owner("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries(SpringSummary::QUANTITIES)]),
+        owner("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries(SectionSummary::QUANTITIES)]),
+        owner("Struck points of columns", "buildings[].members[].struck[]", None, "", &[entries(StruckSummary::QUANTITIES)]),
+        owner("Gaps", "gaps[]", None, "J1-J2.", &[entries(GapSummary::QUANTITIES), entries(GapSummary::WITHOUT_CONTACT)]),
+        owner("Contacts", "gaps[].contacts[]", None, "J1-J2.floor5-5.", &[entries(ContactSummary::QUANTITIES)]),
+        owner("Impacts", "gaps[].contacts[].impacts[]", Some("impacts.parquet"), "", &[entries(ImpactSummary::QUANTITIES)]),
+        owner("Links", "links[]", None, "", &[entries(LinkSummary::QUANTITIES)]),
+        owner("Linked floors", "links[].floors[]", None, "", &[entries(LinkFloorSummary::QUANTITIES)]),
+        owner("Energies", "energy", None, "energy_", &[entries(EnergySummary::QUANTITIES)]),
+        owner("Accuracy", "promise", None, "", &[entries(PromiseSummary::QUANTITIES)]),
+        owner("Work", "work", None, "", &[entries(WorkSummary::QUANTITIES)]),
+    ]
+}

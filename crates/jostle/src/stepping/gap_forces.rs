@@ -1,0 +1,164 @@
+//! Total force of all contacts of a gap at one instant, and its peak.
+
+use super::events::Cubic;
+use crate::history::Extreme;
+use crate::system::System;
+
+/// Force of a closed contact over an accepted step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct StepForce {
+    /// Force at both ends of the step \[N\].
+    pub(super) ends: [f64; 2],
+    /// Force over the step, if it is smooth there.
+    pub(super) curve: Option<Cubic>,
+    /// Greatest force in the step.
+    pub(super) peak: Extreme,
+}
+
+impl StepForce {
+    /// Force at a fraction of the step \[N\].
+    fn at(&self, fraction: f64) -> f64 {
+        match &self.curve {
+            Some(curve) => curve.value(fraction),
+            None => self.ends[0] + fraction * (self.ends[1] - self.ends[0]),
+        }
+    }
+}
+
+/// Peak total force of every gap.
+pub(super) struct GapForces {
+    /// Gap by gap.
+    pub(super) peaks: Vec<Extreme>,
+    /// Closed contacts of the step just accepted, with their gaps.
+    step: Vec<(usize, StepForce)>,
+}
+
+impl GapForces {
+    pub(super) fn new(system: &System) -> Self {
+        let gaps = system.contacts.iter().map(|contact| contact.gap + 1);
+        Self {
+            peaks: vec![Extreme::default(); gaps.max().unwrap_or(0)],
+            step: Vec::with_capacity(system.contacts.len()),
+        }
+    }
+
+    /// Adds a closed contact of the step just accepted.
+    pub(super) fn add(&mut self, gap: usize, force: StepForce) {
+        self.step.push((gap, force));
+    }
+
+    /// Updates the peaks after a step \[s\] that began at `start` \[s\]. The sum is read at both ends, where one of its
+    /// forces peaks, and where the sum of smooth forces does.
+    pub(super) fn finish_step(&mut self, start: f64, step: f64) {
+        for (index, (gap, own)) in self.step.iter().enumerate() {
+            let others = || {
+                let others = self.step.iter().enumerate();
+                others.filter(move |(other, (place, _))| *other != index && place == gap)
+            };
+            let peak = &mut self.peaks[*gap];
+            let mut consider = |value: f64, at: f64| {
+                if value > peak.value {
+                    *peak = Extreme { value, at };
+                }
+            };
+            let fraction = (own.peak.at - start) / step;
+            let beside: f64 = others().map(|(_, (_, force))| force.at(fraction)).sum();
+            consider(own.peak.value + beside, own.peak.at);
+            // What concerns all contacts of the gap, once.
+            if self.step[..index].iter().any(|(place, _)| place == gap) {
+                continue;
+            }
+            for (end, at) in [(0, start), (1, start + step)] {
+                let beside: f64 = others().map(|(_, (_, force))| force.ends[end]).sum();
+                consider(own.ends[end] + beside, at);
+            }
+            let mut sum = own.curve;
+            for (_, (_, force)) in others() {
+                sum = sum.zip(force.curve).map(|(a, b)| a.plus(&b));
+            }
+            if let Some(most) = sum.and_then(|sum| sum.peak(start, step)) {
+                consider(most.value, most.at);
+            }
+        }
+        self.step.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn forces(gaps: usize) -> GapForces {
+        GapForces {
+            peaks: vec![Extreme::default(); gaps],
+            step: Vec::new(),
+        }
+    }
+
+    /// A force F(t) = a + b t + c t² over one step of 2 s that begins at 10 s.
+    fn parabola(a: f64, b: f64, c: f64) -> StepForce {
+        let (start, end) = (a, a + 2.0 * b + 4.0 * c);
+        let curve = Cubic::new(start, b, end, b + 4.0 * c, 2.0);
+        let last = Extreme {
+            value: end,
+            at: 12.0,
+        };
+        StepForce {
+            ends: [start, end],
+            curve: Some(curve),
+            peak: curve.peak(10.0, 2.0).unwrap_or(last),
+        }
+    }
+
+    /// 1 + 4t − t² rises all the way; 5 − 2t falls; their sum 6 + 2t − t² peaks at t = 1 with 7.
+    #[test]
+    fn the_sum_peaks_between_the_peaks_of_its_parts() {
+        let mut gaps = forces(2);
+        gaps.add(1, parabola(1.0, 4.0, -1.0));
+        gaps.add(1, parabola(5.0, -2.0, 0.0));
+        gaps.finish_step(10.0, 2.0);
+        assert_eq!(gaps.peaks[0], Extreme::default());
+        assert!(
+            (gaps.peaks[1].value - 7.0).abs() < 1e-12,
+            "{:?}",
+            gaps.peaks
+        );
+        assert!((gaps.peaks[1].at - 11.0).abs() < 1e-12, "{:?}", gaps.peaks);
+    }
+
+    /// A force that sets in with a jump at the start of a step counts there.
+    #[test]
+    fn a_jump_at_the_start_counts() {
+        let mut gaps = forces(1);
+        gaps.add(0, parabola(9.0, -3.0, 0.0));
+        gaps.add(0, parabola(4.0, 0.0, 0.0));
+        gaps.finish_step(10.0, 2.0);
+        assert_eq!(
+            gaps.peaks[0],
+            Extreme {
+                value: 13.0,
+                at: 10.0
+            }
+        );
+    }
+
+    /// Alone, a contact has its own peak, also where its force has a corner.
+    #[test]
+    fn one_contact_alone_has_its_own_peak() {
+        let peak = Extreme {
+            value: 8.0,
+            at: 10.5,
+        };
+        let mut gaps = forces(1);
+        gaps.add(
+            0,
+            StepForce {
+                ends: [6.0, 3.0],
+                curve: None,
+                peak,
+            },
+        );
+        gaps.finish_step(10.0, 2.0);
+        assert_eq!(gaps.peaks[0], peak);
+    }
+}

@@ -1,0 +1,209 @@
+"""Contact stiffness and restitution estimated from slabs, material and colliding masses."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from . import _jostle
+from ._collide import _as_keyword
+from ._errors import ModelError
+from ._model import Model
+from ._units import Quantity, number
+
+
+@dataclass(frozen=True)
+class StiffnessRange:
+    """A recommended value and the range in which it may lie.
+
+    Attributes:
+        value: recommended value.
+        low: lowest plausible value.
+        high: highest plausible value.
+    """
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class StiffnessEstimate:
+    """One estimate of a contact stiffness.
+
+    Attributes:
+        name: its name.
+        family: ``"hertz"`` or ``"linear"``.
+        stiffness: in N/m^1.5 of the Hertz family, in N/m of the linear one.
+        peak_force: peak force of an elastic collision of the masses with it [N].
+        duration: time in contact of that collision [s].
+        is_valid: whether its assumptions hold here.
+        source: where it comes from.
+        validity: what it assumes.
+    """
+
+    name: str
+    family: str
+    stiffness: float
+    peak_force: float
+    duration: float
+    is_valid: bool
+    source: str
+    validity: str
+
+
+@dataclass(frozen=True)
+class WaveEstimate:
+    """The collision of two floors as elastic rods with distributed mass.
+
+    Attributes:
+        transit: times in which a wave runs along the left and the right floor [s].
+        peak_force: greatest force [N].
+        duration: time in contact [s].
+        restitution: apparent restitution of the centres of mass [–].
+    """
+
+    transit: tuple[float, float]
+    peak_force: float
+    duration: float
+    restitution: float
+
+
+@dataclass(frozen=True)
+class ContactAdvice:
+    """Advice on the contacts of one gap.
+
+    Attributes:
+        between: names of the neighbours.
+        height: height of the contact [m]; ``None`` without a model.
+        masses: colliding masses [kg]; ``None`` is a rigid wall.
+        speed: impact speed [m/s].
+        moduli: Young's moduli of the floors [Pa].
+        wave: collision of the floors as rods; ``None`` without their size.
+        estimates: estimates of stiffness.
+        hertz: recommended stiffness of the Hertz laws [N/m^1.5].
+        linear: recommended stiffness of the linear laws [N/m]; ``None`` without the size of the slabs.
+        restitution: recommended restitution [–].
+        notes: what was assumed, and what to heed.
+    """
+
+    between: tuple[str, str]
+    height: float | None
+    masses: tuple[float | None, float | None]
+    speed: float
+    moduli: tuple[float, float]
+    wave: WaveEstimate | None
+    estimates: tuple[StiffnessEstimate, ...]
+    hertz: StiffnessRange
+    linear: StiffnessRange | None
+    restitution: StiffnessRange
+    notes: tuple[str, ...]
+
+
+def contact_advice(
+    model: Model | str | os.PathLike[str] | None = None,
+    *,
+    mass: Quantity | Sequence[Quantity] | None = None,
+    length: Quantity | Sequence[Quantity] | None = None,
+    width: Quantity | Sequence[Quantity] | None = None,
+    thickness: Quantity | Sequence[Quantity] | None = None,
+    concrete: str | None = None,
+    modulus: Quantity | Sequence[Quantity] | None = None,
+    poisson_ratio: float = 0.2,
+    density: Quantity | Sequence[Quantity] = 2500.0,
+    speed: Quantity = 0.4,
+) -> list[ContactAdvice]:
+    """Returns stiffness and restitution for the contacts of a model, or of two floors: ``jostle contact-advice``.
+
+    A value with two entries is of the left and the right floor.
+
+    Args:
+        model: gives the colliding masses: of every gap the pair of floors with the greatest effective mass.
+        mass: colliding masses > 0, in place of those of the model; needed without a model [kg].
+        length: length of the slabs in the direction of the impact, > 0 [m].
+        width: width of the slabs across it, > 0 [m].
+        thickness: thickness of the slabs, > 0 [m]; give all three sizes, or none.
+        concrete: grade that gives the modulus: ``"C30"``, ``"C30/37"`` or ``"f'c = 4 ksi"``.
+        modulus: modulus of elasticity instead, > 0; 30 GPa by default [Pa].
+        poisson_ratio: Poisson's ratio, 0 to 0.5.
+        density: density, > 0 [kg/m³].
+        speed: impact speed, > 0 [m/s].
+
+    Raises:
+        ModelError: a value is missing or outside its range; the model is wrong.
+    """
+    if model is not None and not isinstance(model, Model):
+        model = Model.load(model)
+    options: dict[str, str] = {}
+    given: dict[str, Any] = {
+        "mass": mass,
+        "length": length,
+        "width": width,
+        "thickness": thickness,
+        "concrete": concrete,
+        "modulus": modulus,
+        "poisson_ratio": poisson_ratio,
+        "density": density,
+        "speed": speed,
+    }
+    for name, value in given.items():
+        if value is not None:
+            options[name] = _as_option(name, value)
+    try:
+        found = _jostle.contact_advice(None if model is None else model._core, options)
+    except ModelError as error:
+        raise ModelError(_as_keyword(str(error))) from None
+    return [_advice(one) for one in json.loads(found)]
+
+
+def _as_option(name: str, value: Any) -> str:
+    """A value as the text of an option: two entries with a comma."""
+    if isinstance(value, str):
+        return value
+    plain = None if isinstance(value, bool) else number(value)
+    if plain is not None:
+        return repr(plain)
+    if isinstance(value, Sequence) and len(value) == 2:
+        return ", ".join(_as_option(name, entry) for entry in value)
+    raise TypeError(
+        f"{name}: expected a text with a unit, a number in SI, or two of them, found {type(value).__name__}"
+    )
+
+
+def _advice(one: dict[str, Any]) -> ContactAdvice:
+    wave = one["wave"]
+    return ContactAdvice(
+        between=(one["between"][0], one["between"][1]),
+        height=one["height_m"],
+        masses=(one["masses_kg"][0], one["masses_kg"][1]),
+        speed=one["speed_m_s"],
+        moduli=(one["moduli_pa"][0], one["moduli_pa"][1]),
+        wave=None
+        if wave is None
+        else WaveEstimate(
+            (wave["transit_s"][0], wave["transit_s"][1]),
+            wave["peak_force_n"],
+            wave["duration_s"],
+            wave["restitution"],
+        ),
+        estimates=tuple(
+            StiffnessEstimate(
+                entry["name"],
+                entry["family"],
+                entry["stiffness"],
+                entry["peak_force_n"],
+                entry["duration_s"],
+                entry["is_valid"],
+                entry["source"],
+                entry["validity"],
+            )
+            for entry in one["estimates"]
+        ),
+        hertz=StiffnessRange(**one["hertz"]),
+        linear=None if one["linear"] is None else StiffnessRange(**one["linear"]),
+        restitution=StiffnessRange(**one["restitution"]),
+        notes=tuple(one["notes"]),
+    )
