@@ -35,6 +35,7 @@ from ._pushover import CapacityCurve, pushover
 from ._result import Contact, Floor, LinkedFloors, Result
 from ._run import run
 from ._study import CriticalGap, RuleGap, Study, StudyResult, critical_gap
+from ._suite import Governing, Suite, run_suite
 from ._table import Table
 
 __all__ = [
@@ -53,6 +54,7 @@ __all__ = [
     "Frame",
     "Gap",
     "Given",
+    "Governing",
     "InterruptedWarning",
     "JostleError",
     "JostleWarning",
@@ -73,6 +75,7 @@ __all__ = [
     "Study",
     "StudyResult",
     "StudyWarning",
+    "Suite",
     "Table",
     "WaveEstimate",
     "__version__",
@@ -85,4 +88,5 @@ __all__ = [
     "modes",
     "pushover",
     "run",
+    "run_suite",
 ]

@@ -278,6 +278,17 @@ class Result:
         return None if table is None else Table._of(table)
 
     @cached_property
+    def floor_spectra(self) -> Table | None:
+        """Response spectra of floors, for a model with ``output={"floor_spectra": True}``, else ``None``.
+
+        One row per floor, run (``contact`` is ``"with"`` or, after ``run(without_contact=True)``, ``"without"``), damping
+        ratio and period; columns as in ``floor_spectra.parquet``. Peak accelerations with and without the filter are in
+        ``summary["floor_spectra"]``.
+        """
+        table = self._core.floor_spectra_table(self._twin)
+        return None if table is None else Table._of(table)
+
+    @cached_property
     def without_contact(self) -> Result | None:
         """The result of the same buildings without contact, computed on first access. ``None`` without gaps."""
         if not self.summary["gaps"] or not self.completed:
@@ -337,6 +348,26 @@ class Result:
             twin = self.without_contact._core
         self._core.save(folder, report, twin)
         return Path(folder)
+
+    def pdf(self, path: str | os.PathLike[str], *, paper: str = "a4", force: bool = False) -> Path:
+        """Prints the report to a PDF file by a Chromium that is installed on this machine.
+
+        Args:
+            path: file to write; an earlier PDF of a report is replaced.
+            paper: ``"a4"`` or ``"letter"``.
+            force: true replaces other files too.
+
+        Returns:
+            The path.
+
+        Raises:
+            ModelError: no Chromium was found, with a remedy.
+            AnalysisError: Chromium could not print.
+            FileExistsError: the file exists and is no PDF of a report.
+        """
+        _ = self.without_contact
+        self._core.print(path, self._page(), paper, force)
+        return Path(path)
 
     def animate(self) -> Animation:
         """The animation of the buildings, for a notebook, or for a browser with ``.show()``."""

@@ -60,12 +60,28 @@ pub(crate) struct RunArgs {
     /// Add the greatest axial force, shear and moment of every column and beam of frames
     #[arg(long)]
     pub(crate) members: bool,
+    /// Add response spectra of every floor, with and without contact, as floor_spectra = true of the model file
+    #[arg(long)]
+    pub(crate) floor_spectra: bool,
     /// Run with half and twice the contact stiffness and with restitution ± 0.15 as well, and report the spread
     #[arg(long)]
     pub(crate) sensitivity: bool,
     /// Use this solver instead of that of the model
     #[arg(long, value_enum)]
     pub(crate) solver: Option<SolverName>,
+    /// Write report.pdf as well, printed by a Chromium that is installed
+    #[arg(long, conflicts_with = "no_report")]
+    pub(crate) pdf: bool,
+    /// Paper of report.pdf
+    #[arg(long, value_name = "SIZE", default_value = "a4", value_parser = jostle_run::Paper::NAMES, requires = "pdf")]
+    pub(crate) paper: String,
+    /// Rule for the governing value of several records [default: that of the model, else of the code of its match, else
+    /// maximum]
+    #[arg(long, value_name = "RULE", value_parser = jostle_motion::GoverningRule::NAMES)]
+    pub(crate) governing: Option<String>,
+    /// Number of records that run at the same time [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(crate) jobs: Option<u32>,
     /// Print summary.json and nothing else
     #[arg(long)]
     pub(crate) json: bool,

@@ -15,6 +15,7 @@ mod method;
 mod modes;
 mod motion;
 mod open;
+mod printer;
 mod progress;
 mod pushover;
 mod pushover_text;
@@ -24,6 +25,7 @@ mod section;
 mod starter;
 mod stop;
 mod study;
+mod suite;
 mod terminal;
 
 use clap::CommandFactory;

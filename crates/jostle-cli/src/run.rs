@@ -6,12 +6,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use jostle::method::MethodSurvey;
 use jostle::{RunEnd, Solver};
+use jostle_io::FloorSpectraRequest;
 use jostle_run::{
-    Content, Opened, Prepared, Ran, Results, describe_summary, earlier_files, stopped_by,
+    Content, FileKind, Opened, Prepared, Ran, Results, describe_summary, earlier_files, may_write,
+    stopped_by,
 };
 
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
+use crate::printer::Printer;
 use crate::progress::StageBar;
 use crate::stop::stop_on_interrupt;
 use crate::{method, terminal};
@@ -21,6 +24,7 @@ const RESULTS: &str = "jostle-out";
 
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let mut opened = args.model.open()?;
+    let printer = Printer::find(args)?;
     if let Some(solver) = args.solver {
         Arc::make_mut(&mut opened.input).model.analysis.solver = match solver {
             SolverName::Auto => None,
@@ -32,6 +36,25 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     }
     if args.members {
         follow_all_members(&mut opened)?;
+    }
+    if args.floor_spectra && opened.input.floor_spectra.is_none() {
+        let input = Arc::make_mut(&mut opened.input);
+        let all = FloorSpectraRequest::of_all_floors(&input.model.buildings);
+        input.floor_spectra = Some(all);
+    }
+    if opened.input.records().len() > 1 {
+        let out = folder(args, &opened.name);
+        return crate::suite::run(args, &opened, out, printer.as_ref());
+    }
+    for (option, given) in [
+        ("--governing", args.governing.is_some()),
+        ("--jobs", args.jobs.is_some()),
+    ] {
+        if given {
+            return Err(Failure::Input(format!(
+                "{option}: goes with a model of several records, record = [\"a.at2\", \"b.at2\"]; this run has one"
+            )));
+        }
     }
     let of_model = opened.input.warnings.len();
     terminal::warn_all(&opened.input.warnings);
@@ -48,8 +71,17 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
         })?;
         replace_earlier(out, args.force)?;
+        if printer.is_some() {
+            may_write(&out.join("report.pdf"), Some(FileKind::PDF), args.force)?;
+        }
     }
-    analyse(args, prepared, out.as_deref(), &stop_on_interrupt())
+    analyse(
+        args,
+        prepared,
+        out.as_deref(),
+        printer.as_ref(),
+        &stop_on_interrupt(),
+    )
 }
 
 /// Runs, writes and prints.
@@ -57,6 +89,7 @@ fn analyse(
     args: &RunArgs,
     prepared: Prepared,
     out: Option<&Path>,
+    printer: Option<&Printer>,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     let settings = prepared.settings(out.is_some() || !args.no_report);
@@ -90,6 +123,9 @@ fn analyse(
             ..ran.results(&summary)
         };
         results.write(out, Content::REPORT)?;
+        if let Some(printer) = printer {
+            printer.print(&out.join("report.html"))?;
+        }
     }
     if args.json {
         terminal::print(&jostle_io::summary_json(&summary))?;

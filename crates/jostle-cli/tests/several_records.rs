@@ -1,5 +1,5 @@
-//! Models that list several records: a run takes one, a study and the search for the gap take all, and a study says
-//! whether they serve.
+//! Models that list several records: a study and the search for the gap take all, and a study says whether they serve.
+//! Runs of all records are in `suite.rs`.
 
 mod common;
 
@@ -75,18 +75,8 @@ fn selection_of(folder: &Path) -> Value {
 }
 
 #[test]
-fn a_run_takes_one_and_a_check_reads_all() {
+fn a_run_takes_the_one_asked_for_and_a_check_reads_all() {
     let place = workplace("");
-    let refused = jostle(place.path(), &["run", "towers.toml"]);
-    assert_eq!(refused.status.code(), Some(2));
-    let text = complained(&refused);
-    for part in [
-        "towers.toml:3",
-        "motion.record: is a list of 3 records",
-        "--record el-centro-1940-ns",
-    ] {
-        assert!(text.contains(part), "{part} is missing:\n{text}");
-    }
     let arguments = ["run", "towers.toml", "--record", "noise.csv", "--json"];
     let summary = json_of(place.path(), &arguments);
     assert_eq!(summary["motion"]["name"], "noise");

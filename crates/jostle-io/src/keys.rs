@@ -4,6 +4,7 @@ use jostle::Solver;
 use jostle::contact::{LawKind, ModifiedKelvin, RestitutionIs};
 use jostle::hysteresis::HysteresisRule;
 use jostle::separation::{Code, HazardZone, JointSystem, MotionLevel};
+use jostle_motion::GoverningRule;
 
 use crate::choices::{DesignKind, FragilityMethod, IntegratorMethod, Sampling, names};
 use crate::quantity::Dimension;
@@ -61,6 +62,8 @@ pub(crate) enum Section {
     Analysis,
     /// What results should hold beyond the usual.
     Output,
+    /// Which floor response spectra.
+    FloorSpectra,
     /// Inputs of the separation rules of codes.
     Codes,
     /// Those of one building.
@@ -93,6 +96,10 @@ pub(crate) enum Kind {
     Flag,
     /// True or false, or a list of texts.
     FlagOrTexts,
+    /// True or false, a list of texts, or a table.
+    FlagTextsOrTable(Section),
+    /// One value, or a list of them.
+    OneOrMore(Dimension),
     Quantity(Dimension),
     /// One value, or a list from the ground up.
     PerStorey(Dimension),
@@ -285,7 +292,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
     optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
 
-    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC. A study and jostle gap use all records of a list; the other keys apply to each."),
+    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC. A run, a study and jostle gap use all records of a list; the other keys apply to each."),
     optional(S::Motion, "kind", Choice(WAVES), "An analytic motion instead of a record."),
     optional(S::Motion, "amplitude", Quantity(D::Acceleration), "Amplitude of the analytic motion."),
     optional(S::Motion, "period", Quantity(D::Time), "Period of the analytic motion."),
@@ -293,6 +300,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Motion, "pga", Quantity(D::Acceleration), "Scale the motion to this peak acceleration."),
     default(S::Motion, "scale", Quantity(D::Dimensionless), "1", "Multiply the motion by this factor."),
     optional(S::Motion, "match", Kind::Table(S::Match), "Scale the motion so that its response spectrum matches another."),
+    default(S::Motion, "governing", Choice(&GoverningRule::NAMES), "the code of match, else \"maximum\"", "Rule for the governing value of several records: gb50011, en1998 and asce7 take the mean or the greatest by their number."),
     default(S::Motion, "reverse", Flag, "false", "Change the sign of the motion."),
     default(S::Motion, "duration", Quantity(D::Time), "the whole record", "Length of the analysis: cuts the record, or continues with the ground at rest."),
     optional(S::Motion, "unit", Text, "Unit of the numbers of a record that does not state it, such as \"g\"."),
@@ -500,6 +508,13 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::Output, "members", FlagOrTexts, "false", "Axial force, shear and moment of columns and beams of frames: true for the greatest of every member, or a list of members such as [\"J1.column.2.3\"] (line, storey) and [\"J1.beam.5.1\"] (floor, span), whose histories are written as well."),
 
+    default(S::Output, "floor_spectra", Kind::FlagTextsOrTable(S::FloorSpectra), "false", "Response spectra of floors, with and without contact: true for every floor, a list of floors such as [\"J1.floor.5\"] or buildings such as [\"J1\"], or a table."),
+
+    default(S::FloorSpectra, "floors", TextOrTexts, "every floor", "Floors such as \"J1.floor.5\", counted from 1, or all floors of a building, \"J1\"."),
+    default(S::FloorSpectra, "damping", Kind::OneOrMore(D::Dimensionless), "0.05", "Damping ratio of the oscillators, from 0 to below 1: one value or a list."),
+    default(S::FloorSpectra, "periods", Quantities(D::Time), "100 from 0.02 s to 4 s", "Periods of the oscillators; 0 is the rigid one."),
+    default(S::FloorSpectra, "low_pass", Quantity(D::Frequency), "\"25 Hz\"", "Corner frequency of the filter of the filtered peak acceleration."),
+    default(S::FloorSpectra, "order", Count, "4", "Order of this Butterworth filter, which runs forwards and backwards: 2, 4, 6 or 8."),
     default(S::Codes, "show", TextOrTexts, "all codes", "Codes whose rules are listed: ubc97, gb50011, en1998, asce7, tbdy2018, is1893, ntc2018, e030, nsr10, iran2800."),
     default(S::Codes, "motion", Choice(MOTION_LEVELS), "\"full\"", "Whether the motion is the design motion in full, or reduced by q or R."),
     default(S::Codes, "floor_levels", Choice(FLOOR_LEVELS), "\"auto\"", "Whether all floors that face each other lie at equal height; auto follows the model."),

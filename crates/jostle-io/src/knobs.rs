@@ -211,6 +211,7 @@ fn dimension(kind: &Kind) -> Option<Dimension> {
         Kind::Quantity(dimension)
         | Kind::PerStorey(dimension)
         | Kind::Quantities(dimension)
+        | Kind::OneOrMore(dimension)
         | Kind::WordOr(_, dimension)
         | Kind::PerContact(dimension) => Some(*dimension),
         Kind::ContactStiffness => Some(Dimension::HertzStiffness),

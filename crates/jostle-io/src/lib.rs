@@ -9,6 +9,7 @@ mod builtin_model;
 mod choices;
 mod csv;
 mod fault;
+mod floor_table;
 mod grade;
 mod keys;
 mod knobs;
@@ -44,6 +45,7 @@ pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_recor
 pub use builtin_model::{builtin_model, model_names, model_text};
 pub use csv::csv_field;
 pub use fault::{Fault, InputError};
+pub use floor_table::{floor_spectra_columns, write_floor_spectra_parquet};
 pub use grade::{parse_concrete, parse_steel};
 /// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
 pub use jostle::statics::STANDARD_GRAVITY;
@@ -51,7 +53,8 @@ pub use keys::LAW_NAMES;
 pub use knobs::{Knob, KnobKind};
 pub use matrices::numpy_archive;
 pub use model_file::{
-    Input, OverrideError, Overrides, ReinforcedMember, read_model_file, read_model_text,
+    FloorSpectraRequest, Input, OverrideError, Overrides, ReinforcedMember, read_model_file,
+    read_model_text,
 };
 pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};

@@ -8,6 +8,7 @@ mod assumptions;
 mod between;
 mod building;
 mod codes;
+mod floor_spectra;
 mod frame;
 mod gap;
 mod given;
@@ -24,6 +25,7 @@ mod shear;
 mod tests;
 mod unusual_results;
 
+pub use floor_spectra::FloorSpectraRequest;
 pub(crate) use matching::read_spectrum;
 pub use reinforced::ReinforcedMember;
 
@@ -33,11 +35,12 @@ use std::sync::Arc;
 
 use jostle::separation::CodeInputs;
 use jostle::{GroundMotion, Model, ModelFault};
+use jostle_motion::{GoverningRule, TargetSpectrum};
 
 use crate::bounded::read_at_most;
 use crate::fault::{Fault, InputError};
 use crate::keys::Section;
-use crate::motion_spec::{MotionError, MotionSource, MotionSpec, Scaling};
+use crate::motion_spec::{MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
 use crate::reader::{Field, Reader};
 use crate::record::RecordOptions;
 use crate::record_list;
@@ -54,6 +57,10 @@ pub struct Input {
     pub motion: Option<MotionSpec>,
     /// Members of frames whose reinforcement the file states, building by building, columns first.
     pub reinforced: Vec<ReinforcedMember>,
+    /// Spectra of floors that the file asks for; `None` if it asks for none.
+    pub floor_spectra: Option<FloorSpectraRequest>,
+    /// Rule for the governing value of several records, if the file names one.
+    pub governing: Option<GoverningRule>,
     /// Inputs of the separation rules of codes.
     pub codes: CodeInputs,
     /// Warnings of a valid file.
@@ -161,9 +168,13 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
             motion,
             reinforced,
             codes,
+            floor_spectra,
+            governing,
         }) if error.faults.is_empty() => Ok(Input {
             reinforced,
             codes,
+            floor_spectra,
+            governing,
             warnings: {
                 noted.extend(warnings(&model, &root));
                 noted
@@ -258,6 +269,18 @@ impl Input {
         self.motion.as_ref().map_or(&[], MotionSpec::records)
     }
 
+    /// The design spectrum that the motion is scaled to, and its damping ratio, if it is.
+    #[must_use]
+    pub fn target(&self) -> Option<(&TargetSpectrum, f64)> {
+        let Scaling::Match(wanted) = &self.motion.as_ref()?.scaling else {
+            return None;
+        };
+        match &wanted.to {
+            MatchTo::Spectrum(target) => Some((target, wanted.damping)),
+            MatchTo::Value(_) => None,
+        }
+    }
+
     /// One model for each of several records; the model itself if there are not several.
     #[must_use]
     pub fn each_record(&self) -> Vec<Self> {
@@ -296,7 +319,7 @@ impl Input {
             let mut fault = self.fault(path, error.to_string());
             if let (MotionError::Several { names }, [fault]) = (&error, &mut fault.faults[..]) {
                 fault.remedy = Some(format!(
-                    "choose one with --record {} (in Python motion={:?}); a study and \"jostle gap\" take all of them",
+                    "choose one with --record {} (in Python motion={:?}); jostle run, jostle gap, a study and run_suite of Python take all of them",
                     names[0], names[0]
                 ));
             }
@@ -376,6 +399,8 @@ struct Parts {
     motion: Option<MotionSpec>,
     reinforced: Vec<ReinforcedMember>,
     codes: CodeInputs,
+    floor_spectra: Option<FloorSpectraRequest>,
+    governing: Option<GoverningRule>,
 }
 
 /// Reads the whole tree; `None` if there is nothing to build a model from.
@@ -390,9 +415,12 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         Some(field) => reader.text(&field),
         None => Some("Untitled".to_owned()),
     };
-    let motion = match reader.get(&view, "motion") {
-        Some(field) => motion::read(reader, &field, base),
-        None => None,
+    let (motion, governing) = match reader.get(&view, "motion") {
+        Some(field) => (
+            motion::read(reader, &field, base),
+            motion::governing(reader, &field),
+        ),
+        None => (None, None),
     };
     let buildings = match reader.get(&view, "building") {
         Some(field) => building::read_all(reader, &field, base),
@@ -421,8 +449,10 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     };
     let mut analysis =
         analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
+    let mut floor_spectra = None;
     if let Some(field) = reader.get(&view, "output") {
-        analysis.members = output::read(reader, &field);
+        let buildings = buildings.as_ref().map(|(buildings, ..)| &buildings[..]);
+        (analysis.members, floor_spectra) = output::read(reader, &field, buildings);
     }
     let codes = reader.get(&view, "codes");
     let of_buildings = buildings.as_ref().map(|(.., codes)| codes.clone());
@@ -440,6 +470,8 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         motion,
         reinforced,
         codes,
+        floor_spectra,
+        governing,
     })
 }
 

@@ -88,6 +88,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "`codes` of a building",
         "Values given here apply to that building only.",
     ),
+    (
+        Section::FloorSpectra,
+        "`output.floor_spectra`",
+        "See [how-to/floor-spectra.md](how-to/floor-spectra.md).",
+    ),
     (Section::Integrator, "`analysis.integrator`", ""),
     (
         Section::Study,
@@ -204,6 +209,8 @@ fn value(key: &Key) -> String {
         Kind::NumberLists => "list of lists of numbers".into(),
         Kind::TextOrNumbers => "Matrix Market file, or lists of numbers".into(),
         Kind::FlagOrTexts => "`true` or `false`, or a list of texts".into(),
+        Kind::FlagTextsOrTable(_) => "`true` or `false`, a list of texts, or a table".into(),
+        Kind::OneOrMore(dimension) => format!("{}; or a list", quantity(dimension)),
         Kind::Flag => "`true` or `false`".into(),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) => {

@@ -92,6 +92,12 @@ fn kind(kind: Kind) -> Value {
             { "type": "boolean" },
             { "type": "array", "items": { "type": "string" } },
         ] }),
+        Kind::FlagTextsOrTable(section) => json!({ "anyOf": [
+            { "type": "boolean" },
+            { "type": "array", "items": { "type": "string" }, "minItems": 1 },
+            table(&[section]),
+        ] }),
+        Kind::OneOrMore(dimension) => one_or_list(quantity(dimension)),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) | Kind::PerContact(dimension) => {

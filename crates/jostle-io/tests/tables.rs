@@ -129,6 +129,7 @@ fn summary() -> Summary {
         promise: Default::default(),
         work: WorkSummary::default(),
         contact_sensitivity: None,
+        floor_spectra: None,
         ended_early: None,
         warnings: Vec::new(),
         notes: Vec::new(),

@@ -7,6 +7,7 @@ mod accelerogram;
 mod fault;
 mod filter;
 mod fourier;
+mod governing;
 mod inelastic;
 mod integration;
 mod intensity;
@@ -20,11 +21,13 @@ mod selection;
 mod spectrum;
 mod synthesis;
 mod target;
+mod uneven;
 
 pub use accelerogram::{Accelerogram, STANDARD_GRAVITY};
 pub use fault::MotionFault;
 pub use filter::{Butterworth, butterworth};
 pub use fourier::{FourierSpectrum, fourier_spectrum, mean_period};
+pub use governing::{Governing, GoverningRule, GoverningStatistic};
 pub use inelastic::{DuctilitySpectrum, bilinear_displacement, ductility_spectrum};
 pub use integration::{Peak, displacement, velocity};
 pub use intensity::{Measures, husid, measures};
@@ -45,3 +48,4 @@ pub use target::{
     Asce7, En1998, EnGround, EnType, Gb50011, GbGroup, GbIntensity, GbLevel, GbSite, SpectrumTable,
     TargetKind, TargetSpectrum,
 };
+pub use uneven::{UnevenMotion, uneven_spectrum};

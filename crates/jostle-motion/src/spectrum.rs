@@ -54,22 +54,7 @@ pub fn response_spectrum(
     dampings: &[f64],
     reading: Reading,
 ) -> Result<ResponseSpectrum, MotionFault> {
-    for &period in periods {
-        within(
-            "a period",
-            "between 0 and 1000 s",
-            period,
-            (0.0..=1e3).contains(&period),
-        )?;
-    }
-    for &damping in dampings {
-        within(
-            "a damping ratio",
-            "from 0 to below 1",
-            damping,
-            (0.0..1.0).contains(&damping),
-        )?;
-    }
+    check_ranges(periods, dampings)?;
     let oscillators: Vec<Oscillator> = dampings
         .iter()
         .flat_map(|&damping| {
@@ -102,7 +87,28 @@ pub fn response_spectrum(
     })
 }
 
-fn curve(damping: f64, periods: &[f64], peaks: &[[f64; 2]]) -> SpectrumCurve {
+/// Refuses periods and damping ratios out of range.
+pub(crate) fn check_ranges(periods: &[f64], dampings: &[f64]) -> Result<(), MotionFault> {
+    for &period in periods {
+        within(
+            "a period",
+            "between 0 and 1000 s",
+            period,
+            (0.0..=1e3).contains(&period),
+        )?;
+    }
+    for &damping in dampings {
+        within(
+            "a damping ratio",
+            "from 0 to below 1",
+            damping,
+            (0.0..1.0).contains(&damping),
+        )?;
+    }
+    Ok(())
+}
+
+pub(crate) fn curve(damping: f64, periods: &[f64], peaks: &[[f64; 2]]) -> SpectrumCurve {
     let tau = std::f64::consts::TAU;
     let all = |f: &dyn Fn(f64, [f64; 2]) -> f64| {
         let pairs = periods.iter().zip(peaks);

@@ -13,6 +13,7 @@ mod motion;
 mod quantity;
 mod run;
 mod study;
+mod suite;
 mod table;
 
 #[global_allocator]
@@ -37,6 +38,8 @@ mod _jostle {
     use super::run::{Run, run};
     #[pymodule_export]
     use super::study::{Study, critical_gaps};
+    #[pymodule_export]
+    use super::suite::{Suite, run_suite};
     #[pymodule_export]
     use super::table::Table;
 

@@ -7,15 +7,18 @@ use std::time::{Duration, Instant};
 use jostle::stepping::Progress;
 use jostle::{Column, Pounding, RunEnd, Settings, Summary};
 use jostle_io::{
-    building_columns, floor_columns, history_names, impact_columns, member_columns,
-    member_history_columns, summary_json, write_atomically,
+    building_columns, floor_columns, floor_spectra_columns, history_names, impact_columns,
+    member_columns, member_history_columns, summary_json, write_atomically,
 };
-use jostle_run::{Content, FileKind, Ran, Results, RunError, Stage, earlier_files, may_write};
+use jostle_run::{
+    Content, FileKind, Paper, Ran, Results, RunError, Stage, earlier_files, find_chromium,
+    may_write, print_pdf,
+};
 use numpy::PyArray2;
 use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 
-use crate::error::output_error;
+use crate::error::{AnalysisError, argument_error, output_error};
 use crate::histories::Histories;
 use crate::model::Model;
 use crate::table::Table;
@@ -102,6 +105,7 @@ fn heed(py: Python<'_>, observer: Option<&Py<PyAny>>, progress: Progress) -> PyR
 
 impl Run {
     fn summary(&self, without_contact: Option<&Self>) -> Summary {
+        let without = without_contact.filter(|run| run.ran.outcome.end == RunEnd::Completed);
         let without_contact = without_contact.map(|run| &run.ran.outcome);
         let Ran {
             prepared,
@@ -111,6 +115,8 @@ impl Run {
         } = &self.ran;
         let mut summary = prepared.summary(outcome, without_contact, *wall);
         self.ran.add_contact_sensitivity(&mut summary);
+        let spectra = without.and_then(|run| run.ran.floor_spectra.as_ref());
+        self.ran.add_floor_spectra(&mut summary, spectra);
         summary
     }
 
@@ -224,6 +230,24 @@ impl Run {
             .map_err(|error| output_error(&error))
     }
 
+    /// Prints a page to a PDF file by a Chromium of this machine.
+    #[staticmethod]
+    #[pyo3(signature = (path, page, paper, force=false))]
+    fn print(py: Python<'_>, path: PathBuf, page: &str, paper: &str, force: bool) -> PyResult<()> {
+        let size = Paper::from_name(paper).ok_or_else(|| {
+            let known = Paper::NAMES.join(", ");
+            argument_error(format!("paper: expected one of {known}, found {paper:?}"))
+        })?;
+        may_write(&path, Some(FileKind::PDF), force).map_err(must_stay)?;
+        let chromium = find_chromium().map_err(|error| argument_error(error.to_string()))?;
+        py.detach(|| print_pdf(&chromium, page, &path, size))
+            .map_err(|error| match error {
+                RunError::Output(error) => output_error(&error),
+                RunError::Argument(text) => argument_error(text),
+                other => AnalysisError::new_err(other.to_string()),
+            })
+    }
+
     /// Raises `FileExistsError` if a folder contains files with names of results that jostle did not write.
     #[staticmethod]
     #[pyo3(signature = (folder, force=false))]
@@ -258,6 +282,13 @@ impl Run {
             &self.histories.columns,
         );
         Ok(Table::of_histories(names, self.histories.table(py)?))
+    }
+
+    /// Response spectra of floors as a table; `None` if they were not asked for.
+    #[pyo3(signature = (without_contact=None))]
+    fn floor_spectra_table(&self, without_contact: Option<&Self>) -> Option<Table> {
+        let found = self.summary(without_contact).floor_spectra?;
+        Some(Table::of_columns(floor_spectra_columns(&found)))
     }
 
     /// Peaks of buildings as a table, columns as in buildings.parquet.

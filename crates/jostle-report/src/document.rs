@@ -4,6 +4,8 @@ use maud::{Markup, PreEscaped, html};
 
 /// The style sheet.
 pub(crate) const STYLE: &str = include_str!("../assets/style.css");
+/// Plots without scripts, and the page on paper.
+pub(crate) const CALCULATION_STYLE: &str = include_str!("../assets/calculation.css");
 
 /// Nothing may be loaded: everything is in the file.
 pub(crate) const POLICY: &str =

@@ -4,6 +4,7 @@
 //! numbers come from the core crate as they are, this crate only chooses, thins, encodes and draws them.
 
 mod backbones;
+mod calculation;
 mod collisions;
 mod contact_box;
 mod describe;
@@ -11,6 +12,7 @@ mod document;
 mod encode;
 mod envelope;
 mod facts;
+mod floor_spectra;
 mod format;
 mod hinges;
 mod joints;
@@ -24,12 +26,14 @@ mod section;
 mod selection;
 mod special;
 mod spread;
+mod static_plot;
 mod study_page;
 mod tables;
 mod thin_loop;
 mod verdict;
 mod viewer;
 
+pub use calculation::Calculation;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use contact_box::ContactBox;
 pub use method::render_method;
@@ -38,7 +42,8 @@ pub use pushover::{Demand, render_pushover};
 pub use section::render_sections;
 pub use selection::{CheckedStructure, SelectionPage, render_selection, selection_sections};
 pub use study_page::{
-    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, render_study,
+    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, SuitePage,
+    SuiteRow, render_study, render_suite,
 };
 pub use verdict::verdict;
 pub use viewer::{Frame, Viewer, frame};
@@ -73,6 +78,8 @@ pub struct Page<'a> {
     pub contacts: &'a [ContactBox],
     /// Results of `jostle method` for these buildings, shown as a section; empty to omit it.
     pub methods: &'a [MethodSurvey],
+    /// What makes the page a calculation document, if it is known.
+    pub calculation: Option<&'a Calculation<'a>>,
 }
 
 /// A reinforced section and the members of a building that have it.

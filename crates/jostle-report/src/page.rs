@@ -2,11 +2,12 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::document::{POLICY, STYLE, colour, theme_button};
+use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{
-    Page, contact_box, describe, format, hinges, joints, members, method, payload, spread, tables,
+    Page, calculation, contact_box, describe, floor_spectra, format, hinges, joints, members,
+    method, payload, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -43,7 +44,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                 meta name="description" content=(headline);
                 title { (page.summary.title) " – jostle" }
                 link rel="icon" href="data:,";
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(CALCULATION_STYLE)) }
             }
             body {
                 (warnings(page))
@@ -83,6 +84,8 @@ pub(crate) fn page(page: &Page) -> Markup {
                         (tables::peaks(page))
                     }
                     @if let Some(members) = members::section(page) { (members) }
+                    @if let Some(spectra) = floor_spectra::section(page) { (spectra) }
+                    (calculation::motion_section(page))
                     @if !page.model.gaps.is_empty() {
                         section #joints {
                             h2 { "Comparison with code requirements" }
@@ -91,9 +94,11 @@ pub(crate) fn page(page: &Page) -> Markup {
                     }
                     section #model {
                         h2 { "What was computed" }
+                        (calculation::model_figures(page))
                         (describe::model(page))
                     }
                     (method::section(page.methods))
+                    (calculation::source_section(page))
                     (guide(page))
                 }
                 footer {

@@ -4,9 +4,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use jostle_io::{
-    OutputError, write_atomically, write_buildings_parquet, write_floors_parquet,
-    write_hinges_parquet, write_history_parquet, write_impacts_parquet, write_members_parquet,
-    write_summary_json,
+    OutputError, write_atomically, write_buildings_parquet, write_floor_spectra_parquet,
+    write_floors_parquet, write_hinges_parquet, write_history_parquet, write_impacts_parquet,
+    write_members_parquet, write_summary_json,
 };
 
 use crate::error::RunError;
@@ -20,10 +20,11 @@ const FLOORS: &str = "floors.parquet";
 const IMPACTS: &str = "impacts.parquet";
 const HINGES: &str = "hinges.parquet";
 const MEMBERS: &str = "members.parquet";
+const FLOOR_SPECTRA: &str = "floor_spectra.parquet";
 const REPORT: &str = "report.html";
 
 /// The files of a run.
-const FILES: [(&str, FileKind); 8] = [
+const FILES: [(&str, FileKind); 9] = [
     (SUMMARY, FileKind::SUMMARY),
     (HISTORY, FileKind::TABLE),
     (BUILDINGS, FileKind::TABLE),
@@ -31,6 +32,7 @@ const FILES: [(&str, FileKind); 8] = [
     (IMPACTS, FileKind::TABLE),
     (HINGES, FileKind::TABLE),
     (MEMBERS, FileKind::TABLE),
+    (FLOOR_SPECTRA, FileKind::TABLE),
     (REPORT, FileKind::REPORT),
 ];
 
@@ -52,6 +54,7 @@ pub fn earlier_files(folder: &Path, force: bool) -> Result<Vec<&'static str>, Ru
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Content {
     /// `history.parquet`, `buildings.parquet`, `floors.parquet`, `impacts.parquet`, if buildings yield `hinges.parquet`, and if members are asked for `members.parquet`.
+    /// If floor spectra are asked for, `floor_spectra.parquet` is written in any case, beside `summary.json`.
     pub tables: bool,
     /// `report.html`.
     pub report: bool,
@@ -85,6 +88,12 @@ impl Results<'_> {
         let mut staged = Staged::new(folder)?;
         if content.tables {
             self.write_tables(&mut staged)?;
+        }
+        // Not among the tables: the run without contact, which comes later, belongs into it.
+        if let Some(found) = &self.summary.floor_spectra {
+            staged.add(FLOOR_SPECTRA, |path| {
+                write_floor_spectra_parquet(path, self.summary, found)
+            })?;
         }
         if let Some(report) = content.report.then(|| self.report()).flatten() {
             staged.add(REPORT, |path| write_atomically(path, report.as_bytes()))?;

@@ -4,16 +4,20 @@
 //! [`Results::write`] writes its files. Progress goes to an observer, which can stop the run. Nothing is printed, and no
 //! terminal is read.
 
+mod calculation;
 mod collide;
 mod contact_advice;
 mod contact_sensitivity;
 mod critical_gap;
 mod error;
 mod files;
+mod floor_spectra;
+mod floor_spectra_text;
 mod modes;
 mod numbers;
 mod observer;
 mod opened;
+mod pdf;
 mod prepared;
 mod pushover;
 mod replace;
@@ -35,10 +39,12 @@ pub use critical_gap::{
 };
 pub use error::RunError;
 pub use files::{Content, earlier_files};
+pub use floor_spectra::RunFloorSpectra;
 pub use modes::{ListedModes, floor_shape, list_modes, modes_json};
 pub use numbers::{counted, counted_grouped, grouped, kn, mm};
 pub use observer::{Observer, Stage, stopped_by};
 pub use opened::{EXAMPLE, Opened, open, read};
+pub use pdf::{Paper, find_chromium, print_pdf};
 pub use prepared::Prepared;
 pub use pushover::{checked_drift, chosen_buildings, pushed_buildings, pushover_json};
 pub use replace::{FileKind, may_write};
@@ -46,6 +52,6 @@ pub use results::Results;
 pub use run::Ran;
 pub use shapes::SharedShapes;
 pub use spectra::{Inelastic, accelerogram, spectra_json, spectrum_json};
-pub use style::{BOLD, DIM, LOUD, styled};
+pub use style::{BOLD, DIM, LOUD, plain, styled};
 pub use summary_text::{describe_summary, summary_text};
 pub use workshop::{CaseError, Workshop};

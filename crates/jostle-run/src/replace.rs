@@ -35,6 +35,11 @@ impl FileKind {
         name: "report of jostle",
         marks: &["<html", " – jostle</title>"],
     };
+    /// Reports printed by a browser.
+    pub const PDF: Self = Self {
+        name: "report of jostle",
+        marks: &["%PDF-", "Skia/PDF"],
+    };
     /// Live pages with their engine inside.
     pub const LIVE_PAGE: Self = Self {
         name: "live page of jostle",

@@ -43,6 +43,7 @@ impl<'a> Results<'a> {
     pub fn with_page<T>(&self, show: impl FnOnce(&Page<'_>) -> T) -> Option<T> {
         let history = self.history?;
         let sections = reinforced(&self.prepared.input);
+        let calculation = self.prepared.calculation();
         let contacts = contact_boxes(
             &self.prepared.input.model,
             &self.prepared.system,
@@ -59,6 +60,7 @@ impl<'a> Results<'a> {
             codes: &self.prepared.input.codes,
             contacts: &contacts,
             methods: self.methods,
+            calculation: Some(&calculation),
         }))
     }
 }

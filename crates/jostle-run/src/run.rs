@@ -3,8 +3,9 @@
 use std::time::Instant;
 
 use jostle::results::contact_sensitivity::ContactSensitivity;
-use jostle::{Outcome, Pounding, Settings, Summary};
+use jostle::{Outcome, Pounding, RunEnd, Settings, Summary};
 
+use crate::floor_spectra::{RunFloorSpectra, combine};
 use crate::observer::{Observer, Stage};
 use crate::prepared::{Prepared, without_contact};
 use crate::results::Results;
@@ -21,6 +22,10 @@ pub struct Ran {
     pub wall: f64,
     /// The same with other contacts, or why not, if these were run.
     pub contact_sensitivity: Option<Result<ContactSensitivity, String>>,
+    /// Spectra of floors, or why not, if they were asked for.
+    pub floor_spectra: Option<Result<RunFloorSpectra, String>>,
+    /// Those of the run without contact.
+    pub floor_spectra_without: Option<Result<RunFloorSpectra, String>>,
 }
 
 impl Prepared {
@@ -31,6 +36,7 @@ impl Prepared {
             Pounding::Included => Stage::Pounding,
             Pounding::Excluded => Stage::WithoutContact,
         };
+        let settings = self.with_rows_for_spectra(settings);
         let started = Instant::now();
         let mut outcome = self.step(settings, |progress| observer(stage, progress));
         let wall = started.elapsed().as_secs_f64();
@@ -40,6 +46,8 @@ impl Prepared {
             });
         }
         Ran {
+            floor_spectra: self.floor_spectra(&outcome),
+            floor_spectra_without: None,
             prepared: self,
             outcome,
             without_contact: None,
@@ -53,9 +61,13 @@ impl Ran {
     /// Runs the same without contact, if there is a gap and the run with contact came to its end.
     pub fn run_without_contact(&mut self, settings: Settings, observer: &mut Observer<'_>) {
         if self.prepared.compares(&self.outcome) {
-            let settings = without_contact(settings);
+            let settings = without_contact(self.prepared.with_rows_for_spectra(settings));
             let watch = |progress| observer(Stage::WithoutContact, progress);
-            self.without_contact = Some(self.prepared.step(settings, watch));
+            let outcome = self.prepared.step(settings, watch);
+            if outcome.end == RunEnd::Completed {
+                self.floor_spectra_without = self.prepared.floor_spectra(&outcome);
+            }
+            self.without_contact = Some(outcome);
         }
     }
 
@@ -65,7 +77,32 @@ impl Ran {
         let without = self.without_contact.as_ref();
         let mut summary = self.prepared.summary(&self.outcome, without, self.wall);
         self.add_contact_sensitivity(&mut summary);
+        self.add_floor_spectra(&mut summary, self.floor_spectra_without.as_ref());
         summary
+    }
+
+    /// Adds the spectra of floors to the numbers of the run, or why they are missing. `without`: those of the run without
+    /// contact.
+    pub fn add_floor_spectra(
+        &self,
+        summary: &mut Summary,
+        without: Option<&Result<RunFloorSpectra, String>>,
+    ) {
+        let Some(request) = &self.prepared.input.floor_spectra else {
+            return;
+        };
+        match &self.floor_spectra {
+            Some(Ok(found)) => {
+                let without = without.and_then(|found| found.as_ref().ok());
+                let (spectra, warning) = combine(request, summary, found, without);
+                summary.warnings.extend(warning);
+                summary.floor_spectra = Some(spectra);
+            }
+            Some(Err(problem)) => summary
+                .warnings
+                .push(format!("there are no floor spectra: {problem}")),
+            None => {}
+        }
     }
 
     /// What the files of the run are written from.

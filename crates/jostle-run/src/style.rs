@@ -14,3 +14,9 @@ pub const LOUD: Style = AnsiColor::Yellow.on_default().bold();
 pub fn styled(style: Style, text: &str) -> String {
     format!("{style}{text}{style:#}")
 }
+
+/// A text without its styles.
+#[must_use]
+pub fn plain(text: &str) -> String {
+    anstream::adapter::strip_str(text).to_string()
+}

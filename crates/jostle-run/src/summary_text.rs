@@ -8,6 +8,7 @@ use jostle::results::response::FloorResponse;
 use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, LinkSummary, Summary};
 use jostle::separation::gb50011_frame_joint;
 
+use crate::floor_spectra_text::write_floor_spectra;
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::style::{BOLD, DIM, LOUD, styled};
 
@@ -63,6 +64,9 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     }
     if summary.gaps.iter().any(|gap| gap.impact_count > 0) {
         write_changes(text, &summary.buildings)?;
+    }
+    if let Some(found) = &summary.floor_spectra {
+        write_floor_spectra(text, found)?;
     }
     for warning in &summary.warnings {
         writeln!(text, "{} {warning}", styled(LOUD, "warning:"))?;

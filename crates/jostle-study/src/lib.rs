@@ -17,6 +17,7 @@ pub mod sampling;
 mod single;
 pub mod statistics;
 mod study;
+pub mod suite;
 mod varied;
 
 pub use dataset::{of_folder, settle};

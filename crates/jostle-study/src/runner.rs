@@ -497,12 +497,14 @@ fn compute(
     number: u64,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Row>, StudyError> {
-    let prepared = match study.prepare(workshop, number) {
+    let mut prepared = match study.prepare(workshop, number) {
         Ok(prepared) => prepared,
         Err(error) => return Ok(Some(case::failed(study, number, &error.to_string()))),
     };
     let keep = study.file.histories.contains(&number);
     let (settings, shown) = (prepared.settings(false), prepared.settings(true));
+    // A row holds no spectra of floors, and their rows of histories cost time.
+    let spectra = Arc::make_mut(&mut prepared.input).floor_spectra.take();
     let Some(mut ran) = run_until(prepared, settings, stop) else {
         return Ok(None);
     };
@@ -512,9 +514,10 @@ fn compute(
     let row = case::row_of(study, number, &ran);
     if keep {
         // Rows of histories cost modal stepping steps: the row of the study is that of the run without them.
-        let kept = if settings == shown {
+        let kept = if settings == shown && spectra.is_none() {
             Some(ran)
         } else {
+            Arc::make_mut(&mut ran.prepared.input).floor_spectra = spectra;
             run_until(ran.prepared, shown, stop)
         };
         let folder = run_folder(folder, number);

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use jostle_motion::GoverningRule;
+
 use super::matching;
 use crate::keys::{RECORD_FORMATS, Section, WAVES};
 use crate::motion_spec::{MotionSource, MotionSpec, Scaling};
@@ -69,6 +71,14 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
         reverse: reverse.unwrap_or(false),
         duration,
     })
+}
+
+/// The rule for the governing value of several records, if the file names one; a single record has no use for it.
+pub(super) fn governing(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<GoverningRule> {
+    let view = reader.reopen(field, &[Section::Motion])?;
+    let named = reader.get(&view, "governing")?;
+    let name = reader.choice(&named, &GoverningRule::NAMES, &[])?;
+    GoverningRule::from_name(name)
 }
 
 fn duration(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {

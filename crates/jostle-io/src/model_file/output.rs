@@ -1,19 +1,31 @@
 //! `[output]`: optional results.
 
-use jostle::MemberRequest;
+use jostle::{Building, MemberRequest};
 
+use super::floor_spectra::{self, FloorSpectraRequest};
 use crate::keys::Section;
 use crate::reader::{Field, Reader};
 use crate::tree::Value;
 
-/// Reads which forces of columns and beams are asked for.
-pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> MemberRequest {
+/// Reads which forces of columns and beams, and which spectra of floors are asked for.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    buildings: Option<&[Building]>,
+) -> (MemberRequest, Option<FloorSpectraRequest>) {
     let Some(view) = reader.open(field, &[Section::Output]) else {
-        return MemberRequest::default();
+        return Default::default();
     };
-    let Some(field) = reader.get(&view, "members") else {
-        return MemberRequest::default();
+    let members = match reader.get(&view, "members") {
+        Some(field) => read_members(reader, &field),
+        None => MemberRequest::default(),
     };
+    let spectra = reader.get(&view, "floor_spectra");
+    let spectra = spectra.and_then(|field| floor_spectra::read(reader, &field, buildings));
+    (members, spectra)
+}
+
+fn read_members(reader: &mut Reader<'_>, field: &Field<'_>) -> MemberRequest {
     match (&field.node.value, field.entries()) {
         (Value::Flag(envelopes), _) => MemberRequest {
             envelopes: *envelopes,
@@ -29,7 +41,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> MemberRequest 
         _ => {
             let found = field.node.describe();
             reader.bad(
-                &field,
+                field,
                 format!("expected true, false or a list of members such as [\"J1.column.2.3\"], found {found}"),
             );
             MemberRequest::default()

@@ -3,6 +3,7 @@
 mod bars;
 mod chart;
 mod heat_map;
+mod suite;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -12,6 +13,7 @@ use crate::format;
 pub use bars::{Bar, Bars};
 pub use chart::{Chart, Level, Series, Stroke};
 pub use heat_map::{Cell, HeatMap};
+pub use suite::{SuitePage, SuiteRow, render_suite};
 
 const OWN_STYLE: &str = include_str!("../../assets/study.css");
 

@@ -2,6 +2,7 @@
 
 pub mod contact_sensitivity;
 mod counted_impact;
+pub mod floor_spectra;
 mod members;
 pub mod registry;
 pub mod response;

@@ -114,6 +114,7 @@ impl Summary {
             promise: promise_summary(run),
             work: work_summary(run),
             contact_sensitivity: None,
+            floor_spectra: None,
             ended_early: match &outcome.end {
                 RunEnd::Completed => None,
                 RunEnd::Stopped => Some(format!(

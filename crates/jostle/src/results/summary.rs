@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use super::contact_sensitivity::ContactSensitivity;
+use super::floor_spectra::FloorSpectra;
 use super::response::{Amplification, BuildingResponse, FloorResponse};
 use crate::quantity::{Quantity, Unit};
 
@@ -56,6 +57,9 @@ pub struct Summary {
     /// How results depend on the contact; absent unless asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_sensitivity: Option<ContactSensitivity>,
+    /// Response spectra of floors; absent unless asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub floor_spectra: Option<FloorSpectra>,
     /// Work done.
     pub work: WorkSummary,
     /// Reason if the run did not reach the end of the motion.

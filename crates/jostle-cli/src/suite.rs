@@ -1,0 +1,148 @@
+//! `jostle run` of a model with several records.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use jostle_motion::GoverningRule;
+use jostle_run::Opened;
+use jostle_study::suite::{Suite, SuiteOptions, SuiteProgress, earlier_suite_files};
+
+use crate::args::RunArgs;
+use crate::failure::Failure;
+use crate::printer::Printer;
+use crate::stop::stop_on_interrupt;
+use crate::terminal;
+
+/// Shortest duration with a progress bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+pub(crate) fn run(
+    args: &RunArgs,
+    opened: &Opened,
+    out: Option<PathBuf>,
+    printer: Option<&Printer>,
+) -> Result<(), Failure> {
+    if args.method {
+        return Err(Failure::Input(
+            "--method: goes with one record; choose one with --record".into(),
+        ));
+    }
+    let rule = args.governing.as_deref().and_then(GoverningRule::from_name);
+    let suite = Suite::new(opened, rule)?;
+    terminal::warn_all(&suite.warnings);
+    if let Some(out) = &out {
+        make(out)?;
+        if earlier_suite_files(&suite, out, args.force)? {
+            terminal::remark(&format!(
+                "{} holds an earlier run of such a suite; records that are finished there are kept",
+                out.display()
+            ));
+        }
+    }
+    let options = SuiteOptions {
+        report: !args.no_report,
+        sensitivity: args.sensitivity,
+        jobs: args.jobs.map(|jobs| jobs as usize),
+    };
+    let flag = stop_on_interrupt();
+    let stop = || flag.load(Ordering::Relaxed);
+    let bar = Bar::new();
+    let show = |progress| bar.show(progress);
+    let done = suite.run(out.as_deref(), &options, &stop, &show);
+    bar.finish();
+    let done = done?;
+    let Some(results) = &done.results else {
+        let kept = match out {
+            Some(_) => "; the same command continues from here",
+            None => "",
+        };
+        terminal::remark(&format!(
+            "stopped: {} of {} records are finished{kept}",
+            done.finished,
+            suite.records.len()
+        ));
+        return Err(Failure::Stopped);
+    };
+    if let (Some(printer), Some(out)) = (printer, &out) {
+        for record in &results.records {
+            printer.print(&out.join(&record.folder).join("report.html"))?;
+        }
+        printer.print(&out.join("suite.html"))?;
+    }
+    if args.json {
+        terminal::print(&results.json())?;
+    } else {
+        if done.kept > 0 {
+            terminal::remark(&format!("{} records were finished already", done.kept));
+        }
+        let page = out.as_deref().map(|out| out.join("suite.html"));
+        terminal::print(&results.describe(page.as_deref()))?;
+    }
+    let failed: Vec<&str> = results
+        .records
+        .iter()
+        .filter(|record| record.reason.is_some())
+        .map(|record| record.motion())
+        .collect();
+    if failed.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Analysis(format!(
+        "{} of {} records did not reach their end: {}",
+        failed.len(),
+        results.records.len(),
+        failed.join(", ")
+    )))
+}
+
+fn make(out: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(out).map_err(|error| {
+        Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
+    })
+}
+
+/// A bar over all records, which appears only on a terminal and only after a while.
+struct Bar {
+    bar: ProgressBar,
+    started: Instant,
+    shown: Mutex<bool>,
+}
+
+impl Bar {
+    fn new() -> Self {
+        let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
+        let template = "{wide_bar} {percent:>3} %  {msg}  {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        Self {
+            bar,
+            started: Instant::now(),
+            shown: Mutex::new(false),
+        }
+    }
+
+    fn show(&self, progress: SuiteProgress) {
+        let mut shown = self.shown.lock().unwrap_or_else(PoisonError::into_inner);
+        if !*shown && terminal::is_watched() && self.started.elapsed() > PATIENCE {
+            self.bar
+                .set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
+            *shown = true;
+        }
+        if *shown {
+            self.bar.set_position((1000.0 * progress.share) as u64);
+            self.bar.set_message(format!(
+                "{} of {} records",
+                progress.finished, progress.records
+            ));
+        }
+    }
+
+    fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}

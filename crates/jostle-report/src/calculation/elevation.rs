@@ -1,0 +1,181 @@
+//! The buildings drawn to scale, with heights, spans and gaps.
+
+use jostle::Model;
+use jostle::model::{Building, Structure};
+use maud::{Markup, html};
+
+use super::words::WORDS;
+use crate::format;
+use crate::static_plot::colour;
+
+/// Size of the drawing, and room for dimensions around it.
+const WIDTH: f64 = 760.0;
+const TALLEST: f64 = 400.0;
+const BELOW: f64 = 46.0;
+const ABOVE: f64 = 20.0;
+/// Room for the heights beside a building.
+const BESIDE: f64 = 34.0;
+/// Width of a building without spans, as a part of its height, and its least width \[m\].
+const SLENDERNESS: f64 = 0.3;
+const LEAST_WIDTH: f64 = 3.0;
+/// Most storeys whose heights are written one by one.
+const LISTED: usize = 30;
+
+/// Column lines of a building from its left edge, and floor heights \[m\].
+struct Outline {
+    lines: Vec<f64>,
+    floors: Vec<f64>,
+}
+
+impl Outline {
+    fn of(building: &Building) -> Self {
+        let floors = building.floor_heights();
+        let height = floors.last().copied().unwrap_or(0.0);
+        let lines = match &building.structure {
+            Structure::Frame(frame) => {
+                let mut lines = vec![0.0];
+                for span in &frame.spans {
+                    lines.push(lines[lines.len() - 1] + span);
+                }
+                lines
+            }
+            Structure::Shear(_) | Structure::Given(_) => {
+                vec![0.0, (SLENDERNESS * height).max(LEAST_WIDTH)]
+            }
+        };
+        Self { lines, floors }
+    }
+
+    fn width(&self) -> f64 {
+        self.lines.last().copied().unwrap_or(0.0)
+    }
+
+    fn height(&self) -> f64 {
+        self.floors.last().copied().unwrap_or(0.0)
+    }
+}
+
+/// The figure. Gaps are drawn wide enough to be seen; their width is written.
+pub(super) fn figure(model: &Model) -> Markup {
+    let outlines: Vec<Outline> = model.buildings.iter().map(Outline::of).collect();
+    let count = outlines.len() as f64;
+    let wide: f64 = outlines.iter().map(Outline::width).sum();
+    let high = outlines.iter().map(Outline::height).fold(0.0, f64::max);
+    if !(wide > 0.0 && high > 0.0) {
+        return html! {};
+    }
+    let room = WIDTH - count * BESIDE - 30.0;
+    let scale = (room / wide).min(TALLEST / high);
+    let ground = ABOVE + scale * high;
+    let height = ground + BELOW;
+    let used = scale * wide + count * BESIDE;
+    let mut left = 0.5 * (WIDTH - used);
+    let mut places = Vec::new();
+    for outline in &outlines {
+        left += BESIDE;
+        places.push(left);
+        left += scale * outline.width();
+    }
+    html! {
+        figure.static-plot.elevation {
+            figcaption { span.chart-title { (WORDS.elevation) } }
+            svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(WORDS.elevation) {
+                line.ground x1="8" x2=(WIDTH - 8.0) y1=(round(ground)) y2=(round(ground)) {}
+                @for (index, (outline, left)) in outlines.iter().zip(&places).enumerate() {
+                    (drawing(&model.buildings[index], index, outline, *left, scale, ground))
+                }
+                @for gap in &model.gaps {
+                    (gap_mark(gap, &outlines, &places, scale, ground))
+                }
+            }
+        }
+    }
+}
+
+fn drawing(
+    building: &Building,
+    index: usize,
+    outline: &Outline,
+    left: f64,
+    scale: f64,
+    ground: f64,
+) -> Markup {
+    let frame = matches!(building.structure, Structure::Frame(_));
+    let y = |height: f64| ground - scale * height;
+    let x = |across: f64| left + scale * across;
+    let (right, top) = (x(outline.width()), y(outline.height()));
+    let middle = 0.5 * (left + right);
+    let mut below = 0.0;
+    let storeys: Vec<(f64, f64)> = outline
+        .floors
+        .iter()
+        .map(|floor| {
+            let storey = (floor - below, 0.5 * (floor + below));
+            below = *floor;
+            storey
+        })
+        .collect();
+    // One number for equal storeys, so that tall buildings stay legible.
+    let equal = storeys
+        .windows(2)
+        .all(|pair| (pair[0].0 - pair[1].0).abs() < 1e-9);
+    let written = match (equal, storeys.len()) {
+        (true, count) if count > 1 => vec![(
+            format!("{count} × {}", format::plain(storeys[0].0, 4)),
+            0.5 * outline.height(),
+        )],
+        (_, count) if count > LISTED => Vec::new(),
+        _ => storeys
+            .iter()
+            .map(|(h, at)| (format::plain(*h, 4), *at))
+            .collect(),
+    };
+    html! {
+        g style=(colour(index)) {
+            @if frame {
+                @for line in &outline.lines { line.columns x1=(round(x(*line))) x2=(round(x(*line))) y1=(round(ground)) y2=(round(top)) {} }
+                @for floor in &outline.floors { line.beams x1=(round(left)) x2=(round(right)) y1=(round(y(*floor))) y2=(round(y(*floor))) {} }
+            } @else {
+                line.columns x1=(round(middle)) x2=(round(middle)) y1=(round(ground)) y2=(round(top)) {}
+                @for floor in &outline.floors { line.slabs x1=(round(left)) x2=(round(right)) y1=(round(y(*floor))) y2=(round(y(*floor))) {} }
+            }
+        }
+        text.name x=(round(middle)) y=(round(top - 7.0)) text-anchor="middle" { (building.name) }
+        @for (text, at) in &written {
+            text transform=(format!("translate({:.1} {:.1}) rotate(-90)", left - 9.0, y(*at))) text-anchor="middle" { (text) }
+        }
+        @if frame {
+            @for pair in outline.lines.windows(2) {
+                text x=(round(0.5 * (x(pair[0]) + x(pair[1])))) y=(round(ground + 15.0)) text-anchor="middle" { (format::plain(pair[1] - pair[0], 4)) }
+            }
+        }
+        text x=(round(middle)) y=(round(ground + 30.0)) text-anchor="middle" { "H = " (format::plain(outline.height(), 4)) }
+    }
+}
+
+/// The width of a gap at the height of its lower building.
+fn gap_mark(
+    gap: &jostle::Gap,
+    outlines: &[Outline],
+    places: &[f64],
+    scale: f64,
+    ground: f64,
+) -> Markup {
+    let width = gap.widths.iter().copied().fold(f64::INFINITY, f64::min);
+    let [left, right] = gap.between;
+    let at = match (left, right) {
+        (Some(left), _) => places[left] + scale * outlines[left].width() + 0.5 * BESIDE,
+        (None, Some(right)) => places[right] - 0.5 * BESIDE,
+        (None, None) => return html! {},
+    };
+    if !width.is_finite() {
+        return html! {};
+    }
+    html! {
+        text x=(round(at)) y=(round(ground + 43.0)) text-anchor="middle" { "gap " (format::millimetres(width)) }
+    }
+}
+
+fn round(value: f64) -> String {
+    format!("{value:.1}")
+}

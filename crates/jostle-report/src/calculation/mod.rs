@@ -1,0 +1,184 @@
+//! What makes a report a calculation document: the model drawn to scale, mode shapes, the motion and its spectrum, and what
+//! the calculation was made from.
+
+mod elevation;
+mod words;
+
+use jostle::{GroundMotion, Wave};
+use jostle_motion::{Accelerogram, Reading, TargetSpectrum, response_spectrum, spaced_periods};
+use maud::{Markup, html};
+
+use crate::static_plot::{Line, Plot};
+use crate::{Page, format};
+use words::WORDS;
+
+/// What a calculation document shows beyond the numbers of a run.
+#[derive(Clone, Debug)]
+pub struct Calculation<'a> {
+    /// First lateral modes of every building: period \[s\] and horizontal shape at the floors, the greatest ±1.
+    pub shapes: Vec<Vec<(f64, Vec<f64>)>>,
+    /// Design spectrum that the motion is scaled to, and its damping ratio.
+    pub target: Option<(&'a TargetSpectrum, f64)>,
+    /// The model file as it was read.
+    pub input_text: &'a str,
+    /// SHA-256 of the model file, in hexadecimal digits.
+    pub input_hash: String,
+    /// SHA-256 of the model and the motion as they were run, options of the command line included.
+    pub run_hash: String,
+}
+
+/// Damping ratio of the spectrum unless a target has its own \[–\].
+const DAMPING: f64 = 0.05;
+/// Periods of the spectrum \[s\].
+const PERIODS: (f64, f64, usize) = (0.02, 4.0, 160);
+/// Longest model file that is printed \[characters\].
+const LONGEST_INPUT: usize = 16_000;
+
+/// The ground motion over time, and its response spectrum.
+pub(crate) fn motion_section(page: &Page) -> Markup {
+    let Some(calculation) = page.calculation else {
+        return html! {};
+    };
+    let Some(motion) = accelerogram(page.motion) else {
+        return html! {};
+    };
+    let time = (0..motion.points()).map(|i| motion.step() * i as f64);
+    let record = Plot {
+        title: format!("{}: {}", WORDS.acceleration, page.summary.motion.name),
+        x_label: format!("{} [s]", WORDS.time),
+        y_label: format!("{} [m/s²]", WORDS.acceleration),
+        logarithmic: false,
+        aspect: 0.42,
+        lines: vec![Line {
+            name: String::new(),
+            points: time
+                .zip(motion.acceleration())
+                .map(|(t, a)| [t, *a])
+                .collect(),
+            colour: 6,
+            dashed: false,
+        }],
+    };
+    html! {
+        section #ground-motion {
+            h2 { (WORDS.ground_motion) }
+            div.static-plots {
+                (record.figure())
+                @if let Some(spectrum) = spectrum(calculation, &motion, &page.summary.motion.name) { (spectrum.figure()) }
+            }
+        }
+    }
+}
+
+fn spectrum(calculation: &Calculation<'_>, motion: &Accelerogram, name: &str) -> Option<Plot> {
+    let damping = calculation.target.map_or(DAMPING, |(_, damping)| damping);
+    let periods = spaced_periods(PERIODS.0, PERIODS.1, PERIODS.2);
+    let found = response_spectrum(motion, &periods, &[damping], Reading::Between).ok()?;
+    let values = found.curves.first()?.pseudo_acceleration.iter();
+    let mut lines = vec![Line {
+        name: name.to_owned(),
+        points: periods.iter().zip(values).map(|(t, a)| [*t, *a]).collect(),
+        colour: 6,
+        dashed: false,
+    }];
+    if let Some((target, damping)) = calculation.target {
+        let points = periods.iter().filter_map(|period| {
+            let [first, last] = target.range();
+            let inside = (first..=last).contains(period);
+            let value = target.acceleration(*period, damping).ok()?;
+            inside.then_some([*period, value])
+        });
+        lines.push(Line {
+            name: WORDS.code_spectrum.into(),
+            points: points.collect(),
+            colour: 1,
+            dashed: true,
+        });
+    }
+    Some(Plot {
+        title: format!(
+            "{}, {} %",
+            WORDS.response_spectrum,
+            format::plain(100.0 * damping, 3)
+        ),
+        x_label: format!("{} [s]", WORDS.period),
+        y_label: format!("{} [m/s²]", WORDS.pseudo_acceleration),
+        logarithmic: true,
+        aspect: 0.42,
+        lines,
+    })
+}
+
+/// Values of a motion as it was used; waves given by a formula take 200 in a period.
+fn accelerogram(motion: &GroundMotion) -> Option<Accelerogram> {
+    let step = match &motion.wave {
+        Wave::Sampled { step, .. } => *step,
+        _ => motion.period()? / 200.0,
+    };
+    let points = (motion.duration / step * (1.0 + 1e-12)).floor() as usize + 1;
+    let values = (0..points.min(1 << 20)).map(|i| motion.acceleration(step * i as f64));
+    Accelerogram::new(step, values.collect()).ok()
+}
+
+/// The model drawn to scale, and mode shapes.
+pub(crate) fn model_figures(page: &Page) -> Markup {
+    let Some(calculation) = page.calculation else {
+        return html! {};
+    };
+    html! {
+        (elevation::figure(page.model))
+        div.static-plots.shapes {
+            @for (index, building) in page.model.buildings.iter().enumerate() {
+                @if let Some(shapes) = calculation.shapes.get(index).filter(|shapes| !shapes.is_empty()) {
+                    (shape_plot(&building.name, &building.floor_heights(), shapes).figure())
+                }
+            }
+        }
+    }
+}
+
+fn shape_plot(name: &str, heights: &[f64], shapes: &[(f64, Vec<f64>)]) -> Plot {
+    let lines = shapes.iter().enumerate().map(|(index, (period, shape))| {
+        let floors = shape.iter().zip(heights).map(|(x, y)| [*x, *y]);
+        Line {
+            name: format!("T{} = {} s", index + 1, format::fixed(*period, 3)),
+            points: std::iter::once([0.0, 0.0]).chain(floors).collect(),
+            colour: index,
+            dashed: index == 2,
+        }
+    });
+    Plot {
+        title: format!("{}, {name}", WORDS.mode_shapes),
+        x_label: WORDS.shape.into(),
+        y_label: format!("{} [m]", WORDS.height),
+        logarithmic: false,
+        aspect: 0.56,
+        lines: lines.collect(),
+    }
+}
+
+/// Version, hashes and the model file.
+pub(crate) fn source_section(page: &Page) -> Markup {
+    let Some(calculation) = page.calculation else {
+        return html! {};
+    };
+    let text = calculation.input_text.trim_end();
+    html! {
+        section #source {
+            h2 { (WORDS.source) }
+            dl.source {
+                div { dt { (WORDS.program) } dd { "jostle " (page.summary.jostle) ", " (page.summary.work.solver) } }
+                div { dt { (WORDS.model_hash) } dd { code { (calculation.input_hash) } } }
+                div { dt { (WORDS.run_hash) } dd { code { (calculation.run_hash) } } }
+            }
+            @if text.is_empty() || text.chars().count() > LONGEST_INPUT {
+                p.quiet { (WORDS.input_left_out) }
+            } @else {
+                details {
+                    summary { (WORDS.input) }
+                    pre.input { (text) }
+                }
+            }
+        }
+    }
+}

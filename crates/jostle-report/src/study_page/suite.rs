@@ -1,0 +1,169 @@
+//! The page of a suite of records: results of every record, governing values, charts.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::{OWN_STYLE, Section, charts};
+use crate::document::{CALCULATION_STYLE, POLICY, STYLE, theme_button, theme_script};
+
+/// Everything the page of a suite shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SuitePage {
+    /// Title of the model.
+    pub title: String,
+    /// The rule for governing values, in a sentence.
+    pub headline: String,
+    /// Warnings about the governing values.
+    pub warnings: Vec<String>,
+    /// Records, in their order.
+    pub records: Vec<SuiteRow>,
+    /// Name with unit, mean, standard deviation, 16 to 84 %, greatest value, its record, governing value.
+    pub quantities: Vec<Vec<String>>,
+    /// `mean` or `maximum`: which column governs.
+    pub statistic: &'static str,
+    /// Charts under their headings.
+    pub sections: Vec<Section>,
+    /// Files beside the page: name and what it holds.
+    pub files: Vec<(String, String)>,
+}
+
+/// One record of a suite.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SuiteRow {
+    /// Name of the motion.
+    pub name: String,
+    /// Address of its report.
+    pub link: Option<String>,
+    /// Peak \[m/s²\], scale, duration \[s\], impacts, peak force \[kN\].
+    pub cells: Vec<String>,
+    /// Why it did not reach its end; empty if it did.
+    pub remark: String,
+}
+
+const RECORD_COLUMNS: [(&str, &str); 5] = [
+    ("peak", "m/s²"),
+    ("scale", ""),
+    ("duration", "s"),
+    ("impacts", ""),
+    ("peak force", "kN"),
+];
+const QUANTITY_COLUMNS: [&str; 6] = [
+    "mean",
+    "standard deviation",
+    "16 to 84 %",
+    "greatest",
+    "of record",
+    "governing",
+];
+
+/// The whole page; it loads nothing from outside.
+#[must_use]
+pub fn render_suite(page: &SuitePage) -> String {
+    let markup = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="description" content=(page.headline);
+                title { (page.title) " – suite" }
+                link rel="icon" href="data:,";
+                style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) (PreEscaped(CALCULATION_STYLE)) }
+            }
+            body {
+                @if !page.warnings.is_empty() {
+                    aside.warnings role="alert" {
+                        @for warning in &page.warnings { p { b { "Warning: " } (warning) } }
+                    }
+                }
+                header.head {
+                    div {
+                        p.kicker { "Suite of " (page.records.len()) " records" }
+                        h1 { (page.title) }
+                    }
+                    (theme_button())
+                }
+                main {
+                    p.verdict { (page.headline) }
+                    (quantities(page))
+                    (records(page))
+                    @for section in &page.sections { (charts(section)) }
+                    section #files {
+                        h2 { "Files" }
+                        table { tbody {
+                            @for (name, what) in &page.files { tr { td { code { (name) } } td.study-wrap { (what) } } }
+                        } }
+                    }
+                }
+                footer {
+                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file; nothing is loaded from a network."
+                }
+                (theme_script())
+            }
+        }
+    };
+    markup.into_string()
+}
+
+fn quantities(page: &SuitePage) -> Markup {
+    let governs = if page.statistic == "mean" { 1 } else { 4 };
+    html! {
+        section #governing {
+            h2 { "Governing values" }
+            p.quiet { "All records together. The " (page.statistic) " governs." }
+            div.scroll {
+                table {
+                    thead { tr {
+                        th scope="col" { "quantity" }
+                        @for name in QUANTITY_COLUMNS { th.number[name != "of record"] scope="col" { (name) } }
+                    } }
+                    tbody {
+                        @for row in &page.quantities {
+                            tr {
+                                @for (index, cell) in row.iter().enumerate() {
+                                    @if index == 0 { th scope="row" { (cell) } }
+                                    @else if index + 1 == row.len() { td.number { b { (cell) } } }
+                                    @else if index == 5 { td { (cell) } }
+                                    @else { td.number.governs[index == governs] { (cell) } }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn records(page: &SuitePage) -> Markup {
+    html! {
+        section #records {
+            h2 { "Records" }
+            div.scroll {
+                table {
+                    thead { tr {
+                        th scope="col" { "record" }
+                        @for (name, unit) in RECORD_COLUMNS {
+                            th.number scope="col" { (name) @if !unit.is_empty() { " " span.unit { "[" (unit) "]" } } }
+                        }
+                        th scope="col" {}
+                    } }
+                    tbody {
+                        @for row in &page.records {
+                            tr {
+                                th scope="row" {
+                                    @match &row.link {
+                                        Some(link) => a href=(link) { (row.name) },
+                                        None => (row.name),
+                                    }
+                                }
+                                @for cell in &row.cells { td.number { (cell) } }
+                                td.study-wrap { (row.remark) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! What a calculation document is made from, beside the numbers of a run.
+
+use jostle::eigen::Mode;
+use jostle::{GroundMotion, Model, System, Wave};
+use jostle_report::Calculation;
+use sha2::{Digest, Sha256};
+
+use crate::modes::floor_shape;
+use crate::prepared::Prepared;
+
+/// Mode shapes shown of a building.
+const SHAPES: usize = 3;
+
+impl Prepared {
+    /// The parts of a report that are known before a run.
+    #[must_use]
+    pub(crate) fn calculation(&self) -> Calculation<'_> {
+        let text = self.input.text();
+        Calculation {
+            shapes: shapes(&self.system),
+            target: self.input.target(),
+            input_text: text,
+            input_hash: hex(&Sha256::digest(text.as_bytes())),
+            run_hash: run_hash(&self.input.model, &self.motion),
+        }
+    }
+}
+
+fn shapes(system: &System) -> Vec<Vec<(f64, Vec<f64>)>> {
+    let of = |mode: &Mode| (mode.period(), floor_shape(mode));
+    let buildings = system.buildings.iter();
+    buildings
+        .map(|building| building.lateral_modes().take(SHAPES).map(of).collect())
+        .collect()
+}
+
+/// Changes with every number of the model and of the motion, and with the version.
+fn run_hash(model: &Model, motion: &GroundMotion) -> String {
+    let mut hash = Sha256::new();
+    hash.update(env!("CARGO_PKG_VERSION").as_bytes());
+    // Every number of a model is in its debug form, with all digits.
+    hash.update(format!("{model:?} {:?} {:?}", motion.scale, motion.duration).as_bytes());
+    match &motion.wave {
+        Wave::Sampled { step, acceleration } => {
+            hash.update(step.to_le_bytes());
+            acceleration
+                .iter()
+                .for_each(|a| hash.update(a.to_le_bytes()));
+        }
+        other => hash.update(format!("{other:?}").as_bytes()),
+    }
+    hex(&hash.finalize())
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,324 @@
+//! The page of a suite: records, governing values, envelopes over the height, spectra.
+
+use jostle::{GroundMotion, Wave};
+use jostle_motion::{Accelerogram, Reading, response_spectrum, spaced_periods};
+use jostle_report::{Axis, Chart, Section, Series, Stroke, SuitePage, SuiteRow, render_suite};
+use serde_json::Value;
+
+use super::Suite;
+use super::quantities::{displacement, list};
+use super::results::{RecordStatus, SuiteResults};
+use super::text::{headlines, shown};
+
+/// Damping ratio of the spectra unless a target has its own \[–\].
+const DAMPING: f64 = 0.05;
+/// Periods of the spectra \[s\].
+const PERIODS: (f64, f64, usize) = (0.05, 3.0, 120);
+/// Colour of lines that belong to no building.
+const NEUTRAL: usize = 6;
+
+/// A peak of floors over the height.
+struct Peak {
+    title: &'static str,
+    unit: &'static str,
+    factor: f64,
+    /// Whether it belongs to the storey below the floor.
+    of_storey: bool,
+    of: fn(&Value) -> Option<f64>,
+}
+
+const PEAKS: [Peak; 4] = [
+    Peak {
+        title: "Peak displacement",
+        unit: "mm",
+        factor: 1e3,
+        of_storey: false,
+        of: displacement,
+    },
+    Peak {
+        title: "Peak storey drift",
+        unit: "%",
+        factor: 100.0,
+        of_storey: true,
+        of: |floor| floor["storey_drift_peak"].as_f64(),
+    },
+    Peak {
+        title: "Peak total acceleration",
+        unit: "m/s²",
+        factor: 1.0,
+        of_storey: false,
+        of: |floor| floor["total_acceleration_peak_m_s2"].as_f64(),
+    },
+    Peak {
+        title: "Peak storey shear",
+        unit: "kN",
+        factor: 1e-3,
+        of_storey: true,
+        of: |floor| floor["storey_shear_peak_n"].as_f64(),
+    },
+];
+
+impl SuiteResults {
+    /// The page; `links` to the reports of the records.
+    pub(super) fn page(&self, suite: &Suite, links: bool) -> String {
+        let mut sections = Vec::new();
+        let done: Vec<&Value> = self
+            .records
+            .iter()
+            .filter(|record| record.status == RecordStatus::Completed)
+            .map(|record| &record.summary)
+            .collect();
+        if let Some(first) = done.first() {
+            for (index, building) in list(first, "buildings").enumerate() {
+                let name = building["name"].as_str().unwrap_or_default();
+                let charts = PEAKS.iter().map(|peak| over_height(&done, index, peak));
+                sections.push(Section {
+                    title: format!("{name}: peaks over the height"),
+                    remark: "Thin: records. Heavy: their mean. Dashed: mean plus and minus one standard deviation. With dots: mean of the runs without contact.".into(),
+                    charts: charts.flatten().collect(),
+                    ..Section::default()
+                });
+            }
+        }
+        sections.extend(self.spectra(suite));
+        render_suite(&SuitePage {
+            title: self.title.clone(),
+            headline: self.governing.in_words(self.records.len()),
+            warnings: self.warnings.clone(),
+            records: self.rows(links),
+            quantities: self.quantity_rows(),
+            statistic: self.governing.statistic.name(),
+            sections,
+            files: vec![
+                (
+                    "suite.json".into(),
+                    "all quantities of all records, with statistics and governing values".into(),
+                ),
+                ("suite.parquet".into(), "one row per record".into()),
+            ],
+        })
+    }
+
+    fn rows(&self, links: bool) -> Vec<SuiteRow> {
+        let records = self.records.iter();
+        records
+            .map(|record| {
+                let motion = &record.summary["motion"];
+                let gaps = || list(&record.summary, "gaps");
+                let impacts: u64 = gaps().filter_map(|gap| gap["impact_count"].as_u64()).sum();
+                let force = gaps().filter_map(|gap| gap["peak_force_n"].as_f64());
+                let force = force.fold(0.0, f64::max);
+                let number = |key: &str, decimals: usize| {
+                    format!("{:.decimals$}", motion[key].as_f64().unwrap_or(f64::NAN))
+                };
+                SuiteRow {
+                    name: record.motion().to_owned(),
+                    link: links.then(|| format!("{}/report.html", record.folder)),
+                    cells: vec![
+                        number("pga_m_s2", 3),
+                        number("scale", 4),
+                        number("duration_s", 2),
+                        impacts.to_string(),
+                        format!("{:.1}", 1e-3 * force),
+                    ],
+                    remark: record.reason.clone().unwrap_or_default(),
+                }
+            })
+            .collect()
+    }
+
+    /// Name, mean, deviation, 16 and 84 %, greatest with its record, governing.
+    fn quantity_rows(&self) -> Vec<Vec<String>> {
+        let lines = headlines(self).into_iter().map(|(name, quantity)| {
+            let form = shown(&quantity.name);
+            let unit = match form.unit {
+                "" => name,
+                unit => format!("{name} [{unit}]"),
+            };
+            let deviation = quantity.standard_deviation;
+            vec![
+                unit,
+                form.number(quantity.mean),
+                deviation.map_or("–".into(), |value| form.number(value)),
+                format!(
+                    "{} to {}",
+                    form.number(quantity.p16),
+                    form.number(quantity.p84)
+                ),
+                form.number(quantity.maximum),
+                self.records[quantity.maximum_record].motion().to_owned(),
+                form.number(quantity.governing),
+            ]
+        });
+        lines.collect()
+    }
+
+    /// Spectra of the motions as used, their mean, and the target.
+    fn spectra(&self, suite: &Suite) -> Option<Section> {
+        let target = suite.records.first()?.input().target();
+        let damping = target.map_or(DAMPING, |(_, damping)| damping);
+        let periods = spaced_periods(PERIODS.0, PERIODS.1, PERIODS.2);
+        let mut series = Vec::new();
+        let mut mean = vec![0.0; periods.len()];
+        let mut count = 0.0;
+        for record in &suite.records {
+            let motion = record.prepare().ok()?.motion;
+            let motion = accelerogram(&motion)?;
+            let found = response_spectrum(&motion, &periods, &[damping], Reading::Steps).ok()?;
+            let values = &found.curves[0].pseudo_acceleration;
+            mean.iter_mut()
+                .zip(values)
+                .for_each(|(sum, value)| *sum += value);
+            count += 1.0;
+            series.push(line(&periods, values, Stroke::Thin, 0, ""));
+        }
+        mean.iter_mut().for_each(|sum| *sum /= count);
+        series.push(line(&periods, &mean, Stroke::Heavy, 0, "mean"));
+        if let Some((target, _)) = target {
+            let [first, last] = target.range();
+            let points = periods
+                .iter()
+                .filter(|period| (first..=last).contains(*period));
+            let points = points
+                .filter_map(|period| Some([*period, target.acceleration(*period, damping).ok()?]));
+            series.push(Series {
+                points: points.collect(),
+                ..line(&[], &[], Stroke::Dashed, 1, "code")
+            });
+        }
+        Some(Section {
+            title: "Spectra of the motions".into(),
+            remark: "As used in the runs, scaled. Thin: records. Heavy: their mean.".into(),
+            charts: vec![Chart {
+                title: format!("Pseudo-acceleration, {:.0} % damping", 100.0 * damping),
+                x: axis("period", "s"),
+                y: axis("pseudo-acceleration", "m/s²"),
+                series,
+                levels: Vec::new(),
+                reach: 0.0,
+                ordered: false,
+            }],
+            ..Section::default()
+        })
+    }
+}
+
+fn axis(name: &str, unit: &str) -> Axis {
+    Axis {
+        name: name.into(),
+        unit: unit.into(),
+    }
+}
+
+fn line(xs: &[f64], ys: &[f64], stroke: Stroke, colour: usize, name: &str) -> Series {
+    Series {
+        name: name.into(),
+        points: xs.iter().zip(ys).map(|(x, y)| [*x, *y]).collect(),
+        band: Vec::new(),
+        stroke,
+        colour,
+    }
+}
+
+/// Peaks of one building over its height; `None` if no record has them.
+fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
+    let floors: Vec<Vec<&Value>> = runs
+        .iter()
+        .map(|run| list(&run["buildings"][building], "floors").collect())
+        .collect();
+    let heights: Vec<f64> = floors
+        .first()?
+        .iter()
+        .filter_map(|f| f["height_m"].as_f64())
+        .collect();
+    let values = |apart: bool| -> Vec<Vec<f64>> {
+        let of = |floor: &&Value| {
+            let owner = if apart {
+                &floor["without_contact"]
+            } else {
+                *floor
+            };
+            Some(peak.factor * (peak.of)(owner)?)
+        };
+        let all = floors
+            .iter()
+            .map(|floors| floors.iter().filter_map(of).collect());
+        all.filter(|list: &Vec<f64>| list.len() == heights.len())
+            .collect()
+    };
+    let with = values(false);
+    if with.is_empty() || heights.is_empty() {
+        return None;
+    }
+    let drawn = |values: &[f64], stroke, colour, name: &str| {
+        let mut series = line(&[], &[], stroke, colour, name);
+        let mut below = 0.0;
+        for (value, height) in values.iter().zip(&heights) {
+            if peak.of_storey {
+                series.points.push([*value, below]);
+            }
+            series.points.push([*value, *height]);
+            below = *height;
+        }
+        series
+    };
+    let mut series: Vec<Series> = with
+        .iter()
+        .map(|values| drawn(values, Stroke::Thin, building, ""))
+        .collect();
+    let (mean, deviation) = mean_and_deviation(&with);
+    if with.len() > 1 {
+        let edge = |sign: f64| -> Vec<f64> {
+            let pairs = mean.iter().zip(&deviation);
+            pairs.map(|(m, d)| (m + sign * d).max(0.0)).collect()
+        };
+        series.push(drawn(&edge(1.0), Stroke::Dashed, NEUTRAL, ""));
+        series.push(drawn(&edge(-1.0), Stroke::Dashed, NEUTRAL, ""));
+    }
+    series.push(drawn(&mean, Stroke::Heavy, building, "mean"));
+    let apart = values(true);
+    if !apart.is_empty() {
+        let (mean, _) = mean_and_deviation(&apart);
+        series.push(drawn(
+            &mean,
+            Stroke::Dotted,
+            NEUTRAL,
+            "mean without contact",
+        ));
+    }
+    Some(Chart {
+        title: peak.title.into(),
+        x: axis(&peak.title.to_lowercase(), peak.unit),
+        y: axis("height", "m"),
+        series,
+        levels: Vec::new(),
+        reach: 0.0,
+        ordered: false,
+    })
+}
+
+/// Mean and sample standard deviation at every place.
+fn mean_and_deviation(lists: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
+    let count = lists.len() as f64;
+    let places = 0..lists.first().map_or(0, Vec::len);
+    let mean: Vec<f64> = places
+        .clone()
+        .map(|i| lists.iter().map(|list| list[i]).sum::<f64>() / count)
+        .collect();
+    let deviation = places.map(|i| {
+        let squares = lists.iter().map(|list| (list[i] - mean[i]).powi(2));
+        (squares.sum::<f64>() / (count - 1.0).max(1.0)).sqrt()
+    });
+    let deviation = deviation.collect();
+    (mean, deviation)
+}
+
+/// The motion as used, cut or continued to its duration.
+fn accelerogram(motion: &GroundMotion) -> Option<Accelerogram> {
+    let Wave::Sampled { step, .. } = &motion.wave else {
+        return None;
+    };
+    let points = (motion.duration / step * (1.0 + 1e-12)).floor() as usize + 1;
+    let values = (0..points).map(|i| motion.acceleration(step * i as f64));
+    Accelerogram::new(*step, values.collect()).ok()
+}

@@ -1,0 +1,127 @@
+//! The numbers of a run that a suite compares, by name, from `summary.json`.
+
+use serde_json::Value;
+
+/// One number of a run; greater is worse.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// Name, with its unit at the end.
+    pub name: String,
+    /// The number, ≥ 0.
+    pub value: f64,
+}
+
+/// Peaks of a floor: key of the summary, and name here.
+const FLOOR: [(&str, &str); 4] = [
+    ("storey_drift_peak", "storey_drift_peak"),
+    (
+        "total_acceleration_peak_m_s2",
+        "total_acceleration_peak_m_s2",
+    ),
+    ("storey_shear_peak_n", "storey_shear_peak_n"),
+    ("overturning_moment_peak_n_m", "overturning_moment_peak_n_m"),
+];
+
+/// All numbers of a summary, in a fixed order.
+pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
+    let mut all = Vec::new();
+    let mut add = |name: String, value: Option<f64>| {
+        all.extend(value.map(|value| Quantity {
+            name,
+            value: value.abs(),
+        }));
+    };
+    for gap in list(summary, "gaps") {
+        let between = list(gap, "between").filter_map(Value::as_str);
+        let pair = between.collect::<Vec<_>>().join("-");
+        let closing =
+            list(gap, "contacts").filter_map(|contact| contact["closing_peak_m"].as_f64());
+        add(format!("{pair}.impact_count"), gap["impact_count"].as_f64());
+        add(format!("{pair}.peak_force_n"), gap["peak_force_n"].as_f64());
+        add(
+            format!("{pair}.closing_peak_m"),
+            closing.max_by(f64::total_cmp),
+        );
+        add(
+            format!("{pair}.closing_without_contact_m"),
+            gap["closing_without_contact_m"].as_f64(),
+        );
+    }
+    for building in list(summary, "buildings") {
+        let name = building["name"].as_str().unwrap_or_default();
+        let floors: Vec<&Value> = list(building, "floors").collect();
+        let greatest = |of: &dyn Fn(&Value) -> Option<f64>| {
+            floors
+                .iter()
+                .filter_map(|floor| of(floor))
+                .max_by(f64::total_cmp)
+        };
+        let roof = floors.last().copied();
+        add(
+            format!("{name}.base_shear_peak_n"),
+            building["base_shear_peak_n"].as_f64(),
+        );
+        add(
+            format!("{name}.roof_displacement_peak_m"),
+            roof.and_then(displacement),
+        );
+        add(
+            format!("{name}.drift_peak"),
+            greatest(&|floor| floor["storey_drift_peak"].as_f64()),
+        );
+        add(
+            format!("{name}.total_acceleration_peak_m_s2"),
+            greatest(&|floor| floor["total_acceleration_peak_m_s2"].as_f64()),
+        );
+        add(
+            format!("{name}.residual_drift_peak"),
+            greatest(&|floor| floor["residual_drift"].as_f64().map(f64::abs)),
+        );
+        if building["hinges"]["total"].as_u64().unwrap_or(0) > 0 {
+            add(
+                format!("{name}.ductility"),
+                building["hinges"]["ductility"].as_f64(),
+            );
+            add(
+                format!("{name}.hinges_yielded"),
+                building["hinges"]["yielded"].as_f64(),
+            );
+        }
+        add(
+            format!("{name}.without_contact.base_shear_peak_n"),
+            building["without_contact"]["base_shear_peak_n"].as_f64(),
+        );
+        let apart = |floor: &Value| floor["without_contact"]["storey_drift_peak"].as_f64();
+        add(
+            format!("{name}.without_contact.drift_peak"),
+            greatest(&apart),
+        );
+        for floor in &floors {
+            let place = format!("{name}.floor{}", floor["floor"].as_u64().unwrap_or(0));
+            for (owner, middle) in [
+                (*floor, ""),
+                (&floor["without_contact"], ".without_contact"),
+            ] {
+                add(
+                    format!("{place}{middle}.displacement_peak_m"),
+                    displacement(owner),
+                );
+                for (key, own) in FLOOR {
+                    add(format!("{place}{middle}.{own}"), owner[key].as_f64());
+                }
+            }
+        }
+    }
+    all
+}
+
+/// Greatest displacement of a floor, either sign \[m\].
+pub(super) fn displacement(floor: &Value) -> Option<f64> {
+    let greatest = floor["displacement_max_m"].as_f64()?;
+    Some(greatest.max(-floor["displacement_min_m"].as_f64()?))
+}
+
+/// The entries of a list of a summary.
+pub(super) fn list<'v>(value: &'v Value, key: &str) -> impl Iterator<Item = &'v Value> {
+    value[key].as_array().into_iter().flatten()
+}
