@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 #: Columns of texts, also where there are no rows.
-_TEXTS = frozenset({"gap", "member", "end"})
+_TEXTS = frozenset({"gap", "member", "end", "rule", "shear_end", "bending_end"})
 
 
 class Table:

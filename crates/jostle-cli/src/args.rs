@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use jostle_section::capacity::ShearRule;
+
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "bash: jostle completions bash > ~/.local/share/bash-completion/completions/jostle\n\
@@ -57,6 +59,10 @@ pub(crate) struct RunArgs {
     /// Add the greatest axial force, shear and moment of every column and beam of frames
     #[arg(long)]
     pub(crate) members: bool,
+    /// Compare reinforced columns and beams with their capacity by these rules, the first of which governs; includes
+    /// --members. Without rules: all, where ties are known
+    #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = clap::builder::PossibleValuesParser::new(ShearRule::ALL.map(ShearRule::name)))]
+    pub(crate) capacity: Vec<String>,
     /// Run with half and twice the contact stiffness and with restitution ± 0.15 as well, and report the spread
     #[arg(long)]
     pub(crate) sensitivity: bool,

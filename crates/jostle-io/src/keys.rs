@@ -86,6 +86,8 @@ pub(crate) enum Kind {
     Flag,
     /// True or false, or a list of texts.
     FlagOrTexts,
+    /// True or false, one of these, or a list of them.
+    FlagOrChoices(&'static [&'static str]),
     Quantity(Dimension),
     /// One value, or a list from the ground up.
     PerStorey(Dimension),
@@ -196,6 +198,11 @@ pub(crate) const RULES: &[&str] = &{
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
+/// Rules for the capacity of columns and beams, in the order of
+/// [`ShearRule::ALL`](jostle_section::capacity::ShearRule::ALL).
+pub(crate) const CAPACITY_RULES: &[&str] =
+    &["gb50010", "en1998-3", "asce41", "aci318", "sezen-moehle"];
+
 /// Grades of reinforced sections.
 pub(crate) const SECTION_CONCRETES: &[&str] = &jostle_section::CONCRETE_GRADES;
 pub(crate) const STEELS: &[&str] = &jostle_section::STEEL_GRADES;
@@ -248,9 +255,10 @@ const fn default(
 
 use Dimension as D;
 use Kind::{
-    Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FlagOrTexts,
-    FloorPairs, GradeOr, Modes, Neighbours, NumberOrTable, PerContact, PerStorey, Quantities,
-    Quantity, TablePerStorey, Tables, Text, TextOrTable, TextOrTexts, WordOr, WordOrTable,
+    Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FlagOrChoices,
+    FlagOrTexts, FloorPairs, GradeOr, Modes, Neighbours, NumberOrTable, PerContact, PerStorey,
+    Quantities, Quantity, TablePerStorey, Tables, Text, TextOrTable, TextOrTexts, WordOr,
+    WordOrTable,
 };
 use Section as S;
 
@@ -478,6 +486,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Analysis, "accept_unusual", FlagOrTexts, "false", "Accepts values outside their usual ranges: true for all, or a list of fields such as [\"building[0].spans\"]; \"analysis.step\" stands for the work of a run."),
 
     default(S::Output, "members", FlagOrTexts, "false", "Axial force, shear and moment of columns and beams of frames: true for the greatest of every member, or a list of members such as [\"J1.column.2.3\"] (line, storey) and [\"J1.beam.5.1\"] (floor, span), whose histories are written as well."),
+    default(S::Output, "capacity", FlagOrChoices(CAPACITY_RULES), "all rules, if forces of members are asked for and ties are known", "Compares shear and moment of reinforced columns and beams with their capacity at every instant: a rule, a list of rules whose first governs, true for all, false for none. Implies the forces of all members."),
 
     required(S::Integrator, "method", Choice(INTEGRATORS), "Name of the rule; all rules except average acceleration can add numerical damping."),
     default(S::Integrator, "beta", Quantity(D::Dimensionless), "0.25", "Newmark's beta."),

@@ -6,6 +6,7 @@
 mod analysis;
 mod between;
 mod building;
+mod capacity;
 mod frame;
 mod gap;
 mod given;
@@ -22,6 +23,7 @@ mod shear;
 mod tests;
 mod unusual_results;
 
+pub use capacity::CapacityRequest;
 pub(crate) use matching::read_spectrum;
 pub use reinforced::ReinforcedMember;
 
@@ -30,6 +32,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use jostle::{GroundMotion, Model, ModelFault};
+use jostle_section::capacity::ShearRule;
 
 use crate::bounded::read_at_most;
 use crate::fault::{Fault, InputError};
@@ -51,6 +54,8 @@ pub struct Input {
     pub motion: Option<MotionSpec>,
     /// Members of frames whose reinforcement the file states, building by building, columns first.
     pub reinforced: Vec<ReinforcedMember>,
+    /// Rules for the capacity of these members.
+    pub capacity: CapacityRequest,
     /// Warnings of a valid file.
     pub warnings: Vec<String>,
     /// Unusual values that are accepted.
@@ -151,8 +156,9 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
     let (mut noted, accepted) = (reader.take_warnings(), reader.accepted.clone());
     let error = reader.into_error();
     match read {
-        Some((model, motion, reinforced)) if error.faults.is_empty() => Ok(Input {
+        Some((model, motion, reinforced, capacity)) if error.faults.is_empty() => Ok(Input {
             reinforced,
+            capacity,
             warnings: {
                 noted.extend(warnings(&model, &root));
                 noted
@@ -239,6 +245,18 @@ impl Input {
         if !self.accepts(path) && !self.warnings.contains(&warning) {
             self.warnings.push(warning);
         }
+    }
+
+    /// Asks for the greatest forces of all columns and beams, and for demands over capacities where these are known.
+    pub fn ask_for_members(&mut self) {
+        self.model.analysis.members.envelopes = true;
+        capacity::fill(&mut self.model, &self.capacity, &self.reinforced);
+    }
+
+    /// Sets the rules for capacities, the first of which governs, and asks for forces of members.
+    pub fn ask_for_capacity(&mut self, rules: &[ShearRule]) {
+        self.capacity = CapacityRequest::Rules(rules.to_vec());
+        self.ask_for_members();
     }
 
     /// The records that the file lists for a run to choose from; empty unless there are several.
@@ -359,12 +377,16 @@ fn with_record(old: Option<&MotionSpec>, record: &str) -> MotionSpec {
     }
 }
 
+/// What a model file holds.
+type Read = (
+    Model,
+    Option<MotionSpec>,
+    Vec<ReinforcedMember>,
+    CapacityRequest,
+);
+
 /// Reads the whole tree; `None` if there is nothing to build a model from.
-fn read_root(
-    reader: &mut Reader<'_>,
-    root: &Node,
-    base: &Path,
-) -> Option<(Model, Option<MotionSpec>, Vec<ReinforcedMember>)> {
+fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Read> {
     let field = Field::root(root);
     let view = reader.open(&field, &[Section::Root])?;
     let analysis = reader.get(&view, "analysis");
@@ -406,18 +428,21 @@ fn read_root(
     };
     let mut analysis =
         analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
+    let mut capacity = CapacityRequest::default();
     if let Some(field) = reader.get(&view, "output") {
-        analysis.members = output::read(reader, &field);
+        let members = buildings.as_ref().map(|(_, members)| &members[..]);
+        (analysis.members, capacity) = output::read(reader, &field, members);
     }
     let (buildings, reinforced) = buildings?;
-    let model = Model {
+    let mut model = Model {
         title: title.unwrap_or_default(),
         buildings,
         gaps,
         links,
         analysis,
     };
-    Some((model, motion, reinforced))
+    capacity::fill(&mut model, &capacity, &reinforced);
+    Some((model, motion, reinforced, capacity))
 }
 
 /// Adds what the model's own check found, unless reading has found a fault there already.

@@ -194,6 +194,9 @@ fn value(key: &Key) -> String {
         Kind::NumberLists => "list of lists of numbers".into(),
         Kind::TextOrNumbers => "Matrix Market file, or lists of numbers".into(),
         Kind::FlagOrTexts => "`true` or `false`, or a list of texts".into(),
+        Kind::FlagOrChoices(choices) => {
+            format!("`true` or `false`, or one or a list of {}", words(choices))
+        }
         Kind::Flag => "`true` or `false`".into(),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) => {

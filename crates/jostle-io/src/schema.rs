@@ -92,6 +92,11 @@ fn kind(kind: Kind) -> Value {
             { "type": "boolean" },
             { "type": "array", "items": { "type": "string" } },
         ] }),
+        Kind::FlagOrChoices(words) => json!({ "anyOf": [
+            { "type": "boolean" },
+            { "enum": words },
+            { "type": "array", "items": { "enum": words } },
+        ] }),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) | Kind::PerContact(dimension) => {

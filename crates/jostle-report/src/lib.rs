@@ -6,6 +6,7 @@
 mod backbones;
 mod collisions;
 mod describe;
+mod diagrams;
 mod encode;
 mod envelope;
 mod format;

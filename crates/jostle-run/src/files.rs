@@ -4,8 +4,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use jostle_io::{
-    OutputError, write_atomically, write_hinges_parquet, write_history_parquet,
-    write_impacts_parquet, write_members_parquet, write_summary_json,
+    OutputError, write_atomically, write_capacity_parquet, write_hinges_parquet,
+    write_history_parquet, write_impacts_parquet, write_members_parquet, write_summary_json,
 };
 
 use crate::error::RunError;
@@ -17,15 +17,17 @@ const HISTORY: &str = "history.parquet";
 const IMPACTS: &str = "impacts.parquet";
 const HINGES: &str = "hinges.parquet";
 const MEMBERS: &str = "members.parquet";
+const CAPACITY: &str = "capacity.parquet";
 const REPORT: &str = "report.html";
 
 /// The files of a run.
-const FILES: [(&str, FileKind); 6] = [
+const FILES: [(&str, FileKind); 7] = [
     (SUMMARY, FileKind::SUMMARY),
     (HISTORY, FileKind::TABLE),
     (IMPACTS, FileKind::TABLE),
     (HINGES, FileKind::TABLE),
     (MEMBERS, FileKind::TABLE),
+    (CAPACITY, FileKind::TABLE),
     (REPORT, FileKind::REPORT),
 ];
 
@@ -46,7 +48,8 @@ pub fn earlier_files(folder: &Path, force: bool) -> Result<Vec<&'static str>, Ru
 /// Which files to write beside `summary.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Content {
-    /// `history.parquet`, `impacts.parquet`, if buildings yield `hinges.parquet`, and if members are asked for `members.parquet`.
+    /// `history.parquet`, `impacts.parquet`, if buildings yield `hinges.parquet`, if members are named `members.parquet`, and
+    /// if capacities are known `capacity.parquet`.
     pub tables: bool,
     /// `report.html`.
     pub report: bool,
@@ -108,6 +111,9 @@ impl Results<'_> {
             staged.add(MEMBERS, |path| {
                 write_members_parquet(path, system, members, summary)
             })?;
+        }
+        if summary.buildings.iter().any(|own| own.capacity.is_some()) {
+            staged.add(CAPACITY, |path| write_capacity_parquet(path, summary))?;
         }
         Ok(())
     }

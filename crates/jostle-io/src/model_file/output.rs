@@ -2,22 +2,37 @@
 
 use jostle::MemberRequest;
 
+use super::capacity::{self, CapacityRequest};
+use super::reinforced::ReinforcedMember;
 use crate::keys::Section;
-use crate::reader::{Field, Reader};
+use crate::reader::{Field, Reader, View};
 use crate::tree::Value;
 
-/// Reads which forces of columns and beams are asked for.
-pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> MemberRequest {
+/// Reads which forces of columns and beams are asked for, and the rules for their capacity. `members`: those that are
+/// reinforced; `None` after faults.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    members: Option<&[ReinforcedMember]>,
+) -> (MemberRequest, CapacityRequest) {
     let Some(view) = reader.open(field, &[Section::Output]) else {
-        return MemberRequest::default();
+        return Default::default();
     };
-    let Some(field) = reader.get(&view, "members") else {
+    let capacity = capacity::read(reader, &view);
+    if let Some(field) = reader.get(&view, "capacity") {
+        capacity::check(reader, &field, &capacity, members);
+    }
+    (read_members(reader, &view), capacity)
+}
+
+fn read_members(reader: &mut Reader<'_>, view: &View<'_>) -> MemberRequest {
+    let Some(field) = reader.get(view, "members") else {
         return MemberRequest::default();
     };
     match (&field.node.value, field.entries()) {
         (Value::Flag(envelopes), _) => MemberRequest {
             envelopes: *envelopes,
-            histories: Vec::new(),
+            ..MemberRequest::default()
         },
         (_, Some(entries)) => MemberRequest {
             envelopes: true,
@@ -25,6 +40,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> MemberRequest 
                 .iter()
                 .filter_map(|entry| reader.text(entry))
                 .collect(),
+            ..MemberRequest::default()
         },
         _ => {
             let found = field.node.describe();

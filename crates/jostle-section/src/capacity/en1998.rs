@@ -29,7 +29,7 @@ pub(super) fn strength(member: &RatedMember<'_>, compression: f64) -> Option<She
     let by_concrete = 0.16 * bars.max(0.5) * slenderness * root * area;
     let load = compression.clamp(0.0, 0.55 * area * section.concrete.strength);
     let inclined = if load > 0.0 {
-        let axis = neutral_axis_at_yield(section, compression);
+        let (axis, _) = yielding(section, compression);
         (section.depth - axis).max(0.0) / (2.0 * span) * load
     } else {
         0.0
@@ -41,29 +41,31 @@ pub(super) fn strength(member: &RatedMember<'_>, compression: f64) -> Option<She
     })
 }
 
-/// Depth of the neutral axis of the cracked elastic section when the bars in tension yield, or the outermost concrete
-/// reaches 1.8 fc (A.3.2.4), whichever is first; at most the whole depth \[m\].
-fn neutral_axis_at_yield(section: &Section, compression: f64) -> f64 {
+/// Depth of the neutral axis \[m\], at most the whole depth, and curvature \[1/m\] of the cracked elastic section when the bars
+/// in tension yield, or the outermost concrete reaches 1.8 fc (A.3.2.4), whichever is first.
+pub(super) fn yielding(section: &Section, compression: f64) -> (f64, f64) {
     let depth = formula::effective_depth(section);
     let (concrete, steel) = (section.concrete.modulus, section.steel.modulus);
-    let force = |axis: f64| {
+    let curvature = |axis: f64| {
         let by_concrete = 1.8 * section.concrete.strength / (concrete * axis);
-        let curvature = if axis < depth {
+        if axis < depth {
             by_concrete.min(section.steel.yield_strain() / (depth - axis))
         } else {
             by_concrete
-        };
+        }
+    };
+    let force = |axis: f64| {
         let below = (axis - section.depth).max(0.0);
         let blocks = 0.5 * concrete * section.width * (axis * axis - below * below);
         let bars = section.bars.iter();
         let bars: f64 = bars
             .map(|bar| steel * bar.area() * (axis - bar.depth))
             .sum();
-        curvature * (blocks + bars)
+        curvature(axis) * (blocks + bars)
     };
     let (mut low, mut high) = (1e-6 * section.depth, section.depth);
     if force(high) < compression {
-        return section.depth;
+        return (section.depth, curvature(section.depth));
     }
     for _ in 0..100 {
         let middle = 0.5 * (low + high);
@@ -73,5 +75,6 @@ fn neutral_axis_at_yield(section: &Section, compression: f64) -> f64 {
             high = middle;
         }
     }
-    0.5 * (low + high)
+    let axis = 0.5 * (low + high);
+    (axis, curvature(axis))
 }

@@ -2,12 +2,14 @@
 //!
 //! Strengths are those of the section as given: characteristic, mean or design values. Axial forces are compressions.
 
+mod acceptance;
 mod aci318;
 mod asce41;
 mod axial_failure;
 mod en1998;
 mod gb50010;
 mod interaction;
+mod lines;
 mod sezen_moehle;
 
 pub use axial_failure::drift_at_axial_failure;

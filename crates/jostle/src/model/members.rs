@@ -1,13 +1,17 @@
 //! Which forces of columns and beams a run should give.
 
+use super::capacity::MemberCapacity;
+
 /// Which forces of columns and beams a run should give.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct MemberRequest {
     /// Whether the greatest forces of all columns and beams of frames are asked for.
     pub envelopes: bool,
     /// Members whose forces are asked for over time as well: `J1.column.LINE.STOREY`, `J1.beam.FLOOR.SPAN`, counted
     /// from 1.
     pub histories: Vec<String>,
+    /// Members whose demand is compared with their capacity; needs `envelopes`.
+    pub capacities: Vec<MemberCapacity>,
 }
 
 impl MemberRequest {
@@ -16,7 +20,7 @@ impl MemberRequest {
     pub fn all() -> Self {
         Self {
             envelopes: true,
-            histories: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -26,6 +30,7 @@ impl MemberRequest {
         Self {
             envelopes: true,
             histories: names.iter().map(|name| (*name).to_owned()).collect(),
+            ..Self::default()
         }
     }
 }

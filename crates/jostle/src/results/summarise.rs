@@ -6,6 +6,7 @@ use crate::hysteresis::{Side, Stage};
 use crate::model::WALL;
 use crate::model::{Gap, Model};
 use crate::motion::GroundMotion;
+use crate::results::capacity;
 use crate::results::members::members_of;
 use crate::results::summary::{
     BuildingSummary, BuildingWithoutContact, ContactSummary, EnergySummary, FloorSummary,
@@ -150,7 +151,10 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
                 .without_contact
                 .map(|without| floor_without_contact(&without.floors[index][k])),
         });
+    let members = members_of(index, run);
     BuildingSummary {
+        capacity: capacity::of_building(index, &members, run),
+        members,
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),
         periods_s: building
@@ -166,7 +170,6 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         }),
         residual_roof_displacement_m: roof_displacement(building, outcome),
         hinges: hinge_summary(building, outcome),
-        members: members_of(index, run),
     }
 }
 
@@ -313,7 +316,7 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
 }
 
 /// Names of both sides.
-fn names(between: [Option<usize>; 2], system: &System) -> [String; 2] {
+pub(super) fn names(between: [Option<usize>; 2], system: &System) -> [String; 2] {
     between.map(|side| match side {
         Some(building) => system.buildings[building].name.clone(),
         None => WALL.to_owned(),
