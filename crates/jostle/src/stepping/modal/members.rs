@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::basis::Basis;
 use super::member_ratios::{ModalRatios, StepEnds};
 use super::mode_kernels::{ROWS, Show};
-use super::peaks::{BEYOND, Ends};
+use super::peaks::Ends;
 use super::reduced::{Reduced, in_blocks};
 use crate::history::MemberHistory;
 use crate::simd;
@@ -244,42 +244,25 @@ pub(super) struct MemberPeaks {
 struct Watch {
     moved: f64,
     rate: f64,
-    /// Block by block, and whether a force was near its greatest or least value at the last instant.
+    /// Block by block.
     until: Vec<f64>,
-    near: Vec<bool>,
 }
 
 impl Watch {
     fn new(range: &Range<usize>) -> Self {
         Self {
             until: vec![0.0; range.len() / ROWS],
-            near: vec![false; range.len() / ROWS],
             ..Self::default()
         }
     }
 }
 
-/// Share of the extreme so far from which a step is looked at more closely: the rest is left to what shapes miss, and in
-/// forces that pass through beams to courses between instants.
-const NEAR: f64 = 0.95;
-const NEAR_IN_BEAMS: f64 = 0.8;
+/// Share of the extreme so far from which a step is looked at more closely.
+const NEAR: f64 = 0.8;
 /// What the path between instants may be longer than their velocities say.
 const LONGER: f64 = 1.2;
 /// Lists of modal values that are kept: q, its rate, the rate of that and the jerk.
 const LISTS: usize = 4;
-
-/// Σ weights |a − b|, summed in lanes.
-fn weighted_distance(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; ROWS];
-    let (a, b) = (&a[..weights.len()], &b[..weights.len()]);
-    let parts = weights.chunks(ROWS).zip(a.chunks(ROWS)).zip(b.chunks(ROWS));
-    for ((weights, a), b) in parts {
-        for (lane, ((weight, a), b)) in lanes.iter_mut().zip(weights.iter().zip(a).zip(b)) {
-            *lane += weight * (a - b).abs();
-        }
-    }
-    lanes.iter().sum()
-}
 
 impl MemberPeaks {
     /// `None` where no forces are asked for.
@@ -403,8 +386,6 @@ impl MemberPeaks {
         let watch = &mut self.watch[index];
         let rate = simd::weighted_square(stiffness, &now[of(1)]).sqrt();
         watch.moved += LONGER * step * watch.rate.max(rate);
-        // Most that a cubic with these rates at its ends rises above both, per norm.
-        let beyond = BEYOND * step * (watch.rate + rate);
         watch.rate = rate;
         let arch = reduced.arch();
         for (block, until) in watch.until.iter_mut().enumerate() {
@@ -428,12 +409,10 @@ impl MemberPeaks {
             for (row, norm) in own.norms[block * ROWS..].iter().take(ROWS).enumerate() {
                 let above = NEAR * greatest[row] - value[row];
                 let below = value[row] - NEAR * least[row];
-                slack = slack.min(above.min(below) / norm.max(f64::MIN_POSITIVE) - beyond);
+                slack = slack.min(above.min(below) / norm.max(f64::MIN_POSITIVE));
             }
             *until = watch.moved + slack.max(0.0);
-            // A step matters if either end is near.
-            let was_near = std::mem::replace(&mut watch.near[block], slack <= 0.0);
-            if slack > 0.0 && !was_near {
+            if slack > 0.0 {
                 continue;
             }
             let (mut before, mut missed, mut off) =
@@ -489,9 +468,10 @@ impl MemberPeaks {
             .map(|list| &list[first..first + LISTS * count]);
         let (values, rates) = (0..3 * count, count..4 * count);
         let watch = &mut self.watch_passed[index];
-        let moved = weighted_distance(&passed.greatest, now, then);
+        let moved = passed.greatest.iter().zip(now).zip(then);
+        let moved = moved.map(|((share, now), then)| share * (now - then).abs());
         let rise = instant.ground - self.ground;
-        watch.moved += moved + passed.greatest_of_ground * rise.abs();
+        watch.moved += moved.sum::<f64>() + passed.greatest_of_ground * rise.abs();
         let pushed = passed.contacts.iter().flatten();
         let pushed = pushed
             .into_iter()
@@ -516,8 +496,8 @@ impl MemberPeaks {
                 let contacts = passed.contacts[at].iter();
                 value[row] -= contacts.map(|c| instant.phases[*c].force()).sum::<f64>();
                 let [greatest, least] = self.passed[passed.range.start + at];
-                let above = NEAR_IN_BEAMS * greatest - value[row];
-                slack = slack.min(above).min(value[row] - NEAR_IN_BEAMS * least);
+                let above = NEAR * greatest - value[row];
+                slack = slack.min(above).min(value[row] - NEAR * least);
             }
             *until = watch.moved + slack.max(0.0);
             if slack > 0.0 {
