@@ -37,7 +37,8 @@ class Model:
         motion: a :class:`Motion`, the name or path of a record, or ``[motion]`` of the model file.
         title: printed on summaries and reports.
         analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
-        output: ``[output]`` of the model file: ``{"members": True}`` for forces of columns and beams.
+        output: ``[output]`` of the model file: ``{"members": True}`` for forces of columns and beams,
+            ``{"capacity": "gb50010"}`` for their demand over capacity.
         codes: ``[codes]`` of the model file: ``{"show": ["en1998"], "behaviour_factor": 3.9}``.
 
     Raises:

@@ -264,12 +264,41 @@ class Result:
             KeyError: no building has this name.
             ValueError: the model does not ask for forces of members, or no building is a frame.
         """
-        names = [own["name"] for own in self.summary["buildings"]]
-        if building is not None and building not in names:
-            raise KeyError(f"no building is called {building!r}; there are {', '.join(map(repr, names))}")
+        index = self._index_of(building)
         if not any("members" in own for own in self.summary["buildings"]):
             raise ValueError('no forces of columns and beams were asked for; add output={"members": True} to the model')
-        return Table._of(self._core.member_table(None if building is None else names.index(building)))
+        return Table._of(self._core.member_table(index))
+
+    def capacity(self, building: str | None = None) -> Table:
+        """Demand over capacity of reinforced columns and beams, for a model with ``output={"capacity": True}``.
+
+        One row per member and rule, the governing rule first: ``member``, ``rule``, then for shear and bending the
+        greatest ratio (``shear_ratio``, ``bending_ratio``, under the axial force of the same instant), its instant
+        (``…_at_s``), section (``…_end``), the capacity then (``shear_capacity_n``, ``bending_capacity_n_m``), the first
+        excess (``…_exceeded_s``) and the start of the impact in progress (``…_impact_s``); ``axial_failure_drift`` and
+        ``axial_failure_ratio`` of columns. Absent values are NaN.
+
+        Args:
+            building: name of a building; ``None`` takes all.
+
+        Raises:
+            KeyError: no building has this name.
+            ValueError: no capacity is known: members have no bars and ties, or forces of members are not asked for.
+        """
+        index = self._index_of(building)
+        if not any("capacity" in own for own in self.summary["buildings"]):
+            raise ValueError(
+                'no capacity is known; give columns and beams bars and ties, and add output={"capacity": True} to the model'
+            )
+        return Table._of(self._core.capacity_table(index))
+
+    def _index_of(self, building: str | None) -> int | None:
+        if building is None:
+            return None
+        names = [own["name"] for own in self.summary["buildings"]]
+        if building not in names:
+            raise KeyError(f"no building is called {building!r}; there are {', '.join(map(repr, names))}")
+        return names.index(building)
 
     @cached_property
     def member_history(self) -> Table | None:

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from typing_extensions import CapsuleType
 
 
+#: Columns of texts, also where there are no rows.
+_TEXTS = frozenset({"gap", "member", "end", "rule", "shear_end", "bending_end"})
+
 
 class Table:
     """Columns of equal length; their names contain units.

@@ -338,3 +338,37 @@ def test_heights_of_struck_points_are_not_rounded() -> None:
     model = jostle.Model([frame, low], gaps=[gap], motion=motion, output={"members": True})
     heights = jostle.run(model).members("A")["struck_height_m"]
     assert sorted(set(heights.compressed())) == [1.75]
+
+
+def test_demand_over_capacity() -> None:
+    def frame(ties: bool) -> jostle.Frame:
+        bars = {"concrete": "C30", "steel": "HRB400"} | ({"ties": "d10 @ 150 mm"} if ties else {})
+        return jostle.Frame(
+            "A",
+            storeys=2,
+            storey_height="3.2 m",
+            spans=["6 m"],
+            column={"width": "500 mm", "depth": "500 mm", "bars": "12 d20"} | bars,
+            beam={"width": "300 mm", "depth": "600 mm", "bars": "4 d20 top, 4 d20 bottom"} | bars,
+            beam_mass="3600 kg/m",
+        )
+
+    motion = {"kind": "sine", "amplitude": "4 m/s2", "period": "0.6 s", "duration": "3 s"}
+    model = jostle.Model([frame(True)], motion=motion, output={"capacity": ["en1998-3", "gb50010"]})
+    result = jostle.run(model)
+    table = result.capacity("A")
+    # Four columns and two beams by two rules.
+    assert len(table) == 12 and list(table["rule"][:2]) == ["en1998-3", "gb50010"]
+    worst = result.summary["buildings"][0]["capacity"]["worst"]
+    own = [row for row, rule in enumerate(table["rule"]) if rule == "en1998-3"]
+    greatest = max(max(table["shear_ratio"][row], table["bending_ratio"][row]) for row in own)
+    assert greatest == pytest.approx(worst["ratio"])
+    # The same shear over the capacity of the same instant.
+    peaks = result.members("A")
+    for row in own:
+        name = table["member"][row]
+        shear = max(peaks["shear_peak_n"][k] for k, other in enumerate(peaks["member"]) if other == name)
+        assert table["shear_ratio"][row] * table["shear_capacity_n"][row] <= shear * (1 + 1e-6)
+
+    with pytest.raises(ValueError, match="bars and ties"):
+        jostle.run(jostle.Model([frame(False)], motion=motion, output={"members": True})).capacity()

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use jostle_section::capacity::ShearRule;
+
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "bash: jostle completions bash > ~/.local/share/bash-completion/completions/jostle\n\
@@ -63,6 +65,10 @@ pub(crate) struct RunArgs {
     /// Add response spectra of every floor, with and without contact, as floor_spectra = true of the model file
     #[arg(long)]
     pub(crate) floor_spectra: bool,
+    /// Compare reinforced columns and beams with their capacity by these rules, the first of which governs; includes
+    /// --members. Without rules: all, where ties are known
+    #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = clap::builder::PossibleValuesParser::new(ShearRule::ALL.map(ShearRule::name)))]
+    pub(crate) capacity: Vec<String>,
     /// Run with half and twice the contact stiffness and with restitution ± 0.15 as well, and report the spread
     #[arg(long)]
     pub(crate) sensitivity: bool,

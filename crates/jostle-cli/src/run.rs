@@ -11,6 +11,7 @@ use jostle_run::{
     Content, FileKind, Opened, Prepared, Ran, Results, describe_summary, earlier_files, may_write,
     stopped_by,
 };
+use jostle_section::capacity::ShearRule;
 
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
@@ -34,8 +35,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             SolverName::Modal => Some(Solver::Modal),
         };
     }
-    if args.members {
-        follow_all_members(&mut opened)?;
+    if args.members || !args.capacity.is_empty() {
+        follow_members(&mut opened, &args.capacity)?;
     }
     if args.floor_spectra && opened.input.floor_spectra.is_none() {
         let input = Arc::make_mut(&mut opened.input);
@@ -154,10 +155,25 @@ fn analyse(
     }
 }
 
-/// Asks for the greatest forces of all columns and beams.
-fn follow_all_members(opened: &mut Opened) -> Result<(), Failure> {
-    let model = &mut Arc::make_mut(&mut opened.input).model;
-    model.analysis.members.envelopes = true;
+/// Asks for the greatest forces of all columns and beams, and for demands over capacities by these rules; by those of the
+/// model file, or all where capacities are known, if none is named.
+fn follow_members(opened: &mut Opened, rules: &[String]) -> Result<(), Failure> {
+    let input = Arc::make_mut(&mut opened.input);
+    let rules: Vec<ShearRule> = rules
+        .iter()
+        .filter_map(|name| ShearRule::from_name(name))
+        .collect();
+    if rules.is_empty() {
+        input.ask_for_members();
+    } else {
+        input.ask_for_capacity(&rules);
+        if input.model.analysis.members.capacities.is_empty() {
+            return Err(Failure::Input(
+                "--capacity: no member has bars and ties; add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 100 mm\" to column, and likewise to beam".to_owned(),
+            ));
+        }
+    }
+    let model = &input.model;
     if let Err(faults) = model.check() {
         let problems: Vec<&str> = faults.iter().map(|fault| &fault.problem[..]).collect();
         return Err(Failure::Input(format!(

@@ -271,9 +271,10 @@ fn heading(text: &mut String, section: &Section) -> std::fmt::Result {
         section.steel.yield_strength * 1e-6,
         match section.ties {
             Some(ties) => format!(
-                "core confined by ties of {:.0} mm every {:.0} mm",
+                "core confined by ties of {:.0} mm every {:.0} mm, {} legs",
                 ties.diameter * 1e3,
-                ties.spacing * 1e3
+                ties.spacing * 1e3,
+                ties.legs
             ),
             None => "no confinement".to_owned(),
         }

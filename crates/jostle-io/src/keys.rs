@@ -100,6 +100,8 @@ pub(crate) enum Kind {
     FlagTextsOrTable(Section),
     /// One value, or a list of them.
     OneOrMore(Dimension),
+    /// True or false, one of these, or a list of them.
+    FlagOrChoices(&'static [&'static str]),
     Quantity(Dimension),
     /// One value, or a list from the ground up.
     PerStorey(Dimension),
@@ -190,6 +192,11 @@ pub(crate) const RULES: &[&str] = names!(HysteresisRule);
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
+/// Rules for the capacity of columns and beams, in the order of
+/// [`ShearRule::ALL`](jostle_section::capacity::ShearRule::ALL).
+pub(crate) const CAPACITY_RULES: &[&str] =
+    &["gb50010", "en1998-3", "asce41", "aci318", "sezen-moehle"];
+
 /// Grades of reinforced sections.
 pub(crate) const SECTION_CONCRETES: &[&str] = &joined::<23>(&[
     &jostle_section::CONCRETE_GRADES,
@@ -274,9 +281,10 @@ const fn default(
 
 use Dimension as D;
 use Kind::{
-    Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FlagOrTexts,
-    FloorPairs, GradeOr, Modes, Neighbours, NumberOrTable, PerContact, PerStorey, Quantities,
-    Quantity, TablePerStorey, Tables, Text, TextOrTable, TextOrTexts, WordOr, WordOrTable,
+    Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FlagOrChoices,
+    FlagOrTexts, FloorPairs, GradeOr, Modes, Neighbours, NumberOrTable, PerContact, PerStorey,
+    Quantities, Quantity, TablePerStorey, Tables, Text, TextOrTable, TextOrTexts, WordOr,
+    WordOrTable,
 };
 use Section as S;
 
@@ -395,14 +403,14 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Column, "strength", Choice(STRENGTHS), "\"characteristic\"", "Strength level of a grade."),
     optional(S::Column, "bars", TextOrTable(S::Bars), "Reinforcement, such as 12 d20 (around); diameters in mm."),
     default(S::Column, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars."),
-    optional(S::Column, "ties", Text, "Ties that confine the core, such as d10 @ 100 mm."),
+    optional(S::Column, "ties", Text, "Ties that confine the core and resist shear, such as d10 @ 100 mm, or 4 d10 @ 100 mm with four legs."),
     default(S::Column, "axial_load", WordOr("from gravity", D::Force), "\"from gravity\"", "Axial compression for which the yield moment is computed."),
     optional(S::Beam, "concrete", Kind::ConcreteOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010 (C30) or EN 1992-1-1 (C30/37), the cylinder strength of ACI 318 (f'c = 4 ksi), or a prismatic strength; by default that of the building."),
     optional(S::Beam, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010 (HRB400), EN 10080 (B500, of ductility class B without a letter) or ASTM (Grade 60, in ksi, or Grade 420, in MPa), or its yield strength; needed with bars."),
     default(S::Beam, "strength", Choice(STRENGTHS), "\"characteristic\"", "Strength level of a grade."),
     optional(S::Beam, "bars", TextOrTable(S::Bars), "Reinforcement, such as 4 d25 top, 4 d25 bottom; diameters in mm."),
     default(S::Beam, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars."),
-    optional(S::Beam, "ties", Text, "Ties that confine the core, such as d10 @ 100 mm."),
+    optional(S::Beam, "ties", Text, "Ties that confine the core and resist shear, such as d10 @ 100 mm, or 4 d10 @ 100 mm with four legs."),
 
     optional(S::Bars, "top", Text, "Bars in the upper row, such as 4 d25."),
     optional(S::Bars, "bottom", Text, "Bars in the lower row."),
@@ -507,6 +515,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Analysis, "accept_unusual", FlagOrTexts, "false", "Accepts values outside their usual ranges: true for all, or a list of fields such as [\"building[0].spans\"]; \"analysis.step\" stands for the work of a run."),
 
     default(S::Output, "members", FlagOrTexts, "false", "Axial force, shear and moment of columns and beams of frames: true for the greatest of every member, or a list of members such as [\"J1.column.2.3\"] (line, storey) and [\"J1.beam.5.1\"] (floor, span), whose histories are written as well."),
+    default(S::Output, "capacity", FlagOrChoices(CAPACITY_RULES), "all rules, if forces of members are asked for and ties are known", "Compares shear and moment of reinforced columns and beams with their capacity at every instant: a rule, a list of rules whose first governs, true for all, false for none. Implies the forces of all members."),
 
     default(S::Output, "floor_spectra", Kind::FlagTextsOrTable(S::FloorSpectra), "false", "Response spectra of floors, with and without contact: true for every floor, a list of floors such as [\"J1.floor.5\"] or buildings such as [\"J1\"], or a table."),
 

@@ -53,8 +53,8 @@ pub use keys::LAW_NAMES;
 pub use knobs::{Knob, KnobKind};
 pub use matrices::numpy_archive;
 pub use model_file::{
-    FloorSpectraRequest, Input, OverrideError, Overrides, ReinforcedMember, read_model_file,
-    read_model_text,
+    CapacityRequest, FloorSpectraRequest, Input, OverrideError, Overrides, ReinforcedMember,
+    read_model_file, read_model_text,
 };
 pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
@@ -81,9 +81,9 @@ pub use study_file::{
     StudyFile,
 };
 pub use tables::{
-    Values, encode_values_parquet, history_names, impact_columns, member_columns,
-    member_history_columns, write_columns_parquet, write_hinges_parquet, write_history_parquet,
-    write_impacts_parquet, write_members_parquet, write_values_parquet,
+    Values, capacity_columns, encode_values_parquet, history_names, impact_columns, member_columns,
+    member_history_columns, write_capacity_parquet, write_columns_parquet, write_hinges_parquet,
+    write_history_parquet, write_impacts_parquet, write_members_parquet, write_values_parquet,
 };
 pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
 pub use templates::{TEMPLATE_NAMES, template};

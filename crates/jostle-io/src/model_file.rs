@@ -7,6 +7,7 @@ mod analysis;
 mod assumptions;
 mod between;
 mod building;
+mod capacity;
 mod codes;
 mod floor_spectra;
 mod frame;
@@ -25,6 +26,7 @@ mod shear;
 mod tests;
 mod unusual_results;
 
+pub use capacity::CapacityRequest;
 pub use floor_spectra::FloorSpectraRequest;
 pub(crate) use matching::read_spectrum;
 pub use reinforced::ReinforcedMember;
@@ -36,6 +38,7 @@ use std::sync::Arc;
 use jostle::separation::CodeInputs;
 use jostle::{GroundMotion, Model, ModelFault};
 use jostle_motion::{GoverningRule, TargetSpectrum};
+use jostle_section::capacity::ShearRule;
 
 use crate::bounded::read_at_most;
 use crate::fault::{Fault, InputError};
@@ -63,6 +66,8 @@ pub struct Input {
     pub governing: Option<GoverningRule>,
     /// Inputs of the separation rules of codes.
     pub codes: CodeInputs,
+    /// Rules for the capacity of these members.
+    pub capacity: CapacityRequest,
     /// Warnings of a valid file.
     pub warnings: Vec<String>,
     /// Unusual values that are accepted.
@@ -167,11 +172,13 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
             model,
             motion,
             reinforced,
+            capacity,
             codes,
             floor_spectra,
             governing,
         }) if error.faults.is_empty() => Ok(Input {
             reinforced,
+            capacity,
             codes,
             floor_spectra,
             governing,
@@ -261,6 +268,18 @@ impl Input {
         if !self.accepts(path) && !self.warnings.contains(&warning) {
             self.warnings.push(warning);
         }
+    }
+
+    /// Asks for the greatest forces of all columns and beams, and for demands over capacities where these are known.
+    pub fn ask_for_members(&mut self) {
+        self.model.analysis.members.envelopes = true;
+        capacity::fill(&mut self.model, &self.capacity, &self.reinforced);
+    }
+
+    /// Sets the rules for capacities, the first of which governs, and asks for forces of members.
+    pub fn ask_for_capacity(&mut self, rules: &[ShearRule]) {
+        self.capacity = CapacityRequest::Rules(rules.to_vec());
+        self.ask_for_members();
     }
 
     /// The records that the file lists for a run to choose from; empty unless there are several.
@@ -398,6 +417,7 @@ struct Parts {
     model: Model,
     motion: Option<MotionSpec>,
     reinforced: Vec<ReinforcedMember>,
+    capacity: CapacityRequest,
     codes: CodeInputs,
     floor_spectra: Option<FloorSpectraRequest>,
     governing: Option<GoverningRule>,
@@ -449,26 +469,29 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     };
     let mut analysis =
         analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
-    let mut floor_spectra = None;
+    let (mut capacity, mut floor_spectra) = (CapacityRequest::default(), None);
     if let Some(field) = reader.get(&view, "output") {
-        let buildings = buildings.as_ref().map(|(buildings, ..)| &buildings[..]);
-        (analysis.members, floor_spectra) = output::read(reader, &field, buildings);
+        let read = buildings.as_ref();
+        let read = read.map(|(buildings, members, _)| (&buildings[..], &members[..]));
+        (analysis.members, floor_spectra, capacity) = output::read(reader, &field, read);
     }
     let codes = reader.get(&view, "codes");
     let of_buildings = buildings.as_ref().map(|(.., codes)| codes.clone());
     let codes = codes::read(reader, codes.as_ref(), of_buildings.unwrap_or_default());
     let (buildings, reinforced, _) = buildings?;
-    let model = Model {
+    let mut model = Model {
         title: title.unwrap_or_default(),
         buildings,
         gaps,
         links,
         analysis,
     };
+    capacity::fill(&mut model, &capacity, &reinforced);
     Some(Parts {
         model,
         motion,
         reinforced,
+        capacity,
         codes,
         floor_spectra,
         governing,

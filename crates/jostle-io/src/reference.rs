@@ -211,6 +211,9 @@ fn value(key: &Key) -> String {
         Kind::FlagOrTexts => "`true` or `false`, or a list of texts".into(),
         Kind::FlagTextsOrTable(_) => "`true` or `false`, a list of texts, or a table".into(),
         Kind::OneOrMore(dimension) => format!("{}; or a list", quantity(dimension)),
+        Kind::FlagOrChoices(choices) => {
+            format!("`true` or `false`, or one or a list of {}", words(choices))
+        }
         Kind::Flag => "`true` or `false`".into(),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) => {

@@ -98,6 +98,11 @@ fn kind(kind: Kind) -> Value {
             table(&[section]),
         ] }),
         Kind::OneOrMore(dimension) => one_or_list(quantity(dimension)),
+        Kind::FlagOrChoices(words) => json!({ "anyOf": [
+            { "type": "boolean" },
+            { "enum": words },
+            { "type": "array", "items": { "enum": words } },
+        ] }),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Quantity(dimension) => quantity(dimension),
         Kind::PerStorey(dimension) | Kind::PerContact(dimension) => {

@@ -1,11 +1,14 @@
-//! `history.parquet`, `impacts.parquet`, `hinges.parquet` and `members.parquet`: columns with units in their names, compressed with LZ4.
+//! `history.parquet`, `impacts.parquet`, `hinges.parquet`, `members.parquet` and `capacity.parquet`: columns with units in their names, compressed with LZ4.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use jostle::history::MemberHistory;
 use jostle::quantity::Read;
-use jostle::results::summary::{ContactSummary, ImpactSummary, SectionSummary, SpringSummary};
+use jostle::results::summary::{
+    ContactSummary, ImpactSummary, MemberSummary, RatioPlace, RatioSummary, SectionSummary,
+    SpringSummary,
+};
 use jostle::results::{member_name, section_name};
 use jostle::structure::{BaseMotion, MemberEnd, SectionAt, SpringPlace};
 use jostle::{Column, History, Model, Outcome, Quantity, Summary, System, springs_of};
@@ -282,6 +285,107 @@ pub fn member_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'stat
     let sections = || rows.iter().map(|(.., section)| *section);
     columns.extend(quantity_columns(SectionSummary::QUANTITIES, sections));
     columns
+}
+
+/// The columns of the table of demands over capacities: one row per member and rule, the governing rule first; no rows where no
+/// capacity is known. `building`: those of one building only.
+#[must_use]
+pub fn capacity_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'static str, Values)> {
+    let mut rows: Vec<(&MemberSummary, &RatioSummary)> = Vec::new();
+    for (index, own) in summary.buildings.iter().enumerate() {
+        if building.is_some_and(|building| building != index) {
+            continue;
+        }
+        for member in &own.members {
+            let ratios = member.ratio.iter().chain(&member.other_ratios);
+            rows.extend(ratios.map(|ratio| (member, ratio)));
+        }
+    }
+    let text = |of: fn(&MemberSummary, &RatioSummary) -> String| {
+        Values::Text(
+            rows.iter()
+                .map(|(member, ratio)| of(member, ratio))
+                .collect(),
+        )
+    };
+    let maybe = |of: fn(&MemberSummary, &RatioSummary) -> Option<f64>| {
+        Values::Instant(
+            rows.iter()
+                .map(|(member, ratio)| of(member, ratio))
+                .collect(),
+        )
+    };
+    let at =
+        |place: Option<&RatioPlace>| place.map_or_else(String::new, |place| place.at.to_owned());
+    vec![
+        ("member", text(|member, _| member.name.clone())),
+        ("rule", text(|_, ratio| ratio.rule.to_owned())),
+        ("shear_ratio", maybe(|_, ratio| ratio.shear)),
+        (
+            "shear_at_s",
+            maybe(|_, ratio| Some(ratio.shear_at.as_ref()?.at_s)),
+        ),
+        (
+            "shear_end",
+            Values::Text(rows.iter().map(|(_, r)| at(r.shear_at.as_ref())).collect()),
+        ),
+        (
+            "shear_capacity_n",
+            maybe(|_, ratio| Some(ratio.shear_at.as_ref()?.capacity)),
+        ),
+        (
+            "shear_exceeded_s",
+            maybe(|_, ratio| ratio.shear_at.as_ref()?.exceeded_s),
+        ),
+        (
+            "shear_impact_s",
+            maybe(|_, ratio| Some(ratio.shear_at.as_ref()?.impact.as_ref()?.start_s)),
+        ),
+        ("bending_ratio", maybe(|_, ratio| Some(ratio.bending))),
+        (
+            "bending_at_s",
+            maybe(|_, ratio| Some(ratio.bending_at.at_s)),
+        ),
+        (
+            "bending_end",
+            Values::Text(rows.iter().map(|(_, r)| at(Some(&r.bending_at))).collect()),
+        ),
+        (
+            "bending_capacity_n_m",
+            maybe(|_, ratio| Some(ratio.bending_at.capacity)),
+        ),
+        (
+            "bending_exceeded_s",
+            maybe(|_, ratio| ratio.bending_at.exceeded_s),
+        ),
+        (
+            "bending_impact_s",
+            maybe(|_, ratio| Some(ratio.bending_at.impact.as_ref()?.start_s)),
+        ),
+        (
+            "axial_failure_drift",
+            maybe(|member, _| Some(member.axial_failure?.drift)),
+        ),
+        (
+            "axial_failure_ratio",
+            maybe(|member, _| Some(member.axial_failure?.ratio)),
+        ),
+    ]
+}
+
+/// Writes demands over capacities of columns and beams; see [`capacity_columns`].
+///
+/// # Errors
+/// [`OutputError`] when the file cannot be written.
+pub fn write_capacity_parquet(path: &Path, summary: &Summary) -> Result<(), OutputError> {
+    let columns = capacity_columns(summary, None).into_iter();
+    write_table(
+        path,
+        summary,
+        columns
+            .map(|(name, values)| (name.to_owned(), values))
+            .collect(),
+    )
 }
 
 /// The columns of the histories of members: one row per instant and section, in the order of time.

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use jostle::stepping::Progress;
 use jostle::{Column, Pounding, RunEnd, Settings, Summary};
 use jostle_io::{
-    building_columns, floor_columns, floor_spectra_columns, history_names, impact_columns,
-    member_columns, member_history_columns, summary_json, write_atomically,
+    building_columns, capacity_columns, floor_columns, floor_spectra_columns, history_names,
+    impact_columns, member_columns, member_history_columns, summary_json, write_atomically,
 };
 use jostle_run::{
     Content, FileKind, Paper, Ran, Results, RunError, Stage, earlier_files, find_chromium,
@@ -307,6 +307,12 @@ impl Run {
     #[pyo3(signature = (building=None))]
     fn member_table(&self, building: Option<usize>) -> Table {
         Table::of_columns(member_columns(&self.summary(None), building))
+    }
+
+    /// Demands over capacities as a table, columns as in capacity.parquet, of one building or of all.
+    #[pyo3(signature = (building=None))]
+    fn capacity_table(&self, building: Option<usize>) -> Table {
+        Table::of_columns(capacity_columns(&self.summary(None), building))
     }
 
     /// Histories of members as a table, columns as in members.parquet; `None` if no member was named.

@@ -8,6 +8,7 @@ mod calculation;
 mod collisions;
 mod contact_box;
 mod describe;
+mod diagrams;
 mod document;
 mod encode;
 mod envelope;

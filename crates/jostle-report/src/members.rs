@@ -1,6 +1,9 @@
-//! Greatest forces of columns and beams: one table for each building, struck columns first.
+//! Greatest forces of columns and beams, and their demand over capacity: one table for each building, struck columns first.
 
-use jostle::results::summary::{BuildingSummary, MemberSummary, SectionSummary};
+use jostle::results::summary::{
+    BuildingSummary, CapacitySummary, ExceededSummary, MemberSummary, RatioPlace, SectionSummary,
+};
+use jostle_section::capacity::ShearRule;
 use maud::{Markup, html};
 
 use crate::{Page, format};
@@ -11,21 +14,118 @@ const MOST_ROWS: usize = 400;
 /// The section; `None` where no forces of members were asked for.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
     let asked = page.summary.buildings.iter().any(|b| !b.members.is_empty());
+    let mut rated = page
+        .summary
+        .buildings
+        .iter()
+        .filter_map(|b| b.capacity.as_ref());
+    let rule = rated
+        .next()
+        .and_then(|capacity| ShearRule::from_name(capacity.rule));
     asked.then(|| {
         html! {
             section #members {
                 h2 { "Columns and beams" }
-                @for building in page.summary.buildings.iter().filter(|b| !b.members.is_empty()) {
+                @if let Some(rule) = rule {
+                    @for capacity in page.summary.buildings.iter().filter_map(|b| Some((&b.name, b.capacity.as_ref()?))) {
+                        p { (verdict(capacity.0, capacity.1)) }
+                    }
+                    p.quiet {
+                        "Capacity by " (rule.source()) ", with the strengths given in the model. Bending: moment capacity of the section under the axial force of the same instant. "
+                        "Ratios above 1 are beyond the capacity. summary.json and capacity.parquet also have the other rules."
+                    }
+                }
+                @for (index, building) in page.summary.buildings.iter().enumerate().filter(|(_, b)| !b.members.is_empty()) {
                     (table(building))
+                    @if let Some(diagrams) = crate::diagrams::of_building(page, index) { (diagrams) }
+                }
+                @if page.summary.buildings.iter().flat_map(|b| &b.members).any(|m| !m.acceptance.is_empty()) {
+                    p.quiet {
+                        "Rotations of yielding ends: chord rotation by EN 1998-3 (DL, SD, NC), plastic rotation of columns by ASCE 41 (IO, LS, CP), "
+                        "and crushing of the section; in this order, as far as they apply."
+                    }
                 }
                 p.quiet {
-                    "Greatest forces of every member, struck columns first, then by shear. Axial forces are positive in tension; "
+                    "Greatest forces of every member, by the greatest ratio where capacities are known, otherwise struck columns first, then by shear. Axial forces are positive in tension; "
                     "shear and moment are the greatest of both ends and of both sides of a struck point, either sign. "
                     "Damping forces are no part of shears and moments."
                 }
             }
         }
     })
+}
+
+/// How many members are beyond their capacity, and which.
+fn verdict(name: &str, capacity: &CapacitySummary) -> String {
+    let place = |own: &ExceededSummary| {
+        let during = own.impact.as_ref().map_or_else(String::new, |impact| {
+            format!(
+                ", during the impact of {} and {} that starts at {}",
+                impact.between[0],
+                impact.between[1],
+                format::instant(impact.start_s)
+            )
+        });
+        let at = format::instant(own.at_s);
+        format!(
+            "{} in {} at its {}, at {at}{during}",
+            own.member, own.kind, own.at
+        )
+    };
+    let worst = format!(
+        "Greatest ratio {}: {}.",
+        format::fixed(capacity.worst.ratio, 2),
+        place(&capacity.worst)
+    );
+    match &capacity.first {
+        Some(first) => format!(
+            "{name}: {} of {} members are beyond their capacity, first {}. {worst}",
+            capacity.exceeded,
+            capacity.rated,
+            place(first)
+        ),
+        None => format!(
+            "{name}: none of {} members is beyond its capacity. {worst}",
+            capacity.rated
+        ),
+    }
+}
+
+/// A ratio of demand to capacity; its place is shown on hovering.
+fn ratio(value: Option<f64>, place: Option<&RatioPlace>) -> Markup {
+    let Some((value, place)) = value.zip(place) else {
+        return html! { td.number { (format::NOTHING) } };
+    };
+    let class = match value {
+        v if v > 1.0 => "number ratio-beyond",
+        v if v > 0.8 => "number ratio-near",
+        _ => "number",
+    };
+    let title = format!("{}, {}", place.at, format::instant(place.at_s));
+    html! { td class=(class) title=(title) { (format::fixed(value, 2)) } }
+}
+
+/// Levels of performance that the rotations of the ends keep, rule by rule.
+fn levels(member: &MemberSummary) -> Markup {
+    let beyond = member.acceptance.iter().any(|own| own.level.is_none());
+    let texts = member.acceptance.iter().map(|own| {
+        let last = own.limits.last().map_or("", |limit| limit.level);
+        match own.level {
+            Some(level) => level.to_owned(),
+            None => format!("beyond {last}"),
+        }
+    });
+    let title = member.acceptance.iter().map(|own| {
+        let milliradians = format::significant(own.rotation_rad * 1e3, 3);
+        format!(
+            "{}: {} {milliradians} mrad at the {}",
+            own.rule, own.measure, own.at
+        )
+    });
+    let (texts, title): (Vec<_>, Vec<_>) = (texts.collect(), title.collect());
+    html! {
+        td class=[beyond.then_some("ratio-beyond")] title=(title.join("; ")) { (texts.join(" · ")) }
+    }
 }
 
 fn sections(member: &MemberSummary) -> impl Iterator<Item = &SectionSummary> {
@@ -48,6 +148,15 @@ fn table(building: &BuildingSummary) -> Markup {
         let (x, y) = (hit(a), hit(b));
         y.total_cmp(&x).then(shear(b).total_cmp(&shear(a)))
     });
+    let is_rated = building.capacity.is_some();
+    let turns = building.members.iter().any(|m| !m.acceptance.is_empty());
+    if is_rated {
+        let ratio = |m: &MemberSummary| {
+            let ratio = m.ratio.as_ref();
+            ratio.map_or(0.0, |ratio| ratio.bending.max(ratio.shear.unwrap_or(0.0)))
+        };
+        members.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
+    }
     let all = members.len();
     members.truncate(MOST_ROWS);
     let columns = [
@@ -57,7 +166,7 @@ fn table(building: &BuildingSummary) -> Markup {
         ("moment", "kN·m"),
     ];
     html! {
-        details.peaks open[members.iter().any(|m| hit(m) > 0.0)] {
+        details.peaks open[is_rated || members.iter().any(|m| hit(m) > 0.0)] {
             summary { "Columns and beams of " (building.name) }
             @if all > MOST_ROWS {
                 p.quiet { (MOST_ROWS) " of " (all) " members; summary.json has all of them." }
@@ -71,6 +180,11 @@ fn table(building: &BuildingSummary) -> Markup {
                         @for (name, unit) in columns {
                             th.number scope="col" { (name) br; span.unit { "[" (unit) "]" } }
                         }
+                        @if is_rated {
+                            th.number scope="col" { "shear" br; "/ capacity" }
+                            th.number scope="col" { "moment" br; "/ capacity" }
+                        }
+                        @if turns { th scope="col" { "rotation within" } }
                     } }
                     tbody {
                         @for member in &members {
@@ -88,6 +202,12 @@ fn table(building: &BuildingSummary) -> Markup {
                                 td.number { (kilo(greatest(member, |s| -s.axial_min_n).max(0.0))) }
                                 td.number { (kilo(shear(member))) }
                                 td.number { (kilo(greatest(member, |s| s.moment_peak_n_m))) }
+                                @if is_rated {
+                                    @let own = member.ratio.as_ref();
+                                    (ratio(own.and_then(|r| r.shear), own.and_then(|r| r.shear_at.as_ref())))
+                                    (ratio(own.map(|r| r.bending), own.map(|r| &r.bending_at)))
+                                }
+                                @if turns { (levels(member)) }
                             }
                         }
                     }

@@ -128,9 +128,10 @@ fn section(known: &ReinforcedSection) -> String {
     );
     if let Some(ties) = &section.ties {
         text.push_str(&format!(
-            ", ties d{} at {}\u{a0}mm",
+            ", ties d{} at {}\u{a0}mm, {} legs",
             size(ties.diameter),
-            size(ties.spacing)
+            size(ties.spacing),
+            ties.legs
         ));
     }
     if known.member == Member::Column {

@@ -4,9 +4,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use jostle_io::{
-    OutputError, write_atomically, write_buildings_parquet, write_floor_spectra_parquet,
-    write_floors_parquet, write_hinges_parquet, write_history_parquet, write_impacts_parquet,
-    write_members_parquet, write_summary_json,
+    OutputError, write_atomically, write_buildings_parquet, write_capacity_parquet,
+    write_floor_spectra_parquet, write_floors_parquet, write_hinges_parquet, write_history_parquet,
+    write_impacts_parquet, write_members_parquet, write_summary_json,
 };
 
 use crate::error::RunError;
@@ -20,11 +20,12 @@ const FLOORS: &str = "floors.parquet";
 const IMPACTS: &str = "impacts.parquet";
 const HINGES: &str = "hinges.parquet";
 const MEMBERS: &str = "members.parquet";
+const CAPACITY: &str = "capacity.parquet";
 const FLOOR_SPECTRA: &str = "floor_spectra.parquet";
 const REPORT: &str = "report.html";
 
 /// The files of a run.
-const FILES: [(&str, FileKind); 9] = [
+const FILES: [(&str, FileKind); 10] = [
     (SUMMARY, FileKind::SUMMARY),
     (HISTORY, FileKind::TABLE),
     (BUILDINGS, FileKind::TABLE),
@@ -33,6 +34,7 @@ const FILES: [(&str, FileKind); 9] = [
     (HINGES, FileKind::TABLE),
     (MEMBERS, FileKind::TABLE),
     (FLOOR_SPECTRA, FileKind::TABLE),
+    (CAPACITY, FileKind::TABLE),
     (REPORT, FileKind::REPORT),
 ];
 
@@ -53,7 +55,8 @@ pub fn earlier_files(folder: &Path, force: bool) -> Result<Vec<&'static str>, Ru
 /// Which files to write beside `summary.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Content {
-    /// `history.parquet`, `buildings.parquet`, `floors.parquet`, `impacts.parquet`, if buildings yield `hinges.parquet`, and if members are asked for `members.parquet`.
+    /// `history.parquet`, `buildings.parquet`, `floors.parquet`, `impacts.parquet`, if buildings yield `hinges.parquet`, and if members are asked for `members.parquet`,
+    /// and if capacities are known `capacity.parquet`.
     /// If floor spectra are asked for, `floor_spectra.parquet` is written in any case, beside `summary.json`.
     pub tables: bool,
     /// `report.html`.
@@ -124,6 +127,9 @@ impl Results<'_> {
             staged.add(MEMBERS, |path| {
                 write_members_parquet(path, system, members, summary)
             })?;
+        }
+        if summary.buildings.iter().any(|own| own.capacity.is_some()) {
+            staged.add(CAPACITY, |path| write_capacity_parquet(path, summary))?;
         }
         Ok(())
     }

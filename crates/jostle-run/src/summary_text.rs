@@ -5,7 +5,9 @@ use std::path::Path;
 
 use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::response::FloorResponse;
-use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, LinkSummary, Summary};
+use jostle::results::summary::{
+    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
+};
 use jostle::separation::gb50011_frame_joint;
 
 use crate::floor_spectra_text::write_floor_spectra;
@@ -53,6 +55,7 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     }
     write_buildings(text, &summary.buildings)?;
     write_hinges(text, &summary.buildings)?;
+    write_capacity(text, &summary.buildings)?;
     for gap in &summary.gaps {
         write_gap(text, gap, summary)?;
     }
@@ -214,6 +217,69 @@ fn write_hinges(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::R
             building.name, hinges.yielded, hinges.total, hinges.cracked
         )?;
         between = "";
+    }
+    Ok(())
+}
+
+/// The first member beyond its capacity, and the worst; one line if none is beyond it.
+fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    let rated = || {
+        buildings
+            .iter()
+            .filter_map(|building| building.capacity.as_ref())
+    };
+    let Some(rule) = rated().next().map(|capacity| capacity.rule) else {
+        return Ok(());
+    };
+    let place = |own: &ExceededSummary| {
+        let during = own.impact.as_ref().map_or_else(String::new, |impact| {
+            let [left, right] = &impact.between;
+            format!(
+                ", during the impact of {left} and {right} from {:.3} s",
+                impact.start_s
+            )
+        });
+        format!(
+            "{} in {} at its {}, t = {:.3} s{during}",
+            own.member, own.kind, own.at, own.at_s
+        )
+    };
+    let worst = rated().map(|capacity| &capacity.worst);
+    let worst = worst.max_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    let firsts = rated().filter_map(|capacity| capacity.first.as_ref());
+    let first = firsts.min_by(|a, b| a.at_s.total_cmp(&b.at_s));
+    let (all, exceeded) = rated().fold((0, 0), |(all, exceeded), capacity| {
+        (all + capacity.rated, exceeded + capacity.exceeded)
+    });
+    let label = format!("capacity ({rule}):");
+    match first {
+        Some(first) => {
+            let beyond = format!("{exceeded} of {all} members beyond it");
+            writeln!(
+                text,
+                "\n{label} {}, first {}",
+                styled(LOUD, &beyond),
+                place(first)
+            )?;
+            if let Some(worst) = worst {
+                writeln!(
+                    text,
+                    "  worst {:.2} × capacity: {}",
+                    worst.ratio,
+                    place(worst)
+                )?;
+            }
+        }
+        None => {
+            if let Some(worst) = worst {
+                writeln!(
+                    text,
+                    "\n{label} none of {all} members beyond it; greatest {:.2} × capacity: {}",
+                    worst.ratio,
+                    place(worst)
+                )?;
+            }
+        }
     }
     Ok(())
 }

@@ -42,6 +42,8 @@ pub struct Ties {
     pub diameter: f64,
     /// Distance along the member, > 0 \[m\].
     pub spacing: f64,
+    /// Legs in either direction, ≥ 2 \[–\].
+    pub legs: usize,
 }
 
 /// An error in a description of bars.
@@ -55,6 +57,8 @@ const EXAMPLE: &str =
 
 /// Most bars of a section.
 const MOST_BARS: usize = 400;
+/// Most legs of ties in one direction.
+const MOST_LEGS: usize = 12;
 
 impl Reinforcement {
     /// Reads `"12 d20"`, `"4 d25 top, 4 d25 bottom"`, `"2 d25 + 2 d20 top, 4 d20 bottom, 4 d12 sides"`.
@@ -269,7 +273,7 @@ fn parse_group(text: &str) -> Result<Group, BarsError> {
 }
 
 impl Ties {
-    /// Reads `"d10 @ 100 mm"` or `"d10 @100"`.
+    /// Reads `"d10 @ 100 mm"` or `"d10 @100"`: two legs in either direction; `"4 d10 @ 100 mm"` has four.
     ///
     /// # Errors
     /// [`BarsError`] with the part that is not understood.
@@ -277,12 +281,20 @@ impl Ties {
         let fault = || {
             let shown: String = text.chars().take(40).collect();
             BarsError(format!(
-                "\"{shown}\" is not understood; write \"d10 @ 100 mm\" for ties of 10 mm every 100 mm"
+                "\"{shown}\" is not understood; write \"d10 @ 100 mm\" for ties of 10 mm every 100 mm, \"4 d10 @ 100 mm\" with four legs"
             ))
         };
         let (bar, spacing) = text.split_once('@').ok_or_else(fault)?;
         let bar = bar.trim();
+        let digits = bar.len() - bar.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        let (legs, bar) = bar.split_at(digits);
+        let legs = if legs.is_empty() {
+            2
+        } else {
+            legs.parse::<usize>().map_err(|_| fault())?
+        };
         let bar = bar
+            .trim_start()
             .strip_prefix(['d', 'D', 'φ', 'Φ', 'Ø', 'ø'])
             .ok_or_else(fault)?;
         let number = |text: &str| {
@@ -296,10 +308,22 @@ impl Ties {
                 "\"{text}\": expected ties of 4 to 40 mm every 20 to 1000 mm"
             )));
         }
+        if !(2..=MOST_LEGS).contains(&legs) {
+            return Err(BarsError(format!(
+                "\"{text}\": expected 2 to {MOST_LEGS} legs, found {legs}"
+            )));
+        }
         Ok(Self {
             diameter: 1e-3 * diameter,
             spacing: 1e-3 * spacing,
+            legs,
         })
+    }
+
+    /// Cross-section of all legs in one direction \[m²\].
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.legs as f64 * (0.25 * std::f64::consts::PI * self.diameter * self.diameter)
     }
 }
 
@@ -355,5 +379,12 @@ mod tests {
         }
         assert!(Ties::parse("d10 @ 100 mm").is_ok());
         assert!(Ties::parse("10/100").is_err());
+        let four = Ties::parse("4 d10 @ 100 mm").expect("understood");
+        assert_eq!(four.legs, 4);
+        assert_eq!(Ties::parse("4d10@100").ok(), Some(four));
+        for text in ["1 d10 @ 100 mm", "0 d10 @ 100 mm", "99 d10 @ 100 mm"] {
+            let error = Ties::parse(text).expect_err(text).to_string();
+            assert!(error.contains("legs"), "{error}");
+        }
     }
 }

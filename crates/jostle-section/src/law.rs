@@ -70,19 +70,16 @@ impl ConcreteLaw {
 
 /// Law of the core of a section whose ties confine it; `None` without ties.
 ///
-/// Mander, Priestley and Park (1988): lateral pressure of rectangular hoops with two legs each way, reduced by
-/// the arches between ties and between the bars they hold; strength by the formula for equal pressures; crushed
+/// Mander, Priestley and Park (1988): lateral pressure of rectangular hoops with their legs each way, reduced by
+/// the arches between ties and between the bars in the corners; strength by the formula for equal pressures; crushed
 /// at 0.004 + 1.4 ρs fy εsu / fcc (Priestley, Seible and Calvi, 1996).
 #[must_use]
 pub fn confined(section: &Section) -> Option<ConcreteLaw> {
     let ties = section.ties?;
     let plain = ConcreteLaw::unconfined(&section.concrete);
     let (width, depth) = core(section);
-    let leg = 0.25 * std::f64::consts::PI * ties.diameter * ties.diameter;
-    let ratios = [
-        2.0 * leg / (ties.spacing * depth),
-        2.0 * leg / (ties.spacing * width),
-    ];
+    let legs = ties.area();
+    let ratios = [legs / (ties.spacing * depth), legs / (ties.spacing * width)];
     let clear = (ties.spacing - ties.diameter).max(0.0);
     // Of the bars only those in the corners are sure to be held.
     let between = [width, depth].map(|side| side * side / 6.0 * 2.0);

@@ -8,6 +8,7 @@
 //! Everything is in SI. Compression is positive for concrete strains and axial loads; positive moments stretch
 //! the bottom.
 
+pub mod capacity;
 pub mod formula;
 
 mod bars;

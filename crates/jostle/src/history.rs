@@ -509,3 +509,61 @@ pub struct SpringEvent {
     /// Time \[s\].
     pub time: f64,
 }
+
+/// Greatest ratio of demand to capacity at one section of a member, by one rule.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SectionRatio {
+    /// In shear; zero where the rule has none.
+    pub shear: RatioPeak,
+    /// In bending.
+    pub bending: RatioPeak,
+}
+
+/// All forces of columns and beams of a building when the governing ratio of demand to capacity was greatest.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WorstInstant {
+    /// The greatest ratio by the governing rule \[–\].
+    pub ratio: f64,
+    /// End of the step with it \[s\].
+    pub time: f64,
+    /// Forces in the order of [`MemberForces::forms`](crate::structure::MemberForces::forms); empty where nothing is rated
+    /// \[N, N·m\].
+    pub forces: Vec<f64>,
+}
+
+/// A greatest ratio of demand to capacity and the forces there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RatioPeak {
+    /// The ratio \[–\].
+    pub ratio: f64,
+    /// Its instant \[s\].
+    pub at: f64,
+    /// Shear or moment then, with its sign \[N, N·m\].
+    pub demand: f64,
+    /// Compression then \[N\].
+    pub compression: f64,
+    /// First instant at which the demand exceeded the capacity \[s\].
+    pub exceeded_at: Option<f64>,
+}
+
+impl SectionRatio {
+    /// The greater of both.
+    pub(crate) fn greatest(&self) -> f64 {
+        self.shear.ratio.max(self.bending.ratio)
+    }
+}
+
+impl RatioPeak {
+    /// Takes in an instant. A capacity below a ten-thousandth of the demand counts as that.
+    #[inline]
+    pub(crate) fn take(&mut self, time: f64, demand: f64, capacity: f64, compression: f64) {
+        let ratio = demand.abs() / capacity.max(1e-4 * demand.abs());
+        if ratio > self.ratio {
+            (self.ratio, self.at) = (ratio, time);
+            (self.demand, self.compression) = (demand, compression);
+            if ratio > 1.0 && self.exceeded_at.is_none() {
+                self.exceeded_at = Some(time);
+            }
+        }
+    }
+}

@@ -576,3 +576,53 @@ fn shears_of_columns_make_up_the_shear_of_their_storey() {
         );
     }
 }
+
+#[test]
+fn columns_carry_the_overturning_moment() {
+    // Statics of the whole frame, axially rigid members: about the foot of the first line, the moments at the feet and the
+    // couple of the axial forces balance the loads, and axial forces above any storey add up to the weight on it.
+    let spans = [6.0, 5.0];
+    let model = Model {
+        title: "Overturning".to_owned(),
+        buildings: vec![building("A", frame(4, &spans))],
+        gaps: Vec::new(),
+        links: Vec::new(),
+        analysis: Analysis {
+            members: MemberRequest::all(),
+            ..Analysis::default()
+        },
+    };
+    let system = System::assemble(&model).expect("sound");
+    let push = [30e3, 50e3, 20e3, 80e3];
+    let mut loads: Vec<[f64; 4]> = Vec::new();
+    let mut overturning = 0.0;
+    for (floor, force) in push.into_iter().enumerate() {
+        let height = 3.2 * (floor + 1) as f64;
+        let heights = system.buildings[0].floors.iter().map(|own| own.height);
+        let height = heights.min_by(|a, b| (a - height).abs().total_cmp(&(b - height).abs()));
+        loads.push([0.0, height.expect("a floor"), force, 0.0]);
+        overturning += force * height.expect("a floor");
+    }
+    let forces = under(&system, &loads);
+    for storey in 1..=4 {
+        let lines = [1, 2, 3].map(|line| MemberPlace::Column { line, storey });
+        let foot = |place| forces.at(place, SectionAt::First);
+        let sum: f64 = lines.map(|place| foot(place)[0]).iter().sum();
+        assert_near(sum, 0.0, overturning);
+        let x = [0.0, spans[0], spans[0] + spans[1]];
+        let base = 3.2 * (storey - 1) as f64;
+        let above: f64 = loads
+            .iter()
+            .map(|[_, y, force, _]| force * (y - base).max(0.0))
+            .sum();
+        // Tension on the left pulls down there; a negative moment at a foot bends to the right.
+        let couple: f64 = lines
+            .iter()
+            .zip(x)
+            .map(|(place, x)| -foot(*place)[0] * x)
+            .sum();
+        let moments: f64 = lines.map(|place| -foot(place)[2]).iter().sum();
+        assert_near(couple + moments, above, overturning);
+        assert!(couple > 0.3 * above, "most is carried by axial forces");
+    }
+}

@@ -2,17 +2,20 @@
 
 use jostle::{Building, MemberRequest};
 
+use super::capacity::{self, CapacityRequest};
 use super::floor_spectra::{self, FloorSpectraRequest};
+use super::reinforced::ReinforcedMember;
 use crate::keys::Section;
 use crate::reader::{Field, Reader};
 use crate::tree::Value;
 
-/// Reads which forces of columns and beams, and which spectra of floors are asked for.
+/// Reads which forces of columns and beams, which spectra of floors and which capacities are asked for. `read`: buildings
+/// and their reinforced members; `None` after faults.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    buildings: Option<&[Building]>,
-) -> (MemberRequest, Option<FloorSpectraRequest>) {
+    read: Option<(&[Building], &[ReinforcedMember])>,
+) -> (MemberRequest, Option<FloorSpectraRequest>, CapacityRequest) {
     let Some(view) = reader.open(field, &[Section::Output]) else {
         return Default::default();
     };
@@ -20,16 +23,21 @@ pub(super) fn read(
         Some(field) => read_members(reader, &field),
         None => MemberRequest::default(),
     };
-    let spectra = reader.get(&view, "floor_spectra");
-    let spectra = spectra.and_then(|field| floor_spectra::read(reader, &field, buildings));
-    (members, spectra)
+    let spectra = reader.get(&view, "floor_spectra").and_then(|field| {
+        floor_spectra::read(reader, &field, read.map(|(buildings, _)| buildings))
+    });
+    let capacity = capacity::read(reader, &view);
+    if let Some(field) = reader.get(&view, "capacity") {
+        capacity::check(reader, &field, &capacity, read.map(|(_, members)| members));
+    }
+    (members, spectra, capacity)
 }
 
 fn read_members(reader: &mut Reader<'_>, field: &Field<'_>) -> MemberRequest {
     match (&field.node.value, field.entries()) {
         (Value::Flag(envelopes), _) => MemberRequest {
             envelopes: *envelopes,
-            histories: Vec::new(),
+            ..MemberRequest::default()
         },
         (_, Some(entries)) => MemberRequest {
             envelopes: true,
@@ -37,6 +45,7 @@ fn read_members(reader: &mut Reader<'_>, field: &Field<'_>) -> MemberRequest {
                 .iter()
                 .filter_map(|entry| reader.text(entry))
                 .collect(),
+            ..MemberRequest::default()
         },
         _ => {
             let found = field.node.describe();

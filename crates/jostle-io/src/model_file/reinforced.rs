@@ -36,14 +36,26 @@ pub struct ReinforcedMember {
     pub length: f64,
     /// E I as the frame has it, cracking factor included \[N·m²\].
     pub rigidity: f64,
+    /// Length between the faces of adjacent members whose depth is known, otherwise between the axes \[m\].
+    pub clear_length: f64,
+    /// Level of the strengths of the section.
+    pub level: StrengthLevel,
 }
 
 /// Sections of the storeys of a building, where they are reinforced.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Reinforced {
     /// By storey; `None` without bars.
-    pub(super) columns: Vec<Option<(Section, Axial)>>,
-    pub(super) beams: Vec<Option<(Section, Axial)>>,
+    pub(super) columns: Vec<Option<Laid>>,
+    pub(super) beams: Vec<Option<Laid>>,
+}
+
+/// A section with its bars.
+#[derive(Clone, Debug)]
+pub(super) struct Laid {
+    section: Section,
+    axial: Axial,
+    level: StrengthLevel,
 }
 
 /// Axial compression of a member.
@@ -84,7 +96,7 @@ fn read_one(
     field: &Field<'_>,
     is_column: bool,
     of_building: Option<ConcreteGrade>,
-) -> Option<(Section, Axial)> {
+) -> Option<Laid> {
     // Its keys were checked where the size was read.
     let view = reader.reopen(
         field,
@@ -163,7 +175,11 @@ fn read_one(
     let axial = axial?;
     let laid = Section::new(width?, depth?, concrete?, steel??, &bars?, cover?, ties);
     match laid {
-        Ok(section) => Some((section, axial)),
+        Ok(section) => Some(Laid {
+            section,
+            axial,
+            level,
+        }),
         Err(faults) => {
             for fault in faults {
                 let field = reader.get(&view, fault.field);
@@ -220,10 +236,14 @@ pub(super) fn members(
     let Structure::Frame(frame) = &building.structure else {
         return Ok(Vec::new());
     };
-    let asks_gravity = |entry: &Option<(Section, Axial)>| {
-        entry
-            .as_ref()
-            .is_some_and(|(_, axial)| *axial == Axial::FromGravity)
+    let asks_gravity = |entry: &Option<Laid>| {
+        let entry = entry.as_ref();
+        entry.is_some_and(|laid| laid.axial == Axial::FromGravity)
+    };
+    // Depths of what frames into a member: of a beam at a floor, of a column below or above it.
+    let depth = |list: &[Option<Laid>], index: Option<usize>| {
+        let laid = index.and_then(|index| list.get(index)?.as_ref());
+        laid.map_or(0.0, |laid| laid.section.depth)
     };
     let carried = if reinforced.columns.iter().any(asks_gravity) {
         column_loads(building)?
@@ -232,9 +252,16 @@ pub(super) fn members(
     };
     let mut members = Vec::new();
     for (storey, entry) in reinforced.columns.iter().enumerate() {
-        let Some((section, axial)) = entry else {
+        let Some(Laid {
+            section,
+            axial,
+            level,
+        }) = entry
+        else {
             continue;
         };
+        let foot = depth(&reinforced.beams, storey.checked_sub(1));
+        let head = depth(&reinforced.beams, Some(storey));
         for line in 0..=frame.spans.len() {
             members.push(ReinforcedMember {
                 building: index,
@@ -248,11 +275,16 @@ pub(super) fn members(
                 },
                 length: frame.storey_heights[storey],
                 rigidity: frame.columns[storey].flexural_rigidity,
+                clear_length: clear(frame.storey_heights[storey], 0.5 * (foot + head)),
+                level: *level,
             });
         }
     }
     for (floor, entry) in reinforced.beams.iter().enumerate() {
-        let Some((section, _)) = entry else { continue };
+        let Some(Laid { section, level, .. }) = entry else {
+            continue;
+        };
+        let column = depth(&reinforced.columns, Some(floor));
         for (bay, span) in frame.spans.iter().enumerate() {
             members.push(ReinforcedMember {
                 building: index,
@@ -263,10 +295,17 @@ pub(super) fn members(
                 compression: 0.0,
                 length: *span,
                 rigidity: frame.beams[floor].flexural_rigidity,
+                clear_length: clear(*span, column),
+                level: *level,
             });
         }
     }
     Ok(members)
+}
+
+/// Length between faces; never less than a fifth of that between axes \[m\].
+fn clear(length: f64, depths: f64) -> f64 {
+    (length - depths).max(0.2 * length)
 }
 
 /// Compression at the foot of every column, by storey and column line \[N\].

@@ -1,5 +1,7 @@
 //! Columns and beams whose forces are requested.
 
+use super::capacity::MemberCapacity;
+
 /// Which forces of columns and beams a run should give.
 ///
 /// ```
@@ -8,13 +10,15 @@
 /// let request = MemberRequest::with_histories(&["J1.column.3.2"]);
 /// assert!(request.envelopes); // the greatest forces of all members, too
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct MemberRequest {
     /// Whether the greatest forces of all columns and beams of frames are asked for.
     pub envelopes: bool,
     /// Members whose forces are asked for over time as well: `J1.column.LINE.STOREY`, `J1.beam.FLOOR.SPAN`, counted
     /// from 1.
     pub histories: Vec<String>,
+    /// Members whose demand is compared with their capacity; needs `envelopes`.
+    pub capacities: Vec<MemberCapacity>,
 }
 
 impl MemberRequest {
@@ -23,7 +27,7 @@ impl MemberRequest {
     pub fn all() -> Self {
         Self {
             envelopes: true,
-            histories: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -33,6 +37,7 @@ impl MemberRequest {
         Self {
             envelopes: true,
             histories: names.iter().map(|name| (*name).to_owned()).collect(),
+            ..Self::default()
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Everything here is plain data in SI units. [`Model::check`] reports every fault at once, each with the
 //! path of the field it concerns, so that a reader can point at the line of the file.
 
+mod capacity;
 mod given;
 mod integrator;
 mod members;
@@ -10,6 +11,9 @@ mod members;
 use crate::contact::ContactLaw;
 use crate::hysteresis::Hysteresis;
 
+pub use capacity::{
+    CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
+};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
 pub use members::MemberRequest;

@@ -1,7 +1,8 @@
 //! Greatest forces of columns and beams, as numbers to report.
 
+use super::capacity;
 use super::summarise::{Run, counted_impacts};
-use super::summary::{MemberSummary, SectionSummary, StruckSummary};
+use super::summary::{ForcesSummary, MemberSummary, SectionSummary, StruckSummary};
 use crate::interface::DofRow;
 use crate::structure::{MemberPlace, MemberSection, MemberSections, SectionAt};
 use crate::system::BuildingSystem;
@@ -39,9 +40,10 @@ pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
             moment_peak_n_m: size(moment),
         }
     };
-    let members = building.members.members.iter();
+    let members = building.members.members.iter().enumerate();
     members
-        .map(|member| {
+        .map(|(place, member)| {
+            let ratios = capacity::ratios_of(index, place, run);
             let (ends, struck) = member.sections.split_at(2);
             MemberSummary {
                 name: member_name(building, member.place),
@@ -59,6 +61,34 @@ pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
                         }
                     })
                     .collect(),
+                at_worst: at_worst(index, member, run),
+                acceptance: capacity::acceptance(index, place, run),
+                axial_failure: capacity::axial_failure(index, place, run),
+                ratio: ratios.first().cloned(),
+                other_ratios: ratios.into_iter().skip(1).collect(),
+            }
+        })
+        .collect()
+}
+
+/// Forces of a member when its building had the greatest ratio of demand to capacity.
+fn at_worst(building: usize, member: &MemberSections, run: &Run) -> Vec<ForcesSummary> {
+    let Some(worst) = run.outcome.worst_instants.get(building) else {
+        return Vec::new();
+    };
+    if worst.forces.is_empty() || worst.ratio == 0.0 {
+        return Vec::new();
+    }
+    let sections = member.sections.iter();
+    sections
+        .map(|section| {
+            let [axial_n, shear_n, moment_n_m] = section.forms.map(|form| worst.forces[form]);
+            ForcesSummary {
+                at: section_name(member.place, section.at),
+                height_m: section.height,
+                axial_n,
+                shear_n,
+                moment_n_m,
             }
         })
         .collect()

@@ -1,5 +1,6 @@
 //! Results of a run as numbers to report.
 
+mod capacity;
 pub mod contact_sensitivity;
 mod counted_impact;
 pub mod floor_spectra;

@@ -6,6 +6,7 @@ use crate::hysteresis::{Side, Stage};
 use crate::model::WALL;
 use crate::model::{Gap, Model};
 use crate::motion::GroundMotion;
+use crate::results::capacity;
 use crate::results::members::members_of;
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
@@ -153,7 +154,10 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
                 .map(|without| Amplification::new(FloorResponse::QUANTITIES, &response, &without)),
         }
     });
+    let members = members_of(index, run);
     BuildingSummary {
+        capacity: capacity::of_building(index, &members, run),
+        members,
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),
         periods_s: building
@@ -168,7 +172,6 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         amplification: without_contact
             .map(|without| Amplification::new(BuildingResponse::QUANTITIES, &response, &without)),
         hinges,
-        members: members_of(index, run),
     }
 }
 
@@ -289,7 +292,7 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
 }
 
 /// Names of both sides.
-fn names(between: [Option<usize>; 2], system: &System) -> [String; 2] {
+pub(super) fn names(between: [Option<usize>; 2], system: &System) -> [String; 2] {
     between.map(|side| match side {
         Some(building) => system.buildings[building].name.clone(),
         None => WALL.to_owned(),

@@ -138,6 +138,9 @@ pub struct BuildingSummary {
     /// Columns and beams, storey by storey from the ground up, columns first; absent unless asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberSummary>,
+    /// Members beyond their capacity; absent unless capacities are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub capacity: Option<CapacitySummary>,
 }
 
 #[rustfmt::skip]
@@ -160,6 +163,155 @@ pub struct MemberSummary {
     pub ends: Vec<SectionSummary>,
     /// Points of a column between its ends where a neighbour can strike it, from the lowest up.
     pub struck: Vec<StruckSummary>,
+    /// Forces of both ends, then below and above every struck point, when the building had its greatest ratio of demand to
+    /// capacity (`capacity.worst.at_s` of the building, or the end of that step); empty where no capacity is known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at_worst: Vec<ForcesSummary>,
+    /// Greatest demand over capacity by the governing rule; absent where the capacity is unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ratio: Option<RatioSummary>,
+    /// The same by every other rule.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub other_ratios: Vec<RatioSummary>,
+    /// Rotations of yielding ends against the limits of codes; empty where hinges or limits are unknown.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub acceptance: Vec<AcceptanceSummary>,
+    /// Drift at which a column that failed in shear would lose its axial load; absent if unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_failure: Option<AxialFailureSummary>,
+}
+
+/// Forces at one section of a member at an instant.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct ForcesSummary {
+    /// `foot`, `head`, `left`, `right`, `below` or `above`.
+    pub at: &'static str,
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Axial force, positive in tension \[N\].
+    pub axial_n: f64,
+    /// Shear, with its sign \[N\].
+    pub shear_n: f64,
+    /// Moment, with its sign \[N·m\].
+    pub moment_n_m: f64,
+}
+
+/// Greatest demand over capacity of a member by one rule.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct RatioSummary {
+    /// Name of the rule, as in model files.
+    pub rule: &'static str,
+    /// Shear over shear capacity; `null` where the rule has none \[–\].
+    pub shear: Option<f64>,
+    /// Moment over moment capacity under the axial force of the same instant \[–\].
+    pub bending: f64,
+    /// Where and when the greatest ratio of shear occurred.
+    pub shear_at: Option<RatioPlace>,
+    /// Where and when the greatest ratio of bending occurred.
+    pub bending_at: RatioPlace,
+}
+
+/// Where and when a ratio was greatest.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct RatioPlace {
+    /// `foot`, `head`, `left`, `right`; `below` or `above` a struck point.
+    pub at: &'static str,
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Instant \[s\].
+    pub at_s: f64,
+    /// Shear \[N\] or moment \[N·m\] then, with its sign.
+    pub demand: f64,
+    /// Capacity then, in the same unit.
+    pub capacity: f64,
+    /// Axial compression then, negative in tension \[N\].
+    pub compression_n: f64,
+    /// First instant at which the demand exceeded the capacity anywhere in the member; `null` if it did not \[s\].
+    pub exceeded_s: Option<f64>,
+    /// Impact on the building during which the ratio was greatest; `null` if none was in progress.
+    pub impact: Option<ImpactPlace>,
+}
+
+/// An impact, as a place and an instant.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct ImpactPlace {
+    /// Names of the left and the right building; `wall` is a rigid wall.
+    pub between: [String; 2],
+    /// Left and right floor, from 1; `null` for a point between floors, and for a wall.
+    pub floors: [Option<usize>; 2],
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Instant of first contact \[s\].
+    pub start_s: f64,
+}
+
+/// Greatest rotation of the ends of a member against the limits of a rule.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct AcceptanceSummary {
+    /// Name of the rule: `en1998-3`, `asce41`, or `section` for crushing of the section.
+    pub rule: &'static str,
+    /// `plastic`: beyond yield of the hinge; `chord`: of hinge and member together.
+    pub measure: &'static str,
+    /// Greatest rotation of both ends, either sign \[rad\].
+    pub rotation_rad: f64,
+    /// The end: `foot`, `head`, `left` or `right`.
+    pub at: &'static str,
+    /// Levels in rising order, with the greatest rotation of each.
+    pub limits: Vec<LevelSummary>,
+    /// The lowest level whose limit is kept; `null` beyond all of them.
+    pub level: Option<&'static str>,
+}
+
+/// A level of performance and its greatest rotation.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct LevelSummary {
+    /// `IO`, `LS`, `CP`; `DL`, `SD`, `NC`; `crushing`.
+    pub level: &'static str,
+    /// Greatest rotation \[rad\].
+    pub rotation_rad: f64,
+}
+
+/// Drift at axial failure of a column after shear failure.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct AxialFailureSummary {
+    /// Drift ratio at axial failure under the greatest compression of the run \[–\].
+    pub drift: f64,
+    /// Greatest compression of the run \[N\].
+    pub compression_n: f64,
+    /// Greatest drift ratio of the storey over it \[–\].
+    pub ratio: f64,
+}
+
+/// Members of a building beyond their capacity by the governing rule.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct CapacitySummary {
+    /// Name of the governing rule.
+    pub rule: &'static str,
+    /// Number of members with a known capacity.
+    pub rated: usize,
+    /// Number of members beyond it, in shear or in bending.
+    pub exceeded: usize,
+    /// The first member beyond its capacity; `null` if there is none.
+    pub first: Option<ExceededSummary>,
+    /// The member with the greatest ratio.
+    pub worst: ExceededSummary,
+}
+
+/// A member beyond its capacity, or nearest to it.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct ExceededSummary {
+    /// Name of the member.
+    pub member: String,
+    /// `shear` or `bending`.
+    pub kind: &'static str,
+    /// Section of the member.
+    pub at: &'static str,
+    /// Instant: of the first excess, or of the greatest ratio \[s\].
+    pub at_s: f64,
+    /// Greatest ratio there \[–\].
+    pub ratio: f64,
+    /// Impact on the building in progress at the instant; `null` if there was none.
+    pub impact: Option<ImpactPlace>,
 }
 
 /// Greatest forces at one section of a member.

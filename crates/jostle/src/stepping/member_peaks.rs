@@ -1,5 +1,6 @@
 //! Forces of columns and beams: greatest and least values, and histories.
 
+use super::member_ratios::MemberRatios;
 use crate::history::MemberHistory;
 use crate::state::State;
 use crate::system::System;
@@ -9,6 +10,8 @@ pub(crate) struct MemberPeaks {
     /// Greatest and least value of every form of every building.
     pub(crate) extremes: Vec<Vec<[f64; 2]>>,
     pub(crate) history: Option<MemberHistory>,
+    /// Demand over capacity of those that are rated.
+    pub(crate) ratios: MemberRatios,
     /// Values now.
     values: Vec<Vec<f64>>,
     asked: bool,
@@ -23,6 +26,7 @@ impl MemberPeaks {
                 .map(|n| vec![[f64::NEG_INFINITY, f64::INFINITY]; n])
                 .collect(),
             history: MemberHistory::new(system).filter(|_| records),
+            ratios: MemberRatios::new(system),
             values: sizes().map(|n| vec![0.0; n]).collect(),
             asked: sizes().any(|n| n > 0),
         }
@@ -39,6 +43,7 @@ impl MemberPeaks {
                 values[form] = value;
             });
         }
+        self.ratios.take(system, state, &self.values);
     }
 
     /// Whether any force is followed.

@@ -14,6 +14,7 @@ mod events;
 mod expected_work;
 mod gap_forces;
 mod member_peaks;
+mod member_ratios;
 pub mod modal;
 mod outcome;
 mod peak_change;

@@ -3,9 +3,10 @@
 use super::acceleration_parts::AccelerationParts;
 use std::ops::ControlFlow;
 
+use super::member_ratios::MemberRatios;
 use crate::history::{
-    Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, MemberHistory, SpringEvent,
-    SpringHistory, SpringTotals, Work,
+    Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, MemberHistory, SectionRatio,
+    SpringEvent, SpringHistory, SpringTotals, Work, WorstInstant,
 };
 use crate::linear::NotPositive;
 use crate::state::State;
@@ -108,6 +109,11 @@ pub struct Outcome {
     pub members: Vec<Vec<[f64; 2]>>,
     /// Forces of members over time, if asked for.
     pub member_history: Option<MemberHistory>,
+    /// Demand over capacity of the members of [`System::ratings`]: their sections one after the other, each by every
+    /// rule.
+    pub member_ratios: Vec<SectionRatio>,
+    /// All forces of columns and beams of every building when its governing ratio of demand to capacity was greatest.
+    pub worst_instants: Vec<WorstInstant>,
     /// Energies at the end.
     pub energy: Energy,
     /// Work done.
@@ -252,6 +258,7 @@ impl Outcome {
     /// Results of a run that could not start.
     pub(crate) fn not_begun(system: &System, error: StepError) -> Self {
         let floors = |building: &BuildingSystem| vec![FloorPeaks::default(); building.floors.len()];
+        let ratios = MemberRatios::new(system);
         let unknown = |building: &BuildingSystem| vec![[0.0; 2]; building.members.forms.len()];
         Self {
             history: None,
@@ -267,6 +274,8 @@ impl Outcome {
             spring_history: None,
             members: system.buildings.iter().map(unknown).collect(),
             member_history: None,
+            member_ratios: ratios.greatest,
+            worst_instants: ratios.worst,
             energy: Energy::default(),
             work: Work::default(),
             free_step: None,

@@ -67,6 +67,7 @@ impl System {
             contacts: Vec::new(),
             links: Vec::new(),
             members_followed: Vec::new(),
+            ratings: Vec::new(),
         };
         system.join(&Row::of(model), model)?;
         system.follow_members(&model.analysis.members);

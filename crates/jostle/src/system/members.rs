@@ -1,6 +1,6 @@
 //! Which forces of columns and beams a run follows.
 
-use super::System;
+use super::{MemberRating, System};
 use crate::interface::{DofRow, PortPair};
 use crate::model::MemberRequest;
 use crate::structure::MemberForces;
@@ -18,15 +18,36 @@ impl System {
             };
         }
         for wanted in &request.histories {
-            for (index, building) in self.buildings.iter().enumerate() {
-                let members = building.members.members.iter();
-                let names = members.map(|member| format!("{}.{}", building.name, member.place));
-                let found = names.enumerate().find(|(_, name)| name == wanted);
-                let known = found.map(|(member, _)| [index, member]);
-                let new = known.filter(|known| !self.members_followed.contains(known));
-                self.members_followed.extend(new);
-            }
+            let known = self.member_named(wanted);
+            let new = known.filter(|known| !self.members_followed.contains(known));
+            self.members_followed.extend(new);
         }
+        self.ratings = request
+            .capacities
+            .iter()
+            .filter_map(|capacity| {
+                let [building, member] = self.member_named(&capacity.member)?;
+                Some(MemberRating::new(
+                    &self.buildings[building],
+                    building,
+                    member,
+                    capacity,
+                ))
+            })
+            .collect();
+    }
+
+    /// Building and member of this name, among those whose forces are followed.
+    fn member_named(&self, wanted: &str) -> Option<[usize; 2]> {
+        self.buildings
+            .iter()
+            .enumerate()
+            .find_map(|(index, building)| {
+                let place = wanted.strip_prefix(&building.name[..])?.strip_prefix('.')?;
+                let mut members = building.members.members.iter();
+                let member = members.position(|member| member.place.to_string() == place)?;
+                Some([index, member])
+            })
     }
 
     fn member_forces(&self, index: usize) -> MemberForces {

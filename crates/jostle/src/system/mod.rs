@@ -4,11 +4,13 @@ mod assemble;
 mod building;
 mod finite;
 mod members;
+mod rating;
 
 use crate::interface::{Contact, DofRow, LinkElement, Port, PortPair};
 use crate::model::LEVEL_TOLERANCE;
 
 pub use building::{BuildingSystem, Floor};
+pub use rating::MemberRating;
 
 /// Buildings in a row and what stands between them, ready to be stepped.
 ///
@@ -35,6 +37,8 @@ pub struct System {
     /// Members whose forces are recorded over time: building, and member of its
     /// [`MemberForces`](crate::structure::MemberForces).
     pub members_followed: Vec<[usize; 2]>,
+    /// Members whose demand is compared with their capacity.
+    pub ratings: Vec<MemberRating>,
 }
 
 impl System {
@@ -57,6 +61,7 @@ impl System {
             contacts: Vec::new(),
             links: Vec::new(),
             members_followed: Vec::new(),
+            ratings: Vec::new(),
         }
     }
 

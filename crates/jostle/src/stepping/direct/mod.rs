@@ -141,6 +141,8 @@ impl<E: StepEquations> Direct<E> {
             spring_history: self.recorder.springs.take(),
             members: std::mem::take(&mut self.recorder.members.extremes),
             member_history: self.recorder.members.history.take(),
+            member_ratios: std::mem::take(&mut self.recorder.members.ratios.greatest),
+            worst_instants: std::mem::take(&mut self.recorder.members.ratios.worst),
             history: self.recorder.into_history(),
             spring_events: self.yielding.events,
             springs: self.yielding.totals,

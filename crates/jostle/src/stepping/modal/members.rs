@@ -3,12 +3,14 @@
 use std::ops::Range;
 
 use super::basis::Basis;
+use super::member_ratios::{ModalRatios, StepEnds};
 use super::mode_kernels::{ROWS, Show};
 use super::peaks::Ends;
 use super::reduced::{Reduced, in_blocks};
 use crate::history::MemberHistory;
 use crate::simd;
 use crate::state::ContactPhase;
+use crate::stepping::member_ratios::MemberRatios;
 use crate::system::{BuildingSystem, System};
 
 /// Axial force, shear, moment.
@@ -155,6 +157,48 @@ impl MemberRows {
     fn value(&self, blocks: &[[f64; ROWS]], row: usize, mode: usize) -> f64 {
         blocks[row / ROWS * self.modes.len() + mode][row % ROWS]
     }
+
+    /// Modes of the building among all.
+    pub(super) fn modes(&self) -> Range<usize> {
+        self.modes.clone()
+    }
+
+    /// Shares of modal displacements in a force that displacements determine, and those of accelerations that shapes
+    /// miss, if any; `None` for other forces.
+    pub(super) fn own_row(&self, form: usize) -> Option<[Vec<f64>; 2]> {
+        let row = self.forms.iter().position(|own| *own == form)?;
+        let list = |blocks: &[[f64; ROWS]]| -> Vec<f64> {
+            let modes = 0..if blocks.is_empty() {
+                0
+            } else {
+                self.modes.len()
+            };
+            modes.map(|mode| self.value(blocks, row, mode)).collect()
+        };
+        Some([list(&self.shapes), list(&self.missed)])
+    }
+
+    /// Shares of modal displacements, velocities and accelerations in another force, its forces per ground acceleration and
+    /// per rate of it, and the contacts that push there.
+    pub(super) fn passed_row(&self, form: usize) -> ([Vec<f64>; 3], [f64; 2], Vec<usize>) {
+        let passed = &self.passed;
+        let Some(row) = passed.forms.iter().position(|own| *own == form) else {
+            return Default::default();
+        };
+        let count = self.modes.len();
+        let part = |part: usize| -> Vec<f64> {
+            let block = row / ROWS * 3 * count + part * count;
+            let modes = 0..count;
+            modes
+                .map(|mode| passed.shares[block + mode][row % ROWS])
+                .collect()
+        };
+        (
+            [part(0), part(1), part(2)],
+            passed.ground[row],
+            passed.contacts[row].clone(),
+        )
+    }
 }
 
 /// A modal state.
@@ -188,6 +232,8 @@ pub(super) struct MemberPeaks {
     time: f64,
     ground: f64,
     history: Option<MemberHistory>,
+    /// Demand over capacity of those that are rated.
+    ratios: Option<ModalRatios>,
     /// Values of all forms at a row of the history, and whether it is wanted.
     row: Vec<Vec<f64>>,
     wanted: Vec<Vec<bool>>,
@@ -247,6 +293,7 @@ impl MemberPeaks {
             time: 0.0,
             ground: 0.0,
             history: MemberHistory::new(system).filter(|_| records),
+            ratios: ModalRatios::new(system, reduced),
             row: sizes().map(|n| vec![0.0; n]).collect(),
             wanted,
         })
@@ -258,8 +305,8 @@ impl MemberPeaks {
         }
     }
 
-    /// Adds the forces since the last instant.
-    pub(super) fn follow(&mut self, reduced: &Reduced, now: Instant<'_>) {
+    /// Takes in what happened since the last instant.
+    pub(super) fn follow(&mut self, system: &System, reduced: &Reduced, now: Instant<'_>) {
         let step = now.time - self.time;
         self.modal.swap(0, 1);
         for (index, own) in reduced.buildings.iter().enumerate() {
@@ -276,6 +323,22 @@ impl MemberPeaks {
             let stiffness = &reduced.stiffness[own.modes.clone()];
             self.follow_own(reduced, index, own, stiffness, step);
             self.follow_passed(reduced, index, own, now, step);
+            if let Some(ratios) = &mut self.ratios {
+                let [to, from] = self.modal.each_ref().map(|list| {
+                    let list = |part: usize| {
+                        &list[all.start + part * count..all.start + (part + 1) * count]
+                    };
+                    [list(0), list(1), list(2)]
+                });
+                let ends = StepEnds {
+                    then: from,
+                    now: to,
+                    ground: [self.ground, now.ground],
+                    moved: self.watch[index].moved,
+                    step,
+                };
+                ratios.follow(system, index, &ends, now);
+            }
         }
         self.time = now.time;
         self.ground = now.ground;
@@ -513,12 +576,12 @@ impl MemberPeaks {
         history.push(system, now.time, &self.row);
     }
 
-    /// Greatest and least value of every form of every building, and the histories.
+    /// Greatest and least value of every form of every building, the histories, and demands over capacities.
     pub(super) fn finish(
         self,
         system: &System,
         reduced: &Reduced,
-    ) -> (Vec<Vec<[f64; 2]>>, Option<MemberHistory>) {
+    ) -> (Vec<Vec<[f64; 2]>>, Option<MemberHistory>, MemberRatios) {
         let mut all = Vec::with_capacity(system.buildings.len());
         for (building, own) in system.buildings.iter().zip(&reduced.buildings) {
             let own = &own.members;
@@ -535,7 +598,8 @@ impl MemberPeaks {
             }
             all.push(extremes);
         }
-        (all, self.history)
+        let ratios = self.ratios.map(|ratios| ratios.ratios);
+        (all, self.history, ratios.unwrap_or_default())
     }
 
     /// Greatest size of every kind of force in a building.

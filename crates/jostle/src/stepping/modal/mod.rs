@@ -13,6 +13,7 @@ mod estimate;
 mod forces;
 mod free_steps;
 mod links;
+mod member_ratios;
 mod members;
 mod mode_kernels;
 mod peaks;

@@ -164,7 +164,7 @@ impl Peaks {
     /// Updates forces of storeys, columns and beams since the last evaluation.
     pub(super) fn follow_forces(&mut self, system: &System, reduced: &Reduced, now: Instant<'_>) {
         if let Some(members) = &mut self.members {
-            members.follow(reduced, now);
+            members.follow(system, reduced, now);
         }
         let Instant {
             q,

@@ -21,6 +21,7 @@ use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::control::{Observed, next_division};
 use crate::stepping::events::Cubic;
+use crate::stepping::member_ratios::MemberRatios;
 use crate::stepping::outcome::{Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
@@ -233,8 +234,14 @@ impl<'a> ModalStepper<'a> {
             .map(|d| step_of(d.max(self.least_division)));
         let state = self.full_state(&run);
         let members = self.peaks.members.take();
-        let (members, member_history) = members.map_or_else(
-            || (vec![Vec::new(); run.system.buildings.len()], None),
+        let (members, member_history, ratios) = members.map_or_else(
+            || {
+                (
+                    vec![Vec::new(); run.system.buildings.len()],
+                    None,
+                    MemberRatios::default(),
+                )
+            },
             |members| members.finish(run.system, self.reduced),
         );
         Outcome {
@@ -247,6 +254,8 @@ impl<'a> ModalStepper<'a> {
             spring_history: None,
             members,
             member_history,
+            member_ratios: ratios.greatest,
+            worst_instants: ratios.worst,
             history: self.peaks.into_history(),
             spring_events: Vec::new(),
             springs: Vec::new(),

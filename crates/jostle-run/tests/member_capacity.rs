@@ -1,0 +1,182 @@
+//! From reinforced frames to the first member beyond its capacity: text, JSON, tables and report.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use jostle::Settings;
+use jostle_io::{Format, read_model_text, summary_json};
+use jostle_run::{Content, Opened, Ran, summary_text};
+
+const MODEL: &str = r#"
+title = "Two reinforced frames, 10 mm apart"
+[motion]
+record = "el-centro-1940-ns"
+pga = "0.4 g"
+duration = "8 s"
+
+[[building]]
+name = "J1"
+kind = "frame"
+storeys = 5
+storey_height = "3.2 m"
+spans = ["2.4 m", "6.0 m"]
+column = { width = "500 mm", depth = "500 mm", concrete = "C30", steel = "HRB400", bars = "12 d20", ties = "d10 @ 150 mm" }
+beam = { width = "300 mm", depth = "600 mm", concrete = "C30", steel = "HRB400", bars = "4 d25 top, 3 d25 bottom", ties = "d8 @ 150 mm" }
+beam_mass = "3600 kg/m"
+MORE
+
+[[building]]
+name = "J2"
+kind = "frame"
+storeys = 4
+storey_height = ["4.8 m", "3.2 m", "3.2 m", "3.2 m"]
+spans = ["6.0 m", "6.0 m"]
+column = { width = "600 mm", depth = "600 mm", concrete = "C30", steel = "HRB400", bars = "16 d22", ties = "d10 @ 150 mm" }
+beam = { width = "300 mm", depth = "600 mm", concrete = "C30", steel = "HRB400", bars = "4 d25 top, 3 d25 bottom", ties = "d8 @ 150 mm" }
+beam_mass = "3600 kg/m"
+MORE
+
+[[gap]]
+between = ["J1", "J2"]
+width = "10 mm"
+floors = "all"
+law = "hertz-damp"
+stiffness = "2e9 N/m^1.5"
+restitution = 0.65
+
+[output]
+"#;
+
+fn run(more: &str, output: &str) -> Ran {
+    let text = format!("{}{output}\n", MODEL.replace("MORE", more));
+    let input = read_model_text("model.toml", &text, Format::Toml, Path::new(""));
+    let opened = Opened::new(input.unwrap_or_else(|error| panic!("{error}")), "model");
+    let prepared = opened.unwrap_or_else(|error| panic!("{error}")).prepare();
+    let Ok(prepared) = prepared else {
+        panic!("not prepared")
+    };
+    prepared.run(Settings::default(), &mut |_, _| ControlFlow::Continue(()))
+}
+
+/// Writes the files of a run; returns the report and the names.
+fn written(ran: &Ran, name: &str) -> (String, Vec<String>) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let summary = ran.summary();
+    ran.results(&summary)
+        .write(&folder, Content::ALL)
+        .expect("written");
+    let names = std::fs::read_dir(&folder).expect("listed");
+    let names =
+        names.filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()));
+    let report = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    (report, names.collect())
+}
+
+#[test]
+fn a_run_says_which_member_goes_first() {
+    let ran = run("", "members = true");
+    let summary = ran.summary();
+    let text = summary_text(&summary);
+    let lines: Vec<&str> = text
+        .lines()
+        .filter(|line| line.contains("capacity"))
+        .collect();
+    assert!((1..=2).contains(&lines.len()), "{text}");
+    assert!(
+        lines[0].contains("gb50010") && lines[0].contains("first"),
+        "{text}"
+    );
+    let json: serde_json::Value = serde_json::from_str(&summary_json(&summary)).expect("JSON");
+    let building = &json["buildings"][0];
+    let first = &building["capacity"]["first"];
+    assert!(
+        first["member"]
+            .as_str()
+            .is_some_and(|name| name.starts_with("J1.")),
+        "{first}"
+    );
+    let column = &building["members"][0]["ratio"];
+    assert_eq!(column["rule"], "gb50010");
+    for kind in ["shear", "bending"] {
+        assert!(
+            column[kind].as_f64().is_some_and(|ratio| ratio > 0.0),
+            "{column}"
+        );
+    }
+    assert_eq!(
+        building["members"][0]["other_ratios"]
+            .as_array()
+            .map(Vec::len),
+        Some(4)
+    );
+    assert!(
+        building["members"][0]["axial_failure"]["drift"]
+            .as_f64()
+            .is_some_and(|d| (0.005..0.1).contains(&d))
+    );
+    let (report, names) = written(&ran, "elastic");
+    assert!(
+        names.iter().any(|name| name == "capacity.parquet"),
+        "{names:?}"
+    );
+    for word in [
+        "ratio-beyond",
+        "Force diagrams of J1",
+        "11.4.6",
+        "Moment, envelope",
+        "beyond their capacity",
+    ] {
+        assert!(report.contains(word), "the report lacks {word}");
+    }
+}
+
+#[test]
+fn nothing_is_said_unless_asked_for() {
+    let ran = run("", "members = false");
+    let summary = ran.summary();
+    assert!(!summary_text(&summary).contains("capacity"));
+    let json = summary_json(&summary);
+    assert!(!json.contains("\"ratio\"") && !json.contains("\"capacity\""));
+}
+
+#[test]
+fn yielding_members_are_held_against_accepted_rotations() {
+    let ran = run(
+        "hinges = { rule = \"peak-oriented\", from = \"section\" }\ngravity = true",
+        "capacity = [\"asce41\", \"en1998-3\"]",
+    );
+    let summary = ran.summary();
+    let members = summary
+        .buildings
+        .iter()
+        .flat_map(|building| &building.members);
+    let accepted: Vec<_> = members.flat_map(|member| &member.acceptance).collect();
+    for rule in ["en1998-3", "asce41", "section"] {
+        let own = accepted.iter().filter(|own| own.rule == rule);
+        assert!(own.clone().count() > 0, "{rule}");
+        assert!(own.clone().any(|own| own.rotation_rad > 0.0), "{rule}");
+        for own in own {
+            let kept = own
+                .limits
+                .iter()
+                .find(|limit| own.rotation_rad <= limit.rotation_rad);
+            assert_eq!(own.level, kept.map(|limit| limit.level));
+            assert!(
+                own.limits
+                    .windows(2)
+                    .all(|pair| pair[0].rotation_rad <= pair[1].rotation_rad)
+            );
+        }
+    }
+    // Hinges hold moments near the capacity of their sections: yield moments by formula, capacity by fibres.
+    let worst = summary
+        .buildings
+        .iter()
+        .flat_map(|building| &building.members);
+    let bending = worst.filter_map(|member| Some(member.ratio.as_ref()?.bending));
+    let greatest = bending.fold(0.0, f64::max);
+    assert!((0.8..1.6).contains(&greatest), "{greatest}");
+    let (report, _) = written(&ran, "yielding");
+    assert!(report.contains("rotation within"));
+}

@@ -1,0 +1,197 @@
+//! Bending capacity as a function of the axial force.
+
+use crate::fibre::{Fibres, Resultants};
+use crate::section::Section;
+
+/// Greatest moments of a section under every axial force that it can carry.
+///
+/// Plane sections with the laws of the fibre analysis, without ties and without concrete in tension. Strains are limited to
+/// that of crushing in the outermost concrete and to 0.01 in the outermost bars (GB 50010-2010, 6.2.1 and 6.2.5); the
+/// greatest moment of all such states counts, as at the peak of a moment–curvature curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interaction {
+    /// Compression (tension negative), rising, and the greatest moment about mid-depth that stretches the bottom, ≥ 0
+    /// \[N, N·m\].
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Greatest strain of a bar in tension \[–\].
+const MOST_STRETCH: f64 = 0.01;
+/// Strains of the top, and positions of the neutral axis for each.
+const STRAINS: usize = 24;
+const AXES: usize = 120;
+/// Axial forces of the curve.
+const LOADS: usize = 65;
+/// Fibres over the depth.
+const FIBRES: usize = 40;
+
+impl Interaction {
+    /// Moments that stretch the bottom of a section; those of the other sign belong to [`Section::flipped`].
+    #[must_use]
+    pub fn of(section: &Section) -> Self {
+        let mut plain = section.clone();
+        plain.ties = None;
+        plain.concrete.tensile_strength = 0.0;
+        let fibres = Fibres::of(&plain, FIBRES);
+        let curves = curves(&fibres);
+        let all = || curves.iter().flatten();
+        let least = all().fold(f64::INFINITY, |least, state| state.axial.min(least));
+        let most = all().fold(f64::NEG_INFINITY, |most, state| state.axial.max(most));
+        let mut points: Vec<[f64; 2]> = (0..LOADS)
+            .map(|index| {
+                [
+                    least + (most - least) * index as f64 / (LOADS - 1) as f64,
+                    0.0,
+                ]
+            })
+            .collect();
+        for curve in &curves {
+            for pair in curve.windows(2) {
+                let [low, high] = if pair[0].axial <= pair[1].axial {
+                    [pair[0], pair[1]]
+                } else {
+                    [pair[1], pair[0]]
+                };
+                let span = high.axial - low.axial;
+                let first = points.partition_point(|[load, _]| *load < low.axial);
+                for [load, moment] in &mut points[first..] {
+                    if *load > high.axial {
+                        break;
+                    }
+                    let share = if span > 0.0 {
+                        (*load - low.axial) / span
+                    } else {
+                        0.0
+                    };
+                    *moment = moment.max(low.moment + share * (high.moment - low.moment));
+                }
+            }
+        }
+        Self { points }
+    }
+
+    /// Moment capacity under an axial compression; 0 beyond the ends \[N·m\].
+    #[must_use]
+    pub fn moment(&self, compression: f64) -> f64 {
+        let after = self.points.partition_point(|[load, _]| *load < compression);
+        match (
+            after.checked_sub(1).map(|index| self.points[index]),
+            self.points.get(after),
+        ) {
+            (Some([a, m]), Some(&[b, n])) => m + (n - m) * (compression - a) / (b - a),
+            (None, Some(&[load, moment])) if load == compression => moment,
+            _ => 0.0,
+        }
+    }
+
+    /// Greatest tension (negative) and greatest compression \[N\].
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        let ends = [self.points.first(), self.points.last()];
+        ends.map(|end| end.map_or(0.0, |[load, _]| *load))
+    }
+}
+
+/// States of equal strain at the top under a falling neutral axis, and states of bars at their limit.
+fn curves(fibres: &Fibres) -> Vec<Vec<Resultants>> {
+    let section = fibres.section();
+    let deepest = section.bars.iter().fold(0.0_f64, |d, bar| d.max(bar.depth));
+    let crushing = fibres.plain().crushing_strain;
+    let whole = section.depth;
+    let state = |top: f64, bottom_bar: f64| {
+        let curvature = (top - bottom_bar) / deepest;
+        fibres.resultants(top - 0.5 * whole * curvature, curvature)
+    };
+    let mut curves: Vec<Vec<Resultants>> = (1..=STRAINS)
+        .map(|step| {
+            let top = crushing * step as f64 / STRAINS as f64;
+            // From the limit of the bars to uniform compression.
+            (0..=AXES)
+                .map(|axis| {
+                    let share = axis as f64 / AXES as f64;
+                    // Denser where bars yield.
+                    let bar = top - (top + MOST_STRETCH) * (1.0 - share) * (1.0 - share);
+                    state(top, bar)
+                })
+                .collect()
+        })
+        .collect();
+    curves.push(
+        (0..=AXES)
+            .map(|step| {
+                let share = step as f64 / AXES as f64;
+                let top = -MOST_STRETCH + (crushing + MOST_STRETCH) * share;
+                state(top, -MOST_STRETCH)
+            })
+            .collect(),
+    );
+    curves
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula;
+    use crate::{Concrete, MomentCurvature, Options, Reinforcement, Steel, StrengthLevel};
+
+    fn section(bars: &str, width: f64, depth: f64) -> Section {
+        let concrete = Concrete::grade("C30", StrengthLevel::Characteristic).expect("known");
+        let steel = Steel::grade("HRB400", StrengthLevel::Characteristic).expect("known");
+        let bars = Reinforcement::parse(bars).expect("understood");
+        let mut section =
+            Section::new(width, depth, concrete, steel, &bars, 0.03, None).expect("sound");
+        // Then the limit of bar strains does not matter.
+        section.steel.hardening = 0.0;
+        section
+    }
+
+    #[test]
+    fn moments_are_the_peaks_of_moment_curvature() {
+        // Another way to the same: bend under a constant force and take the greatest moment. The curve has concrete in
+        // tension, which matters for neither section after yield.
+        let section = section("12 d20", 0.5, 0.5);
+        let interaction = Interaction::of(&section);
+        for load in [0.0, 5e5, 1e6, 2e6, 3e6] {
+            let curve = MomentCurvature::of(&section, load, Options::default()).expect("a curve");
+            let within: Vec<_> = curve.points.iter().map(|point| point.force).collect();
+            let due = within.iter().copied().fold(0.0, f64::max);
+            let found = interaction.moment(load);
+            assert!(
+                (found / due - 1.0).abs() < 0.012,
+                "{found} for {due} at {load}"
+            );
+        }
+    }
+
+    #[test]
+    fn ends_are_the_closed_forms() {
+        let section = section("12 d20", 0.5, 0.5);
+        let interaction = Interaction::of(&section);
+        let [least, most] = interaction.range();
+        let bars = section.steel_area();
+        assert!((least / (-400e6 * bars) - 1.0).abs() < 1e-9, "{least}");
+        // Uniform compression, at the strain at which concrete and bars carry most.
+        let law = crate::ConcreteLaw::unconfined(&section.concrete);
+        let due = (0..3300)
+            .map(|step| {
+                let strain = 1e-6 * f64::from(step);
+                let steel = (200e9 * strain).min(400e6);
+                law.stress(strain) * (section.area() - bars) + steel * bars
+            })
+            .fold(0.0, f64::max);
+        assert!((most / due - 1.0).abs() < 2e-3, "{most} for {due}");
+        assert!(interaction.moment(most + 1.0) == 0.0 && interaction.moment(least - 1.0) == 0.0);
+    }
+
+    #[test]
+    fn a_beam_is_near_its_stress_block() {
+        // GB 50010, 6.2.10: As fy (h₀ − a′) where the block is shallower than 2 a′.
+        let section = section("2 d20 top, 4 d20 bottom", 0.3, 0.6);
+        let due = formula::ultimate_gb(&section, 0.0);
+        let found = Interaction::of(&section).moment(0.0);
+        assert!((found / due - 1.0).abs() < 0.04, "{found} for {due}");
+        // Two bars at the top instead of four.
+        let other = Interaction::of(&section.flipped()).moment(0.0);
+        assert!((0.48..0.56).contains(&(other / found)), "{}", other / found);
+    }
+}

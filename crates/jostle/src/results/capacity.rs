@@ -1,0 +1,250 @@
+//! Demand over capacity of columns and beams, as numbers to report.
+
+use super::members::{member_name, section_name};
+use super::summarise::{Run, names};
+use super::summary::{
+    AcceptanceSummary, AxialFailureSummary, CapacitySummary, ExceededSummary, ImpactPlace,
+    LevelSummary, MemberSummary, RatioPlace, RatioSummary,
+};
+use crate::history::{RatioPeak, SectionRatio};
+use crate::model::RotationMeasure;
+use crate::structure::{MemberEnd, MemberPlace, SectionAt};
+use crate::system::MemberRating;
+
+/// The rating of a member, and its entries among the ratios of the run: section by section, each by every rule.
+fn rated<'a>(
+    building: usize,
+    member: usize,
+    run: &'a Run,
+) -> Option<(&'a MemberRating, &'a [SectionRatio])> {
+    let mut first = 0;
+    for rating in &run.system.ratings {
+        let forces = &run.system.buildings[rating.building].members;
+        let sections = forces.members[rating.member].sections.len();
+        let count = sections * rating.capacity.rules.len();
+        if rating.building == building && rating.member == member {
+            let entries = run.outcome.member_ratios.get(first..first + count)?;
+            return Some((rating, entries));
+        }
+        first += count;
+    }
+    None
+}
+
+/// Greatest ratios of a member, rule by rule; none where its capacity is unknown.
+pub(super) fn ratios_of(building: usize, member: usize, run: &Run) -> Vec<RatioSummary> {
+    let Some((rating, entries)) = rated(building, member, run) else {
+        return Vec::new();
+    };
+    let sections = &run.system.buildings[building].members.members[member];
+    let rules = &rating.capacity.rules;
+    let by_rule = rules.iter().enumerate().map(|(index, rule)| {
+        let own = || entries.iter().skip(index).step_by(rules.len()).enumerate();
+        let greatest = |of: fn(&SectionRatio) -> &RatioPeak| {
+            let peaks = own().map(|(section, entry)| (section, of(entry)));
+            let exceeded = peaks.clone().filter_map(|(_, peak)| peak.exceeded_at);
+            let exceeded_s = exceeded.min_by(f64::total_cmp);
+            let (section, peak) = peaks.reduce(|best, other| {
+                if other.1.ratio > best.1.ratio {
+                    other
+                } else {
+                    best
+                }
+            })?;
+            let section = sections.sections[section];
+            let place = RatioPlace {
+                at: section_name(sections.place, section.at),
+                height_m: section.height,
+                at_s: peak.at,
+                demand: peak.demand,
+                capacity: if peak.ratio > 0.0 {
+                    peak.demand.abs() / peak.ratio
+                } else {
+                    0.0
+                },
+                compression_n: peak.compression,
+                exceeded_s,
+                impact: impact_at(building, peak.at, run),
+            };
+            Some((peak.ratio, place))
+        };
+        let shear = rule
+            .shear
+            .as_ref()
+            .and_then(|_| greatest(|entry| &entry.shear));
+        let (bending, bending_at) = greatest(|entry| &entry.bending)?;
+        let (shear, shear_at) = shear.unzip();
+        Some(RatioSummary {
+            rule: rule.rule,
+            shear,
+            bending,
+            shear_at,
+            bending_at,
+        })
+    });
+    by_rule.flatten().collect()
+}
+
+/// Drift at axial failure of a column, where it is known.
+pub(super) fn axial_failure(
+    building: usize,
+    member: usize,
+    run: &Run,
+) -> Option<AxialFailureSummary> {
+    let (rating, _) = rated(building, member, run)?;
+    let line = &rating.capacity.axial_failure_drift;
+    let own = &run.system.buildings[building].members.members[member];
+    let MemberPlace::Column { storey, .. } = own.place else {
+        return None;
+    };
+    if line.points().is_empty() {
+        return None;
+    }
+    let extremes = &run.outcome.members[building];
+    let least = own
+        .sections
+        .iter()
+        .map(|section| extremes[section.forms[0]][1]);
+    let compression_n = rating.compression(least.fold(f64::INFINITY, f64::min));
+    let drift = line.at(compression_n);
+    let peak = run.outcome.floors[building][storey - 1].storey_drift;
+    Some(AxialFailureSummary {
+        drift,
+        compression_n,
+        ratio: peak / drift,
+    })
+}
+
+/// Rotations of the ends of a member that can yield against the limits of rules.
+pub(super) fn acceptance(building: usize, member: usize, run: &Run) -> Vec<AcceptanceSummary> {
+    let Some((rating, _)) = rated(building, member, run) else {
+        return Vec::new();
+    };
+    let own = &run.system.buildings[building];
+    let place = own.members.members[member].place;
+    let springs = &run.outcome.state.springs[own.spring_range()];
+    let limits = rating.capacity.rotations.iter();
+    let against = limits.filter_map(|limits| {
+        let of = |(end, [plastic, chord]): (MemberEnd, [f64; 2])| match limits.measure {
+            RotationMeasure::Plastic => (end, plastic),
+            RotationMeasure::Chord => (end, chord),
+        };
+        let rotations = rating.rotations(own, springs).map(of);
+        let (end, rotation_rad) =
+            rotations.reduce(|best, other| if other.1 > best.1 { other } else { best })?;
+        let at = match end {
+            MemberEnd::First => SectionAt::First,
+            MemberEnd::Last => SectionAt::Last,
+        };
+        let kept = limits
+            .limits
+            .iter()
+            .find(|(_, limit)| rotation_rad <= *limit);
+        Some(AcceptanceSummary {
+            rule: limits.rule,
+            measure: match limits.measure {
+                RotationMeasure::Plastic => "plastic",
+                RotationMeasure::Chord => "chord",
+            },
+            rotation_rad,
+            at: section_name(place, at),
+            limits: limits
+                .limits
+                .iter()
+                .map(|&(level, rotation_rad)| LevelSummary {
+                    level,
+                    rotation_rad,
+                })
+                .collect(),
+            level: kept.map(|(level, _)| *level),
+        })
+    });
+    against.collect()
+}
+
+/// The strongest impact on a building in progress at an instant.
+fn impact_at(building: usize, time: f64, run: &Run) -> Option<ImpactPlace> {
+    let impacts = run.outcome.impacts.iter().filter(|impact| {
+        let buildings = run.system.contacts[impact.contact].ports.buildings();
+        buildings.contains(&Some(building)) && (impact.start..=impact.end).contains(&time)
+    });
+    let impact = impacts.max_by(|a, b| a.peak_force.total_cmp(&b.peak_force))?;
+    let contact = &run.system.contacts[impact.contact];
+    Some(ImpactPlace {
+        between: names(run.model.gaps[contact.gap].between, run.system),
+        floors: contact.ports.floors(),
+        height_m: contact.height,
+        start_s: impact.start,
+    })
+}
+
+/// Members of a building beyond their capacity; `None` where no capacity is known.
+pub(super) fn of_building(
+    building: usize,
+    members: &[MemberSummary],
+    run: &Run,
+) -> Option<CapacitySummary> {
+    let rated = || {
+        members
+            .iter()
+            .filter_map(|member| Some((member, member.ratio.as_ref()?)))
+    };
+    let kinds = rated().flat_map(|(member, ratio)| {
+        let shear = ratio.shear.zip(ratio.shear_at.as_ref());
+        let shear = shear.map(|(value, place)| ("shear", value, place));
+        let bending = ("bending", ratio.bending, &ratio.bending_at);
+        let all = shear.into_iter().chain([bending]);
+        all.map(move |(kind, value, place)| (member, kind, value, place))
+    });
+    let (worst_member, kind, value, place) = kinds
+        .clone()
+        .reduce(|best, other| if other.2 > best.2 { other } else { best })?;
+    let worst = ExceededSummary {
+        member: worst_member.name.clone(),
+        kind,
+        at: place.at,
+        at_s: place.at_s,
+        ratio: value,
+        impact: place.impact.clone(),
+    };
+    let exceeded = rated()
+        .filter(|(_, ratio)| ratio.bending > 1.0 || ratio.shear.is_some_and(|shear| shear > 1.0));
+    Some(CapacitySummary {
+        rule: rated().next()?.1.rule,
+        rated: rated().count(),
+        exceeded: exceeded.count(),
+        first: first_of(building, run),
+        worst,
+    })
+}
+
+/// The first member beyond its capacity by the governing rule.
+fn first_of(building: usize, run: &Run) -> Option<ExceededSummary> {
+    let own = &run.system.buildings[building];
+    let mut first: Option<(f64, ExceededSummary)> = None;
+    for (index, member) in own.members.members.iter().enumerate() {
+        let Some((rating, entries)) = rated(building, index, run) else {
+            continue;
+        };
+        let governing = entries.iter().step_by(rating.capacity.rules.len().max(1));
+        for (section, entry) in member.sections.iter().zip(governing) {
+            for (kind, peak) in [("shear", &entry.shear), ("bending", &entry.bending)] {
+                let Some(time) = peak.exceeded_at else {
+                    continue;
+                };
+                if first.as_ref().is_none_or(|(known, _)| time < *known) {
+                    let found = ExceededSummary {
+                        member: member_name(own, member.place),
+                        kind,
+                        at: section_name(member.place, section.at),
+                        at_s: time,
+                        ratio: peak.ratio,
+                        impact: impact_at(building, time, run),
+                    };
+                    first = Some((time, found));
+                }
+            }
+        }
+    }
+    first.map(|(_, found)| found)
+}

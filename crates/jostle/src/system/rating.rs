@@ -1,0 +1,126 @@
+//! A column or beam whose demand is compared with its capacity.
+
+use super::BuildingSystem;
+use crate::hysteresis::{HysteresisMemory, Side};
+use crate::model::MemberCapacity;
+use crate::structure::{MemberEnd, MemberPlace, SpringPlace, ductility, end_stiffnesses};
+
+/// A column or beam whose demand is compared with its capacity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MemberRating {
+    /// Its building.
+    pub building: usize,
+    /// The member among the [`MemberForces`](crate::structure::MemberForces) of the building.
+    pub member: usize,
+    /// Its capacity.
+    pub capacity: MemberCapacity,
+    /// Hinges at its ends.
+    hinges: Vec<EndHinge>,
+}
+
+/// A hinge at an end of a member.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct EndHinge {
+    end: MemberEnd,
+    /// Its index among the springs of the building.
+    spring: usize,
+    /// Stiffness of the member behind it \[N·m/rad\].
+    behind: Option<f64>,
+}
+
+impl MemberRating {
+    pub(super) fn new(
+        building: &BuildingSystem,
+        index: usize,
+        member: usize,
+        capacity: &MemberCapacity,
+    ) -> Self {
+        let place = building.members.members[member].place;
+        let behind = end_stiffnesses(&building.discretization.stick_model);
+        let springs = building.discretization.spring_places.iter().enumerate();
+        let own = springs.filter_map(|(spring, own)| {
+            let end = match (place, *own) {
+                (
+                    MemberPlace::Column { line, storey },
+                    SpringPlace::Column {
+                        storey: at,
+                        line: on,
+                        end,
+                    },
+                ) => (storey == at && line == on).then_some(end),
+                (
+                    MemberPlace::Beam { floor, span },
+                    SpringPlace::Beam {
+                        floor: at,
+                        bay,
+                        end,
+                    },
+                ) => (floor == at && span == bay).then_some(end),
+                _ => None,
+            };
+            Some(EndHinge {
+                end: end?,
+                spring,
+                behind: behind.get(spring).copied().flatten(),
+            })
+        });
+        Self {
+            building: index,
+            member,
+            capacity: capacity.clone(),
+            hinges: own.collect(),
+        }
+    }
+
+    /// Greatest ductility so far of its ends, at least 1 \[–\]. `springs`: those of the building.
+    pub(crate) fn ductility(&self, building: &BuildingSystem, springs: &[HysteresisMemory]) -> f64 {
+        let of = |hinge: &EndHinge| {
+            let rule = &building.equations.springs[hinge.spring].hysteresis;
+            let memory = &springs[hinge.spring];
+            let sides =
+                Side::BOTH.map(|side| ductility(rule, memory.greatest(side), side, hinge.behind));
+            sides[0].max(sides[1])
+        };
+        self.hinges.iter().map(of).fold(1.0, f64::max)
+    }
+
+    /// Greatest rotations so far of every end with a hinge: end, plastic rotation and chord rotation \[rad\]. `springs`: those
+    /// of the building.
+    pub(crate) fn rotations<'a>(
+        &'a self,
+        building: &'a BuildingSystem,
+        springs: &'a [HysteresisMemory],
+    ) -> impl Iterator<Item = (MemberEnd, [f64; 2])> + 'a {
+        self.hinges.iter().map(|hinge| {
+            let rule = &building.equations.springs[hinge.spring].hysteresis;
+            let memory = &springs[hinge.spring];
+            let mut greatest = [0.0_f64; 2];
+            for side in Side::BOTH {
+                let (turned, curve) = (memory.greatest(side), rule.backbone().side(side));
+                let bent = hinge
+                    .behind
+                    .map_or(0.0, |stiffness| curve.force_at(turned) / stiffness);
+                greatest[0] = greatest[0].max(turned - curve.yielding.deformation);
+                greatest[1] = greatest[1].max(turned + bent);
+            }
+            (hinge.end, greatest)
+        })
+    }
+
+    /// Whether ductility changes the result of any rule.
+    pub(crate) fn degrades(&self) -> bool {
+        let mut rules = self.capacity.rules.iter();
+        !self.hinges.is_empty()
+            && rules.any(|rule| rule.shear.as_ref().is_some_and(|shear| shear.degrades()))
+    }
+
+    /// Compression for an axial force of the run, positive in tension \[N\].
+    pub(crate) fn compression(&self, axial: f64) -> f64 {
+        let by_run = if self.capacity.follows_axial {
+            axial
+        } else {
+            0.0
+        };
+        self.capacity.compression_at_rest - by_run
+    }
+}
