@@ -42,7 +42,7 @@ beam_mass = "3 t/m"
 [[gap]]
 between = ["A", "B"]
 width = "5 mm"
-floors = "all"
+floors = [[1, "3 m"]]
 [[link]]
 between = ["A", "B"]
 floors = [[1, "3 m"]]

@@ -554,11 +554,12 @@ impl SectionRatio {
 }
 
 impl RatioPeak {
-    /// Takes in an instant. A capacity below a ten-thousandth of the demand counts as that.
+    /// Takes in an instant. Ratios above a hundred million count as that, so that they are finite; no demand on no
+    /// capacity counts for nothing.
     #[inline]
-    pub(crate) fn take(&mut self, time: f64, demand: f64, capacity: f64, compression: f64) {
-        let ratio = demand.abs() / capacity.max(1e-4 * demand.abs());
+    pub(crate) fn take(&mut self, time: f64, demand: f64, ratio: f64, compression: f64) {
         if ratio > self.ratio {
+            let ratio = ratio.min(1e8);
             (self.ratio, self.at) = (ratio, time);
             (self.demand, self.compression) = (demand, compression);
             if ratio > 1.0 && self.exceeded_at.is_none() {

@@ -198,7 +198,7 @@ fn from_histories(model: &Model, system: &System, outcome: &Outcome) -> Vec<[[f6
                     let side = &rule.bending[usize::from(*moment < 0.0)];
                     let ratios = [
                         shear.abs() / strength.min(by_shear.limit),
-                        moment.abs() / interpolate(side, compression),
+                        bending_ratio(|n| interpolate(side, n), compression, moment.abs()),
                     ];
                     found[0] = found[0].max(ratios[0]);
                     found[1] = found[1].max(ratios[1]);
@@ -210,6 +210,24 @@ fn from_histories(model: &Model, system: &System, outcome: &Outcome) -> Vec<[[f6
         }
     }
     all
+}
+
+/// The moment over its capacity; beyond that at most the factor by which the point is outside, by bisection on the ray.
+fn bending_ratio(capacity: impl Fn(f64) -> f64, compression: f64, moment: f64) -> f64 {
+    let ratio = moment / capacity(compression);
+    if ratio <= 1.0 {
+        return ratio;
+    }
+    let (mut inside, mut outside) = (0.0, 1.0);
+    for _ in 0..60 {
+        let share = 0.5 * (inside + outside);
+        if share * moment < capacity(share * compression) {
+            inside = share;
+        } else {
+            outside = share;
+        }
+    }
+    ratio.min(1.0 / inside)
 }
 
 fn compare(solver: Solver, above: f64) {
@@ -289,8 +307,8 @@ fn compare(solver: Solver, above: f64) {
                 let compression = own.compression_at_rest - axial;
                 let rule = &own.rules[0];
                 let strength = rule.shear.as_ref().expect("given").at(compression, 1.0);
-                let bending = rule.bending_at(compression, forces.moment_n_m);
-                (forces.shear_n.abs() / strength).max(forces.moment_n_m.abs() / bending)
+                let bending = rule.bending_ratio(compression, forces.moment_n_m);
+                (forces.shear_n.abs() / strength).max(bending)
             })
         });
         let found = found.fold(0.0, f64::max);

@@ -37,6 +37,7 @@ stiffness = 1
 integrator = { method = "hht" }
 [output]
 members = true
+floor_spectra = { floors = ["A.1"], damping = 0.05, periods = 1, low_pass = 25, order = 4 }
 [codes]
 show = "asce7"
 "#,

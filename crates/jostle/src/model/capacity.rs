@@ -34,6 +34,20 @@ impl CapacityLine {
         }
     }
 
+    /// Factor by which a point beyond the line, seen from the origin, is farther away than the line; `None` if the ray
+    /// does not meet it.
+    fn overshoot(&self, abscissa: f64, value: f64) -> Option<f64> {
+        let met = self.points.windows(2).filter_map(|ends| {
+            let ([a, p], [b, q]) = (ends[0], ends[1]);
+            let (wide, rise) = (b - a, q - p);
+            // The share s of the ray at which s·value is on the line through both points.
+            let share = (p * wide - a * rise) / (value * wide - abscissa * rise);
+            let within = (a..=b).contains(&(share * abscissa));
+            (share > 0.0 && within).then(|| share.recip())
+        });
+        met.max_by(f64::total_cmp)
+    }
+
     /// Greatest slope, either sign.
     #[must_use]
     pub fn steepest(&self) -> f64 {
@@ -138,6 +152,25 @@ impl RuleCapacity {
     pub fn bending_at(&self, compression: f64, moment: f64) -> f64 {
         self.bending[usize::from(moment < 0.0)].at(compression)
     }
+
+    /// Demand over capacity in bending under a compression \[–\].
+    ///
+    /// Within the capacity this is the moment over the moment capacity under this compression. Beyond it, where that may
+    /// be next to nothing, it is not more than the factor by which compression and moment together exceed the surface
+    /// of both.
+    #[must_use]
+    pub fn bending_ratio(&self, compression: f64, moment: f64) -> f64 {
+        let ratio = moment.abs() / self.bending_at(compression, moment);
+        if ratio <= 1.0 {
+            return ratio;
+        }
+        let line = &self.bending[usize::from(moment < 0.0)];
+        let together = line.overshoot(compression, moment.abs());
+        match together {
+            Some(together) if ratio.is_nan() || together < ratio => together,
+            _ => ratio,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -152,6 +185,30 @@ mod tests {
         assert_eq!(line.steepest(), 2.0);
         assert_eq!(CapacityLine::new(vec![[5.0, 7.0]]).at(-3.0), 7.0);
         assert_eq!(CapacityLine::default().at(1.0), 0.0);
+    }
+
+    /// A surface of straight lines from −1 N over (0 N, 2 N·m) to 3 N.
+    #[test]
+    fn beyond_the_surface_compression_and_moment_count_together() {
+        let line = CapacityLine::new(vec![[-1.0, 0.0], [0.0, 2.0], [3.0, 0.0]]);
+        let rule = RuleCapacity {
+            rule: "test",
+            shear: None,
+            bending: [line.clone(), line],
+        };
+        // Within: M / (2 (1 − N/3)).
+        assert!((rule.bending_ratio(1.5, -0.5) - 0.5).abs() < 1e-15);
+        // On the surface both measures are one.
+        assert!((rule.bending_ratio(1.5, 1.0) - 1.0).abs() < 1e-15);
+        // At the limit of compression and beyond: M = λ 2 (1 − N/(3 λ)) gives λ = M/2 + N/3.
+        for (compression, moment) in [(3.0, 1.0), (6.0, 0.25), (2.9, 3.0)] {
+            let expected = 0.5 * moment + compression / 3.0;
+            let found = rule.bending_ratio(compression, moment);
+            assert!((found - expected).abs() < 1e-14, "{found} for {expected}");
+        }
+        // In tension beyond −1 N: M = λ 2 (1 + N/λ) gives λ = M/2 − N.
+        assert!((rule.bending_ratio(-2.0, 0.5) - 2.25).abs() < 1e-14);
+        assert!((rule.bending_ratio(6.0, 0.0) - 2.0).abs() < 1e-14);
     }
 
     #[test]

@@ -92,9 +92,9 @@ pub(crate) fn take(
 ) {
     let compression = rating.compression(axial);
     if let Some(capacity) = &rule.shear {
-        let capacity = capacity.at(compression, ductility);
-        entry.shear.take(time, shear, capacity, compression);
+        let ratio = shear.abs() / capacity.at(compression, ductility);
+        entry.shear.take(time, shear, ratio, compression);
     }
-    let capacity = rule.bending_at(compression, moment);
-    entry.bending.take(time, moment, capacity, compression);
+    let ratio = rule.bending_ratio(compression, moment);
+    entry.bending.take(time, moment, ratio, compression);
 }
