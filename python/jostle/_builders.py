@@ -265,6 +265,7 @@ class Given(Part):
         storey_height: one length, or a list from the ground up, of a building given by modes; 3 m by default.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default; not beside a damping
             matrix.
+        codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         **units_in_names: the same with units in names, as in ``storey_height_m=3.2``.
 
     Raises:
@@ -287,6 +288,7 @@ class Given(Part):
         storeys: int | None = None,
         storey_height: Quantities | None = None,
         damping: Table | None = None,
+        codes: Table | None = None,
         **units_in_names: Unpack[GivenUnits],
     ) -> None:
         super().__init__(
@@ -303,6 +305,7 @@ class Given(Part):
                 "storeys": storeys,
                 "storey_height": storey_height,
                 "damping": damping,
+                "codes": codes,
             },
             units_in_names,
         )

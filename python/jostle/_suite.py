@@ -174,7 +174,7 @@ def run_suite(
     with line as shown:
         observer = shown or (progress if callable(progress) else None)
         core = _jostle.run_suite(
-            Model.of(model)._core,
+            Model.from_any(model)._core,
             None if folder is None else os.path.abspath(folder),
             governing,
             bool(report),

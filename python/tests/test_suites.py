@@ -20,7 +20,7 @@ def tree(**further: Any) -> dict[str, Any]:
         "motion": {"record": RECORDS, "pga": "3 m/s2", "duration": "12 s"},
         "building": [
             {"name": "A", "mass": [4e4, 4e4], "stiffness": [2e7, 2e7], **tower},
-            {"name": "B", "mass": 6e4, "stiffness": 9e7, **tower},
+            {"name": "B", "mass": [6e4], "stiffness": [9e7], **tower},
         ],
         "gap": [{"between": ["A", "B"], "width": "10 mm"}],
         "analysis": {"tolerance": 0.01},

@@ -92,7 +92,11 @@ impl Results<'_> {
         if content.tables {
             self.write_tables(&mut staged)?;
         }
-        // Not among the tables: the run without contact, which comes later, belongs into it.
+        // Not among the tables: the run without contact, which comes later, belongs into them.
+        staged.add(BUILDINGS, |path| {
+            write_buildings_parquet(path, self.summary)
+        })?;
+        staged.add(FLOORS, |path| write_floors_parquet(path, self.summary))?;
         if let Some(found) = &self.summary.floor_spectra {
             staged.add(FLOOR_SPECTRA, |path| {
                 write_floor_spectra_parquet(path, self.summary, found)
@@ -113,8 +117,6 @@ impl Results<'_> {
                 write_history_parquet(path, model, summary, history)
             })?;
         }
-        staged.add(BUILDINGS, |path| write_buildings_parquet(path, summary))?;
-        staged.add(FLOORS, |path| write_floors_parquet(path, summary))?;
         staged.add(IMPACTS, |path| write_impacts_parquet(path, summary))?;
         if !outcome.springs.is_empty() {
             let system = &self.prepared.system;
