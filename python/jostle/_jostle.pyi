@@ -15,6 +15,7 @@ __all__ = [
     "Motion",
     "Run",
     "Study",
+    "Suite",
     "Table",
     "__version__",
     "collide",
@@ -25,6 +26,7 @@ __all__ = [
     "live_page",
     "quantity",
     "run",
+    "run_suite",
 ]
 
 _Row = npt.NDArray[np.float64]
