@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let outcome = simulate(&system, &motion, &plan, settings, |_| {
             ControlFlow::Continue(())
         });
-        black_box(Summary::of(&Run {
+        black_box(Summary::new(&Run {
             model: &input.model,
             system: &system,
             motion: &motion,

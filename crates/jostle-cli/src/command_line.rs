@@ -26,7 +26,9 @@ pub(crate) struct Args {
 
 impl Args {
     /// Parses the arguments, or prints the error (or the help for `--help`) and returns the exit code.
-    pub(crate) fn of(arguments: impl IntoIterator<Item = OsString>) -> Result<Self, u8> {
+    pub(crate) fn from_arguments(
+        arguments: impl IntoIterator<Item = OsString>,
+    ) -> Result<Self, u8> {
         Self::try_parse_from(arguments).map_err(|error| {
             // A closed pipe, as of `head`, is not an error.
             let _ = error.print();

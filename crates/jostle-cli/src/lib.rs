@@ -34,7 +34,7 @@ use failure::Failure;
 
 /// Runs the command given by the arguments, of which the first is the program name, and returns the exit code.
 pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
-    let args = match Args::of(arguments) {
+    let args = match Args::from_arguments(arguments) {
         Ok(args) => args,
         Err(code) => return code,
     };

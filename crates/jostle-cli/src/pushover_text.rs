@@ -77,7 +77,7 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
             "  The building has no hinges: it stays elastic, and the curve is a straight line."
         );
     }
-    if let Some(two) = Bilinear::of(&curve.points) {
+    if let Some(two) = Bilinear::fit(&curve.points) {
         writeln!(
             text,
             "  bilinear of equal energy (FEMA 356): yields at {} kN and {} mm, then {:.1} % of the stiffness; ductility {:.2}",

@@ -93,7 +93,7 @@ fn of_options(args: &SectionArgs) -> Result<SectionSurvey, Failure> {
         Member::Column => "Column",
         Member::Beam => "Beam",
     };
-    Ok(SectionSurvey::of(
+    Ok(SectionSurvey::new(
         name.to_owned(),
         section,
         member,
@@ -132,7 +132,7 @@ fn of_model(path: &std::path::Path) -> Result<(String, Vec<SectionSurvey>), Fail
             Member::Beam => ("beam", "bay"),
         };
         let name = format!("{building}: {kind}, {}", places_text(&places, across));
-        SectionSurvey::of(
+        SectionSurvey::new(
             name,
             member.section.clone(),
             member.member,
@@ -149,7 +149,7 @@ fn places_text(places: &[(usize, usize)], across: &str) -> String {
     let mut floors: Vec<usize> = places.iter().map(|(floor, _)| *floor).collect();
     floors.dedup();
     let first = places.first().map_or(0, |(floor, _)| *floor);
-    let abreast: Vec<String> = places
+    let listed: Vec<String> = places
         .iter()
         .filter(|(floor, _)| *floor == first)
         .map(|(_, place)| place.to_string())
@@ -166,8 +166,8 @@ fn places_text(places: &[(usize, usize)], across: &str) -> String {
                 .join(", ")
         ),
     };
-    let plural = if abreast.len() == 1 { "" } else { "s" };
-    format!("{floors}, {across}{plural} {}", abreast.join(", "))
+    let plural = if listed.len() == 1 { "" } else { "s" };
+    format!("{floors}, {across}{plural} {}", listed.join(", "))
 }
 
 fn describe(text: &mut String, surveys: &[SectionSurvey]) -> std::fmt::Result {

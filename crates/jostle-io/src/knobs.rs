@@ -251,7 +251,7 @@ impl crate::TreeValue {
         }
         let parsed = crate::tree::toml_tree::parse(&format!("value = {text}"));
         let value = parsed.ok().and_then(|root| match root.value {
-            Value::Table(table) => table.get("value").and_then(Self::of),
+            Value::Table(table) => table.get("value").and_then(Self::from_node),
             _ => None,
         });
         value.unwrap_or(plain)

@@ -90,7 +90,7 @@ impl ModelTree {
     pub fn parse(name: &str, text: &str, format: Format, base: &Path) -> Result<Self, InputError> {
         let source = Source::new(name, tree::decode(name, text.as_bytes())?);
         let root = tree::parse(&source, format)?;
-        Ok(Self::of(Arc::new(source), root, base))
+        Ok(Self::new(Arc::new(source), root, base))
     }
 
     /// The model file at a path, or the built-in model of that name.
@@ -117,7 +117,7 @@ impl ModelTree {
         Self::parse(name, text, Format::Toml, Path::new(""))
     }
 
-    pub(crate) fn of(source: Arc<Source>, root: Node, base: &Path) -> Self {
+    pub(crate) fn new(source: Arc<Source>, root: Node, base: &Path) -> Self {
         Self {
             source,
             root,
@@ -325,7 +325,7 @@ fn walk(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Resul
 /// Adds the values at a path below a node.
 fn collect(node: &Node, parts: &[Part], into: &mut Vec<TreeValue>) {
     let Some((part, rest)) = parts.split_first() else {
-        into.extend(TreeValue::of(node));
+        into.extend(TreeValue::from_node(node));
         return;
     };
     let below: Vec<&Node> = match (part, &node.value) {
@@ -417,18 +417,20 @@ impl TreeValue {
     }
 
     /// The value of a node; `None` for dates and similar values.
-    pub(crate) fn of(node: &Node) -> Option<Self> {
+    pub(crate) fn from_node(node: &Node) -> Option<Self> {
         Some(match &node.value {
             Value::Text(text) => Self::Text(text.clone()),
             Value::Integer(value) => Self::Integer(*value),
             Value::Number(value) => Self::Number(*value),
             Value::Flag(value) => Self::Flag(*value),
-            Value::List(list) => Self::List(list.iter().map(Self::of).collect::<Option<_>>()?),
+            Value::List(list) => {
+                Self::List(list.iter().map(Self::from_node).collect::<Option<_>>()?)
+            }
             Value::Table(table) => Self::Table(
                 table
                     .entries
                     .iter()
-                    .map(|entry| Some((entry.key.clone(), Self::of(&entry.node)?)))
+                    .map(|entry| Some((entry.key.clone(), Self::from_node(&entry.node)?)))
                     .collect::<Option<_>>()?,
             ),
             Value::Other(_) => return None,

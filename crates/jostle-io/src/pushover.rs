@@ -100,7 +100,7 @@ fn curve_json(one: &PushedBuilding, curve: &Pushover) -> Value {
         "first_crack": curve.first(Stage::Cracked).map(place),
         "first_yield": curve.first(Stage::Yielded).map(place),
         "peak": place(curve.peak()),
-        "bilinear": Bilinear::of(&curve.points).map(|two| json!({
+        "bilinear": Bilinear::fit(&curve.points).map(|two| json!({
             "yield_displacement_m": two.yield_displacement,
             "yield_base_shear_n": two.yield_force,
             "ultimate_displacement_m": two.ultimate_displacement,

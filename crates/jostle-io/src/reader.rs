@@ -281,7 +281,7 @@ impl<'s> Reader<'s> {
         let Some(range) = field.range.filter(|_| !self.accepted.covers(&field.path)) else {
             return true;
         };
-        match range.judge(value, Written::of(field.node, value)) {
+        match range.judge(value, Written::from_node(field.node, value)) {
             Verdict::Usual => true,
             Verdict::Unusual(text) => {
                 self.warn(field, &text);

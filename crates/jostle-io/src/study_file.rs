@@ -300,7 +300,7 @@ fn base_model(
             );
             return None;
         }
-        return Some(Ok(ModelTree::of(
+        return Some(Ok(ModelTree::new(
             Arc::clone(source),
             model.node.clone(),
             folder,

@@ -251,7 +251,7 @@ impl Written {
     }
 
     /// As written in the file; `value` is the same in SI.
-    pub(crate) fn of(node: &Node, value: f64) -> Self {
+    pub(crate) fn from_node(node: &Node, value: f64) -> Self {
         match &node.value {
             Value::Text(text) => {
                 split_number(text).map_or(Self::bare(value), |(number, unit)| Self {

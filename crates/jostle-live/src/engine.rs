@@ -9,7 +9,7 @@ use std::time::Instant;
 use jostle::stepping::Progress;
 use jostle::{GroundMotion, Model, Outcome, Pounding, RunEnd, Settings, Summary};
 use jostle_io::{Format, InputError, ModelTree, TreeValue};
-use jostle_run::{CaseError, Prepared, Results, Workshop};
+use jostle_run::{CaseCache, CaseError, Prepared, Results};
 use serde::Serialize;
 
 use crate::message::{Fault, Run, fault, faults};
@@ -32,7 +32,7 @@ pub struct Engine {
     named: Vec<(String, String)>,
     /// The same without links.
     picked: Vec<PathBuf>,
-    workshop: Workshop,
+    case_cache: CaseCache,
     /// The last runs without contact, the most recent at the end.
     apart: Mutex<Vec<Apart>>,
 }
@@ -143,7 +143,7 @@ impl Engine {
             named,
             base,
             folder,
-            workshop: Workshop::default(),
+            case_cache: CaseCache::default(),
             apart: Mutex::default(),
         }
     }
@@ -229,7 +229,7 @@ impl Engine {
         if several > 1 {
             tree.keep_record(record.min(several - 1));
         }
-        Ok(self.workshop.assemble(tree.input()?)?)
+        Ok(self.case_cache.assemble(tree.input()?)?)
     }
 
     /// Refuses a file outside the folder of the model that the opened model does not name.

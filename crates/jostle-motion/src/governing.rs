@@ -80,7 +80,7 @@ impl GoverningRule {
 
     /// What the rule says about a number of motions.
     #[must_use]
-    pub fn of(self, motions: usize) -> Governing {
+    pub fn for_motions(self, motions: usize) -> Governing {
         let (mean_from, least) = match self {
             Self::Gb50011 | Self::En1998 => (7, 3),
             Self::Asce7 => (11, 11),
@@ -111,7 +111,7 @@ impl GoverningStatistic {
 
     /// The governing one of some values; `None` if there are none.
     #[must_use]
-    pub fn of(self, values: &[f64]) -> Option<f64> {
+    pub fn value(self, values: &[f64]) -> Option<f64> {
         match self {
             Self::Mean if !values.is_empty() => {
                 Some(values.iter().sum::<f64>() / values.len() as f64)
@@ -174,7 +174,7 @@ mod tests {
             (GoverningRule::Mean, 2, Mean, true),
             (GoverningRule::Maximum, 20, Max, true),
         ] {
-            let said = rule.of(motions);
+            let said = rule.for_motions(motions);
             assert_eq!(
                 (said.statistic, said.met),
                 (statistic, met),
@@ -189,8 +189,11 @@ mod tests {
             assert_eq!(rule.name(), name);
             assert_eq!(GoverningRule::from_name(name), Some(rule));
         }
-        assert_eq!(GoverningStatistic::Mean.of(&[1.0, 2.0, 6.0]), Some(3.0));
-        assert_eq!(GoverningStatistic::Maximum.of(&[1.0, 6.0, 2.0]), Some(6.0));
-        assert_eq!(GoverningStatistic::Mean.of(&[]), None);
+        assert_eq!(GoverningStatistic::Mean.value(&[1.0, 2.0, 6.0]), Some(3.0));
+        assert_eq!(
+            GoverningStatistic::Maximum.value(&[1.0, 6.0, 2.0]),
+            Some(6.0)
+        );
+        assert_eq!(GoverningStatistic::Mean.value(&[]), None);
     }
 }

@@ -46,7 +46,7 @@ pub(crate) fn in_lanes(
     }
 }
 
-/// Coefficients of oscillators abreast. `p` and `q` are divided by the phase of a part, to stand before the change
+/// Coefficients of several oscillators. `p` and `q` are divided by the phase of a part, to stand before the change
 /// of acceleration in it.
 pub(crate) struct Lanes {
     pub(crate) a: [f64; LANES],

@@ -27,7 +27,7 @@ pub(crate) fn solve(matrix: &mut [Vec<f64>], mut x: Vec<f64>) -> Vec<f64> {
     x
 }
 
-/// Scalar product of two slices of equal length, in eight sums that a processor can keep abreast.
+/// Scalar product of two slices of equal length, in eight sums that a processor can compute at once.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (first, second) = (a.chunks_exact(8), b.chunks_exact(8));

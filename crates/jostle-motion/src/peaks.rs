@@ -38,7 +38,7 @@ const READ_STEPS_PER_PERIOD: f64 = 20.0;
 /// Damping ratios must lie in `0..1`. A period of 0 is the rigid oscillator.
 #[must_use]
 pub fn peak_responses(motion: &Accelerogram, oscillators: &[Oscillator]) -> Vec<Response> {
-    let ground = Ground::of(motion);
+    let ground = Ground::from_motion(motion);
     let mut responses = vec![ground.rigid(); oscillators.len()];
     in_lanes(
         motion,
@@ -73,7 +73,7 @@ struct Ground {
 }
 
 impl Ground {
-    fn of(motion: &Accelerogram) -> Self {
+    fn from_motion(motion: &Accelerogram) -> Self {
         let mut peak = Extreme::default();
         for (i, &a) in motion.acceleration().iter().enumerate() {
             peak.raise(a, || motion.step() * i as f64);

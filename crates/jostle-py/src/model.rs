@@ -131,7 +131,7 @@ impl Model {
             return Ok(None);
         };
         // The error of the model's own motion shows its line.
-        py.detach(|| Motion::of(spec))
+        py.detach(|| Motion::from_spec(spec))
             .map(Some)
             .or_else(|_| self.prepare(true).map(|_| None))
     }

@@ -18,7 +18,7 @@ pub(crate) struct Motion {
 
 impl Motion {
     /// Reads and scales. The values are kept even if the file changes.
-    pub(crate) fn of(mut spec: MotionSpec) -> Result<Self, MotionError> {
+    pub(crate) fn from_spec(mut spec: MotionSpec) -> Result<Self, MotionError> {
         let motion = spec.resolve()?;
         if let (MotionSource::Record { .. }, Wave::Sampled { step, acceleration }) =
             (&spec.source, &motion.wave)
@@ -36,7 +36,7 @@ impl Motion {
             reverse: false,
             duration,
         };
-        Self::of(spec).map_err(|error| argument_error(error.to_string()))
+        Self::from_spec(spec).map_err(|error| argument_error(error.to_string()))
     }
 }
 
@@ -86,7 +86,7 @@ impl Motion {
         step: f64,
     ) -> PyResult<Self> {
         let values = values.as_array().to_vec();
-        let record = Record::of(&values, unit, step)
+        let record = Record::from_values(&values, unit, step)
             .map_err(|error| argument_error(format!("{name}{error}")))?;
         let given = GroundMotion::sampled(name, record.step, record.acceleration);
         Self::new(MotionSource::Given(given), None)
@@ -176,7 +176,7 @@ impl Motion {
         }
         spec.reverse ^= reverse;
         spec.duration = duration.or(spec.duration);
-        Self::of(spec).map_err(|error| argument_error(error.to_string()))
+        Self::from_spec(spec).map_err(|error| argument_error(error.to_string()))
     }
 
     #[getter]

@@ -39,7 +39,7 @@ enum Across {
 }
 
 impl Across {
-    fn of(self, point: &CollisionPoint) -> f64 {
+    fn value(self, point: &CollisionPoint) -> f64 {
         match self {
             Self::Time => point.time,
             Self::Indentation => point.indentation,
@@ -183,7 +183,7 @@ fn elastic<'a>(laws: &'a [CollidedLaw], law: &CollidedLaw) -> Option<&'a Collide
 fn extent(law: &CollidedLaw, across: Across) -> Extent {
     let points = &law.collision.curve;
     Extent {
-        across: points.iter().map(|p| across.of(p)).fold(0.0, f64::max),
+        across: points.iter().map(|p| across.value(p)).fold(0.0, f64::max),
         force: points.iter().map(|p| p.force).fold(0.0, f64::max),
         least: points.iter().map(|p| p.force).fold(0.0, f64::min),
     }
@@ -253,7 +253,7 @@ fn panel(
             top + (extent.force * 1.03 - force) / span * height,
         ]
     };
-    let inside = |p: &&CollisionPoint| across.of(p) <= extent.across * 1.02;
+    let inside = |p: &&CollisionPoint| across.value(p) <= extent.across * 1.02;
     // An elastic law goes back as it came; drawing it once keeps its dashes.
     let once = |p: &&CollisionPoint, whole: bool| whole || across == Across::Time || p.rate >= 0.0;
     let path = |law: &CollidedLaw, whole: bool| {
@@ -263,7 +263,7 @@ fn panel(
             .iter()
             .filter(inside)
             .filter(|p| once(p, whole))
-            .map(|p| place(across.of(p), p.force))
+            .map(|p| place(across.value(p), p.force))
             .map(|[x, y]| format!("{x:.1},{y:.1}"))
             .collect();
         // A force that begins or ends with a jump.
@@ -273,7 +273,7 @@ fn panel(
                 .into_iter()
                 .filter(|(_, p)| once(p, whole))
             {
-                let [x, y] = place(across.of(p), 0.0);
+                let [x, y] = place(across.value(p), 0.0);
                 points.insert(end.min(points.len()), format!("{x:.1},{y:.1}"));
             }
         }

@@ -34,7 +34,7 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
         if !building.may_yield() {
             continue;
         }
-        for at in Discretization::of(building).spring_places {
+        for at in Discretization::new(building).spring_places {
             if let Some(hysteresis) = hysteresis_of(building, at) {
                 places.push(Place {
                     building: index,

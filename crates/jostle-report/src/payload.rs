@@ -256,7 +256,7 @@ fn loops(
     // Two values and an instant of twice their size in a row.
     let budget = budget / 4 / chosen.len().max(1);
     let of_place = |(place, spring): &(Place, &SpringSummary)| {
-        let points: Vec<[f32; 2]> = springs.of(place.spring).collect();
+        let points: Vec<[f32; 2]> = springs.of_spring(place.spring).collect();
         let rows = thin_loop(time, &points, budget);
         let instants: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
         let values = |part: usize, pack: &mut Packer| {

@@ -54,7 +54,7 @@ struct Spectra {
 }
 
 impl Spectra {
-    fn of(
+    fn new(
         target: &TargetSpectrum,
         damping: f64,
         set: &[Candidate],
@@ -91,7 +91,7 @@ impl Spectra {
 /// # Errors
 /// If the code does not define the damping.
 pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
-    let found = Spectra::of(page.target, page.damping, page.set, LONGEST)?;
+    let found = Spectra::new(page.target, page.damping, page.set, LONGEST)?;
     let periods = digits(&found.periods);
     let mut spectra = Vec::new();
     for (candidate, values) in page.set.iter().zip(&found.each) {
@@ -152,7 +152,7 @@ pub fn selection_sections(
     let periods = structures.iter().flat_map(|structure| &structure.periods);
     let longest = periods.fold(0.0, |most: f64, main| most.max(main.period));
     let reach = (1.6 * longest).clamp(SHORTEST_SPAN, LONGEST);
-    let spectra = Spectra::of(target, damping, set, reach)?;
+    let spectra = Spectra::new(target, damping, set, reach)?;
     let mut sections = vec![Section {
         title: "Selection of ground motions".into(),
         remark: format!(

@@ -63,7 +63,7 @@ fn frame(name: &str) -> BuildingSystem {
             beams: vec![vec![hinge; 2]; 2],
         })),
     };
-    let mut system = BuildingSystem::new(name, Discretization::of(&building));
+    let mut system = BuildingSystem::new(name, Discretization::new(&building));
     system
         .put_under_gravity(Gravity {
             preload: true,
@@ -122,7 +122,7 @@ fn an_elastic_building_pushed_in_its_first_mode_is_an_oscillator_of_its_first_pe
         gravity: Gravity::default(),
         hinges: None,
     };
-    let system = BuildingSystem::new("S", Discretization::of(&building));
+    let system = BuildingSystem::new("S", Discretization::new(&building));
     let push = |pattern| {
         let settings = PushSettings {
             pattern,

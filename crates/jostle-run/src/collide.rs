@@ -151,7 +151,7 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
     for kind in kinds {
         let law = ContactLaw {
             kind,
-            stiffness: stiffness.of(kind),
+            stiffness: stiffness.for_law(kind),
             restitution,
             restitution_is,
         };
@@ -168,7 +168,7 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
         let numbers = law.between(masses[0], masses[1]);
         laws.push(CollidedLaw {
             law,
-            collision: FreeCollision::of(&numbers, masses[0], masses[1], speed),
+            collision: FreeCollision::new(&numbers, masses[0], masses[1], speed),
         });
     }
     let stiffnesses = format!(
@@ -249,7 +249,7 @@ impl Stiffness {
         Ok(Self { hertz, linear })
     }
 
-    fn of(&self, kind: LawKind) -> f64 {
+    fn for_law(&self, kind: LawKind) -> f64 {
         if kind.is_hertzian() {
             self.hertz
         } else {

@@ -337,7 +337,7 @@ impl Search<'_> {
             RunEnd::Stopped => return Err(GapError::Stopped),
             RunEnd::Failed(error) => return Err(GapError::Run(error.to_string())),
         }
-        let summary = Summary::of(&jostle::Run {
+        let summary = Summary::new(&jostle::Run {
             model: &model,
             system: &system,
             motion: self.motion,

@@ -5,6 +5,7 @@
 //! terminal is read.
 
 mod calculation;
+mod case_cache;
 mod collide;
 mod contact_advice;
 mod contact_sensitivity;
@@ -27,8 +28,8 @@ mod shapes;
 mod spectra;
 mod style;
 mod summary_text;
-mod workshop;
 
+pub use case_cache::{CaseCache, CaseError};
 pub use collide::{CollideOptions, collide, collision_json};
 pub use contact_advice::{
     AdviceOptions, ContactAdvice, LEAST_TRANSITS, RangeAdvice, StiffnessEstimate, WaveAdvice,
@@ -54,4 +55,3 @@ pub use shapes::SharedShapes;
 pub use spectra::{Inelastic, accelerogram, spectra_json, spectrum_json};
 pub use style::{BOLD, DIM, LOUD, plain, styled};
 pub use summary_text::{describe_summary, summary_text};
-pub use workshop::{CaseError, Workshop};

@@ -117,7 +117,7 @@ impl Prepared {
         without_contact: Option<&Outcome>,
         wall: f64,
     ) -> Summary {
-        let mut summary = Summary::of(&jostle::Run {
+        let mut summary = Summary::new(&jostle::Run {
             model: &self.input.model,
             system: &self.system,
             motion: &self.motion,

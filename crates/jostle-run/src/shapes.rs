@@ -24,7 +24,7 @@ impl SharedShapes {
             return None;
         }
         let found = self.0.get_or_init(|| {
-            let reduction = modal::Reduction::of(system, plan).ok()?;
+            let reduction = modal::Reduction::new(system, plan).ok()?;
             Some(Found {
                 contact_steps: plan.contact_steps,
                 reduction: Arc::new(reduction),

@@ -12,7 +12,7 @@ use jostle::results::summary::{
 };
 use jostle::{Quantity, Summary};
 use jostle_io::{Format, ModelTree};
-use jostle_run::Workshop;
+use jostle_run::CaseCache;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -55,7 +55,7 @@ fn summary() -> Summary {
     let tree = ModelTree::parse("m", MODEL, Format::Toml, Path::new(""))
         .unwrap_or_else(|error| panic!("{error}"));
     let input = tree.input().unwrap_or_else(|error| panic!("{error}"));
-    let prepared = Workshop::default()
+    let prepared = CaseCache::default()
         .assemble(input)
         .unwrap_or_else(|error| panic!("{error}"));
     let settings = prepared.settings(false);

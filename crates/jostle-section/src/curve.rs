@@ -136,9 +136,9 @@ impl MomentCurvature {
     ///
     /// # Errors
     /// [`AnalysisError`] when the axial force alone is too much.
-    pub fn of(section: &Section, axial: f64, options: Options) -> Result<Self, AnalysisError> {
+    pub fn new(section: &Section, axial: f64, options: Options) -> Result<Self, AnalysisError> {
         let bender = Bender {
-            fibres: Fibres::of(section, options.fibres),
+            fibres: Fibres::new(section, options.fibres),
             axial,
             deepest: section.bars.iter().fold(0.0, |d, bar| bar.depth.max(d)),
         };

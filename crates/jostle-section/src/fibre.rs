@@ -29,7 +29,7 @@ pub struct Resultants {
 impl Fibres {
     /// Cuts a section into about `count` fibres, at least one; the core is confined if the section has ties.
     #[must_use]
-    pub fn of(section: &Section, count: usize) -> Self {
+    pub fn new(section: &Section, count: usize) -> Self {
         Self {
             plain: ConcreteLaw::unconfined(&section.concrete),
             core: law::confined(section),

@@ -76,7 +76,7 @@ impl EndCurve {
         options: Options,
     ) -> Result<Self, AnalysisError> {
         let side = |section: &Section| {
-            let curve = MomentCurvature::of(section, compression, options)?;
+            let curve = MomentCurvature::new(section, compression, options)?;
             Ok(Self::side_of(section, &curve.trilinear()?, length))
         };
         let positive = side(section)?;

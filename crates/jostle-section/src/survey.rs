@@ -41,7 +41,7 @@ pub struct Analysis {
 impl SectionSurvey {
     /// Does everything.
     #[must_use]
-    pub fn of(
+    pub fn new(
         name: String,
         section: Section,
         member: Member,
@@ -86,7 +86,7 @@ impl SectionSurvey {
 fn analyse(section: &Section, compression: f64, length: f64) -> Result<Analysis, AnalysisError> {
     let flipped = section.flipped();
     let one = |section: &Section| {
-        let curve = MomentCurvature::of(section, compression, Options::default())?;
+        let curve = MomentCurvature::new(section, compression, Options::default())?;
         let fit = curve.trilinear()?;
         Ok((curve, fit))
     };

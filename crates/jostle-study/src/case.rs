@@ -1,7 +1,7 @@
 //! One case: from the values of its factors to a row.
 
 use jostle::{RunEnd, StepError};
-use jostle_run::{CaseError, Prepared, Ran, Workshop};
+use jostle_run::{CaseCache, CaseError, Prepared, Ran};
 
 use crate::design::value_of;
 use crate::measures::measures;
@@ -13,9 +13,9 @@ impl Study {
     ///
     /// # Errors
     /// [`CaseError`] with the message of the reader of model files.
-    pub fn prepare(&self, workshop: &Workshop, case: u64) -> Result<Prepared, CaseError> {
+    pub fn prepare(&self, case_cache: &CaseCache, case: u64) -> Result<Prepared, CaseError> {
         let tree = self.tree(&self.design.choices(case, &self.file.factors))?;
-        workshop.assemble(tree.input()?)
+        case_cache.assemble(tree.input()?)
     }
 }
 

@@ -62,7 +62,7 @@ impl CaseDesign {
     ///
     /// # Errors
     /// [`DesignError`].
-    pub fn of(file: &StudyFile) -> Result<Self, DesignError> {
+    pub fn new(file: &StudyFile) -> Result<Self, DesignError> {
         let (design, factors) = (&file.design, &file.factors);
         let k = factors.len();
         let samples = design.samples.unwrap_or(1);

@@ -23,7 +23,7 @@ mod varied;
 pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};
 pub use jostle_run::{
-    CaseError, CriticalGap, GapError, GapProgress, GapSettings, RuleGap, Workshop, critical_gaps,
+    CaseCache, CaseError, CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps,
 };
 pub use layout::{Column, Kind, Layout, Named};
 pub use ready_made::{ready_made, ready_made_names};

@@ -17,7 +17,7 @@ use crate::dataset::{
 use crate::row::{Row, Status};
 use crate::single::{add_run_without_contact, run_until, write_run};
 use crate::study::{Study, StudyError};
-use jostle_run::Workshop;
+use jostle_run::CaseCache;
 
 /// Which part of a study this process computes, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,8 +82,8 @@ pub fn run(
     progress: &(dyn Fn(Progress) + Sync),
     remark: &(dyn Fn(&str) + Sync),
 ) -> Result<Done, StudyError> {
-    let workshop = Workshop::default();
-    let compute = |case: u64| compute(study, folder, &workshop, case, stop);
+    let case_cache = CaseCache::default();
+    let compute = |case: u64| compute(study, folder, &case_cache, case, stop);
     let hooks = Hooks {
         stop,
         progress,
@@ -493,11 +493,11 @@ pub fn run_folder(folder: &Path, case: u64) -> PathBuf {
 fn compute(
     study: &Study,
     folder: &Path,
-    workshop: &Workshop,
+    case_cache: &CaseCache,
     number: u64,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Row>, StudyError> {
-    let mut prepared = match study.prepare(workshop, number) {
+    let mut prepared = match study.prepare(case_cache, number) {
         Ok(prepared) => prepared,
         Err(error) => return Ok(Some(case::failed(study, number, &error.to_string()))),
     };

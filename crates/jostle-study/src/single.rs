@@ -7,7 +7,7 @@ use jostle::{RunEnd, Settings};
 use jostle_run::{Content, Prepared, Ran, Stage};
 
 use crate::study::{Study, StudyError};
-use jostle_run::{CaseError, Workshop};
+use jostle_run::{CaseCache, CaseError};
 
 /// Runs one case with its histories and writes the files of `jostle run` into a folder. `false` when it was stopped.
 ///
@@ -19,7 +19,7 @@ pub fn run_case(
     folder: &Path,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<bool, StudyError> {
-    let prepared = study.prepare(&Workshop::default(), case);
+    let prepared = study.prepare(&CaseCache::default(), case);
     let prepared = prepared.map_err(|error| match error {
         CaseError::Input(error) => StudyError::from(error),
         CaseError::Path(error) => StudyError::Column(error.to_string()),

@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 use crate::design::{CaseDesign, Choice, DesignError, value_of};
 use crate::layout::{Layout, Named};
 use crate::measures::measures;
-use jostle_run::{CaseError, Workshop};
+use jostle_run::{CaseCache, CaseError};
 
 /// A study ready to be run.
 pub struct Study {
@@ -79,11 +79,11 @@ impl Study {
     /// # Errors
     /// [`StudyError`] with all faults at once.
     pub fn new(file: StudyFile) -> Result<Self, StudyError> {
-        let design = CaseDesign::of(&file)?;
-        let workshop = Workshop::default();
-        let trial = Trial::of(&file, &workshop)?;
+        let design = CaseDesign::new(&file)?;
+        let case_cache = CaseCache::default();
+        let trial = Trial::new(&file, &case_cache)?;
         let layout = Layout::new(&file, &trial.results);
-        let (fingerprint, model_hash) = hashes(&file, &workshop);
+        let (fingerprint, model_hash) = hashes(&file, &case_cache);
         let part_cases = design
             .cases
             .div_ceil(PARTS)
@@ -235,7 +235,7 @@ struct Trial {
 }
 
 impl Trial {
-    fn of(file: &StudyFile, workshop: &Workshop) -> Result<Self, StudyError> {
+    fn new(file: &StudyFile, case_cache: &CaseCache) -> Result<Self, StudyError> {
         let usual = usual(file);
         // A path that leads nowhere is the fault of its factor alone, although no case can be read with it.
         let astray = file.factors.iter().zip(&usual).enumerate();
@@ -257,7 +257,7 @@ impl Trial {
             for choice in tried(factor) {
                 let mut choices = usual.clone();
                 choices[index] = choice.clone();
-                match columns(file, workshop, &choices) {
+                match columns(file, case_cache, &choices) {
                     Ok((list, warnings)) => {
                         let names = |list: &[Named]| -> Vec<String> {
                             list.iter().map(|named| named.name.clone()).collect()
@@ -313,7 +313,7 @@ impl Trial {
         let (list, warnings) = first.unwrap_or_default();
         results.insert(0, list);
         if shaping.len() > 1 {
-            combine(file, workshop, &usual, &shaping, &mut results);
+            combine(file, case_cache, &usual, &shaping, &mut results);
         }
         Ok(Self { results, warnings })
     }
@@ -322,7 +322,7 @@ impl Trial {
 /// Columns that only show when several factors change together.
 fn combine(
     file: &StudyFile,
-    workshop: &Workshop,
+    case_cache: &CaseCache,
     usual: &[Choice],
     shaping: &[(usize, Vec<Choice>)],
     results: &mut Vec<Vec<Named>>,
@@ -335,7 +335,7 @@ fn combine(
             rest /= values.len();
         }
         // A case that cannot be assembled becomes a row with its reason.
-        if let Ok((list, _)) = columns(file, workshop, &choices) {
+        if let Ok((list, _)) = columns(file, case_cache, &choices) {
             let same = |known: &Vec<Named>| {
                 known.len() == list.len() && known.iter().zip(&list).all(|(a, b)| a.name == b.name)
             };
@@ -381,11 +381,11 @@ fn tried(factor: &Factor) -> Vec<Choice> {
 /// The results that a case would have, without running it: a run of no length has them all.
 fn columns(
     file: &StudyFile,
-    workshop: &Workshop,
+    case_cache: &CaseCache,
     choices: &[Choice],
 ) -> Result<(Vec<Named>, Vec<String>), CaseError> {
     let input = tree(file, choices)?.input()?;
-    let mut prepared = workshop.assemble(input)?;
+    let mut prepared = case_cache.assemble(input)?;
     let warnings = prepared.input.warnings.clone();
     prepared.motion.duration = 0.0;
     let settings = Settings {
@@ -399,7 +399,7 @@ fn columns(
 }
 
 /// Identity of studies, and the hash of the base model.
-fn hashes(file: &StudyFile, _workshop: &Workshop) -> (String, String) {
+fn hashes(file: &StudyFile, _workshop: &CaseCache) -> (String, String) {
     let model = hex(&Sha256::digest(file.base.text().as_bytes()));
     let mut all = Sha256::new();
     for text in [env!("CARGO_PKG_VERSION"), file.text(), &model] {

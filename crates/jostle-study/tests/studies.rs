@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use jostle::{Plan, Run, Settings, Summary, System, simulate};
 use jostle_io::{Format, Overrides, StudyFile, builtin_model, read_model_text};
 use jostle_study::dataset::read_columns;
-use jostle_study::{Done, RunSettings, Study, StudyError, Workshop, run};
+use jostle_study::{CaseCache, Done, RunSettings, Study, StudyError, run};
 
 /// Two small towers that are hit within a few seconds.
 const TOWERS: &str = r#"
@@ -212,7 +212,7 @@ fn rows_hold_the_numbers_of_single_runs() {
         let outcome = simulate(&system, &motion, &plan, settings, |_| {
             ControlFlow::Continue(())
         });
-        let summary = Summary::of(&Run {
+        let summary = Summary::new(&Run {
             model: &input.model,
             system: &system,
             motion: &motion,
@@ -535,11 +535,11 @@ values = ["5 mm", "10 mm", "20 mm", "40 mm"]
     }
 }
 
-/// Forces and work of some cases, each from a workshop that has seen all before it, and from one of its own.
+/// Forces and work of some cases, each from a cache that has seen all cases before it, and from one of its own.
 fn shared_and_alone(study: &Study, cases: u64) -> [Vec<(u64, u64, u64)>; 2] {
-    let shared = Workshop::default();
-    let numbers = |workshop: &Workshop, case: u64| {
-        let prepared = study.prepare(workshop, case);
+    let shared = CaseCache::default();
+    let numbers = |case_cache: &CaseCache, case: u64| {
+        let prepared = study.prepare(case_cache, case);
         let prepared = prepared.unwrap_or_else(|error| panic!("{error}"));
         let settings = Settings {
             record_interval: None,
@@ -557,7 +557,7 @@ fn shared_and_alone(study: &Study, cases: u64) -> [Vec<(u64, u64, u64)>; 2] {
     [
         (0..cases).map(|case| numbers(&shared, case)).collect(),
         (0..cases)
-            .map(|case| numbers(&Workshop::default(), case))
+            .map(|case| numbers(&CaseCache::default(), case))
             .collect(),
     ]
 }

@@ -175,7 +175,7 @@ fn feed(outcome: &Outcome, summary: &Value, digest: &mut Sha256) {
     }
     if let Some(springs) = &outcome.spring_history {
         for spring in 0..outcome.springs.len() {
-            for [deformation, force] in springs.of(spring) {
+            for [deformation, force] in springs.of_spring(spring) {
                 bits(&[deformation.into(), force.into()]);
             }
         }
@@ -201,7 +201,7 @@ fn digest(case: &Case) -> Option<String> {
         if pounding == Pounding::Included {
             find_sensitivity(&system, &motion, &plan, &mut outcome, go_on);
         }
-        let summary = Summary::of(&Run {
+        let summary = Summary::new(&Run {
             model: &model,
             system: &system,
             motion: &motion,

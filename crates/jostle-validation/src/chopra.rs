@@ -193,5 +193,5 @@ fn shear_frame(case: &Value) -> BuildingSystem {
         gravity: Default::default(),
         hinges: None,
     };
-    BuildingSystem::new(&building.name, Discretization::of(&building))
+    BuildingSystem::new(&building.name, Discretization::new(&building))
 }

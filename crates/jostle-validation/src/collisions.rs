@@ -218,7 +218,7 @@ fn precise_collisions() -> Vec<Row> {
             };
             let law = law(kind, stiffness, e, RestitutionIs::Input);
             let numbers = law.between(value("m1"), value("m2"));
-            let got = FreeCollision::of(&numbers, value("m1"), value("m2"), value("v0"));
+            let got = FreeCollision::new(&numbers, value("m1"), value("m2"), value("v0"));
             rows.push(Row::relative(
                 SOURCE,
                 format!("e = {e}: {}, integrated, restitution [–]", kind.full_name()),
@@ -283,7 +283,7 @@ fn calibrated() -> Vec<Row> {
             .map(|e| {
                 let stiffness = if kind.is_hertzian() { 2e9 } else { 1e8 };
                 let law = law(kind, stiffness, *e, RestitutionIs::Realised);
-                FreeCollision::of(&law.between(4e4, 7e4), 4e4, 7e4, 0.6).realised_restitution()
+                FreeCollision::new(&law.between(4e4, 7e4), 4e4, 7e4, 0.6).realised_restitution()
             })
             .collect();
         rows.push(Row::worst_of(

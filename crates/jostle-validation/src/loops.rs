@@ -18,7 +18,7 @@ pub fn figure() -> String {
             restitution: 0.65,
             restitution_is: RestitutionIs::Input,
         };
-        let collision = FreeCollision::of(&law.between(MASS, MASS), MASS, MASS, SPEED);
+        let collision = FreeCollision::new(&law.between(MASS, MASS), MASS, MASS, SPEED);
         CollidedLaw { law, collision }
     });
     loops_svg(&Collisions {

@@ -47,7 +47,7 @@ fn points(spring: &Hysteresis, history: &[f64]) -> Vec<String> {
     let mut points = vec![place(0.0, 0.0)];
     for &target in history {
         while memory.deformation() != target {
-            let towards = Side::of(target - memory.deformation());
+            let towards = Side::from_change(target - memory.deformation());
             let corner = spring.next_corner(&memory, towards);
             let end = if towards.sign() * (corner - target) < 0.0 {
                 corner

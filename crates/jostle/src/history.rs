@@ -429,7 +429,7 @@ impl SpringHistory {
 
     /// Deformation \[rad or m\] and force \[N·m or N\] of a spring, counted from the left building on, at every
     /// instant.
-    pub fn of(&self, spring: usize) -> impl Iterator<Item = [f32; 2]> + '_ {
+    pub fn of_spring(&self, spring: usize) -> impl Iterator<Item = [f32; 2]> + '_ {
         self.values
             .iter()
             .skip(spring)

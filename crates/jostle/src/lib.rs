@@ -1,7 +1,7 @@
 //! Seismic pounding of neighbouring buildings by the transfer matrix method for multibody systems.
 //!
 //! A [`Model`] describes buildings in a row and the gaps between them. [`System::assemble`] turns it into equations,
-//! [`Plan::choose`] picks solver and steps, [`simulate`] runs it through a [`GroundMotion`], and [`Summary::of`] gives the peaks.
+//! [`Plan::choose`] picks solver and steps, [`simulate`] runs it through a [`GroundMotion`], and [`Summary::new`] gives the peaks.
 //! All quantities are in SI units and radians.
 //!
 //! # Two buildings, one record, an impact
@@ -68,7 +68,7 @@
 //!
 //! // F = k δ^1.5 (1 + d δ̇/v₀) with a user-defined d.
 //! let law = ForceLaw::Hertz { stiffness: 1.2e9, damping: 0.9 };
-//! let collision = FreeCollision::of(&law, 40e3, 60e3, 0.4); // 40 t against 60 t at 0.4 m/s
+//! let collision = FreeCollision::new(&law, 40e3, 60e3, 0.4); // 40 t against 60 t at 0.4 m/s
 //! assert!((0.5..0.7).contains(&collision.realised_restitution()));
 //!
 //! // The force of one instant: indentation 2 mm, closing at 0.1 m/s after an impact at 0.4 m/s.

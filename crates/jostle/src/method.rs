@@ -61,7 +61,7 @@ impl MethodSurvey {
     ///
     /// # Errors
     /// [`NotPositive`] if the building is a mechanism.
-    pub fn of(building: &BuildingSystem) -> Result<Self, NotPositive> {
+    pub fn new(building: &BuildingSystem) -> Result<Self, NotPositive> {
         let equations = &building.equations;
         let stick_model: &StickModel = &building.discretization.stick_model;
         Ok(Self {
@@ -166,8 +166,11 @@ mod tests {
             gravity: Default::default(),
             hinges: None,
         };
-        let survey = MethodSurvey::of(&BuildingSystem::new("three", Discretization::of(&building)))
-            .expect("it stands");
+        let survey = MethodSurvey::new(&BuildingSystem::new(
+            "three",
+            Discretization::new(&building),
+        ))
+        .expect("it stands");
         assert_eq!(
             (survey.degrees_of_freedom, survey.springs, survey.couplings),
             (3, 3, 2)

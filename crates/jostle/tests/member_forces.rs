@@ -120,7 +120,7 @@ struct Forces(Vec<(MemberPlace, Vec<SectionForces>)>);
 type SectionForces = (SectionAt, f64, [f64; 3]);
 
 impl Forces {
-    fn of(system: &System, index: usize, state: &State, links: &[f64], ground: f64) -> Self {
+    fn new(system: &System, index: usize, state: &State, links: &[f64], ground: f64) -> Self {
         let building = &system.buildings[index];
         let mut values = vec![0.0; building.members.forms.len()];
         building.member_forces(state, links, ground, |form, value| values[form] = value);
@@ -183,12 +183,12 @@ fn out_of_balance(system: &System, elastic: &System, state: &State, ground: f64)
     let links = link_forces(system, state);
     let mut worst = 0.0_f64;
     for (index, building) in system.buildings.iter().enumerate() {
-        let forces = Forces::of(system, index, state, &links, ground);
+        let forces = Forces::new(system, index, state, &links, ground);
         // What stiffness-proportional damping adds: the forces of the velocities, P-Delta not included.
         let mut moving = State::at_rest(system, 0.0);
         moving.displacement.clone_from(&state.velocity);
         moving.acceleration.fill(0.0);
-        let rates = Forces::of(elastic, index, &moving, &vec![0.0; links.len()], 0.0);
+        let rates = Forces::new(elastic, index, &moving, &vec![0.0; links.len()], 0.0);
         let (alpha, beta) = (building.equations.alpha, building.equations.beta);
         let stick_model = &building.discretization.stick_model;
         let preload = !building.rest.displacement.is_empty();
@@ -389,7 +389,7 @@ fn under(system: &System, loads: &[[f64; 4]]) -> Forces {
     let mut state = State::at_rest(system, 0.0);
     state.displacement = answer.expect("it stands");
     state.acceleration.fill(0.0);
-    Forces::of(system, 0, &state, &[], 0.0)
+    Forces::new(system, 0, &state, &[], 0.0)
 }
 
 fn assert_near(found: f64, expected: f64, scale: f64) {

@@ -155,7 +155,7 @@ fn run(model: &Model, solver: Solver) -> (System, Outcome, Summary) {
         ControlFlow::Continue(())
     });
     assert_eq!(outcome.end, RunEnd::Completed);
-    let summary = Summary::of(&jostle::Run {
+    let summary = Summary::new(&jostle::Run {
         model,
         system: &system,
         motion: &motion,

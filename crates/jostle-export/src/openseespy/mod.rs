@@ -26,7 +26,7 @@ pub fn export(export: &Export<'_>) -> Result<Exported, Vec<ModelFault>> {
     if !faults.is_empty() {
         return Err(faults);
     }
-    let script = Script::of(export)?;
+    let script = Script::new(export)?;
     let remarks = script.remarks().to_vec();
     Ok(Exported {
         text: script.text(DRIVER),

@@ -42,7 +42,7 @@ pub(super) struct Script<'a> {
 }
 
 impl<'a> Script<'a> {
-    pub(super) fn of(export: &'a Export<'a>) -> Result<Self, Vec<ModelFault>> {
+    pub(super) fn new(export: &'a Export<'a>) -> Result<Self, Vec<ModelFault>> {
         let largest = export
             .system
             .buildings
@@ -122,7 +122,7 @@ impl<'a> Script<'a> {
         building: &BuildingSystem,
     ) -> Result<(), &'static str> {
         let stick_model = &building.discretization.stick_model;
-        let ties = Ties::of(stick_model);
+        let ties = Ties::new(stick_model);
         self.add_heading(index, building);
         self.add_nodes(index, building, &ties);
         self.add_members(index, stick_model);

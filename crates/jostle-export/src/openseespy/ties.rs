@@ -34,7 +34,7 @@ pub(super) fn is_held_by(support: Support, component: usize) -> bool {
 }
 
 impl Ties {
-    pub(super) fn of(stick_model: &StickModel) -> Self {
+    pub(super) fn new(stick_model: &StickModel) -> Self {
         let mut union = Union::new(stick_model.nodes.len() * COMPONENTS);
         let place = |node: usize, component: usize| node * COMPONENTS + component;
         for member in &stick_model.members {

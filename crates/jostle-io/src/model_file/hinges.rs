@@ -344,7 +344,7 @@ fn of_sections(
     let (storeys, bays) = (frame.storey_heights.len(), frame.spans.len());
     let mut hinges = FrameHinges::default();
     let mut sound = true;
-    for (kind, word, abreast) in [
+    for (kind, word, per_storey) in [
         (Member::Column, "column", bays + 1),
         (Member::Beam, "beam", bays),
     ] {
@@ -352,7 +352,7 @@ fn of_sections(
             .iter()
             .filter(|member| member.member == kind)
             .collect();
-        if of_kind.len() != storeys * abreast {
+        if of_kind.len() != storeys * per_storey {
             let some = if of_kind.is_empty() {
                 "no"
             } else {

@@ -313,7 +313,7 @@ fn column_loads(building: &Building) -> Result<Vec<Vec<f64>>, String> {
     let Structure::Frame(frame) = &building.structure else {
         return Ok(Vec::new());
     };
-    let system = BuildingSystem::new(&building.name, Discretization::of(building));
+    let system = BuildingSystem::new(&building.name, Discretization::new(building));
     let compressions = compressions(&system, STANDARD_GRAVITY).map_err(|_| {
         "cannot be taken from gravity: the building does not stand by itself".to_owned()
     })?;

@@ -41,7 +41,7 @@ impl Record {
     ///
     /// # Errors
     /// [`RecordError`] as for a file of these values.
-    pub fn of(values: &[f64], unit: &str, step: f64) -> Result<Self, RecordError> {
+    pub fn from_values(values: &[f64], unit: &str, step: f64) -> Result<Self, RecordError> {
         if let Some(at) = values.iter().position(|value| !value.is_finite()) {
             return Err(RecordError::NotANumber {
                 line: at + 1,

@@ -255,7 +255,7 @@ fn listed(
     }
     let mut levels = Vec::new();
     for entry in &entries {
-        let Some(value) = TreeValue::of(entry.node) else {
+        let Some(value) = TreeValue::from_node(entry.node) else {
             let found = entry.node.describe();
             reader.bad(entry, format!("{found} has no place in a model"));
             return None;

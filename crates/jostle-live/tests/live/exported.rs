@@ -28,7 +28,7 @@ fn native_peak(text: &str) -> f64 {
     let file = folder.path().join("model.toml");
     std::fs::write(&file, text).unwrap();
     let input = jostle_io::read_model_file(&file).unwrap();
-    let prepared = jostle_run::Workshop::default().assemble(input).unwrap();
+    let prepared = jostle_run::CaseCache::default().assemble(input).unwrap();
     let outcome = prepared.step(jostle::Settings::default(), |_| {
         std::ops::ControlFlow::Continue(())
     });

@@ -427,7 +427,7 @@ fn accuracy_of(width: &str) -> [String; 2] {
     let mut tree = jostle_io::ModelTree::builtin("paper").unwrap();
     let typed = jostle_io::TreeValue::typed(width);
     tree.set("gap[0].width", &typed).unwrap();
-    let prepared = jostle_run::Workshop::default()
+    let prepared = jostle_run::CaseCache::default()
         .assemble(tree.input().unwrap())
         .unwrap_or_else(|error| panic!("{error}"));
     let mut outcome = prepared.step(jostle::Settings::default(), |_| ControlFlow::Continue(()));

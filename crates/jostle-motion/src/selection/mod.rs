@@ -51,7 +51,7 @@ pub enum SelectionCode {
 impl SelectionCode {
     /// The code of a design spectrum; GB 50011 for one of the user's own.
     #[must_use]
-    pub fn of(target: &TargetSpectrum) -> Self {
+    pub fn from_target(target: &TargetSpectrum) -> Self {
         match target.kind {
             TargetKind::En1998(_) => Self::En1998,
             TargetKind::Asce7(_) => Self::Asce7,
@@ -202,7 +202,7 @@ pub fn check_selection(
         .iter()
         .map(|candidate| effective_duration(&candidate.motion));
     let mut check = SelectionCheck {
-        code: SelectionCode::of(target),
+        code: SelectionCode::from_target(target),
         rules: Vec::new(),
         notes: Vec::new(),
         mean,

@@ -28,7 +28,7 @@ struct Outline {
 }
 
 impl Outline {
-    fn of(building: &Building) -> Self {
+    fn new(building: &Building) -> Self {
         let floors = building.floor_heights();
         let height = floors.last().copied().unwrap_or(0.0);
         let lines = match &building.structure {
@@ -57,7 +57,7 @@ impl Outline {
 
 /// The figure. Gaps are drawn wide enough to be seen; their width is written.
 pub(super) fn figure(model: &Model) -> Markup {
-    let outlines: Vec<Outline> = model.buildings.iter().map(Outline::of).collect();
+    let outlines: Vec<Outline> = model.buildings.iter().map(Outline::new).collect();
     let count = outlines.len() as f64;
     let wide: f64 = outlines.iter().map(Outline::width).sum();
     let high = outlines.iter().map(Outline::height).fold(0.0, f64::max);

@@ -25,7 +25,7 @@ pub(super) fn colour(index: usize) -> &'static str {
 }
 
 impl Chart {
-    pub(super) fn of(one: &PushedBuilding) -> Self {
+    pub(super) fn new(one: &PushedBuilding) -> Self {
         let points = || one.curves.iter().flat_map(|curve| &curve.points);
         let greatest = |value: fn(&PushPoint) -> f64| points().map(value).fold(0.0, f64::max);
         let positive = |value: f64| if value > 0.0 { value } else { 1.0 };
@@ -103,7 +103,7 @@ impl Chart {
             .points
             .iter()
             .map(|point| [point.roof, point.base_shear]);
-        let two = Bilinear::of(&curve.points).map(|two| {
+        let two = Bilinear::fit(&curve.points).map(|two| {
             let corner = [two.yield_displacement, two.yield_force];
             let end = [two.ultimate_displacement, two.ultimate_force];
             self.path([[0.0, 0.0], corner, end].into_iter())

@@ -119,7 +119,7 @@ struct Capacity<'a> {
 impl<'a> Capacity<'a> {
     fn new(pushed: &PushedBuilding<'_>, curve: &'a Pushover, demand: &Demand<'_>) -> Option<Self> {
         let one = EquivalentOscillator::new(pushed.building, curve)?;
-        let two = Bilinear::of(&curve.points);
+        let two = Bilinear::fit(&curve.points);
         let performance = two
             .as_ref()
             .and_then(|two| performance_point(one, two, demand));

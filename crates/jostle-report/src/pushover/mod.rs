@@ -26,7 +26,7 @@ pub fn render_pushover(
     pushed: &[PushedBuilding],
     demand: Option<&Demand<'_>>,
 ) -> String {
-    let charts: Vec<Chart> = pushed.iter().map(Chart::of).collect();
+    let charts: Vec<Chart> = pushed.iter().map(Chart::new).collect();
     let headline: Vec<String> = pushed.iter().map(verdict).collect();
     let page = html! {
         (DOCTYPE)
@@ -254,7 +254,7 @@ fn bilinear_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
     html! {
         div.card {
             h3 { "Bilinear discretization" (direction(one, curve)) }
-            @match Bilinear::of(&curve.points) {
+            @match Bilinear::fit(&curve.points) {
                 Some(two) => {
                     dl {
                         div { dt { "Yields at" } dd { (format::force(two.yield_force)) ", " (format::millimetres(two.yield_displacement)) } }

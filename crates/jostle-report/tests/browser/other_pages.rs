@@ -16,7 +16,7 @@ fn collisions() -> Collisions {
             restitution: 0.65,
             restitution_is: RestitutionIs::Input,
         };
-        let collision = FreeCollision::of(&law.between(2e5, 3e5), 2e5, 3e5, 0.5);
+        let collision = FreeCollision::new(&law.between(2e5, 3e5), 2e5, 3e5, 0.5);
         CollidedLaw { law, collision }
     });
     Collisions {

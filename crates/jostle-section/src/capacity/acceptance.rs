@@ -49,7 +49,7 @@ impl RatedMember<'_> {
         let section = self.section;
         let ties = section.ties?;
         let strength = ShearRule::Asce41.strength(self, compression)?.initial();
-        let moment = super::Interaction::of(section).moment(compression);
+        let moment = super::Interaction::new(section).moment(compression);
         let shear = 2.0 * moment / self.clear_length;
         let [a, b] = asce41_parameters(
             section.axial_ratio(compression),
@@ -74,7 +74,7 @@ impl RatedMember<'_> {
     /// first or the section cannot be analysed.
     fn crushing(&self, compression: f64) -> Option<RotationLimits> {
         let side = |section: &Section| {
-            let curve = MomentCurvature::of(section, compression, Options::default()).ok()?;
+            let curve = MomentCurvature::new(section, compression, Options::default()).ok()?;
             let crushed = curve.event(EventKind::Crushing);
             let crushed = crushed.or(curve.event(EventKind::Softened))?;
             let fit = curve.trilinear().ok()?;

@@ -28,11 +28,11 @@ const FIBRES: usize = 40;
 impl Interaction {
     /// Moments that stretch the bottom of a section; those of the other sign belong to [`Section::flipped`].
     #[must_use]
-    pub fn of(section: &Section) -> Self {
+    pub fn new(section: &Section) -> Self {
         let mut plain = section.clone();
         plain.ties = None;
         plain.concrete.tensile_strength = 0.0;
-        let fibres = Fibres::of(&plain, FIBRES);
+        let fibres = Fibres::new(&plain, FIBRES);
         let curves = curves(&fibres);
         let all = || curves.iter().flatten();
         let least = all().fold(f64::INFINITY, |least, state| state.axial.min(least));
@@ -150,9 +150,9 @@ mod tests {
         // Another way to the same: bend under a constant force and take the greatest moment. The curve has concrete in
         // tension, which matters for neither section after yield.
         let section = section("12 d20", 0.5, 0.5);
-        let interaction = Interaction::of(&section);
+        let interaction = Interaction::new(&section);
         for load in [0.0, 5e5, 1e6, 2e6, 3e6] {
-            let curve = MomentCurvature::of(&section, load, Options::default()).expect("a curve");
+            let curve = MomentCurvature::new(&section, load, Options::default()).expect("a curve");
             let within: Vec<_> = curve.points.iter().map(|point| point.force).collect();
             let due = within.iter().copied().fold(0.0, f64::max);
             let found = interaction.moment(load);
@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn ends_are_the_closed_forms() {
         let section = section("12 d20", 0.5, 0.5);
-        let interaction = Interaction::of(&section);
+        let interaction = Interaction::new(&section);
         let [least, most] = interaction.range();
         let bars = section.steel_area();
         assert!((least / (-400e6 * bars) - 1.0).abs() < 1e-9, "{least}");
@@ -188,10 +188,10 @@ mod tests {
         // GB 50010, 6.2.10: As fy (h₀ − a′) where the block is shallower than 2 a′.
         let section = section("2 d20 top, 4 d20 bottom", 0.3, 0.6);
         let due = formula::ultimate_gb(&section, 0.0);
-        let found = Interaction::of(&section).moment(0.0);
+        let found = Interaction::new(&section).moment(0.0);
         assert!((found / due - 1.0).abs() < 0.04, "{found} for {due}");
         // Two bars at the top instead of four.
-        let other = Interaction::of(&section.flipped()).moment(0.0);
+        let other = Interaction::new(&section.flipped()).moment(0.0);
         assert!((0.48..0.56).contains(&(other / found)), "{}", other / found);
     }
 }

@@ -17,11 +17,11 @@ impl RatedMember<'_> {
     #[must_use]
     pub fn capacities(&self, rules: &[ShearRule]) -> Vec<RuleCapacity> {
         let flipped = self.section.flipped();
-        let positive = Interaction::of(self.section);
+        let positive = Interaction::new(self.section);
         let negative = if self.section.is_symmetric() {
             positive.clone()
         } else {
-            Interaction::of(&flipped)
+            Interaction::new(&flipped)
         };
         let rule = |rule: &ShearRule| {
             let bending = [&positive, &negative].map(|curve| {

@@ -11,7 +11,7 @@ use crate::support::{beam, close, column, section};
 fn an_uncracked_section_bends_like_the_transformed_one() {
     // Nearly at rest, all of it in compression, the concrete is at its initial modulus.
     let section = beam();
-    let fibres = Fibres::of(&section, 40);
+    let fibres = Fibres::new(&section, 40);
     let (strain, curvature) = (1e-7, 2e-7);
     let transformed = section.transformed();
     let found = fibres.resultants(strain, curvature);
@@ -28,7 +28,7 @@ fn first_crack_is_where_the_tension_face_says() {
     // N/A + M/W = −ft; concrete in compression is a little softer than at rest.
     let section = column();
     for axial in [0.0, 300e3] {
-        let curve = MomentCurvature::of(&section, axial, Options::default()).expect("a curve");
+        let curve = MomentCurvature::new(&section, axial, Options::default()).expect("a curve");
         let crack = curve.event(EventKind::Cracking).expect("it cracks");
         let stress = section.concrete.tensile_strength + axial / section.transformed().area;
         let due = stress * formula::section_modulus(&section);
@@ -40,7 +40,7 @@ fn first_crack_is_where_the_tension_face_says() {
 fn an_under_reinforced_beam_carries_what_the_stress_block_says() {
     let mut section = section(0.3, 0.6, "2 d12 top, 3 d25 bottom");
     section.steel.hardening = 0.0;
-    let curve = MomentCurvature::of(&section, 0.0, Options::default()).expect("a curve");
+    let curve = MomentCurvature::new(&section, 0.0, Options::default()).expect("a curve");
     let crushed = curve.event(EventKind::Crushing).expect("it is crushed");
     let (area, strength) = (
         formula::tension_steel(&section),
@@ -57,7 +57,7 @@ fn axial_force_and_moment_interact_as_the_stress_block_says() {
     for (axial, tolerance) in [(500e3, 0.05), (1000e3, 0.05), (1500e3, 0.06)] {
         let mut section = section(0.5, 0.5, "4 d25 top, 4 d25 bottom");
         section.steel.hardening = 0.0;
-        let curve = MomentCurvature::of(&section, axial, Options::default()).expect("a curve");
+        let curve = MomentCurvature::new(&section, axial, Options::default()).expect("a curve");
         close(
             curve.peak_moment(),
             formula::ultimate_gb(&section, axial),
@@ -72,14 +72,14 @@ fn axial_force_and_moment_interact_as_the_stress_block_says() {
     let steel = SteelLaw(section.steel).stress(law.peak_strain);
     let due = law.peak_stress * (section.area() - bars) + steel * bars;
     let error =
-        MomentCurvature::of(&section, 1.001 * due, Options::default()).expect_err("too much");
+        MomentCurvature::new(&section, 1.001 * due, Options::default()).expect_err("too much");
     let AnalysisError::Overloaded { capacity, .. } = error else {
         panic!("{error}");
     };
     close(1e3 * capacity, due, 1e-9, "axial strength");
-    assert!(MomentCurvature::of(&section, 0.9 * due, Options::default()).is_ok());
+    assert!(MomentCurvature::new(&section, 0.9 * due, Options::default()).is_ok());
     assert!(matches!(
-        MomentCurvature::of(&section, -1e6, Options::default()),
+        MomentCurvature::new(&section, -1e6, Options::default()),
         Err(AnalysisError::Torn { .. })
     ));
 }
@@ -111,16 +111,16 @@ fn fibres_agree_with_a_fine_sum() {
                 );
             }
             let errors = [4, 8, 16, 40].map(|count| {
-                let found = Fibres::of(&section, count).resultants(strain, curvature);
+                let found = Fibres::new(&section, count).resultants(strain, curvature);
                 (found.moment - moment).abs() / moment.abs()
             });
             assert!(errors[3] < 2e-6, "{errors:?}");
             assert!(errors[0] < 1e-2, "{errors:?}");
-            let exact = Fibres::of(&section, 1000)
+            let exact = Fibres::new(&section, 1000)
                 .resultants(strain, curvature)
                 .moment;
             let [coarse, fine] = [10, 80].map(|count| {
-                (Fibres::of(&section, count)
+                (Fibres::new(&section, count)
                     .resultants(strain, curvature)
                     .moment
                     - exact)
@@ -139,8 +139,8 @@ fn ties_confine_the_core() {
     // Without pressure the confined law is the plain rising branch.
     let mut tied = column();
     tied.ties = jostle_section::Ties::parse("d10 @ 100 mm").ok();
-    let plain = MomentCurvature::of(&column(), 1e6, Options::default()).expect("a curve");
-    let curve = MomentCurvature::of(&tied, 1e6, Options::default()).expect("a curve");
+    let plain = MomentCurvature::new(&column(), 1e6, Options::default()).expect("a curve");
+    let curve = MomentCurvature::new(&tied, 1e6, Options::default()).expect("a curve");
     let last = |curve: &MomentCurvature| curve.points.last().map_or(0.0, |point| point.deformation);
     assert!(
         last(&curve) > 2.0 * last(&plain),
@@ -157,7 +157,7 @@ fn ties_confine_the_core() {
 fn the_rotation_is_the_integral_of_the_curvature() {
     let section = column();
     let length = 3.0;
-    let curve = MomentCurvature::of(&section, 1e6, Options::default()).expect("a curve");
+    let curve = MomentCurvature::new(&section, 1e6, Options::default()).expect("a curve");
     let fit = curve.trilinear().expect("a fit");
     let side = EndCurve::side_of(&section, &fit, length);
     let span = 0.5 * length;

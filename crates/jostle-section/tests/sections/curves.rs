@@ -12,7 +12,7 @@ fn the_fit_has_the_area_of_the_curve() {
         (column(), 2.5e6),
         (beam(), 0.0),
     ] {
-        let curve = MomentCurvature::of(&section, axial, Options::default()).expect("a curve");
+        let curve = MomentCurvature::new(&section, axial, Options::default()).expect("a curve");
         let fit = curve.trilinear().expect("a fit");
         let area: f64 = curve
             .points
@@ -43,7 +43,7 @@ fn the_fit_has_the_area_of_the_curve() {
 
 #[test]
 fn events_come_in_order_and_on_the_curve() {
-    let curve = MomentCurvature::of(&beam(), 0.0, Options::default()).expect("a curve");
+    let curve = MomentCurvature::new(&beam(), 0.0, Options::default()).expect("a curve");
     let kinds: Vec<_> = curve.events.iter().map(|event| event.kind).collect();
     assert_eq!(kinds[..2], [EventKind::Cracking, EventKind::TensionYield]);
     assert_eq!(kinds.last(), Some(&EventKind::Crushing));
@@ -64,7 +64,7 @@ fn events_come_in_order_and_on_the_curve() {
 #[test]
 fn too_little_reinforcement_is_said() {
     let section = section(0.5, 1.0, "2 d8 top, 2 d8 bottom");
-    let curve = MomentCurvature::of(&section, 0.0, Options::default()).expect("a curve");
+    let curve = MomentCurvature::new(&section, 0.0, Options::default()).expect("a curve");
     let error = curve.trilinear().expect_err("brittle");
     assert!(matches!(error, AnalysisError::Brittle { .. }), "{error}");
 }

@@ -86,8 +86,8 @@ fn opensees_bends_the_same_sections() {
             let list = case[key].as_array().expect("a list");
             list.iter().filter_map(Value::as_f64).collect()
         };
-        let curve = MomentCurvature::of(&section, axial, Options::default()).expect("a curve");
-        let fibres = Fibres::of(&section, 200);
+        let curve = MomentCurvature::new(&section, axial, Options::default()).expect("a curve");
+        let fibres = Fibres::new(&section, 200);
         for (curvature, due) in numbers("curvature_1_m")
             .into_iter()
             .zip(numbers("moment_nm"))

@@ -51,7 +51,7 @@ struct Origin {
 const FORMAT: u32 = 2;
 
 impl Manifest {
-    pub(crate) fn of(study: &Study) -> Self {
+    pub(crate) fn new(study: &Study) -> Self {
         let file = &study.file;
         let factors = file.factors.iter().zip(&study.layout.inputs);
         let factors = factors.map(|(factor, column)| {
@@ -147,7 +147,7 @@ impl Manifest {
             base,
         )?;
         let study = Study::new(file)?;
-        let own = Self::of(&study);
+        let own = Self::new(&study);
         if self.is_same(&own) {
             return Ok(study);
         }
@@ -202,7 +202,7 @@ pub fn settle(study: &Study, folder: &Path) -> Result<(), StudyError> {
         std::fs::create_dir_all(&path)
             .map_err(|error| StudyError::Output(format!("{}: {error}", path.display())))?;
     }
-    let own = Manifest::of(study);
+    let own = Manifest::new(study);
     let mut found = Manifest::load(folder)?;
     if found.is_none() && has_parts(folder) {
         // Another process may have begun in between.

@@ -136,7 +136,7 @@ impl Results<'_> {
                     .filter(|structure| !structure.check.passes())
                     .map(|structure| &structure.name[..])
                     .collect();
-                let clause = SelectionCode::of(&wanted.target).clause();
+                let clause = SelectionCode::from_target(&wanted.target).clause();
                 self.said.push(match &failed[..] {
                     [] => format!("The records meet what is checked of {clause}."),
                     [""] => format!("The records do not meet {clause}."),

@@ -87,7 +87,7 @@ impl RecordResult {
 
 impl SuiteResults {
     pub(super) fn new(suite: &Suite, records: Vec<RecordResult>) -> Self {
-        let governing = suite.rule.of(records.len());
+        let governing = suite.rule.for_motions(records.len());
         let lists: Vec<Vec<_>> = records
             .iter()
             .map(|record| match record.status {

@@ -56,7 +56,7 @@ impl QuantityStatistics {
             median: quantile(&ordered, 0.5),
             p16: quantile(&ordered, 0.16),
             p84: quantile(&ordered, 0.84),
-            governing: statistic.of(&known)?,
+            governing: statistic.value(&known)?,
             values,
         })
     }

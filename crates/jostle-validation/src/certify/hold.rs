@@ -88,7 +88,7 @@ fn ran(
     find_sensitivity(system, motion, &plan, &mut outcome, |_| {
         ControlFlow::Continue(())
     });
-    let summary = Summary::of(&Run {
+    let summary = Summary::new(&Run {
         model: &model,
         system,
         motion,

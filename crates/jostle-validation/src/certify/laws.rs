@@ -72,7 +72,7 @@ const NOISE: [f64; 2] = [1e-15, 1e-12];
 
 impl Law {
     /// The law, and the coefficient of sudden blows of the momentum law.
-    pub(super) fn of(law: &ForceLaw) -> Result<(Self, Option<f64>), String> {
+    pub(super) fn new(law: &ForceLaw) -> Result<(Self, Option<f64>), String> {
         Ok(match *law {
             ForceLaw::Kelvin {
                 stiffness,

@@ -84,12 +84,12 @@ pub(super) fn components(system: &System) -> Result<Vec<Component>, String> {
     }
     (0..n)
         .filter(|g| group.contains(g))
-        .map(|g| Component::of(system, (0..n).filter(|b| group[*b] == g).collect()))
+        .map(|g| Component::new(system, (0..n).filter(|b| group[*b] == g).collect()))
         .collect()
 }
 
 impl Component {
-    fn of(system: &System, buildings: Vec<usize>) -> Result<Self, String> {
+    fn new(system: &System, buildings: Vec<usize>) -> Result<Self, String> {
         // Buildings that links join are neighbours, so that their degrees of freedom follow each other.
         let offset = system.buildings[buildings[0]].offset;
         let size: usize = buildings

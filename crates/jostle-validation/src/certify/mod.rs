@@ -92,7 +92,7 @@ pub struct Certified {
 }
 
 impl Certified {
-    fn of(number: u64, kind: &'static str) -> Self {
+    fn new(number: u64, kind: &'static str) -> Self {
         Self {
             number,
             kind,
@@ -138,7 +138,7 @@ fn read_text(tree: &Value, folder: &Path) -> Result<(Input, GroundMotion), Strin
 #[must_use]
 pub fn certify(seed: u64, number: u64, runs: &[(Solver, f64)]) -> Certified {
     let drawn = draw(seed, number);
-    let mut certified = Certified::of(number, drawn.kind);
+    let mut certified = Certified::new(number, drawn.kind);
     let held = read(&drawn).and_then(|(input, motion)| fill(&input, &motion, runs, &mut certified));
     if let Err(why) = held {
         certified.failed = Some(why);

@@ -238,7 +238,7 @@ pub fn draw(seed: u64, number: u64) -> Drawn {
 
 /// A model of the kinds that most are of.
 pub(super) fn usual(seed: u64, number: u64) -> Drawn {
-    let mut random = Random::of(seed, number);
+    let mut random = Random::new(seed, number);
     let height = digits(random.between(2.8, 4.0));
     let roll = random.between(0.0, 1.0);
     let (kind, count) = if roll < 0.17 {

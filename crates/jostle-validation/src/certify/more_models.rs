@@ -13,7 +13,7 @@ const SHARE: f64 = 0.04;
 
 /// Model `number` of a seed, if it is of such a kind.
 pub(super) fn more(seed: u64, number: u64) -> Option<Drawn> {
-    let mut random = Random::of(seed ^ STREAM, number);
+    let mut random = Random::new(seed ^ STREAM, number);
     let roll = random.between(0.0, 1.0);
     let draw = [rubber, pulse, springs, columns].into_iter();
     let (kind, _) = draw.zip(1..).find(|(_, k)| roll < SHARE * f64::from(*k))?;

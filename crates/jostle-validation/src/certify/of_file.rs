@@ -14,7 +14,7 @@ pub fn of_file(path: &Path, tolerances: &[f64]) -> Result<String, String> {
     let tree = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
     let tree = serde_json::from_str(&tree).map_err(|e| e.to_string())?;
     let (input, motion) = read_text(&tree, path.parent().unwrap_or(Path::new("")))?;
-    let mut certified = Certified::of(0, "file");
+    let mut certified = Certified::new(0, "file");
     let runs = every_run(tolerances);
     fill(&input, &motion, &runs, &mut certified)?;
     let mut text = String::new();

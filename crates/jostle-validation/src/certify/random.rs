@@ -5,7 +5,7 @@ pub(super) struct Random(u64);
 
 impl Random {
     /// Those of a model of a seed.
-    pub(super) fn of(seed: u64, model: u64) -> Self {
+    pub(super) fn new(seed: u64, model: u64) -> Self {
         let mut first = Self(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ 0x5851_f42d_4c95_7f2d);
         let mixed = first.next();
         let mut second = Self(mixed ^ model.wrapping_mul(0x9fb2_1c65_1e98_df25));

@@ -229,10 +229,13 @@ fn check_hinges(faults: &mut Faults, path: &str, hinges: &Hinges, structure: &St
                 ("column", &hinges.columns, frame.spans.len() + 1),
                 ("beam", &hinges.beams, frame.spans.len()),
             ];
-            for (name, hinges, abreast) in members {
-                let fits = hinges.len() == storeys && hinges.iter().all(|row| row.len() == abreast);
+            for (name, hinges, per_storey) in members {
+                let fits =
+                    hinges.len() == storeys && hinges.iter().all(|row| row.len() == per_storey);
                 faults.require(hinges.is_empty() || fits, format!("{path}.{name}"), || {
-                    format!("needs {abreast} hinges in each of {storeys} storeys, or none at all")
+                    format!(
+                        "needs {per_storey} hinges in each of {storeys} storeys, or none at all"
+                    )
                 });
             }
         }

@@ -50,7 +50,7 @@ impl FreeCollision {
     /// Integrated in dimensionless form by an adaptive Runge–Kutta method of order five with errors of about 1e-14
     /// per step; steps end at the reversal of the motion, at corners of the law and at the end of the force.
     #[must_use]
-    pub fn of(law: &ForceLaw, left_mass: f64, right_mass: f64, impact_speed: f64) -> Self {
+    pub fn new(law: &ForceLaw, left_mass: f64, right_mass: f64, impact_speed: f64) -> Self {
         let mass = effective_mass(left_mass, right_mass);
         if let Some(e) = law.rebound(impact_speed) {
             return Self::at_once(e, mass, impact_speed);

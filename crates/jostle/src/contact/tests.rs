@@ -15,7 +15,7 @@ fn law(kind: LawKind, e: f64, restitution_is: RestitutionIs) -> ContactLaw {
 
 fn collide(law: &ContactLaw, speed: f64) -> FreeCollision {
     let numbers = law.between(MASSES[0], MASSES[1]);
-    FreeCollision::of(&numbers, MASSES[0], MASSES[1], speed)
+    FreeCollision::new(&numbers, MASSES[0], MASSES[1], speed)
 }
 
 /// The integrator does not use the closed forms that determine the damping.

@@ -40,7 +40,7 @@ pub fn modes_dense(
     pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
     let modes = pairs.into_iter().map(|(value, shape)| {
         let shape = flexibility.with_massless(&shape, value);
-        Mode::of(building, 1.0 / value, shape)
+        Mode::new(building, 1.0 / value, shape)
     });
     Ok(modes.collect())
 }

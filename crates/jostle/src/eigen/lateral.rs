@@ -66,7 +66,7 @@ pub(crate) fn lateral_modes_along(
             add(&mut shape, *part, vector);
         }
         let shape = flexibility.with_massless(&shape, values[k]);
-        Mode::of(building, 1.0 / values[k], shape)
+        Mode::new(building, 1.0 / values[k], shape)
     });
     Ok(modes.filter(Mode::is_lateral).collect())
 }

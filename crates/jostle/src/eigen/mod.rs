@@ -55,7 +55,7 @@ impl Mode {
     }
 
     /// A mode from ω² and a shape of any scale.
-    fn of(building: &AssembledBuilding, squared_frequency: f64, mut shape: Vec<f64>) -> Self {
+    fn new(building: &AssembledBuilding, squared_frequency: f64, mut shape: Vec<f64>) -> Self {
         let equations = &building.equations;
         let along = |mass: &[f64]| mass.iter().zip(&shape).map(|(m, s)| m * s).sum::<f64>();
         let (x, y) = (

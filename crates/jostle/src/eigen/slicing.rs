@@ -45,7 +45,7 @@ pub fn modes(building: &AssembledBuilding, count: usize) -> Result<Vec<Mode>, No
     found.truncate(count);
     Ok(found
         .into_iter()
-        .map(|found| Mode::of(building, found.value, found.shape))
+        .map(|found| Mode::new(building, found.value, found.shape))
         .collect())
 }
 

@@ -18,7 +18,7 @@ impl Side {
 
     /// The side of a change; positive for zero.
     #[must_use]
-    pub fn of(change: f64) -> Self {
+    pub fn from_change(change: f64) -> Self {
         if change < 0.0 {
             Self::Negative
         } else {
@@ -276,7 +276,7 @@ impl Backbone {
     /// Force on first loading to a deformation, with their signs.
     #[must_use]
     pub fn force_at(&self, deformation: f64) -> f64 {
-        let side = Side::of(deformation);
+        let side = Side::from_change(deformation);
         side.sign() * self.side(side).force_at(deformation.abs())
     }
 

@@ -79,7 +79,7 @@ pub(super) fn respond(
     memory: &HysteresisMemory,
     deformation: f64,
 ) -> Response {
-    let towards = Side::of(deformation - memory.deformation);
+    let towards = Side::from_change(deformation - memory.deformation);
     let sign = towards.sign();
     let factor = factor(backbone, memory);
     let mut next = *memory;

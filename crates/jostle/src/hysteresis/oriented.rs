@@ -38,7 +38,7 @@ pub(super) fn respond(
     memory: &HysteresisMemory,
     deformation: f64,
 ) -> Response {
-    let towards = Side::of(deformation - memory.deformation);
+    let towards = Side::from_change(deformation - memory.deformation);
     let sign = towards.sign();
     let mut next = *memory;
     turn_back(backbone, exponent, &mut next, towards);

@@ -181,7 +181,7 @@ impl Hysteresis {
                 memory: *memory,
             };
         }
-        let side = Side::of(change);
+        let side = Side::from_change(change);
         let mut response = match self.rule {
             HysteresisRule::Elastic => elastic(&self.backbone, memory, deformation),
             HysteresisRule::Bilinear | HysteresisRule::Normal => {
@@ -229,7 +229,7 @@ impl Hysteresis {
                 if change != 0.0 {
                     let answer = sliders::answer(&self.backbone, memory, deformation);
                     memory.offsets = answer.offsets;
-                    memory.stand_at(deformation, answer.force, Side::of(change));
+                    memory.stand_at(deformation, answer.force, Side::from_change(change));
                 }
             }
             _ => *memory = self.respond(memory, deformation).memory,

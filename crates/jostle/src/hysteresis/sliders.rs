@@ -52,7 +52,7 @@ fn limit_of(slider: &Slider, stretch: f64, side: Side) -> (f64, bool) {
 #[inline]
 pub(super) fn answer(backbone: &Backbone, memory: &HysteresisMemory, deformation: f64) -> Answer {
     let last = backbone.side(Side::Positive).post_yield;
-    let side = Side::of(deformation - memory.deformation);
+    let side = Side::from_change(deformation - memory.deformation);
     let mut answer = Answer {
         force: last * deformation,
         tangent: last,
@@ -81,7 +81,7 @@ pub(super) fn respond(
     let last = backbone.side(Side::Positive).post_yield;
     let (from, side) = (
         memory.deformation,
-        Side::of(deformation - memory.deformation),
+        Side::from_change(deformation - memory.deformation),
     );
     let mut work = 0.5 * last * (deformation + from) * (deformation - from);
     for (slider, offset) in sliders(backbone).iter().zip(memory.offsets) {

@@ -38,7 +38,7 @@ struct Side<'a> {
 }
 
 impl Side<'_> {
-    fn of(building: &Building) -> Side<'_> {
+    fn new(building: &Building) -> Side<'_> {
         Side {
             floors: building.floor_heights(),
             building,
@@ -129,7 +129,7 @@ pub(crate) fn point_pairs(
     between: [Option<&Building>; 2],
     tolerance: f64,
 ) -> Result<Vec<PointPair>, Vec<Misfit>> {
-    let sides = between.map(|building| building.map(Side::of));
+    let sides = between.map(|building| building.map(Side::new));
     let [left, right] = [&sides[0], &sides[1]];
     let pairs = match floors {
         FloorPairs::Common => common(left, right, tolerance).map_err(|misfit| vec![misfit])?,

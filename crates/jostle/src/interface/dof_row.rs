@@ -12,11 +12,11 @@ const MOST: usize = 3;
 /// use jostle::interface::DofRow;
 ///
 /// let point = DofRow::single(4);
-/// assert_eq!(point.of(&[0.0, 0.0, 0.0, 0.0, 0.25]), 0.25);
+/// assert_eq!(point.value(&[0.0, 0.0, 0.0, 0.0, 0.25]), 0.25);
 ///
 /// // A point 2 m above the centre of mass moves by u − 2 θ along x.
 /// let turned = DofRow::new(&[(0, 1.0), (2, -2.0)]).ok_or("at most three")?;
-/// assert_eq!(turned.of(&[0.5, 0.0, 0.125]), 0.25);
+/// assert_eq!(turned.value(&[0.5, 0.0, 0.125]), 0.25);
 /// # Ok::<(), &str>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +69,7 @@ impl DofRow {
     /// The value for a vector of all degrees of freedom.
     #[must_use]
     #[inline]
-    pub fn of(&self, values: &[f64]) -> f64 {
+    pub fn value(&self, values: &[f64]) -> f64 {
         let (dof, coefficient) = self.entries[0];
         let mut sum = coefficient * values[dof];
         for &(dof, coefficient) in &self.entries[1..self.count] {
@@ -135,7 +135,7 @@ mod tests {
         let mut load = [0.0; 5];
         row.push(7.0, &mut load);
         let work: f64 = load.iter().zip(&motion).map(|(f, u)| f * u).sum();
-        assert!((work - 7.0 * row.of(&motion)).abs() < 1e-14);
+        assert!((work - 7.0 * row.value(&motion)).abs() < 1e-14);
         assert_eq!(row.moved_up(3).moved_down(3), row);
         assert!(DofRow::new(&[]).is_none() && DofRow::new(&[(0, 1.0); 4]).is_none());
     }

@@ -29,7 +29,8 @@ impl PortPair {
     #[inline]
     pub fn closing(&self, values: &[f64]) -> f64 {
         let [left, right] = self.0;
-        left.map_or(0.0, |port| port.row.of(values)) - right.map_or(0.0, |port| port.row.of(values))
+        left.map_or(0.0, |port| port.row.value(values))
+            - right.map_or(0.0, |port| port.row.value(values))
     }
 
     /// Adds a force that separates the two sides to a load on all degrees of freedom \[N\].

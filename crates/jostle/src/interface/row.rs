@@ -18,7 +18,7 @@ pub(crate) struct Joined {
 }
 
 impl Row {
-    pub(crate) fn of(model: &Model) -> Self {
+    pub(crate) fn new(model: &Model) -> Self {
         let joined = |between: [Option<usize>; 2], floors: &FloorPairs, tolerance: f64| Joined {
             between,
             pairs: point_pairs(floors, model.neighbours(between), tolerance).unwrap_or_default(),

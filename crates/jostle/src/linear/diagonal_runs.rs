@@ -25,7 +25,7 @@ const NOWHERE: u32 = u32::MAX;
 
 impl DiagonalRuns {
     /// Of entries (row, column, where the value is kept), row > column, for vectors of `order` values.
-    pub(crate) fn of(mut entries: Vec<(u32, u32, u32)>, order: usize) -> Self {
+    pub(crate) fn new(mut entries: Vec<(u32, u32, u32)>, order: usize) -> Self {
         entries.sort_unstable_by_key(|&(row, column, _)| (row - column, column));
         let mut runs = Self::default();
         let mut rest = &entries[..];
@@ -160,7 +160,7 @@ mod tests {
         let entries: Vec<_> = (0..length)
             .map(|k| (k + apart, k, length - 1 - k))
             .collect();
-        let runs = DiagonalRuns::of(entries, order as usize);
+        let runs = DiagonalRuns::new(entries, order as usize);
         let values: Vec<f64> = (0..length).map(|k| (0.3 + f64::from(k)).sin()).collect();
         let mut packed = Vec::new();
         runs.pack(&values, &mut packed);

@@ -98,7 +98,7 @@ impl SparseSymmetric {
                 entries.push((matrix.rows[place], column as u32, place as u32));
             }
         }
-        matrix.runs = DiagonalRuns::of(entries, n);
+        matrix.runs = DiagonalRuns::new(entries, n);
         matrix.runs.pack(&matrix.values, &mut matrix.packed);
         matrix
     }

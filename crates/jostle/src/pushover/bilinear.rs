@@ -25,7 +25,7 @@ const SECANT_AT: f64 = 0.6;
 impl Bilinear {
     /// For a curve that rises from zero; `None` if it is linear.
     #[must_use]
-    pub fn of(points: &[PushPoint]) -> Option<Self> {
+    pub fn fit(points: &[PushPoint]) -> Option<Self> {
         let mut peak = 0;
         for (index, point) in points.iter().enumerate() {
             if point.base_shear > points[peak].base_shear * (1.0 + 1e-12) {
@@ -139,24 +139,24 @@ mod tests {
     #[test]
     fn two_lines_stay_two_lines() {
         for end in [5.0, 8.0] {
-            let two = Bilinear::of(&curve(&[[0.0, 0.0], [1.0, 5.0], [4.0, end]])).expect("bent");
+            let two = Bilinear::fit(&curve(&[[0.0, 0.0], [1.0, 5.0], [4.0, end]])).expect("bent");
             assert!((two.yield_displacement - 1.0).abs() < 1e-8, "{two:?}");
             assert!((two.yield_force - 5.0).abs() < 1e-8, "{two:?}");
             assert!((two.hardening() - (end - 5.0) / 15.0).abs() < 1e-8);
             assert!((two.ductility() - 4.0).abs() < 1e-7);
         }
         assert_eq!(
-            Bilinear::of(&curve(&[[0.0, 0.0], [1.0, 5.0], [2.0, 10.0]])),
+            Bilinear::fit(&curve(&[[0.0, 0.0], [1.0, 5.0], [2.0, 10.0]])),
             None
         );
-        assert_eq!(Bilinear::of(&curve(&[[0.0, 0.0]])), None);
+        assert_eq!(Bilinear::fit(&curve(&[[0.0, 0.0]])), None);
     }
 
     #[test]
     fn three_lines_keep_their_energy_and_what_falls_is_left_out() {
         // 0.6 V falls on the second line: d₆₀ = 1 + (0.6 V − 4)/2.
         let corners = [[0.0, 0.0], [1.0, 4.0], [3.0, 8.0], [6.0, 9.0], [9.0, 2.0]];
-        let two = Bilinear::of(&curve(&corners)).expect("bent");
+        let two = Bilinear::fit(&curve(&corners)).expect("bent");
         let [dy, vy, du, vu] = [
             two.yield_displacement,
             two.yield_force,

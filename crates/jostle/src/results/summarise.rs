@@ -44,7 +44,7 @@ use crate::system::{BuildingSystem, System};
 /// if let RunEnd::Failed(StepError::Unsuited { reason }) = &with.end {
 ///     panic!("{reason}");
 /// }
-/// let summary = Summary::of(&Run {
+/// let summary = Summary::new(&Run {
 ///     model: &model,
 ///     system: &system,
 ///     motion: &motion,
@@ -78,7 +78,7 @@ pub struct Run<'a> {
 impl Summary {
     /// Summarises a run.
     #[must_use]
-    pub fn of(run: &Run) -> Self {
+    pub fn new(run: &Run) -> Self {
         let Run {
             model,
             system,

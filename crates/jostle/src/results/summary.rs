@@ -22,7 +22,7 @@ use crate::quantity::{Quantity, Unit};
 /// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
 ///
 /// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
-/// let summary = Summary::of(&Run {
+/// let summary = Summary::new(&Run {
 ///     model: &model,
 ///     system: &system,
 ///     motion: &motion,

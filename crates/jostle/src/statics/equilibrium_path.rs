@@ -200,7 +200,7 @@ impl EquilibriumPath {
                 .zip(&self.spring_rates)
             {
                 let moves = rate.abs() > STILL * fastest;
-                if moves && Side::of(*rate) != *side {
+                if moves && Side::from_change(*rate) != *side {
                     *side = side.opposite();
                     if ahead[0] != ahead[1] {
                         settled = false;
@@ -233,7 +233,9 @@ impl EquilibriumPath {
             .zip(&self.spring_rates)
         {
             if *rate != 0.0 {
-                let corner = spring.hysteresis.next_corner(memory, Side::of(*rate));
+                let corner = spring
+                    .hysteresis
+                    .next_corner(memory, Side::from_change(*rate));
                 length = length.min(((corner - memory.deformation()) / rate).max(0.0));
             }
         }
@@ -243,7 +245,7 @@ impl EquilibriumPath {
             if *rate == 0.0 {
                 continue;
             }
-            let side = Side::of(*rate);
+            let side = Side::from_change(*rate);
             let corner = spring.hysteresis.next_corner(memory, side);
             let mut reached = memory.deformation() + length * rate;
             let window = TOGETHER * spring.hysteresis.backbone().side(side).yielding.deformation;

@@ -87,7 +87,7 @@ fn step_through(
             let reason = "modal stepping starts from rest".to_owned();
             Outcome::not_begun(system, StepError::Unsuited { reason })
         }
-        Solver::Modal => match modal::Reduction::of(system, plan) {
+        Solver::Modal => match modal::Reduction::new(system, plan) {
             Ok(shapes) => modal::simulate_with(system, motion, plan, settings, &shapes, observer),
             Err(error) => Outcome::not_begun(system, error),
         },

@@ -31,7 +31,7 @@ pub struct Discretization {
 impl Discretization {
     /// Lumped masses, massless members and hinges of a building.
     #[must_use]
-    pub fn of(building: &Building) -> Self {
+    pub fn new(building: &Building) -> Self {
         Self::with_points(building, [&[], &[]])
     }
 

@@ -127,7 +127,7 @@ mod tests {
                     beams: vec![vec![hinge; 2]; 2],
                 })),
             };
-            let found = end_stiffnesses(&Discretization::of(&building).stick_model);
+            let found = end_stiffnesses(&Discretization::new(&building).stick_model);
             assert_eq!(found.len(), expected.len());
             for (index, (found, expected)) in found.iter().zip(&expected).enumerate() {
                 let mut expected = *expected;

@@ -220,8 +220,8 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
         chains.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| by_height(&a[0], &b[0])));
         let longest = chains.first().map_or(0, Vec::len);
         for link in 0..longest {
-            let abreast = chains.iter().filter_map(|chain| chain.get(link));
-            order.extend(abreast.map(|&node| (rank + link, node)));
+            let side_by_side = chains.iter().filter_map(|chain| chain.get(link));
+            order.extend(side_by_side.map(|&node| (rank + link, node)));
         }
         rank += longest;
     }

@@ -49,5 +49,5 @@ pub(crate) fn frame_with(change: impl FnOnce(&mut Frame) -> Option<Hinges>) -> A
         gravity: Default::default(),
         hinges,
     };
-    AssembledBuilding::new("frame", Discretization::of(&building))
+    AssembledBuilding::new("frame", Discretization::new(&building))
 }

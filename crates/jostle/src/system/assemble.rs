@@ -14,7 +14,7 @@ impl System {
     /// that do not exist, contacts at points without mass, periods and durations that are not finite.
     pub fn assemble(model: &Model) -> Result<Self, Vec<ModelFault>> {
         model.check()?;
-        let row = Row::of(model);
+        let row = Row::new(model);
         let mut buildings = Vec::new();
         let mut faults = Vec::new();
         for (index, building) in model.buildings.iter().enumerate() {
@@ -69,7 +69,7 @@ impl System {
             members_followed: Vec::new(),
             ratings: Vec::new(),
         };
-        system.join(&Row::of(model), model)?;
+        system.join(&Row::new(model), model)?;
         system.follow_members(&model.analysis.members);
         Ok(system)
     }
@@ -168,7 +168,7 @@ fn closing_at_rest(system: &System, ports: &PortPair) -> f64 {
         if rest.is_empty() {
             return 0.0;
         }
-        port.row.moved_down(building.offset).of(rest)
+        port.row.moved_down(building.offset).value(rest)
     };
     ports
         .sides()

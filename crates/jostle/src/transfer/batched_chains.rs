@@ -43,7 +43,7 @@ struct Group {
 
 impl BatchedChains {
     /// Of a pattern: starts of its columns, rows of its entries, the row that each column is eliminated into.
-    pub(super) fn of(starts: &[usize], rows: &[u32], parent: &[u32]) -> Self {
+    pub(super) fn new(starts: &[usize], rows: &[u32], parent: &[u32]) -> Self {
         // Paths meet at joints.
         let mut met = vec![0; parent.len()];
         for (column, next) in parent.iter().enumerate() {

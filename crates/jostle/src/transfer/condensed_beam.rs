@@ -34,7 +34,7 @@ pub(super) struct BeamFactor {
 }
 
 impl CondensedBeam {
-    pub(super) fn of(layout: &Layout, beam: &BeamLine) -> Self {
+    pub(super) fn new(layout: &Layout, beam: &BeamLine) -> Self {
         let stick_model = &layout.stick_model;
         let last = beam.nodes.len() - 1;
         let mut nodes = vec![beam.nodes[0], beam.nodes[last]];

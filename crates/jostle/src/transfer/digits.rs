@@ -47,7 +47,7 @@ const PER_BEAM_DECADE: f64 = 0.4;
 ///     gravity: Default::default(),
 ///     hinges: None,
 /// };
-/// let tower = AssembledBuilding::new("tower", Discretization::of(&tower));
+/// let tower = AssembledBuilding::new("tower", Discretization::new(&tower));
 /// let at = |step: f64| digits_left(&tower, &StepMatrix::new(1.0, 4.0 / (step * step)));
 /// assert!(at(2e-2) > 7.0 && at(1e-3) < -10.0);
 /// ```

@@ -93,7 +93,7 @@ impl StepEquations for ElementwiseRiccati {
             beams = layout
                 .beams
                 .iter()
-                .map(|beam| CondensedBeam::of(layout, beam))
+                .map(|beam| CondensedBeam::new(layout, beam))
                 .collect();
         }
         Self {

@@ -16,7 +16,7 @@ pub(super) struct Band {
 impl Band {
     /// Builds the band of a pattern from a column on: starts of its columns, rows of its entries. `None` if
     /// couplings reach too far.
-    pub(super) fn of(first: usize, starts: &[usize], rows: &[u32]) -> Option<Self> {
+    pub(super) fn new(first: usize, starts: &[usize], rows: &[u32]) -> Option<Self> {
         let order = starts.len() - 1;
         let own = || (first..order).flat_map(|c| (starts[c]..starts[c + 1]).map(move |p| (c, p)));
         let reach = |(column, place): (usize, usize)| rows[place] as usize - column;

@@ -97,7 +97,7 @@ pub(super) struct Layout {
     /// Bay by bay, from the lowest up.
     pub(super) beams: Vec<BeamLine>,
     /// Per column line and index: the beam that ends there and the one that begins there.
-    pub(super) meeting: Vec<Vec<[Option<usize>; 2]>>,
+    pub(super) beams_at_joint: Vec<Vec<[Option<usize>; 2]>>,
     /// Per node and component: the degree of freedom of which the node has the load and the displacement. A shared
     /// displacement belongs to the first of its nodes.
     pub(super) carried: Vec<[Option<usize>; 3]>,
@@ -118,18 +118,18 @@ impl Layout {
         }
         let columns = column_lines(stick_model, &around)?;
         let beams = beam_lines(stick_model, &around, &columns)?;
-        let mut meeting: Vec<Vec<[Option<usize>; 2]>> = columns
+        let mut beams_at_joint: Vec<Vec<[Option<usize>; 2]>> = columns
             .iter()
             .map(|line| vec![[None; 2]; line.nodes.len()])
             .collect();
         for (index, beam) in beams.iter().enumerate() {
-            meeting[beam.bay][beam.joints[0]][1] = Some(index);
-            meeting[beam.bay + 1][beam.joints[1]][0] = Some(index);
+            beams_at_joint[beam.bay][beam.joints[0]][1] = Some(index);
+            beams_at_joint[beam.bay + 1][beam.joints[1]][0] = Some(index);
         }
         let layout = Self {
             columns,
             beams,
-            meeting,
+            beams_at_joint,
             carried: carried(&building.equations, stick_model.nodes.len()),
             stick_model: stick_model.clone(),
         };

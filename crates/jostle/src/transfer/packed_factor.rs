@@ -23,7 +23,7 @@ pub(super) struct PackedFactor {
 
 impl PackedFactor {
     /// Of places, for a factor of this many entries of L and columns. Unmapped entries go to one spare slot.
-    pub(super) fn of(places: impl Iterator<Item = Place>, lower: usize, columns: usize) -> Self {
+    pub(super) fn new(places: impl Iterator<Item = Place>, lower: usize, columns: usize) -> Self {
         let mut packed = Self {
             lower: vec![u32::MAX; lower],
             inverse_pivots: vec![u32::MAX; columns],

@@ -267,9 +267,11 @@ impl Passage {
         }
         let nothing = StateVector::default();
         for (column, line) in layout.columns.iter().enumerate() {
-            let meeting = &layout.meeting[column];
-            let right_end = |place: usize| meeting[place][0].map(|beam: usize| beam_ends[beam][1]);
-            let left_end = |place: usize| meeting[place][1].map(|beam: usize| beam_ends[beam][0]);
+            let beams_at_joint = &layout.beams_at_joint[column];
+            let right_end =
+                |place: usize| beams_at_joint[place][0].map(|beam: usize| beam_ends[beam][1]);
+            let left_end =
+                |place: usize| beams_at_joint[place][1].map(|beam: usize| beam_ends[beam][0]);
             if is_last(layout, column) {
                 // Downwards; the beam at the top continues into the line.
                 let head = line.nodes.len() - 1;
@@ -325,7 +327,7 @@ fn unknowns(layout: &Layout) -> usize {
 fn head_of_last_line(layout: &Layout) -> Result<(), NotAFrame> {
     let last = layout.columns.len() - 1;
     let head = layout.columns[last].nodes.len() - 1;
-    if last > 0 && layout.meeting[last][head][0].is_none() {
+    if last > 0 && layout.beams_at_joint[last][head][0].is_none() {
         let node = layout.columns[last].nodes[head];
         return Err(NotAFrame::HeadWithoutBeam { node });
     }

@@ -221,8 +221,8 @@ impl RiccatiSweep {
         let parent: Vec<u32> = (0..n)
             .map(|dof| if parent[dof] == usize::MAX { dof } else { parent[dof] } as u32)
             .collect();
-        let batched = BatchedChains::of(&starts, &rows, &parent);
-        let band = Band::of(batched.columns(), &starts, &rows);
+        let batched = BatchedChains::new(&starts, &rows, &parent);
+        let band = Band::new(batched.columns(), &starts, &rows);
         let banded = band.as_ref().map_or(&[][..], Band::places);
         let places = batched.places().iter().chain(banded).copied();
         let springs = equations.springs.iter().map(|spring| SpringPlace {
@@ -239,7 +239,7 @@ impl RiccatiSweep {
             },
         });
         Self {
-            packed: PackedFactor::of(places, rows.len(), n),
+            packed: PackedFactor::new(places, rows.len(), n),
             band,
             batched,
             springs: springs.collect(),

@@ -43,7 +43,7 @@ proptest! {
         let scale = case.force_scale();
         let steepest = case.spring.backbone().initial() * (1.0 + 1e-9);
         for &target in &case.path {
-            let towards = Side::of(target - memory.deformation());
+            let towards = Side::from_change(target - memory.deformation());
             let whole = case.spring.respond(&memory, target);
             let (mut work, mut pieces) = (0.0, 0);
             let mut at = memory;
@@ -82,7 +82,7 @@ proptest! {
         let mut memory = HysteresisMemory::default();
         for &target in &case.path {
             let response = case.spring.respond(&memory, target);
-            let towards = Side::of(target - memory.deformation());
+            let towards = Side::from_change(target - memory.deformation());
             let plain = response.memory;
             let corner = case.spring.next_corner(&plain, towards.opposite());
             let back = if corner.is_finite() { target + share * (corner - target) } else { 0.0 };
@@ -186,7 +186,7 @@ proptest! {
         if case.spring.rule() != HysteresisRule::Elastic {
             prop_assert!((response.force - case.spring.backbone().force_at(to)).abs() <= 1e-12 * case.force_scale().max(response.force.abs()));
         }
-        let side = Side::of(to);
+        let side = Side::from_change(to);
         let ductility = case.spring.ductility(&response.memory, side);
         if case.spring.rule() != HysteresisRule::Elastic {
             prop_assert_eq!(case.spring.stage(&response.memory) == Stage::Yielded, ductility > 1.0);

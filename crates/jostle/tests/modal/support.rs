@@ -171,7 +171,7 @@ pub(crate) fn framed(frame: Frame) -> BuildingSystem {
         gravity: Default::default(),
         hinges: None,
     };
-    BuildingSystem::new("frame", Discretization::of(&building))
+    BuildingSystem::new("frame", Discretization::new(&building))
 }
 
 /// Equal masses \[kg\] beside each other, each on a spring to the ground and joined to all others by springs \[N/m\].

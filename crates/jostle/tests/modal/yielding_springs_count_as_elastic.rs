@@ -30,7 +30,7 @@ fn hinged(frame: Frame, columns: Option<f64>, beams: f64, base: Base) -> Buildin
             beams: vec![vec![hinge(beams); bays]; storeys],
         })),
     };
-    BuildingSystem::new("hinged", Discretization::of(&building))
+    BuildingSystem::new("hinged", Discretization::new(&building))
 }
 
 #[test]

@@ -168,7 +168,7 @@ fn random_frames_are_pushed_to_the_end_in_equilibrium() {
         let building = under(framed, true, case % 7 != 0);
         let mut system = jostle::system::BuildingSystem::new(
             "random",
-            jostle::structure::Discretization::of(&building),
+            jostle::structure::Discretization::new(&building),
         );
         if system.put_under_gravity(building.gravity).is_err() {
             *ends

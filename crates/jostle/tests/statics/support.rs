@@ -102,7 +102,7 @@ pub(crate) fn under(mut building: Building, preload: bool, p_delta: bool) -> Bui
 }
 
 pub(crate) fn assembled(building: &Building) -> BuildingSystem {
-    let mut assembled = BuildingSystem::new(&building.name, Discretization::of(building));
+    let mut assembled = BuildingSystem::new(&building.name, Discretization::new(building));
     assembled
         .put_under_gravity(building.gravity)
         .expect("it stands");

@@ -71,7 +71,7 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
         gravity: Default::default(),
         hinges: None,
     };
-    let mut discretization = Discretization::of(&building);
+    let mut discretization = Discretization::new(&building);
     let stick_model = &mut discretization.stick_model;
     // Hinges of 50 times 6 EI/L of their bay.
     let lines: Vec<f64> = std::iter::once(0.0)
@@ -124,7 +124,7 @@ pub(crate) fn tower(storeys: usize) -> BuildingSystem {
         gravity: Default::default(),
         hinges: None,
     };
-    BuildingSystem::new(&building.name, Discretization::of(&building))
+    BuildingSystem::new(&building.name, Discretization::new(&building))
 }
 
 /// κ and g of a Newmark step \[s\] with Rayleigh damping.

@@ -471,11 +471,11 @@ fn a_building_too_weak_for_its_weight_is_refused() {
 #[test]
 fn idealisation_without_base_is_unchanged() {
     let plain = framed("plain", frame(2, &[5.0]));
-    let nodes = Discretization::of(&plain).stick_model.nodes.len();
+    let nodes = Discretization::new(&plain).stick_model.nodes.len();
     let mut based = plain.clone();
     based.base = soft_base();
     assert_eq!(
-        Discretization::of(&based).stick_model.nodes.len(),
+        Discretization::new(&based).stick_model.nodes.len(),
         nodes + 2
     );
 }

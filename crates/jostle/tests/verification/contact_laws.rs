@@ -65,7 +65,7 @@ fn stepping_and_precise_collision_agree() {
                 ..law(kind, 0.5)
             };
             let (m1, m2, speed) = (3e4, 5e4, 0.6);
-            let exact = FreeCollision::of(&law.between(m1, m2), m1, m2, speed);
+            let exact = FreeCollision::new(&law.between(m1, m2), m1, m2, speed);
             let system = sliders(
                 vec![slider("left", m1, None), slider("right", m2, None)],
                 0.001,

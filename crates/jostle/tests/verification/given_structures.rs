@@ -141,7 +141,7 @@ fn storeys_of_a_condensed_cantilever_bear_the_forces_above_them() {
 #[test]
 fn a_condensed_cantilever_has_no_transfer_path() {
     let system = assembled(&cantilever());
-    let survey = MethodSurvey::of(&system.buildings[0]).expect("it resists");
+    let survey = MethodSurvey::new(&system.buildings[0]).expect("it resists");
     assert_eq!(survey.product_unknowns, 0);
     for step in &survey.accuracy {
         assert!(step.riccati < 1e-9, "{step:?}");

@@ -10,7 +10,7 @@ use jostle::{
 };
 
 use crate::support::{
-    EVERYTHING, LAWS, Random, assembled, frame, framed, law, meeting_towers, random_frame, row,
+    EVERYTHING, LAWS, Random, assembled, colliding_towers, frame, framed, law, random_frame, row,
     run, shaking, slider, sliders, steps, still, tower, two_frames,
 };
 
@@ -102,7 +102,7 @@ fn contacts_keep_the_balance_of_energy() {
 /// damping, or as the power 1½ of time.
 #[test]
 fn peak_force_of_an_impact_is_of_order_two_and_a_half_at_least() {
-    for (kind, system) in meeting_towers() {
+    for (kind, system) in colliding_towers() {
         let motion = shaking(1.0);
         let peak = |division: u32| {
             let plan = modal(&steps(0.01, division));
@@ -120,7 +120,7 @@ fn peak_force_of_an_impact_is_of_order_two_and_a_half_at_least() {
 /// Floors that are hit are pushed hardest within a step: cubics between steps must know how the force changes.
 #[test]
 fn accelerations_of_struck_floors_agree_with_riccati() {
-    for (kind, system) in meeting_towers() {
+    for (kind, system) in colliding_towers() {
         let motion = shaking(1.0);
         let peaks = |plan: &Plan| {
             let outcome = run(&system, &motion, plan);

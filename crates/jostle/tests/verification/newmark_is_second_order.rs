@@ -1,7 +1,7 @@
 use jostle::{GroundMotion, Plan, System};
 
 use crate::support::{
-    assembled, frame, framed, largest, law, meeting_towers, row, run, shaking, slider, steps,
+    assembled, colliding_towers, frame, framed, largest, law, row, run, shaking, slider, steps,
 };
 use jostle::LawKind;
 
@@ -121,7 +121,7 @@ fn linear_acceleration_is_second_order_too() {
 /// Locating the touch and interpolating the peak keep the order through an impact.
 #[test]
 fn peak_force_of_an_impact_is_of_second_order() {
-    for (kind, system) in meeting_towers() {
+    for (kind, system) in colliding_towers() {
         let motion = shaking(1.0);
         let peak = |step: f64| run(&system, &motion, &steps(step, 1)).impacts[0].peak_force;
         let answers: Vec<f64> = (0..5).map(|n| peak(1e-3 / f64::from(1 << n))).collect();

@@ -35,7 +35,7 @@ fn riccati_equals_direct_stiffness_for_one_step_of_any_frame() {
     for number in 0..80 {
         let mut model = framed("frame", random_frame(&mut random));
         model.damping = random_damping(&mut random);
-        let mut building = BuildingSystem::new("frame", Discretization::of(&model));
+        let mut building = BuildingSystem::new("frame", Discretization::new(&model));
         building
             .damp(&model.damping)
             .expect("coefficients need no modes");

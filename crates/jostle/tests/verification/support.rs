@@ -196,7 +196,7 @@ pub(crate) fn shaking(duration: f64) -> GroundMotion {
 }
 
 /// Two towers that meet when [`shaking`], under every law whose force has no corner.
-pub(crate) fn meeting_towers() -> impl Iterator<Item = (LawKind, System)> {
+pub(crate) fn colliding_towers() -> impl Iterator<Item = (LawKind, System)> {
     let laws = [
         LawKind::Linear,
         LawKind::Kelvin,

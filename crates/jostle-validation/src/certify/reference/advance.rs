@@ -44,9 +44,9 @@ impl Run<'_> {
 
     /// Closing less width, and its rate, of a contact.
     pub(super) fn closing(&self, contact: usize, q: &[Vec<c64>]) -> (f64, f64) {
-        let meeting = &self.meetings[contact];
-        let mut sum = (meeting.rest - meeting.width, 0.0);
-        for side in &meeting.sides {
+        let contact_state = &self.contact_states[contact];
+        let mut sum = (contact_state.rest - contact_state.width, 0.0);
+        for side in &contact_state.sides {
             sum.0 += real_dot(&side.row, &q[side.component]);
             sum.1 += real_dot(&side.rate, &q[side.component]);
         }
@@ -89,7 +89,7 @@ impl Run<'_> {
         let forces = pushes.forces.iter();
         forces
             .flat_map(|(contact, poly)| {
-                let sides = self.meetings[*contact].sides.iter();
+                let sides = self.contact_states[*contact].sides.iter();
                 sides
                     .filter(move |side| side.component == component)
                     .map(move |side| (&side.push[..], poly))
@@ -133,10 +133,10 @@ impl Run<'_> {
 
     /// Closing and rate of a contact at a share of the step, exactly.
     pub(super) fn closing_at(&self, contact: usize, s: f64, pushes: &Pushes) -> (f64, f64) {
-        let meeting = &self.meetings[contact];
-        let mut sum = (meeting.rest - meeting.width, 0.0);
+        let contact_state = &self.contact_states[contact];
+        let mut sum = (contact_state.rest - contact_state.width, 0.0);
         let mut q = Vec::new();
-        for side in &meeting.sides {
+        for side in &contact_state.sides {
             self.at(side.component, s, pushes, &mut q);
             sum.0 += real_dot(&side.row, &q);
             sum.1 += real_dot(&side.rate, &q);

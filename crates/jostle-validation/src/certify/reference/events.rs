@@ -73,7 +73,7 @@ impl Run<'_> {
     ) -> Option<(f64, usize)> {
         let h = reach * pushes.step;
         let mut first: Option<(f64, usize)> = None;
-        for contact in 0..self.meetings.len() {
+        for contact in 0..self.contact_states.len() {
             if self.closed[contact].is_some() {
                 continue;
             }
@@ -189,31 +189,33 @@ impl Run<'_> {
 
     /// Closes the contact that touches, and all that touch with it.
     pub(super) fn closings_happen(&mut self, first: usize, level: &mut usize) {
-        let mut blows = 0;
+        let mut jumps = 0;
         loop {
-            let touching: Vec<usize> = (0..self.meetings.len())
+            let touching: Vec<usize> = (0..self.contact_states.len())
                 .filter(|&contact| {
                     let (x, v) = self.closing(contact, &self.q);
                     self.closed[contact].is_none()
-                        && (contact == first && blows == 0 || x >= -1e-12 && v > 0.0)
+                        && (contact == first && jumps == 0 || x >= -1e-12 && v > 0.0)
                 })
                 .collect();
             let struck = touching.iter().find_map(|&contact| {
                 let rate = self.closing(contact, &self.q).1;
-                let blow = self.meetings[contact].blow.filter(|_| rate > 1e-3)?;
-                Some((contact, blow, rate))
+                let restitution = self.contact_states[contact]
+                    .restitution
+                    .filter(|_| rate > 1e-3)?;
+                Some((contact, restitution, rate))
             });
             if let Some((contact, restitution, rate)) = struck {
-                blows += 1;
-                let impulse = (1.0 + restitution) * self.meetings[contact].mass * rate;
-                for side in &self.meetings[contact].sides {
+                jumps += 1;
+                let impulse = (1.0 + restitution) * self.contact_states[contact].mass * rate;
+                for side in &self.contact_states[contact].sides {
                     for (q, b) in self.q[side.component].iter_mut().zip(&side.push) {
                         *q += b * impulse;
                     }
                 }
                 self.peaks.impulse[contact] += impulse;
                 self.peaks.touches += 1;
-                let sides: Vec<usize> = self.meetings[contact]
+                let sides: Vec<usize> = self.contact_states[contact]
                     .sides
                     .iter()
                     .map(|side| side.component)
@@ -221,25 +223,25 @@ impl Run<'_> {
                 for component in sides {
                     self.read_signals(component);
                 }
-                if blows < 10_000 {
+                if jumps < 10_000 {
                     continue;
                 }
             }
             for contact in touching {
                 let rate = self.closing(contact, &self.q).1.max(0.0);
-                if self.meetings[contact].blow.is_some() && rate > 1e-3 {
+                if self.contact_states[contact].restitution.is_some() && rate > 1e-3 {
                     continue;
                 }
-                if self.meetings[contact].blow.is_some() {
+                if self.contact_states[contact].restitution.is_some() {
                     self.peaks.lasting += 1;
                 }
-                let law = self.meetings[contact].law;
+                let law = self.contact_states[contact].law;
                 self.closed[contact] = Some(Closed::touch(law, rate));
                 self.peaks.touches += 1;
                 let begin = if law.is_steep() {
                     2e-10
                 } else {
-                    self.meetings[contact].duration / 20.0
+                    self.contact_states[contact].duration / 20.0
                 };
                 let wanted = (self.levels[0].step / begin).log2().ceil().max(0.0) as usize;
                 *level = (*level).max(wanted);

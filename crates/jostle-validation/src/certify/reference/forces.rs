@@ -22,10 +22,10 @@ impl Run<'_> {
             let mut courses = [[0.0; NODES]; 2];
             let now = self.closing(contact, &self.q);
             (courses[0][0], courses[1][0]) = now;
-            for side in 0..self.meetings[contact].sides.len() {
-                let component = self.meetings[contact].sides[side].component;
+            for side in 0..self.contact_states[contact].sides.len() {
+                let component = self.contact_states[contact].sides[side].component;
                 let (exp, _) = self.tables(level, component);
-                let own = &self.meetings[contact].sides[side];
+                let own = &self.contact_states[contact].sides[side];
                 for (j, q) in self.q[component].iter().enumerate() {
                     let (u, v) = (own.row[j] * q, own.rate[j] * q);
                     for i in 1..NODES {
@@ -36,7 +36,8 @@ impl Run<'_> {
                 }
             }
             for i in 1..NODES {
-                courses[0][i] += self.meetings[contact].rest - self.meetings[contact].width;
+                courses[0][i] +=
+                    self.contact_states[contact].rest - self.contact_states[contact].width;
                 for part in 0..2 {
                     for k in 0..=self.ground_degree {
                         courses[part][i] += by[part][i][k] * pushes.ground[k];
@@ -65,8 +66,9 @@ impl Run<'_> {
         let allowed: Vec<f64> = list
             .iter()
             .map(|contact| {
-                let meeting = &self.meetings[*contact];
-                self.accuracy.force * self.gap_force[meeting.gap].max(meeting.floor_force)
+                let contact_state = &self.contact_states[*contact];
+                self.accuracy.force
+                    * self.gap_force[contact_state.gap].max(contact_state.floor_force)
             })
             .collect();
         let mut settled = false;

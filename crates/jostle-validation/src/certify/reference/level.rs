@@ -7,7 +7,7 @@ use faer::c64;
 
 use super::super::phi::{DEGREE, Phi, moments, phi};
 use super::Run;
-use super::meeting::Side;
+use super::contact_state::Side;
 use super::polynomial::{NODES, Poly, ZERO};
 
 /// By mode and node.
@@ -30,14 +30,14 @@ pub(super) struct Level {
 }
 
 impl Run<'_> {
-    pub(super) fn level_of(&mut self, level: usize, flight: f64) {
+    pub(super) fn level_of(&mut self, level: usize, free_step: f64) {
         while self.levels.len() <= level {
             let n = self.levels.len();
             self.levels.push(Level {
-                step: flight * 0.5_f64.powi(n as i32),
+                step: free_step * 0.5_f64.powi(n as i32),
                 exp: vec![None; self.components.len()],
                 moment: vec![None; self.components.len()],
-                ground: vec![None; self.meetings.len()],
+                ground: vec![None; self.contact_states.len()],
                 pairs: HashMap::new(),
             });
         }
@@ -82,10 +82,10 @@ impl Run<'_> {
             return known.clone();
         }
         let mut response = [[[0.0; NODES]; NODES]; 2];
-        for side in 0..self.meetings[contact].sides.len() {
-            let component = self.meetings[contact].sides[side].component;
+        for side in 0..self.contact_states[contact].sides.len() {
+            let component = self.contact_states[contact].sides[side].component;
             let (_, moment) = self.tables(level, component);
-            let own = &self.meetings[contact].sides[side];
+            let own = &self.contact_states[contact].sides[side];
             let input = &self.components[component].ground;
             add_response(&mut response, own, input, &moment);
         }
@@ -106,17 +106,17 @@ impl Run<'_> {
         }
         let mut response = [[[0.0; NODES]; NODES]; 2];
         let mut any = false;
-        for side in 0..self.meetings[contact].sides.len() {
-            for with in 0..self.meetings[other].sides.len() {
-                let component = self.meetings[contact].sides[side].component;
-                if self.meetings[other].sides[with].component != component {
+        for side in 0..self.contact_states[contact].sides.len() {
+            for with in 0..self.contact_states[other].sides.len() {
+                let component = self.contact_states[contact].sides[side].component;
+                if self.contact_states[other].sides[with].component != component {
                     continue;
                 }
                 any = true;
                 let (_, moment) = self.tables(level, component);
                 let (own, push) = (
-                    &self.meetings[contact].sides[side],
-                    &self.meetings[other].sides[with].push,
+                    &self.contact_states[contact].sides[side],
+                    &self.contact_states[other].sides[with].push,
                 );
                 add_response(&mut response, own, push, &moment);
             }

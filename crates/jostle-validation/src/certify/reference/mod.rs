@@ -2,10 +2,10 @@
 //! corner of a force an event.
 
 mod advance;
+mod contact_state;
 mod events;
 mod forces;
 mod level;
-mod meeting;
 mod peaks;
 mod polynomial;
 mod storeys;
@@ -19,8 +19,8 @@ use jostle::{GroundMotion, System};
 use super::laws::Closed;
 use super::linear::{Component, components};
 use super::phi::DEGREE;
+use contact_state::ContactState;
 use level::Level;
-use meeting::Meeting;
 pub use peaks::Peaks;
 use polynomial::{NODES, Poly, ZERO, inverse};
 use watch::Watch;
@@ -55,7 +55,7 @@ struct Run<'a> {
     motion: &'a GroundMotion,
     components: Vec<Component>,
     watch: Vec<Watch>,
-    meetings: Vec<Meeting>,
+    contact_states: Vec<ContactState>,
     nodes: Poly,
     to_monomials: [[f64; NODES]; NODES],
     to_chebyshev: [[f64; NODES]; NODES],
@@ -95,9 +95,9 @@ impl<'a> Run<'a> {
         let components = components(system)?;
         let watch: Vec<Watch> = components
             .iter()
-            .map(|component| Watch::of(system, component))
+            .map(|component| Watch::new(system, component))
             .collect();
-        let meetings = Meeting::all(system, &components, &watch, accuracy.widen)?;
+        let contact_states = ContactState::all(system, &components, &watch, accuracy.widen)?;
         let nodes: Poly = std::array::from_fn(|i| {
             0.5 * (1.0 - (std::f64::consts::PI * i as f64 / DEGREE as f64).cos())
         });
@@ -111,7 +111,7 @@ impl<'a> Run<'a> {
             Wave::Sine { period, .. } => (period / 24.0, DEGREE),
             Wave::Ricker { period, .. } => (period / 40.0, DEGREE),
         };
-        let flight = piece / (piece / wanted).ceil();
+        let free_step = piece / (piece / wanted).ceil();
         let gaps = system.contacts.iter().map(|c| c.gap + 1).max().unwrap_or(0);
         let q = components
             .iter()
@@ -128,15 +128,15 @@ impl<'a> Run<'a> {
             ground_degree,
             piece,
             q,
-            closed: vec![None; meetings.len()],
-            peaks: Peaks::of(system),
-            closings: vec![(0.0, 0.0); meetings.len()],
+            closed: vec![None; contact_states.len()],
+            peaks: Peaks::new(system),
+            closings: vec![(0.0, 0.0); contact_states.len()],
             gap_force: vec![0.0; gaps],
-            meetings,
+            contact_states,
             components,
             accuracy,
         };
-        run.level_of(0, flight);
+        run.level_of(0, free_step);
         for index in 0..run.components.len() {
             run.read_signals(index);
         }
@@ -149,8 +149,8 @@ impl<'a> Run<'a> {
         let (mut index, mut inside) = (0_u64, 0.0_f64);
         let mut level = 0_usize;
         let mut still = 0;
-        let flight = self.levels[0].step;
-        let finest = (flight / 2e-11).log2().ceil() as usize;
+        let free_step = self.levels[0].step;
+        let finest = (free_step / 2e-11).log2().ceil() as usize;
         loop {
             let start = index as f64 * self.piece;
             let whole = self.piece.min(duration - start);
@@ -175,7 +175,7 @@ impl<'a> Run<'a> {
             if !in_contact {
                 level = 0;
             }
-            self.level_of(level, flight);
+            self.level_of(level, free_step);
             let step = self.levels[level].step;
             let ground = self.ground(index, inside, step);
             let most = if left < step * (1.0 - 1e-9) {

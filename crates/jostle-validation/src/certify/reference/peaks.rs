@@ -44,7 +44,7 @@ pub struct Peaks {
 
 impl Peaks {
     /// Those of a system at rest.
-    pub(super) fn of(system: &System) -> Self {
+    pub(super) fn new(system: &System) -> Self {
         let buildings = system.buildings.iter().map(|building| {
             let none = vec![0.0; building.floors.len()];
             BuildingPeaks {

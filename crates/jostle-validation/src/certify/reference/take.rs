@@ -43,7 +43,7 @@ impl Run<'_> {
                     });
                 let peak = &mut self.peaks.force[*contact];
                 *peak = peak.max(greatest);
-                let gap = self.meetings[*contact].gap;
+                let gap = self.contact_states[*contact].gap;
                 self.gap_force[gap] = self.gap_force[gap].max(greatest);
             }
         }
@@ -64,7 +64,7 @@ impl Run<'_> {
             for (component, ends) in before_signals.iter().zip(&after_signals).enumerate() {
                 self.explore(component, [0.0, reach], [ends.0, ends.1], pushes, 0);
             }
-            for contact in 0..self.meetings.len() {
+            for contact in 0..self.contact_states.len() {
                 self.take_closing(contact, reach, pushes, &now);
             }
             self.q = now;
@@ -73,7 +73,7 @@ impl Run<'_> {
 
     /// Reads how far contacts are from touching now.
     pub(super) fn read_closings(&mut self) {
-        for contact in 0..self.meetings.len() {
+        for contact in 0..self.contact_states.len() {
             self.closings[contact] = self.closing(contact, &self.q);
         }
     }
@@ -81,7 +81,7 @@ impl Run<'_> {
     /// Takes the greatest closing of a contact on the way to a share of the step.
     fn take_closing(&mut self, contact: usize, reach: f64, pushes: &Pushes, after: &[Vec<c64>]) {
         let h = reach * pushes.step;
-        let width = self.meetings[contact].width;
+        let width = self.contact_states[contact].width;
         let (x0, v0) = self.closings[contact];
         let (x1, v1) = self.closing(contact, after);
         let mut most = (self.peaks.closing[contact] - width).max(x0).max(x1);
@@ -184,7 +184,7 @@ impl Run<'_> {
         watch.add_ground(&mut own, horner(&pushes.ground, s));
         for (contact, poly) in &pushes.forces {
             let (force, rise) = (horner(poly, s), slope(poly, s) / pushes.step);
-            for side in self.meetings[*contact]
+            for side in self.contact_states[*contact]
                 .sides
                 .iter()
                 .filter(|side| side.component == component)

@@ -24,7 +24,7 @@ impl Form {
         }
     }
 
-    fn of(&self, q: &[c64]) -> (f64, f64) {
+    fn value(&self, q: &[c64]) -> (f64, f64) {
         (
             real_dot(&self.value, q) + self.constant,
             real_dot(&self.slope, q),
@@ -76,7 +76,7 @@ fn at_once(row: &[c64], input: &[c64]) -> f64 {
 }
 
 impl Watch {
-    pub(super) fn of(system: &System, component: &Component) -> Self {
+    pub(super) fn new(system: &System, component: &Component) -> Self {
         let mut watch = Self {
             displacements: Vec::new(),
             accelerations: Vec::new(),
@@ -229,18 +229,21 @@ impl Watch {
     /// with their slopes, without what the ground and contacts do at once.
     pub(super) fn values(&self, q: &[c64]) -> Vec<(f64, f64)> {
         let mut all = Vec::with_capacity(self.len());
-        all.extend(self.displacements.iter().map(|form| form.of(q)));
-        all.extend(self.accelerations.iter().map(|form| form.of(q)));
-        all.extend(self.shears.iter().map(|form| form.of(q)));
+        all.extend(self.displacements.iter().map(|form| form.value(q)));
+        all.extend(self.accelerations.iter().map(|form| form.value(q)));
+        all.extend(self.shears.iter().map(|form| form.value(q)));
         for watched in &self.buildings {
-            let mut below = watched.foot.as_ref().map_or((0.0, 0.0), |foot| foot.of(q));
+            let mut below = watched
+                .foot
+                .as_ref()
+                .map_or((0.0, 0.0), |foot| foot.value(q));
             for (floor, height) in watched.heights.iter().enumerate() {
                 let now = all[watched.first_floor + floor];
                 all.push(((now.0 - below.0) / height, (now.1 - below.1) / height));
                 below = now;
             }
         }
-        all.extend(self.storey_shears.iter().map(|form| form.of(q)));
+        all.extend(self.storey_shears.iter().map(|form| form.value(q)));
         all.resize(self.moment(self.floors), (0.0, 0.0));
         for watched in &self.buildings {
             let mut above = (0.0, 0.0);
@@ -248,13 +251,13 @@ impl Watch {
                 let floor = watched.first_floor + floor;
                 let shear = all[self.storey_shear(floor)];
                 let inner = self.between[floor].as_ref();
-                let inner = inner.map_or((0.0, 0.0), |form| form.of(q));
+                let inner = inner.map_or((0.0, 0.0), |form| form.value(q));
                 above.0 += height * shear.0 + inner.0;
                 above.1 += height * shear.1 + inner.1;
                 all[self.moment(floor)] = above;
             }
         }
-        all.extend(self.links.iter().map(|link| link.force.of(q)));
+        all.extend(self.links.iter().map(|link| link.force.value(q)));
         all
     }
 }

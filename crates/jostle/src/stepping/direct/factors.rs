@@ -173,7 +173,7 @@ impl<E: StepEquations> StepFactors<E> {
                 if shown.building == pushed.building {
                     let offset = system.buildings[shown.building].offset;
                     let row = shown.row.moved_down(offset);
-                    sum += own_sign * sign * row.of(&self.columns[other]);
+                    sum += own_sign * sign * row.value(&self.columns[other]);
                 }
             }
         }

@@ -167,7 +167,7 @@ impl<E: StepEquations> Direct<E> {
                 if port.building != building {
                     continue;
                 }
-                let change = port.row.moved_down(offset).of(&self.jump.velocity);
+                let change = port.row.moved_down(offset).value(&self.jump.velocity);
                 let jump = -sign * link.damping * change;
                 if jump == 0.0 {
                     continue;

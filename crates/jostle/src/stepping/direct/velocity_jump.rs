@@ -22,7 +22,7 @@ const SUDDEN: f64 = 1e9;
 
 impl<E: StepEquations> JumpFactor<E> {
     /// `None` when every degree of freedom has mass, or nothing can be said about the others.
-    fn of(building: &BuildingSystem, equations: &E) -> Option<Self> {
+    fn new(building: &BuildingSystem, equations: &E) -> Option<Self> {
         let own = &building.equations;
         let mut matrix = StepMatrix {
             stiffness: 1.0 + own.beta * SUDDEN,
@@ -121,7 +121,7 @@ impl<E: StepEquations> Direct<E> {
         let (range, own) = (system.range(), &system.equations);
         let massless = own.mass.contains(&0.0);
         if massless && self.jump_factors[building].is_none() {
-            self.jump_factors[building] = JumpFactor::of(system, &self.equations[building]);
+            self.jump_factors[building] = JumpFactor::new(system, &self.equations[building]);
             run.work.factorizations += 1;
         }
         self.jump.clear(own.len());

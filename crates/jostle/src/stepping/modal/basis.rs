@@ -44,7 +44,7 @@ impl Basis {
     ///
     /// # Errors
     /// [`NotPositive`] when the building can move without deforming.
-    pub(super) fn of(building: &BuildingSystem, demand: &Demand<'_>) -> Result<Self, NotPositive> {
+    pub(super) fn new(building: &BuildingSystem, demand: &Demand<'_>) -> Result<Self, NotPositive> {
         if massive(building).count() <= ALL_MODES {
             return Self::complete(building);
         }
@@ -53,7 +53,7 @@ impl Basis {
     }
 
     fn grown(building: &BuildingSystem, demand: &Demand<'_>) -> Result<Self, NotPositive> {
-        let mut growing = Growing::of(building, demand)?;
+        let mut growing = Growing::new(building, demand)?;
         while !growing.is_close()? && growing.extend() {}
         growing.finished()
     }
@@ -88,7 +88,7 @@ impl Basis {
     /// The same with the defects of these modes added to the span; all natural modes if their number is similar.
     ///
     /// # Errors
-    /// [`NotPositive`] as for [`Basis::of`].
+    /// [`NotPositive`] as for [`Basis::new`].
     pub(super) fn enriched(
         &self,
         building: &BuildingSystem,
@@ -173,7 +173,7 @@ struct Growing<'a> {
 }
 
 impl<'a> Growing<'a> {
-    fn of(building: &'a BuildingSystem, demand: &'a Demand<'a>) -> Result<Self, NotPositive> {
+    fn new(building: &'a BuildingSystem, demand: &'a Demand<'a>) -> Result<Self, NotPositive> {
         let sweep = &*building.sweep;
         // Matched rates come first; the remaining lanes repeat them.
         let asked = || demand.met.iter().chain(demand.compared).copied();
@@ -254,7 +254,7 @@ impl<'a> Growing<'a> {
     /// Whether the responses in the basis agree with those of the building.
     fn is_close(&self) -> Result<bool, NotPositive> {
         let shown = |place: &DofRow| -> Vec<f64> {
-            self.span.vectors.iter().map(|v| place.of(v)).collect()
+            self.span.vectors.iter().map(|v| place.value(v)).collect()
         };
         let ports = self.demand.ports.iter().map(shown);
         let loads: Vec<Vec<f64>> = std::iter::once(self.span.driven.clone())

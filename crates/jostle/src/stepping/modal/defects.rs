@@ -26,7 +26,7 @@ const DETUNED: f64 = 0.25;
 impl Defects {
     /// # Errors
     /// [`NotPositive`] when the building can move without deforming.
-    pub(super) fn of(
+    pub(super) fn new(
         building: &BuildingSystem,
         modes: &RitzModes,
         places: &[DofRow],
@@ -41,7 +41,7 @@ impl Defects {
         for_each_defect(building, modes, &all, |mode, whole, shape, answer| {
             let theta = modes.stiffness[mode];
             for (row, place) in found.rows.iter_mut().zip(places) {
-                row[mode] = (place.of(shape) - whole * place.of(answer)) / theta;
+                row[mode] = (place.value(shape) - whole * place.value(answer)) / theta;
             }
             let shear = |vector: &[f64]| building.equations.base_shear(vector);
             let bases = [shape, answer].map(shear);

@@ -213,7 +213,7 @@ impl Estimate {
         self.shapes.hypot(self.between)
     }
 
-    pub(super) fn of(
+    pub(super) fn new(
         reduced: &Reduced,
         system: &System,
         reached: &Reached,

@@ -460,7 +460,7 @@ mod tests {
         let plan = Plan::choose(&system, &motion, &model.analysis).expect("sensible steps");
         let rates: Vec<Rates> = (0..3).map(|index| rates(&system, index)).collect();
         let mut work = Work::default();
-        let reduced = Reduced::of(&system, &rates, 1e-4, &mut work).expect("stable");
+        let reduced = Reduced::new(&system, &rates, 1e-4, &mut work).expect("stable");
         let settings = Settings {
             record_interval,
             ..Settings::default()

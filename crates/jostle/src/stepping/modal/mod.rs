@@ -82,7 +82,7 @@ impl Reduction {
     /// # Errors
     /// [`StepError::Unsuited`] if modal stepping does not support the system, [`StepError::NotPositive`] if a
     /// building is a mechanism.
-    pub fn of(system: &System, plan: &Plan) -> Result<Self, StepError> {
+    pub fn new(system: &System, plan: &Plan) -> Result<Self, StepError> {
         let mut reasons = refusals(system, plan.integrator).into_iter();
         if let Some(reason) = reasons.next() {
             return Err(StepError::Unsuited { reason });
@@ -91,7 +91,7 @@ impl Reduction {
         let buildings = 0..system.buildings.len();
         let rates: Vec<Rates> = buildings.map(|index| rates(system, index)).collect();
         let closeness = FLEXIBILITY_SHARE * plan.tolerance().min(USUAL_TOLERANCE);
-        match Reduced::of(system, &rates, closeness, &mut work) {
+        match Reduced::new(system, &rates, closeness, &mut work) {
             Ok(reduced) => Ok(Self { reduced, work }),
             Err((building, source)) => Err(StepError::NotPositive {
                 building: system.buildings[building].name.clone(),

@@ -102,7 +102,7 @@ fn resonance(damping: &[f64], stiffness: &[f64]) -> f64 {
 
 impl Reduced {
     /// `rates`: characteristic rates of every building; `closeness`: tolerance of its responses.
-    pub(super) fn of(
+    pub(super) fn new(
         system: &System,
         rates: &[Rates],
         closeness: f64,
@@ -110,7 +110,7 @@ impl Reduced {
     ) -> Result<Self, (usize, NotPositive)> {
         let mut bases = Vec::with_capacity(system.buildings.len());
         for (index, building) in system.buildings.iter().enumerate() {
-            let Watched { places, ports } = Watched::of(system, index);
+            let Watched { places, ports } = Watched::new(system, index);
             let Rates { pushed, swaying } = rates[index];
             let [low, high] = COMPARED.map(|factor| factor * pushed);
             let mut struck = system.contacts.iter().filter(|contact| {
@@ -140,7 +140,7 @@ impl Reduced {
             let basis = if struck.next().is_some() || building.modal_damping.is_some() {
                 Basis::complete(building)
             } else {
-                Basis::of(building, &demand)
+                Basis::new(building, &demand)
             };
             let basis = basis.map_err(|failure| (index, failure))?;
             work.factorizations += basis.factorizations;
@@ -204,7 +204,7 @@ impl Reduced {
         reduced.add_links(system);
         let contacts = 0..system.contacts.len();
         reduced.unit_forces = contacts
-            .map(|contact| UnitForce::of(&reduced, contact))
+            .map(|contact| UnitForce::new(&reduced, contact))
             .collect();
         let ports = system.contacts.iter().map(|contact| &contact.ports);
         let groups = (0..reduced.buildings.len()).map(|own| reduced.linked_with(own).start);
@@ -215,7 +215,7 @@ impl Reduced {
 
     fn add_links(&mut self, system: &System) {
         let shown = |building: usize, row: DofRow| {
-            let Watched { places, .. } = Watched::of(system, building);
+            let Watched { places, .. } = Watched::new(system, building);
             let place = places.iter().position(|own| *own == row)?;
             Some(Shown {
                 building,
@@ -268,7 +268,7 @@ impl Reduced {
     ) -> Result<(), NotPositive> {
         let building = &system.buildings[index];
         let equations = &building.equations;
-        let Watched { places, .. } = Watched::of(system, index);
+        let Watched { places, .. } = Watched::new(system, index);
         let watching = self.watched();
         for (ports, contact) in self.ports.iter_mut().zip(&system.contacts) {
             for (shown, port) in ports.iter_mut().zip(&contact.ports.0) {
@@ -295,7 +295,7 @@ impl Reduced {
         let shear = basis.of_shapes(|vector| equations.base_shear(vector));
         let shown: Vec<Vec<f64>> = places
             .iter()
-            .map(|place| basis.of_shapes(|vector| place.of(vector)))
+            .map(|place| basis.of_shapes(|vector| place.value(vector)))
             .chain([shear])
             .collect();
         let mut storeys = storey_forms(building, &basis);
@@ -304,7 +304,7 @@ impl Reduced {
         let forcing = self.forces();
         let (mut missed, mut forces_missed, mut forces_off) = (Vec::new(), Vec::new(), Vec::new());
         if !basis.is_complete {
-            let mut defects = Defects::of(building, &basis.modes, &places)?;
+            let mut defects = Defects::new(building, &basis.modes, &places)?;
             work.factorizations += 1;
             work.solves += basis.len() as u64;
             let detuned = defects.detuned(&basis.modes, &self.damping[start..]);
@@ -490,7 +490,7 @@ struct Watched {
 }
 
 impl Watched {
-    fn of(system: &System, index: usize) -> Self {
+    fn new(system: &System, index: usize) -> Self {
         let building = &system.buildings[index];
         let floors = building.floors.iter().map(|floor| floor.dof);
         let mut places: Vec<DofRow> = floors

@@ -210,7 +210,7 @@ impl<'a> ModalStepper<'a> {
         let tolerance = run.plan.tolerance();
         let struck = !run.impacts.is_empty();
         let (reduced, system) = (self.reduced, run.system);
-        let mut estimate = Estimate::of(reduced, system, &self.reached, &self.peaks, struck);
+        let mut estimate = Estimate::new(reduced, system, &self.reached, &self.peaks, struck);
         estimate.between = estimate.between.hypot(self.links.error());
         let lacking = if estimate.both() > tolerance && estimate.shapes > LEAST_SHARE * tolerance {
             self.reached

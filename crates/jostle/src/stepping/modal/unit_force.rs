@@ -17,7 +17,7 @@ pub(super) struct UnitForce {
 
 impl UnitForce {
     /// Of a contact, over all buildings that links join with its own.
-    pub(super) fn of(reduced: &Reduced, contact: usize) -> Self {
+    pub(super) fn new(reduced: &Reduced, contact: usize) -> Self {
         let ports = reduced.ports[contact];
         let mut linked = 0..0;
         for port in ports.into_iter().flatten() {

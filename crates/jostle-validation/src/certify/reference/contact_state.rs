@@ -20,19 +20,19 @@ pub(super) struct Side {
     pub(super) pulls: Vec<f64>,
 }
 
-pub(super) struct Meeting {
+pub(super) struct ContactState {
     pub(super) sides: Vec<Side>,
     pub(super) width: f64,
     pub(super) rest: f64,
     pub(super) law: Law,
-    pub(super) blow: Option<f64>,
+    pub(super) restitution: Option<f64>,
     pub(super) mass: f64,
     pub(super) gap: usize,
     pub(super) floor_force: f64,
     pub(super) duration: f64,
 }
 
-impl Meeting {
+impl ContactState {
     /// Every contact of a system, its width changed by a share `widen`.
     pub(super) fn all(
         system: &System,
@@ -56,7 +56,7 @@ impl Meeting {
                     .unwrap_or(0.0)
             })
         };
-        let mut meetings = Vec::new();
+        let mut contact_states = Vec::new();
         for contact in &system.contacts {
             let mut by_component: Vec<(usize, Vec<(usize, f64)>)> = Vec::new();
             for (face, sign) in contact.ports.sides() {
@@ -103,20 +103,20 @@ impl Meeting {
                     }
                 })
                 .collect();
-            let (law, blow) = Law::of(&contact.law)?;
+            let (law, restitution) = Law::new(&contact.law)?;
             let mass = contact.effective_mass();
-            meetings.push(Self {
+            contact_states.push(Self {
                 sides,
                 width: contact.width * (1.0 + widen) + 1e-4 * widen,
                 rest,
                 law,
-                blow,
+                restitution,
                 mass,
                 gap: contact.gap,
                 floor_force: contact.law.elastic_force(mass, 0.03),
                 duration: contact.law.elastic_duration(mass, 0.3),
             });
         }
-        Ok(meetings)
+        Ok(contact_states)
     }
 }

@@ -10,7 +10,7 @@ use crate::shapes::SharedShapes;
 
 /// Data shared by successive cases: assembled systems and records.
 #[derive(Default)]
-pub struct Workshop {
+pub struct CaseCache {
     /// The last systems, the most recent at the end.
     systems: Mutex<Vec<Assembled>>,
     records: Mutex<Vec<(MotionSource, Arc<GroundMotion>)>>,
@@ -40,7 +40,7 @@ pub enum CaseError {
     Input(#[from] InputError),
 }
 
-impl Workshop {
+impl CaseCache {
     /// Assembles a model that has been read, finds its motion, and plans its steps.
     ///
     /// # Errors
@@ -58,7 +58,7 @@ impl Workshop {
     }
 
     fn assembled(&self, input: &Input) -> Result<Assembled, InputError> {
-        let kin = {
+        let same_buildings = {
             let systems = self.systems.lock().unwrap_or_else(PoisonError::into_inner);
             let known = systems
                 .iter()
@@ -66,19 +66,21 @@ impl Workshop {
             if let Some(known) = known {
                 return Ok(known.clone());
             }
-            let kin = systems
+            let same_buildings = systems
                 .iter()
-                .find(|known| kindred(&known.model, &input.model));
-            kin.cloned()
+                .find(|known| same_except_gaps(&known.model, &input.model));
+            same_buildings.cloned()
         };
-        let assembled = match &kin {
-            Some(kin) => kin.system.with_gaps_of(&input.model),
+        let assembled = match &same_buildings {
+            Some(same_buildings) => same_buildings.system.with_gaps_of(&input.model),
             None => System::assemble(&input.model),
         };
         let assembled = Assembled {
             model: Arc::new(input.model.clone()),
             system: Arc::new(assembled.map_err(|faults| input.faults(faults))?),
-            shapes: kin.map_or_else(SharedShapes::default, |kin| kin.shapes),
+            shapes: same_buildings.map_or_else(SharedShapes::default, |same_buildings| {
+                same_buildings.shapes
+            }),
         };
         let mut systems = self.systems.lock().unwrap_or_else(PoisonError::into_inner);
         if systems.len() >= SYSTEMS {
@@ -137,7 +139,7 @@ fn same(a: &Model, b: &Model) -> bool {
 }
 
 /// Whether two models differ only in the widths of their gaps and in the differences that [`same`] allows.
-fn kindred(a: &Model, b: &Model) -> bool {
+fn same_except_gaps(a: &Model, b: &Model) -> bool {
     let alike = |(a, b): (&Gap, &Gap)| {
         let widths = b.widths.clone();
         a.widths.len() == widths.len()
