@@ -40,6 +40,9 @@ pub(crate) struct ModelArgs {
     /// Use this ground motion: a built-in name or a file
     #[arg(long, value_name = "RECORD")]
     pub(crate) record: Option<String>,
+    /// Angle in plan from x to the motion, counter-clockwise, for buildings with a plan: --angle 30deg
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
+    pub(crate) angle: Option<String>,
     /// Accept values outside their usual ranges, as accept_unusual = true of the model file
     #[arg(long)]
     pub(crate) accept_unusual: bool,

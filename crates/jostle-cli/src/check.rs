@@ -96,6 +96,10 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             Structure::Shear(shear) => {
                 format!("shear building, {}", counted(shear.mass.len(), "storey"))
             }
+            Structure::Tiers(tiers) => format!(
+                "shear building with a plan, {}",
+                counted(tiers.floors.len(), "storey")
+            ),
             Structure::Given(given) => {
                 format!(
                     "given by matrices of {}, {}",
@@ -168,6 +172,10 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             gap.law.stiffness,
             gap.law.free_restitution()
         )?;
+        if system.is_in_space() {
+            describe_faces(text, &contacts)?;
+            continue;
+        }
         if let Some(contact) = contacts.last() {
             let [left, right] = contact.ports.masses().map(|mass| {
                 if mass.is_finite() {
@@ -204,6 +212,41 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         )?;
     }
     Ok(())
+}
+
+/// Faces and corners of two plans, floor by floor.
+fn describe_faces(text: &mut String, contacts: &[&Contact]) -> std::fmt::Result {
+    writeln!(
+        text,
+        "  floors     kind     overlap      gap   normal          middle"
+    )?;
+    let mut points = contacts.iter().peekable();
+    while let Some(first) = points.next() {
+        let Some(place) = first.plan else {
+            continue;
+        };
+        let (mut last, mut gap) = (place, first.width);
+        while let Some(next) =
+            points.next_if(|next| next.plan.is_some_and(|own| own.face == place.face))
+        {
+            last = next.plan.unwrap_or(last);
+            gap = gap.min(next.width);
+        }
+        let [left, right] = first.ports.floors().map(|floor| floor.unwrap_or(0));
+        let middle = [0, 1].map(|axis| 0.5 * (place.at[axis] + last.at[axis]));
+        writeln!(
+            text,
+            "  {left:3} | {right:<3}  {:6}  {:7.3} m  {:6.1} mm   {:+.3}, {:+.3}  {:.3} m, {:.3} m",
+            place.kind.name(),
+            place.overlap,
+            gap * 1e3,
+            place.normal[0],
+            place.normal[1],
+            middle[0],
+            middle[1]
+        )?;
+    }
+    writeln!(text)
 }
 
 /// Names of both sides.

@@ -32,7 +32,41 @@ pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
     terminal::print(&text)
 }
 
+/// Modes of a building with a plan: what sways along x, across, and turns.
+fn describe_in_space(
+    text: &mut String,
+    building: &BuildingSystem,
+    modes: &[Mode],
+) -> std::fmt::Result {
+    writeln!(text, "{}", styled(BOLD, &building.name))?;
+    writeln!(
+        text,
+        "  mode   period        ω     mass x   across   torsion"
+    )?;
+    for (index, mode) in modes.iter().enumerate() {
+        writeln!(
+            text,
+            "  {:>4}  {:7.4} s {:8.3}  {:6.2} % {:6.2} %  {:6.2} %",
+            index + 1,
+            mode.period(),
+            mode.circular_frequency,
+            mode.effective_mass_ratio_x * 100.0,
+            mode.effective_mass_ratio_across * 100.0,
+            mode.effective_mass_ratio_torsion * 100.0
+        )?;
+    }
+    writeln!(
+        text,
+        "  {} of {} modes listed\n",
+        modes.len(),
+        eigen::number_of_modes(building)
+    )
+}
+
 fn describe(text: &mut String, building: &BuildingSystem, modes: &[Mode]) -> std::fmt::Result {
+    if building.is_in_space() {
+        return describe_in_space(text, building, modes);
+    }
     writeln!(text, "{}", styled(BOLD, &building.name))?;
     writeln!(
         text,

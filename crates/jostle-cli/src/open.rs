@@ -27,6 +27,7 @@ impl ModelArgs {
             pga: quantity("--pga", &self.pga, Dimension::Acceleration)?,
             gap: quantity("--gap", &self.gap, Dimension::Length)?,
             record: self.record.clone(),
+            angle: quantity("--angle", &self.angle, Dimension::Dimensionless)?,
         })
     }
 }

@@ -23,6 +23,12 @@ pub(crate) enum Section {
     Frame,
     /// Further keys of `kind = "shear"`.
     Shear,
+    /// Plan of a floor.
+    FloorPlan,
+    /// Stiffness of a storey with a plan, or of an element.
+    PlanStiffness,
+    /// Column or wall at a point of a plan.
+    Element,
     /// Further keys of `kind = "given"`.
     Given,
     /// Files of its matrices.
@@ -146,6 +152,12 @@ pub(crate) enum Kind {
     Named(Section),
     /// A list of lists of numbers.
     NumberLists,
+    /// Width and depth, corners, or a list of plans.
+    Plan,
+    /// Two lengths, or a list of pairs from the ground up.
+    PlanPoints,
+    /// A stiffness, or a table of those along x, across and in torsion; or a list from the ground up.
+    PlanStiffness,
     /// The name of a file, or its numbers.
     TextOrNumbers,
     /// Any value that the varied key of the model file accepts.
@@ -310,6 +322,8 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Motion, "match", Kind::Table(S::Match), "Scale the motion so that its response spectrum matches another."),
     default(S::Motion, "governing", Choice(&GoverningRule::NAMES), "the code of match, else \"maximum\"", "Rule for the governing value of several records: gb50011, en1998 and asce7 take the mean or the greatest by their number."),
     default(S::Motion, "reverse", Flag, "false", "Change the sign of the motion."),
+    default(S::Motion, "angle", Quantity(D::Dimensionless), "0", "For buildings with a plan: angle from x to the motion, counter-clockwise, such as \"30 deg\"."),
+    optional(S::Motion, "across", TextOrTable(S::Motion), "For buildings with a plan: the motion at a right angle to this one, counter-clockwise from it: a record, or a table like [motion]."),
     default(S::Motion, "duration", Quantity(D::Time), "the whole record", "Length of the analysis: cuts the record, or continues with the ground at rest."),
     optional(S::Motion, "unit", Text, "Unit of the numbers of a record that does not state it, such as \"g\"."),
     optional(S::Motion, "step", Quantity(D::Time), "Time step of a record that does not state it."),
@@ -367,7 +381,21 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
     required(S::Shear, "mass", PerStorey(D::Mass), "Floor masses from the ground up. A weight is converted."),
-    required(S::Shear, "stiffness", PerStorey(D::Stiffness), "Storey stiffnesses from the ground up."),
+    optional(S::Shear, "stiffness", Kind::PlanStiffness, "Storey stiffnesses from the ground up; required without elements. With a plan also { x, y, torsion }: a bare value is along x, y is then the same, and torsion that of stiffness spread evenly over the plan."),
+    optional(S::Shear, "plan", Kind::Plan, "Plan of the floors: width along x and depth across, corners counter-clockwise, or a list of { size } or { corners } from the ground up. The building then moves in both directions and turns."),
+    optional(S::Shear, "at", Kind::PlanPoints, "Where the origin of the plan stands on the site; without it, buildings stand in a row along x."),
+    default(S::Shear, "mass_centre", Kind::PlanPoints, "centroid of the plan", "Centre of mass of the floors, from the origin of the plan."),
+    default(S::Shear, "polar_mass", PerStorey(D::PolarMass), "mass spread evenly over the plan", "Mass moment of inertia about a vertical axis through the centre of mass."),
+    default(S::Shear, "eccentricity", Kind::PlanPoints, "0", "Centre of stiffness of a storey, from the centre of mass of the floor above it."),
+    optional(S::Shear, "element", Tables(&[S::Element]), "Columns and walls at points of the plan, instead of stiffness."),
+    optional(S::FloorPlan, "size", Quantities(D::Length), "Width along x and depth across."),
+    optional(S::FloorPlan, "corners", Kind::PlanPoints, "Corners, counter-clockwise."),
+    required(S::PlanStiffness, "x", Quantity(D::Stiffness), "Along x."),
+    default(S::PlanStiffness, "y", Quantity(D::Stiffness), "x", "Across."),
+    default(S::PlanStiffness, "torsion", Quantity(D::RotationalStiffness), "spread evenly over the plan", "About the centre of stiffness; not for elements."),
+    required(S::Element, "at", Kind::PlanPoints, "Place, from the origin of the plan."),
+    required(S::Element, "stiffness", Kind::PlanStiffness, "Along x and across."),
+    default(S::Element, "storeys", Modes, "all", "First and last storey."),
     optional(S::Shear, "hinges", Kind::Table(S::StoreyHinges), "Cracking and yield of the storeys; without it they are elastic."),
 
     optional(S::Given, "matrices", TextOrTable(S::Matrices), "NumPy archive (.npz) with the arrays K and M, or a table of Matrix Market files, relative to this file. C is the damping matrix, r the displacements when the ground moves by 1, h their heights."),
@@ -440,6 +468,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Joint, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational stiffness of the hinge between beam end and column."),
 
     default(S::Damping, "ratio", Quantity(D::Dimensionless), "0.05", "Fraction of critical damping in the modes below."),
+    default(S::Damping, "along", Choice(&["x"]), "\"x\"", "With a plan: modes are counted as if the building swayed along x only."),
     default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] with two lateral modes, [1] with one", "Lateral modes that have this ratio. \"all\": same ratio in every mode (elastic buildings, modal solver only)."),
     optional(S::Damping, "alpha", Quantity(D::Frequency), "Rayleigh coefficient on the masses, instead of ratio."),
     optional(S::Damping, "beta", Quantity(D::Time), "Rayleigh coefficient on the stiffness, instead of ratio."),
@@ -485,7 +514,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::StoreyHinges, "post_yield", PerStorey(D::Dimensionless), "Ratio of post-yield to initial stiffness."),
 
     required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),
-    required(S::Gap, "width", PerContact(D::Length), "Width at rest: one value, or a list for the contacts in the order of floors, from the lowest contact up if floors are not listed."),
+    required(S::Gap, "width", PerContact(D::Length), "Width at rest, optional between plans with at: one value, or a list for the contacts in the order of floors, from the lowest contact up if floors are not listed."),
     default(S::Gap, "floors", FloorPairs, "\"common\"", "Contact locations: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights."),
     default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can touch."),
     default(S::Gap, "law", Choice(LAWS), "\"hertz-damp\"", "Contact law."),
@@ -498,6 +527,9 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Gap, "design_speed", Quantity(D::Speed), "bilinear: impact speed for which its stiffnesses are computed; without it, the speed of each impact."),
     optional(S::Gap, "thickness", Quantity(D::Length), "rubber: thickness of the bumper."),
     default(S::Gap, "exponent", Quantity(D::Dimensionless), "2.65", "rubber: exponent of the compression."),
+    optional(S::Gap, "stiffness_per_length", ContactStiffness, "Between plans, instead of stiffness: that of a face per metre of its length."),
+    default(S::Gap, "points", Count, "5", "Between plans: contact points of a face, 2 to 9, by the Lobatto rule. Two points are too stiff in rotation."),
+    default(S::Gap, "reach", Quantity(D::Length), "\"0.5 m\"", "Between plans: greatest distance of edges that can touch."),
     default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact closer in time than this count as one."),
 
     required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),

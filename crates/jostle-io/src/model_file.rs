@@ -19,6 +19,7 @@ mod matching;
 mod motion;
 mod output;
 mod partial;
+mod plan;
 mod reinforced;
 mod section;
 mod shear;
@@ -40,10 +41,11 @@ use jostle::{GroundMotion, Model, ModelFault};
 use jostle_motion::{GoverningRule, TargetSpectrum};
 use jostle_section::capacity::ShearRule;
 
+use self::building::Buildings;
 use crate::bounded::read_at_most;
 use crate::fault::{Fault, InputError};
 use crate::keys::Section;
-use crate::motion_spec::{MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
+use crate::motion_spec::{BearingSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
 use crate::reader::{Field, Reader};
 use crate::record::RecordOptions;
 use crate::record_list;
@@ -92,6 +94,8 @@ pub struct Overrides {
     pub gap: Option<f64>,
     /// Another record: a built-in name, or a path from the current folder.
     pub record: Option<String>,
+    /// Angle in plan from x to the motion, for buildings with plans \[rad\].
+    pub angle: Option<f64>,
 }
 
 /// Why a change cannot be made.
@@ -233,6 +237,10 @@ impl Input {
         }
         if let Some(record) = &overrides.record {
             self.motion = Some(with_record(self.motion.as_ref(), record));
+        }
+        if let (Some(motion), Some(angle)) = (&mut self.motion, overrides.angle) {
+            let across = motion.bearing.take().and_then(|bearing| bearing.across);
+            motion.bearing = Some(Box::new(BearingSpec { angle, across }));
         }
         if let (Some(motion), Some(pga)) = (&mut self.motion, overrides.pga) {
             motion.scaling = Scaling::Pga(pga);
@@ -455,14 +463,14 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     };
     let gaps = match reader.get(&view, "gap") {
         Some(field) => {
-            let buildings = buildings.as_ref().map(|(buildings, ..)| &buildings[..]);
+            let buildings = buildings.as_ref().map(|read| &read.buildings[..]);
             gap::read_all(reader, &field, buildings)
         }
         None => Vec::new(),
     };
     let links = match reader.get(&view, "link") {
         Some(field) => {
-            let buildings = buildings.as_ref().map(|(buildings, ..)| &buildings[..]);
+            let buildings = buildings.as_ref().map(|read| &read.buildings[..]);
             link::read_all(reader, &field, buildings)
         }
         None => Vec::new(),
@@ -472,13 +480,19 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     let (mut capacity, mut floor_spectra) = (CapacityRequest::default(), None);
     if let Some(field) = reader.get(&view, "output") {
         let read = buildings.as_ref();
-        let read = read.map(|(buildings, members, _)| (&buildings[..], &members[..]));
+        let read = read.map(|read| (&read.buildings[..], &read.members[..]));
         (analysis.members, floor_spectra, capacity) = output::read(reader, &field, read);
     }
     let codes = reader.get(&view, "codes");
-    let of_buildings = buildings.as_ref().map(|(.., codes)| codes.clone());
+    let of_buildings = buildings.as_ref().map(|read| read.codes.clone());
     let codes = codes::read(reader, codes.as_ref(), of_buildings.unwrap_or_default());
-    let (buildings, reinforced, _) = buildings?;
+    let Buildings {
+        mut buildings,
+        members: reinforced,
+        at,
+        ..
+    } = buildings?;
+    plan::place(&mut buildings, &at, &gaps);
     let mut model = Model {
         title: title.unwrap_or_default(),
         buildings,
@@ -486,6 +500,10 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         links,
         analysis,
     };
+    if model.is_in_space() {
+        let fields = reader.get(&view, "gap").and_then(|field| field.entries());
+        plan::check_widths(reader, &mut model, &fields.unwrap_or_default());
+    }
     capacity::fill(&mut model, &capacity, &reinforced);
     Some(Parts {
         model,

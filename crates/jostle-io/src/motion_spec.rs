@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use jostle::{GroundMotion, Wave};
+use jostle::{Bearing, GroundMotion, Wave};
 use jostle_motion::{
     Accelerogram, MatchAt, MotionFault, SpectrumTable, TargetKind, TargetSpectrum, match_factor,
 };
@@ -23,6 +23,8 @@ pub struct MotionSpec {
     pub reverse: bool,
     /// Length of the analysis; `None` is as long as the record \[s\].
     pub duration: Option<f64>,
+    /// Direction in plan and motion across, for buildings with plans.
+    pub bearing: Option<Box<BearingSpec>>,
 }
 
 /// Where a ground motion comes from.
@@ -64,6 +66,15 @@ pub enum MotionSource {
         /// Time of the peak \[s\].
         centre: f64,
     },
+}
+
+/// Direction of a motion in plan, and the motion across it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingSpec {
+    /// Angle from x to the motion, counter-clockwise \[rad\].
+    pub angle: f64,
+    /// The motion at a right angle to it.
+    pub across: Option<MotionSpec>,
 }
 
 /// A spectral value to scale to.
@@ -187,6 +198,7 @@ impl MotionSpec {
             scaling: Scaling::AsRecorded,
             reverse: false,
             duration: None,
+            bearing: None,
         }
     }
 
@@ -281,6 +293,20 @@ impl MotionSpec {
             return Err(MotionError::TooStrong { name: motion.name });
         }
         motion.duration = self.duration.unwrap_or(motion.duration);
+        let motion_scale = motion.scale;
+        if let Some(spec) = &self.bearing {
+            let mut across = spec.across.as_ref().map(Self::resolve).transpose()?;
+            // Two components of one record keep their ratio.
+            if let (Some(motion), Some(own)) = (&mut across, &spec.across)
+                && own.scaling == Scaling::AsRecorded
+            {
+                motion.scale *= motion_scale;
+            }
+            motion.bearing = Some(Box::new(Bearing {
+                angle: spec.angle,
+                across,
+            }));
+        }
         Ok(motion)
     }
 }
@@ -322,6 +348,7 @@ fn analytic(name: &str, duration: f64, wave: Wave) -> GroundMotion {
         scale: 1.0,
         duration,
         wave,
+        bearing: None,
     }
 }
 

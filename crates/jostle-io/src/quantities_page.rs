@@ -98,6 +98,13 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
         Column::Displacement { building, floor },
         Column::Velocity { building, floor },
         Column::TotalAcceleration { building, floor },
+        Column::GroundAccelerationAcross,
+        Column::DisplacementAcross { building, floor },
+        Column::VelocityAcross { building, floor },
+        Column::TotalAccelerationAcross { building, floor },
+        Column::Rotation { building, floor },
+        Column::RotationRate { building, floor },
+        Column::RotationAcceleration { building, floor },
         Column::ContactForce { contact: 0 },
         Column::LinkForce { link: 0 },
     ];

@@ -43,13 +43,19 @@ pub enum Dimension {
     FlexuralRigidity,
     /// Frequency, and mass-proportional damping \[1/s\].
     Frequency,
+    /// Mass moment of inertia \[kg·m²\].
+    PolarMass,
+    /// Linear stiffness per length \[N/m/m\].
+    StiffnessPerLength,
+    /// Stiffness of a Hertz contact per length \[N/m^1.5/m\].
+    HertzStiffnessPerLength,
     /// A plain number; `%` is understood.
     Dimensionless,
 }
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 21] = [
         Self::Length,
         Self::Mass,
         Self::Time,
@@ -67,6 +73,9 @@ impl Dimension {
         Self::RotationalDamping,
         Self::FlexuralRigidity,
         Self::Frequency,
+        Self::PolarMass,
+        Self::StiffnessPerLength,
+        Self::HertzStiffnessPerLength,
         Self::Dimensionless,
     ];
 
@@ -91,6 +100,9 @@ impl Dimension {
             Self::RotationalDamping => ("a rotational dashpot coefficient", "5 MN.m.s/rad", "N.m.s/rad", [2.0, 1.0, -1.0]),
             Self::FlexuralRigidity => ("a flexural rigidity", "150 MN.m2", "N.m2", [3.0, 1.0, -2.0]),
             Self::Frequency => ("a frequency", "2 Hz", "1/s", [0.0, 0.0, -1.0]),
+            Self::PolarMass => ("a polar mass", "1e7 kg.m2", "kg.m2", [2.0, 1.0, 0.0]),
+            Self::StiffnessPerLength => ("a stiffness per length", "20 MN/m/m", "N/m/m", [-1.0, 1.0, -2.0]),
+            Self::HertzStiffnessPerLength => ("a Hertz contact stiffness per length", "2e8 N/m^1.5/m", "N/m^1.5/m", [-1.5, 1.0, -2.0]),
             Self::Dimensionless => ("a number without unit", "0.05", "1", [0.0; 3]),
         }
     }

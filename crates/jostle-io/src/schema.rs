@@ -85,6 +85,19 @@ fn kind(kind: Kind) -> Value {
             json!({ "type": "object", "additionalProperties": table(&[section]) })
         }
         Kind::TextOrNumbers => json!({ "anyOf": [{ "type": "string" }, { "type": "array" }] }),
+        Kind::Plan => json!({ "type": "array", "items": { "anyOf": [
+            quantity(Dimension::Length),
+            { "type": "array", "items": quantity(Dimension::Length) },
+            table(&[Section::FloorPlan]),
+        ] } }),
+        Kind::PlanPoints => json!({ "type": "array", "items": { "anyOf": [
+            quantity(Dimension::Length),
+            { "type": "array", "items": quantity(Dimension::Length) },
+        ] } }),
+        Kind::PlanStiffness => one_or_list(json!({ "anyOf": [
+            quantity(Dimension::Stiffness),
+            table(&[Section::PlanStiffness]),
+        ] })),
         Kind::NumberLists => {
             json!({ "type": "array", "items": { "type": "array", "items": { "type": "number" } } })
         }

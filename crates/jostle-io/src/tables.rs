@@ -530,10 +530,18 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
         name.unwrap_or_else(|| format!("{what}{}", index + 1)) + "."
     };
     let place = match column {
-        Column::Time | Column::GroundAcceleration => String::new(),
+        Column::Time | Column::GroundAcceleration | Column::GroundAccelerationAcross => {
+            String::new()
+        }
         Column::Displacement { .. }
         | Column::Velocity { .. }
-        | Column::TotalAcceleration { .. } => {
+        | Column::TotalAcceleration { .. }
+        | Column::DisplacementAcross { .. }
+        | Column::VelocityAcross { .. }
+        | Column::TotalAccelerationAcross { .. }
+        | Column::Rotation { .. }
+        | Column::RotationRate { .. }
+        | Column::RotationAcceleration { .. } => {
             let name = model.buildings.get(index).map(|b| plain(&b.name));
             let name = name.unwrap_or_else(|| format!("B{}", index + 1));
             format!("{name}.floor{floor}.")

@@ -196,6 +196,7 @@ fn overrides_change_what_they_name() {
         pga: Some(0.7),
         gap: Some(0.01),
         record: Some("el-centro".into()),
+        angle: None,
     };
     input.apply(&overrides).expect("all three can be changed");
     assert_eq!(input.model.gaps[0].widths, [0.01]);

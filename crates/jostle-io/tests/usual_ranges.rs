@@ -258,6 +258,7 @@ fn json_studies_and_changes_are_judged_alike() {
                 pga,
                 gap,
                 record: None,
+                angle: None,
             })
             .map(|()| input.warnings)
     };

@@ -91,7 +91,12 @@ impl Model {
         }
         let other_record = motion.is_none() && (self.opened.other_record || record.is_some());
         input
-            .apply(&Overrides { pga, gap, record })
+            .apply(&Overrides {
+                pga,
+                gap,
+                record,
+                angle: None,
+            })
             .map_err(|error| argument_error(error.to_string()))?;
         let mut opened = if gap.is_some() {
             py.detach(|| Opened::new(input, &*self.opened.name))

@@ -35,6 +35,7 @@ impl Motion {
             scaling: Scaling::AsRecorded,
             reverse: false,
             duration,
+            bearing: None,
         };
         Self::from_spec(spec).map_err(|error| argument_error(error.to_string()))
     }

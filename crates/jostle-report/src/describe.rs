@@ -61,6 +61,7 @@ fn building(
     match &building.structure {
         Structure::Frame(frame) => frame_facts(frame, &mut facts),
         Structure::Shear(shear) => shear_facts(shear, &mut facts),
+        Structure::Tiers(tiers) => tiers_facts(tiers, &mut facts),
         Structure::Given(given) => {
             let floors = given.floors.iter().map(|dof| given.mass[*dof]);
             let floors: Vec<f64> = floors.collect();
@@ -166,6 +167,25 @@ fn shear_facts(shear: &Shear, facts: &mut Facts) {
         "storey stiffness",
         grouped(&shear.stiffness, format::stiffness),
     ));
+}
+
+fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
+    let masses: Vec<f64> = tiers.floors.iter().map(|floor| floor.mass).collect();
+    facts.push(("floor mass", grouped(&masses, format::tonnes)));
+    for (label, axis) in [
+        ("storey stiffness along x", 0),
+        ("storey stiffness across", 1),
+    ] {
+        let values = tiers.storeys.iter().map(|storey| storey.stiffness[axis]);
+        facts.push((
+            label,
+            grouped(&values.collect::<Vec<f64>>(), format::stiffness),
+        ));
+    }
+    let torsion = tiers.storeys.iter().map(|storey| storey.stiffness[2]);
+    let torsion: Vec<f64> = torsion.collect();
+    let unit = |value: f64| format!("{}\u{a0}MN·m/rad", format::plain(value / 1e6, 4));
+    facts.push(("torsional stiffness", grouped(&torsion, unit)));
 }
 
 fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {

@@ -293,6 +293,10 @@ fn outline(building: &Building) -> Outline<'_> {
     const NOMINAL_WIDTH: f64 = 6.0;
     let (frame, spans) = match &building.structure {
         Structure::Frame(frame) => (true, frame.spans.clone()),
+        Structure::Tiers(tiers) => {
+            let [from, to] = tiers.extent_along();
+            (false, vec![to - from])
+        }
         Structure::Shear(_) | Structure::Given(_) => (false, vec![NOMINAL_WIDTH]),
     };
     Outline {

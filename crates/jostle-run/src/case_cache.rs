@@ -110,6 +110,7 @@ impl CaseCache {
                     scaling: Scaling::AsRecorded,
                     reverse: false,
                     duration: None,
+                    bearing: None,
                     ..spec.clone()
                 };
                 // The error shows the line of the record.

@@ -177,7 +177,12 @@ fn of_contact(known: &Known, model: &Model, system: &System, gap: usize) -> Opti
     let names = model.gaps[gap]
         .between
         .map(|building| building.map_or("wall".to_owned(), |b| model.buildings[b].name.clone()));
-    let masses = contact.ports.masses().map(|m| m.is_finite().then_some(m));
+    // Points of a face share its mass.
+    let share = contact.plan.map_or(1.0, |place| place.share);
+    let masses = contact
+        .ports
+        .masses()
+        .map(|m| m.is_finite().then_some(m / share));
     let given = known.masses.map(|given| given.map(Some));
     Some(known.advise(names, Some(contact.height), given.unwrap_or(masses)))
 }

@@ -41,6 +41,8 @@ fn as_json(building: &BuildingSystem, modes: &[Mode], count: usize) -> Value {
             "circular_frequency_rad_s": mode.circular_frequency,
             "effective_mass_ratio_x": mode.effective_mass_ratio_x,
             "effective_mass_ratio_y": mode.effective_mass_ratio_y,
+            "effective_mass_ratio_across": mode.effective_mass_ratio_across,
+            "effective_mass_ratio_torsion": mode.effective_mass_ratio_torsion,
             "lateral": mode.is_lateral(),
             "floor_shape": floor_shape(mode),
         })

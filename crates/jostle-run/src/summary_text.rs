@@ -54,6 +54,7 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
         )?;
     }
     write_buildings(text, &summary.buildings)?;
+    write_in_plan(text, &summary.buildings)?;
     write_hinges(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
     for gap in &summary.gaps {
@@ -97,6 +98,41 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     writeln!(text, "{}", styled(DIM, &accounting))?;
     if let Some(result) = result {
         writeln!(text, "→ {}", styled(BOLD, &result.display().to_string()))?;
+    }
+    Ok(())
+}
+
+/// What buildings with plans do across the row and in torsion.
+fn write_in_plan(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    if buildings.iter().all(|building| building.in_plan.is_none()) {
+        return Ok(());
+    }
+    let width = buildings
+        .iter()
+        .map(|b| b.name.chars().count())
+        .fold(8, usize::max);
+    writeln!(
+        text,
+        "\n{:width$}  {:>18}  {:>18}  {:>9}  {:>12}  {:>13}",
+        "", "roof across", "rotation", "corner", "shear across", "base torque"
+    )?;
+    for building in buildings {
+        let roof = building.floors.last().and_then(|floor| floor.in_plan);
+        let (Some(own), Some(roof)) = (building.in_plan, roof) else {
+            continue;
+        };
+        writeln!(
+            text,
+            "{:width$}  {:>+6.1} / {:>+6.1} mm  {:>+5.2} / {:>+5.2} mrad  {:6.1} mm  {:>9} kN  {:>8} kN·m",
+            building.name,
+            roof.displacement_across_max_m * 1e3,
+            roof.displacement_across_min_m * 1e3,
+            roof.rotation_max_rad * 1e3,
+            roof.rotation_min_rad * 1e3,
+            roof.corner_displacement_peak_m * 1e3,
+            kn(own.base_shear_across_peak_n),
+            kn(own.base_torque_peak_n_m)
+        )?;
     }
     Ok(())
 }

@@ -195,6 +195,7 @@ fn rows_hold_the_numbers_of_single_runs() {
             pga: Some(pga),
             gap: Some(gap),
             record: None,
+            angle: None,
         };
         input
             .apply(&overrides)

@@ -67,6 +67,7 @@ fn building(
         foot: None,
         spring_places: Vec::new(),
         members: Vec::new(),
+        centres: Vec::new(),
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),
@@ -185,6 +186,7 @@ fn newmark(basic: &Value, key: &str, beta: f64) -> Vec<Row> {
                 amplitude: 2.0,
                 period: 2.0 * PI / 5.0,
             },
+            bearing: None,
         };
         let state = run(&system, &motion, &plan, None).state;
         let got = [

@@ -144,6 +144,7 @@ fn under_a_sine() -> Vec<Row> {
             amplitude: input("A"),
             period: input("Tg"),
         },
+        bearing: None,
     };
     let outcome = run(&system, &motion(input("t_end")), &uniform(STEP), None);
     let name = |what: &str| format!("h = 0.05 ms, {what}");

@@ -75,6 +75,7 @@ fn run(pga: f64, gap: f64, steps: Steps, pounding: Pounding) -> (System, Outcome
         pga: Some(pga),
         gap: Some(gap),
         record: None,
+        angle: None,
     };
     input
         .apply(&overrides)

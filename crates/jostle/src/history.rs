@@ -68,7 +68,51 @@ pub enum Column {
         /// Floor, from 1.
         floor: usize,
     },
-    /// Force of a contact (index into the contacts of the system) \[N\].
+    /// Ground acceleration across the row, of buildings in space \[m/s²\].
+    GroundAccelerationAcross,
+    /// Displacement across of a floor in space, relative to the ground \[m\].
+    DisplacementAcross {
+        /// Building index.
+        building: usize,
+        /// Floor, from 1.
+        floor: usize,
+    },
+    /// Its rate \[m/s\].
+    VelocityAcross {
+        /// Building index.
+        building: usize,
+        /// Floor, from 1.
+        floor: usize,
+    },
+    /// Acceleration across of a floor in space, ground included \[m/s²\].
+    TotalAccelerationAcross {
+        /// Building index.
+        building: usize,
+        /// Floor, from 1.
+        floor: usize,
+    },
+    /// Rotation of a floor in space \[rad\].
+    Rotation {
+        /// Building index.
+        building: usize,
+        /// Floor, from 1.
+        floor: usize,
+    },
+    /// Its rate \[rad/s\].
+    RotationRate {
+        /// Building index.
+        building: usize,
+        /// Floor, from 1.
+        floor: usize,
+    },
+    /// The rate of that \[rad/s²\].
+    RotationAcceleration {
+        /// Building index.
+        building: usize,
+        /// Floor, from 1.
+        floor: usize,
+    },
+    /// Force of a contact (index into the contacts of the system, or into the faces of buildings in space) \[N\].
     ContactForce {
         /// Contact index.
         contact: usize,
@@ -107,6 +151,13 @@ impl Column {
             Self::Displacement { .. } => of("floor", "displacement", Unit::M, "displacement relative to the ground, positive to the right"),
             Self::Velocity { .. } => of("floor", "velocity", Unit::M_S, "velocity relative to the ground"),
             Self::TotalAcceleration { .. } => of("floor", "total_acceleration", Unit::M_S2, "acceleration, that of the ground included"),
+            Self::GroundAccelerationAcross => of("run", "ground_acceleration_across", Unit::M_S2, "ground acceleration across the row, of buildings in space"),
+            Self::DisplacementAcross { .. } => of("floor", "displacement_across", Unit::M, "displacement across the row, of buildings in space"),
+            Self::VelocityAcross { .. } => of("floor", "velocity_across", Unit::M_S, "its rate"),
+            Self::TotalAccelerationAcross { .. } => of("floor", "total_acceleration_across", Unit::M_S2, "acceleration across, that of the ground included"),
+            Self::Rotation { .. } => of("floor", "rotation", Unit::RAD, "rotation, counter-clockwise seen from above, of buildings in space"),
+            Self::RotationRate { .. } => of("floor", "rotation_rate", Unit::RAD_S, "its rate"),
+            Self::RotationAcceleration { .. } => of("floor", "rotation_acceleration", Unit::RAD_S2, "the rate of that"),
             Self::ContactForce { .. } => of("contact", "force", Unit::N, "contact force, positive in compression"),
             Self::LinkForce { .. } => of("link", "force", Unit::N, "force of the link, positive in compression"),
             Self::Energy(EnergyTerm::Input) => of("energy", "input", Unit::J, "work of the ground motion until then"),
@@ -122,10 +173,19 @@ impl Column {
     #[must_use]
     pub fn place(self) -> [usize; 2] {
         match self {
-            Self::Time | Self::GroundAcceleration | Self::Energy(_) => [0, 0],
+            Self::Time
+            | Self::GroundAcceleration
+            | Self::GroundAccelerationAcross
+            | Self::Energy(_) => [0, 0],
             Self::Displacement { building, floor }
             | Self::Velocity { building, floor }
-            | Self::TotalAcceleration { building, floor } => [building, floor],
+            | Self::TotalAcceleration { building, floor }
+            | Self::DisplacementAcross { building, floor }
+            | Self::VelocityAcross { building, floor }
+            | Self::TotalAccelerationAcross { building, floor }
+            | Self::Rotation { building, floor }
+            | Self::RotationRate { building, floor }
+            | Self::RotationAcceleration { building, floor } => [building, floor],
             Self::ContactForce { contact } => [contact, 0],
             Self::LinkForce { link } => [link, 0],
         }
@@ -287,6 +347,34 @@ impl Impact {
     #[must_use]
     pub fn realised_restitution(&self) -> f64 {
         self.separation_speed / self.impact_speed
+    }
+}
+
+/// An impact of a face of two buildings in space: all its points together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceImpact {
+    /// Number of the face.
+    pub face: usize,
+    /// Instant at which the first point touched, and at which the last one parted, or the end of the run \[s\].
+    pub start: f64,
+    /// See `start`.
+    pub end: f64,
+    /// Greatest total force, and its instant \[N\].
+    pub peak_force: Extreme,
+    /// Centre of pressure then, on the site \[m\].
+    pub centre: [f64; 2],
+}
+
+impl FaceImpact {
+    /// One that begins at an instant \[s\].
+    pub(crate) fn beginning(face: usize, start: f64) -> Self {
+        Self {
+            face,
+            start,
+            end: start,
+            peak_force: Extreme::default(),
+            centre: [0.0; 2],
+        }
     }
 }
 

@@ -114,10 +114,10 @@ pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, floor_and_height};
 pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Given, Gravity,
-    Hinges, Integrator, Joint, Level, Link, MemberRequest, Model, ModelFault, Section, Shear,
-    Solver, Structure,
+    Hinges, Integrator, Joint, Level, Link, MemberRequest, Model, ModelFault, PlanArea,
+    PlanContact, PlanPoint, Section, Shear, Solver, Structure, Tier, TierStorey, Tiers,
 };
-pub use motion::{GroundMotion, Wave};
+pub use motion::{Bearing, GroundMotion, Wave};
 pub use quantity::{Quantity, Unit};
 pub use results::summary::Summary;
 pub use results::{Run, springs_of};

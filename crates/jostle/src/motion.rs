@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 /// assert!((record.acceleration(0.01) - 0.5).abs() < 1e-15); // straight lines between values
 ///
 /// let wave = Wave::Sine { amplitude: 2.0, period: 0.7 };
-/// let sine = GroundMotion { name: "sine".into(), scale: 1.5, duration: 8.0, wave };
+/// let sine = GroundMotion { name: "sine".into(), scale: 1.5, duration: 8.0, wave, bearing: None };
 /// assert!((sine.peak() - 3.0).abs() < 1e-12);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,20 @@ pub struct GroundMotion {
     pub duration: f64,
     /// The shape before scaling.
     pub wave: Wave,
+    /// Direction in plan and motion across it, for buildings in space.
+    pub bearing: Option<Box<Bearing>>,
+}
+
+/// Ground acceleration along x and across \[m/s²\].
+pub type Ground = [f64; 2];
+
+/// Direction of a ground motion in plan, and the motion at a right angle to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bearing {
+    /// Angle from x to the motion, counter-clockwise \[rad\].
+    pub angle: f64,
+    /// The motion across, a right angle counter-clockwise from the first; it has no bearing of its own.
+    pub across: Option<GroundMotion>,
 }
 
 /// Shape of a ground motion before scaling.
@@ -33,7 +47,7 @@ pub struct GroundMotion {
 /// use jostle::{GroundMotion, Wave};
 ///
 /// let wave = Wave::Ricker { amplitude: 3.0, period: 0.6, centre: 0.9 };
-/// let pulse = GroundMotion { name: "pulse".into(), scale: 1.0, duration: 2.0, wave };
+/// let pulse = GroundMotion { name: "pulse".into(), scale: 1.0, duration: 2.0, wave, bearing: None };
 /// assert!((pulse.acceleration(0.9) - 3.0).abs() < 1e-12);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +87,21 @@ impl GroundMotion {
             scale: 1.0,
             duration,
             wave: Wave::Sampled { step, acceleration },
+            bearing: None,
         }
+    }
+
+    /// Ground acceleration along x and across at time `t`: a₁ cos φ − a₂ sin φ and a₁ sin φ + a₂ cos φ \[m/s²\].
+    #[must_use]
+    pub fn components(&self, t: f64) -> Ground {
+        let first = self.acceleration(t);
+        let Some(bearing) = &self.bearing else {
+            return [first, 0.0];
+        };
+        let across = bearing.across.as_ref();
+        let second = across.map_or(0.0, |motion| motion.acceleration(t));
+        let (sin, cos) = bearing.angle.sin_cos();
+        [first * cos - second * sin, first * sin + second * cos]
     }
 
     /// Ground acceleration at time `t` \[m/s²\].
@@ -125,22 +153,38 @@ impl GroundMotion {
         }
     }
 
-    /// Sampling step of a record; `None` for analytic waves \[s\].
+    /// Sampling step of a record, the finer one of two components; `None` for analytic waves \[s\].
     #[must_use]
     pub fn step(&self) -> Option<f64> {
-        match self.wave {
+        let own = match self.wave {
             Wave::Sampled { step, .. } => Some(step),
             _ => None,
-        }
+        };
+        let across = self.across().and_then(Self::step);
+        own.zip(across)
+            .map(|(own, across)| own.min(across))
+            .or(own)
+            .or(across)
     }
 
     /// Shortest period of an analytic wave; `None` for records \[s\].
     #[must_use]
     pub fn period(&self) -> Option<f64> {
-        match self.wave {
+        let own = match self.wave {
             Wave::Sampled { .. } => None,
             Wave::Sine { period, .. } | Wave::Ricker { period, .. } => Some(period),
-        }
+        };
+        let across = self.across().and_then(Self::period);
+        own.zip(across)
+            .map(|(own, across)| own.min(across))
+            .or(own)
+            .or(across)
+    }
+
+    /// The component across, if there is one.
+    #[must_use]
+    pub fn across(&self) -> Option<&Self> {
+        self.bearing.as_ref()?.across.as_ref()
     }
 
     /// Number of record points; 0 for analytic waves.
@@ -207,6 +251,7 @@ mod tests {
                 period: 0.5,
                 centre: 1.0,
             },
+            bearing: None,
         };
         assert_eq!(motion.acceleration(1.0), -3.0);
         assert_eq!(motion.peak(), 3.0);

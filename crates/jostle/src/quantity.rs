@@ -23,6 +23,9 @@ impl Unit {
     pub const M: Self = Self { symbol: "m", suffix: "_m" };
     pub const M_S: Self = Self { symbol: "m/s", suffix: "_m_s" };
     pub const M_S2: Self = Self { symbol: "m/s²", suffix: "_m_s2" };
+    pub const RAD: Self = Self { symbol: "rad", suffix: "_rad" };
+    pub const RAD_S: Self = Self { symbol: "rad/s", suffix: "_rad_s" };
+    pub const RAD_S2: Self = Self { symbol: "rad/s²", suffix: "_rad_s2" };
     pub const KG: Self = Self { symbol: "kg", suffix: "_kg" };
     pub const N: Self = Self { symbol: "N", suffix: "_n" };
     pub const NM: Self = Self { symbol: "N·m", suffix: "_n_m" };

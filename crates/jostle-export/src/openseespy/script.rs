@@ -78,6 +78,13 @@ impl<'a> Script<'a> {
             place += nodes
                 .iter()
                 .fold(0.0, |widest: f64, node| widest.max(node.x));
+            if building.is_in_space() {
+                faults.push(ModelFault {
+                    path: format!("building[{index}].plan"),
+                    problem: "cannot be exported to OpenSees yet".into(),
+                });
+                continue;
+            }
             if let Err(rule) = script.add_building(index, building) {
                 faults.push(ModelFault {
                     path: format!("building[{index}]"),
@@ -85,7 +92,9 @@ impl<'a> Script<'a> {
                 });
             }
         }
-        script.add_contacts(&mut faults);
+        if !export.system.is_in_space() {
+            script.add_contacts(&mut faults);
+        }
         script.refuse_links(&mut faults);
         script.remark_on_motion();
         if faults.is_empty() {
@@ -602,6 +611,7 @@ impl<'a> Script<'a> {
             scale,
             duration,
             wave,
+            bearing: _,
         } = self.export.motion;
         writeln!(out, "GRAVITY = {STANDARD_GRAVITY:?}  # m/s2")?;
         writeln!(out, "\n# Ground motion: {}", comment(name))?;

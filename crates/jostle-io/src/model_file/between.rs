@@ -1,7 +1,7 @@
 //! Common parts of gaps and links: two neighbours and pairs of points.
 
 use jostle::model::LEVEL_TOLERANCE;
-use jostle::{Building, FloorPairs, Level};
+use jostle::{Building, FloorPairs, Level, Structure};
 
 use crate::keys::nearest;
 use crate::quantity::{Dimension, shorten};
@@ -57,6 +57,10 @@ pub(super) fn neighbours(
     let right_index = right_name.and_then(|name| index(right, &name));
     let between = [left_index?, right_index?];
     let last = buildings.len().checked_sub(1);
+    let in_space = |building: &Building| matches!(building.structure, Structure::Tiers(_));
+    if buildings.iter().any(in_space) {
+        return in_any_order(reader, &field, between);
+    }
     let problem = match between {
         [Some(left), Some(right)] if right == left + 1 => return Some(between),
         [None, Some(0)] => return Some(between),
@@ -71,6 +75,28 @@ pub(super) fn neighbours(
     *reader.bad(&field, problem) =
         Some(format!("the buildings stand, from left to right: {order}"));
     None
+}
+
+/// Any two buildings with plans.
+fn in_any_order(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    between: [Option<usize>; 2],
+) -> Option<[Option<usize>; 2]> {
+    match between {
+        [Some(a), Some(b)] if a != b => Some(between),
+        [Some(_), Some(_)] => {
+            reader.bad(field, "names the same building twice");
+            None
+        }
+        _ => {
+            *reader.bad(
+                field,
+                "names a wall, which buildings with a plan cannot have yet",
+            ) = Some("name two buildings".into());
+            None
+        }
+    }
 }
 
 /// Quoted names, the first twenty of them.

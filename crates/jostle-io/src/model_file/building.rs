@@ -3,11 +3,11 @@
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{FrameHinges, Hinges};
 use jostle::separation::BuildingCodes;
-use jostle::{Analysis, Base, Building, Damping, Gravity, Model, Structure};
+use jostle::{Analysis, Base, Building, Damping, Gravity, Model, PlanPoint, Structure};
 use std::path::Path;
 
 use super::reinforced::{self, ReinforcedMember};
-use super::{codes, frame, given, hinges, shear};
+use super::{codes, frame, given, hinges, plan, shear};
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -19,8 +19,16 @@ const MOST_BUILDINGS: usize = 1000;
 /// Most storeys of a building.
 const MOST_STOREYS: usize = 200;
 
-/// Buildings, their reinforced members and their factors in codes.
-pub(super) type Buildings = (Vec<Building>, Vec<ReinforcedMember>, Vec<BuildingCodes>);
+/// Buildings, and what a file says of them beyond.
+pub(super) struct Buildings {
+    pub(super) buildings: Vec<Building>,
+    /// Their reinforced members.
+    pub(super) members: Vec<ReinforcedMember>,
+    /// Their factors in codes.
+    pub(super) codes: Vec<BuildingCodes>,
+    /// Where those with a plan stand on the site; `None` stands in a row.
+    pub(super) at: Vec<Option<PlanPoint>>,
+}
 
 /// Reads the list of buildings; `None` if it is not a list.
 pub(super) fn read_all(
@@ -44,19 +52,36 @@ pub(super) fn read_all(
         );
         return None;
     }
-    let (mut members, mut of_codes) = (Vec::new(), Vec::new());
+    let (mut members, mut of_codes, mut at) = (Vec::new(), Vec::new(), Vec::new());
     let buildings = entries
         .iter()
         .enumerate()
         .map(|(i, entry)| {
-            let building = read(reader, entry, i, base, &mut members);
+            let mut place = None;
+            let building = read(reader, entry, i, base, &mut members, &mut place);
+            at.push(place);
             of_codes.push(read_codes(reader, entry));
             building
         })
         .collect::<Vec<_>>();
     // If a building is not a table, the positions of the others in the row are unknown.
     let buildings: Option<Vec<_>> = buildings.into_iter().collect();
-    Some((buildings?, members, of_codes))
+    Some(Buildings {
+        buildings: buildings?,
+        members,
+        codes: of_codes,
+        at,
+    })
+}
+
+/// Keys that need a plan.
+fn refuse_plan_keys(reader: &mut Reader<'_>, view: &View<'_>) {
+    for key in ["at", "mass_centre", "polar_mass", "eccentricity", "element"] {
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, "needs a plan") =
+                Some("add plan = [\"20 m\", \"12 m\"], or corners".into());
+        }
+    }
 }
 
 /// Factors of a building in codes.
@@ -74,6 +99,7 @@ fn read(
     index: usize,
     base: &Path,
     members: &mut Vec<ReinforcedMember>,
+    at: &mut Option<PlanPoint>,
 ) -> Option<Building> {
     let noted = reader.count_faults();
     let kind = kind_of(field);
@@ -105,7 +131,15 @@ fn read(
     }
     let mut damped = None;
     let structure = match kind {
-        Kind::Shear => Structure::Shear(shear::read(reader, &view)),
+        Kind::Shear if view.has("plan") => {
+            let read = plan::read(reader, &view);
+            *at = read.at;
+            Structure::Tiers(read.tiers)
+        }
+        Kind::Shear => {
+            refuse_plan_keys(reader, &view);
+            Structure::Shear(shear::read(reader, &view))
+        }
         Kind::Frame => Structure::Frame(frame::read(reader, &view)),
         Kind::Given => {
             let read = given::read(reader, &view, base);
@@ -153,6 +187,13 @@ fn read(
     building.hinges = match &building.structure {
         Structure::Shear(shear) => {
             stated.and_then(|field| hinges::read_storeys(reader, &field, shear))
+        }
+        Structure::Tiers(_) => {
+            if let Some(field) = &stated {
+                *reader.bad(field, "is not possible for a building with a plan yet") =
+                    Some("leave out hinges, or plan".into());
+            }
+            None
         }
         Structure::Given(_) => None,
         Structure::Frame(frame) => {
@@ -363,6 +404,9 @@ fn read_damping(
         let field = reader.get(&view, key)?;
         reader.quantity(&field, dimension)
     };
+    if let Some(field) = reader.get(&view, "along") {
+        reader.choice(&field, &["x"], &[]);
+    }
     let alpha = number(reader, "alpha", Dimension::Frequency);
     let beta = number(reader, "beta", Dimension::Time);
     let ratio = number(reader, "ratio", Dimension::Dimensionless);

@@ -1,7 +1,9 @@
 //! `[[gap]]`: the gap between two neighbours, or beside a wall, and its contact law.
 
 use jostle::contact::ModifiedKelvin;
-use jostle::{Building, ContactLaw, FloorPairs, Gap, LawKind, RestitutionIs};
+use jostle::{
+    Building, ContactLaw, FloorPairs, Gap, LawKind, PlanContact, RestitutionIs, Structure,
+};
 
 use super::between::{MOST_CONTACTS, floors, neighbours, tolerance};
 use crate::keys::{LAW_VARIANTS, LAWS, RESTITUTION_IS, Section};
@@ -51,16 +53,31 @@ pub(super) fn read_all(
 fn read(reader: &mut Reader<'_>, field: &Field<'_>, buildings: Option<&[Building]>) -> Option<Gap> {
     let view = reader.open(field, &[Section::Gap])?;
     let between = neighbours(reader, &view, buildings);
+    let has_plan = |building: &Building| matches!(building.structure, Structure::Tiers(_));
+    let in_space = buildings.is_some_and(|list| list.iter().any(has_plan));
     let widths = match reader.get(&view, "width") {
         Some(field) => widths(reader, &field),
+        // Plans with their places say how wide the gap is.
+        None if in_space => None,
         None => {
             reader.missing(&view, "width", "add width = \"100 mm\"");
             None
         }
     };
+    let (in_plan, per_length) = plan_contact(reader, &view, in_space);
     let floors = floors(reader, &view);
     let level_tolerance = tolerance(reader, &view);
-    let law = law(reader, &view);
+    let mut law = law(reader, &view, in_plan.per_length);
+    if let Some(stiffness) = per_length.and_then(|field| {
+        let dimension = if law.kind.is_hertzian() {
+            Dimension::HertzStiffnessPerLength
+        } else {
+            Dimension::StiffnessPerLength
+        };
+        reader.quantity(&field, dimension)
+    }) {
+        law.stiffness = stiffness;
+    }
     let minimum_separation = optional(reader, &view, "minimum_separation", Dimension::Time);
     Some(Gap {
         between: between?,
@@ -69,7 +86,43 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, buildings: Option<&[Building
         level_tolerance,
         law,
         minimum_separation: minimum_separation.unwrap_or(0.0),
+        in_plan,
     })
+}
+
+/// How plans touch, and the stiffness per length, if it is given.
+fn plan_contact<'n>(
+    reader: &mut Reader<'_>,
+    view: &View<'n>,
+    in_space: bool,
+) -> (PlanContact, Option<Field<'n>>) {
+    let mut contact = PlanContact::default();
+    if !in_space {
+        for key in ["points", "reach", "stiffness_per_length"] {
+            if let Some(field) = reader.get(view, key) {
+                *reader.bad(&field, "is for buildings with a plan") =
+                    Some(format!("remove {key}, or give every building a plan"));
+            }
+        }
+        return (contact, None);
+    }
+    if let Some(points) = reader
+        .get(view, "points")
+        .and_then(|field| reader.count(&field))
+    {
+        contact.points = points;
+    }
+    if let Some(field) = reader.get(view, "reach") {
+        contact.reach = reader
+            .quantity(&field, Dimension::Length)
+            .unwrap_or(contact.reach);
+    }
+    let per_length = reader.get(view, "stiffness_per_length");
+    if let (Some(field), true) = (&per_length, view.has("stiffness")) {
+        *reader.bad(field, "cannot be combined with stiffness") = Some("keep one of them".into());
+    }
+    contact.per_length = per_length.is_some();
+    (contact, per_length)
 }
 
 /// One width, or one per contact.
@@ -93,7 +146,7 @@ fn widths(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<f64>> {
     widths.into_iter().collect()
 }
 
-fn law(reader: &mut Reader<'_>, view: &View<'_>) -> ContactLaw {
+fn law(reader: &mut Reader<'_>, view: &View<'_>, per_length: bool) -> ContactLaw {
     let named = reader
         .get(view, "law")
         .map(|field| reader.choice(&field, LAWS, &[]));
@@ -101,7 +154,10 @@ fn law(reader: &mut Reader<'_>, view: &View<'_>) -> ContactLaw {
     let kind = known.unwrap_or(DEFAULT_LAW);
     let law_is_bad = matches!(named, Some(None));
     let kind = with_parameters(reader, view, kind, law_is_bad);
-    let stiffness = stiffness(reader, view, kind, law_is_bad);
+    let stiffness = match per_length {
+        true => None,
+        false => stiffness(reader, view, kind, law_is_bad),
+    };
     let restitution = match reader.get(view, "restitution") {
         Some(field) => reader.quantity(&field, Dimension::Dimensionless),
         None => None,

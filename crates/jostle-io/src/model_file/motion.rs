@@ -6,7 +6,7 @@ use jostle_motion::GoverningRule;
 
 use super::matching;
 use crate::keys::{RECORD_FORMATS, Section, WAVES};
-use crate::motion_spec::{MotionSource, MotionSpec, Scaling};
+use crate::motion_spec::{BearingSpec, MotionSource, MotionSpec, Scaling};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::record::{RecordFormat, RecordOptions, acceleration_unit};
@@ -61,6 +61,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
             None
         }
     };
+    let bearing = bearing(reader, &view, base);
     let scaling = scaling(reader, &view, base);
     let reverse = reader
         .get(&view, "reverse")
@@ -70,6 +71,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
         scaling,
         reverse: reverse.unwrap_or(false),
         duration,
+        bearing,
     })
 }
 
@@ -79,6 +81,39 @@ pub(super) fn governing(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Go
     let named = reader.get(&view, "governing")?;
     let name = reader.choice(&named, &GoverningRule::NAMES, &[])?;
     GoverningRule::from_name(name)
+}
+
+/// `angle` and `across`, if one of them is there.
+fn bearing(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<Box<BearingSpec>> {
+    let angle = reader
+        .get(view, "angle")
+        .and_then(|field| reader.quantity(&field, Dimension::Dimensionless));
+    let across = reader.get(view, "across");
+    let across = across.and_then(|field| match field.as_text().map(str::to_owned) {
+        Some(name) => Some(MotionSpec {
+            source: MotionSource::Record {
+                name,
+                base: base.to_owned(),
+                options: RecordOptions::default(),
+            },
+            ..MotionSpec::record("")
+        }),
+        None => {
+            let own = read(reader, &field, base)?;
+            if own.bearing.is_some() {
+                *reader.bad(&field, "has an angle or a motion across of its own") =
+                    Some("give them under [motion] only".into());
+            }
+            Some(own)
+        }
+    });
+    if angle.is_none() && across.is_none() {
+        return None;
+    }
+    Some(Box::new(BearingSpec {
+        angle: angle.unwrap_or(0.0),
+        across,
+    }))
 }
 
 fn duration(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {

@@ -39,6 +39,10 @@ impl Outline {
                 }
                 lines
             }
+            Structure::Tiers(tiers) => {
+                let [from, to] = tiers.extent_along();
+                vec![0.0, to - from]
+            }
             Structure::Shear(_) | Structure::Given(_) => {
                 vec![0.0, (SLENDERNESS * height).max(LEAST_WIDTH)]
             }

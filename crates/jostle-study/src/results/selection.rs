@@ -318,6 +318,7 @@ fn motion(spec: &MotionSpec, peak: Peak) -> Result<Accelerogram, String> {
         scale,
         duration,
         wave,
+        bearing: _,
     } = spec.resolve().map_err(|error| error.to_string())?;
     let Wave::Sampled {
         step,

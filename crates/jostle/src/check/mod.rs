@@ -3,6 +3,7 @@
 mod given;
 mod members;
 mod neighbours;
+mod plan;
 
 use members::check_members;
 use neighbours::check_neighbours;
@@ -86,6 +87,7 @@ fn check(model: &Model) -> Result<(), Vec<ModelFault>> {
             )
         });
     }
+    plan::check_space(&mut faults, model);
     check_neighbours(&mut faults, model);
     check_analysis(&mut faults, model);
     check_members(&mut faults, model);
@@ -114,6 +116,7 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
         Structure::Frame(frame) => check_frame(faults, path, frame),
         Structure::Shear(shear) => check_shear(faults, path, shear),
         Structure::Given(given) => given::check_given(faults, path, given, building),
+        Structure::Tiers(tiers) => plan::check_tiers(faults, path, tiers, building),
     }
     check_base(
         faults,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::plan::check_plan_gap;
 use super::{Faults, each};
 use crate::contact::{ContactLaw, LawKind};
 use crate::interface::contact_points::{crowded, point_pairs};
@@ -26,6 +27,9 @@ pub(super) fn check_neighbours(faults: &mut Faults, model: &Model) {
 
 /// Points of different gaps and links that nearly coincide on one side of a building.
 fn check_room(faults: &mut Faults, model: &Model) {
+    if model.is_in_space() {
+        return;
+    }
     let gaps = each(&model.gaps, "gap")
         .map(|(path, gap)| (path, gap.between, &gap.floors, gap.level_tolerance));
     let links = each(&model.links, "link")
@@ -93,7 +97,9 @@ fn check_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
         || format!("must not be negative, found {separation} s"),
     );
     faults.positive(gap.level_tolerance, format!("{path}.level_tolerance"), "m");
-    if !check_between(faults, path, gap.between, model) {
+    if model.is_in_space() {
+        check_plan_gap(faults, path, gap, model);
+    } else if !check_between(faults, path, gap.between, model) {
         return;
     }
     faults.positive(

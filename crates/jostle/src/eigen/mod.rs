@@ -33,6 +33,10 @@ pub struct Mode {
     pub effective_mass_ratio_x: f64,
     /// Share of the vibrating mass that the mode carries vertically \[–\].
     pub effective_mass_ratio_y: f64,
+    /// Share of the vibrating mass that the mode carries across the row; 0 in one plane \[–\].
+    pub effective_mass_ratio_across: f64,
+    /// Share of the polar mass that turns with the mode; 0 in one plane \[–\].
+    pub effective_mass_ratio_torsion: f64,
     /// Horizontal participation factor φᵀM r, for the mass-normalised shape \[kg^½\].
     pub participation: f64,
     /// Mass-normalised shape φ (φᵀMφ = 1) at the floors, from the ground up \[kg^−½\].
@@ -48,10 +52,12 @@ impl Mode {
         2.0 * PI / self.circular_frequency
     }
 
-    /// Whether the mode is lateral: it carries at least 1 % of the mass horizontally.
+    /// Whether the mode is lateral: it carries at least 1 % of the mass horizontally, along x or across.
     #[must_use]
     pub fn is_lateral(&self) -> bool {
-        self.effective_mass_ratio_x >= LATERAL_SHARE
+        self.effective_mass_ratio_x
+            .max(self.effective_mass_ratio_across)
+            >= LATERAL_SHARE
     }
 
     /// A mode from ω² and a shape of any scale.
@@ -62,9 +68,14 @@ impl Mode {
             along(&equations.driven_mass),
             along(&equations.vertical_mass),
         );
-        // Sign: positive participation.
+        let across = along(&equations.driven_across);
+        let polar = equations.polar_mass();
+        let turning = along(&polar);
+        let turns: f64 = polar.iter().sum();
+        // Sign: positive participation along x, or across where that is greater.
         let norm = inner(&equations.mass, &shape, &shape).sqrt();
-        let scale = if x < 0.0 { -1.0 / norm } else { 1.0 / norm };
+        let sign = if across.abs() > x.abs() { across } else { x };
+        let scale = if sign < 0.0 { -1.0 / norm } else { 1.0 / norm };
         for value in &mut shape {
             *value *= scale;
         }
@@ -73,6 +84,11 @@ impl Mode {
             circular_frequency: squared_frequency.sqrt(),
             effective_mass_ratio_x: x * x / total,
             effective_mass_ratio_y: y * y / total,
+            effective_mass_ratio_across: (across * scale).powi(2) / total,
+            effective_mass_ratio_torsion: match polar.is_empty() {
+                true => 0.0,
+                false => (turning * scale).powi(2) / turns,
+            },
             participation: x,
             floors: building.floor_dofs.iter().map(|&dof| shape[dof]).collect(),
             shape,

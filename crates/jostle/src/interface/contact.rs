@@ -1,7 +1,9 @@
 //! A place where two buildings, or a building and a wall, can touch.
 
 use super::PortPair;
+use super::plan_contacts::PlanContactKind;
 use crate::contact::ForceLaw;
+use crate::model::PlanPoint;
 
 /// A place where two neighbouring buildings, or a building and a wall, can touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +18,25 @@ pub struct Contact {
     pub width: f64,
     /// Force law.
     pub law: ForceLaw,
+    /// Where it is in plan; `None` in one plane.
+    pub plan: Option<PlanPlace>,
+}
+
+/// A point of a face, or a corner, in plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanPlace {
+    /// Face or corner.
+    pub kind: PlanContactKind,
+    /// Number of the face among all of the system, from 0.
+    pub face: usize,
+    /// Place on the site, midway across the gap \[m\].
+    pub at: PlanPoint,
+    /// Unit normal from the first building to the second.
+    pub normal: PlanPoint,
+    /// Length of the face; zero for a corner \[m\].
+    pub overlap: f64,
+    /// Share of the stiffness of the face \[–\].
+    pub share: f64,
 }
 
 impl Contact {
@@ -37,6 +58,7 @@ impl Contact {
                 stiffness: 0.0,
                 damping: 0.0,
             },
+            plan: None,
         }
     }
 }

@@ -50,6 +50,15 @@ impl DofRow {
         Some(row)
     }
 
+    /// Three degrees of freedom with their coefficients.
+    #[must_use]
+    pub fn three(entries: [(usize, f64); MOST]) -> Self {
+        Self {
+            entries,
+            count: MOST,
+        }
+    }
+
     /// Degrees of freedom with their coefficients.
     #[must_use]
     #[inline]

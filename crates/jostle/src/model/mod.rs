@@ -7,6 +7,7 @@ mod capacity;
 mod given;
 mod integrator;
 mod members;
+mod tiers;
 
 use crate::contact::ContactLaw;
 use crate::hysteresis::Hysteresis;
@@ -17,6 +18,7 @@ pub use capacity::{
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
 pub use members::MemberRequest;
+pub use tiers::{PlanArea, PlanPoint, Tier, TierStorey, Tiers};
 
 /// Buildings in a row, gaps and links between them, and the settings of the analysis.
 ///
@@ -238,6 +240,8 @@ pub enum Structure {
     Shear(Shear),
     /// Masses, damping and stiffness as matrices.
     Given(Given),
+    /// Rigid floors that move in both horizontal directions and turn.
+    Tiers(Tiers),
 }
 
 /// Plane frame: `storey_heights.len()` storeys, `spans.len() + 1` column lines.
@@ -390,7 +394,8 @@ pub fn usual_damping_modes(lateral_modes: usize) -> &'static [usize] {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Damping {
-    /// The same ratio in one or two lateral modes (counted from 1). One mode: mass-proportional.
+    /// The same ratio in one or two lateral modes (counted from 1). One mode: mass-proportional. Modes of a building in space
+    /// are counted as if it were held to sway along x alone.
     Ratio {
         /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
         ratio: f64,
@@ -446,6 +451,29 @@ pub struct Gap {
     pub law: ContactLaw,
     /// Impacts of one contact closer in time than this count as one, ≥ 0 \[s\].
     pub minimum_separation: f64,
+    /// How plans of buildings in space touch; not used in one plane.
+    pub in_plan: PlanContact,
+}
+
+/// How the plans of two buildings touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanContact {
+    /// Lobatto points of every face, 2 to 9 \[–\].
+    pub points: usize,
+    /// Greatest distance of edges that can touch, > 0 \[m\].
+    pub reach: f64,
+    /// Whether the stiffness of the law is per metre of face rather than that of a whole face.
+    pub per_length: bool,
+}
+
+impl Default for PlanContact {
+    fn default() -> Self {
+        Self {
+            points: 5,
+            reach: 0.5,
+            per_length: false,
+        }
+    }
 }
 
 impl Gap {
@@ -465,6 +493,7 @@ impl Gap {
             level_tolerance: LEVEL_TOLERANCE,
             law,
             minimum_separation: 0.0,
+            in_plan: PlanContact::default(),
         }
     }
 
@@ -519,6 +548,9 @@ pub struct Link {
     /// Force per relative velocity of every link, ≥ 0 \[N·s/m\].
     pub damping: f64,
 }
+
+/// Standard gravity \[m/s²\].
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Default tolerance for equal floor heights \[m\].
 pub const LEVEL_TOLERANCE: f64 = 1e-3;
@@ -722,6 +754,15 @@ impl Model {
     }
 }
 
+impl Model {
+    /// Whether its buildings stand in space, with plans, rather than in one plane.
+    #[must_use]
+    pub fn is_in_space(&self) -> bool {
+        let mut buildings = self.buildings.iter();
+        buildings.any(|building| matches!(building.structure, Structure::Tiers(_)))
+    }
+}
+
 impl Building {
     /// Number of floors (= storeys).
     #[must_use]
@@ -736,6 +777,7 @@ impl Building {
             Structure::Frame(frame) => &frame.storey_heights,
             Structure::Shear(shear) => &shear.storey_heights,
             Structure::Given(given) => &given.storey_heights,
+            Structure::Tiers(tiers) => &tiers.storey_heights,
         }
     }
 

@@ -106,7 +106,7 @@ fn impacts_at(building: usize, section: &MemberSection, run: &Run) -> (usize, f6
         });
         if here {
             let gap = &run.model.gaps[contact.gap];
-            let impacts = counted_impacts(index, gap, run.outcome);
+            let impacts = counted_impacts(index, gap, run);
             count += impacts.len();
             force = impacts
                 .iter()

@@ -4,6 +4,7 @@ mod capacity;
 pub mod contact_sensitivity;
 mod counted_impact;
 pub mod floor_spectra;
+mod in_plan;
 mod members;
 pub mod registry;
 pub mod response;

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::in_plan::{BuildingInPlan, FloorInPlan};
 use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
@@ -58,7 +59,9 @@ pub fn owners() -> Vec<Owner> {
         owner("Ground motion", "motion", None, "", &[entries(MotionSummary::QUANTITIES)]),
         owner("All gaps together", "", None, "", &[entries(Summary::POUNDING)]),
         owner("Buildings", "buildings[]", Some("buildings.parquet"), "J1.", &[entries(BuildingSummary::QUANTITIES), entries(BuildingResponse::QUANTITIES)]),
+        owner("Buildings in plan", "buildings[]", None, "", &[entries(BuildingInPlan::QUANTITIES)]),
         owner("Floors", "buildings[].floors[]", Some("floors.parquet"), "J1.floor3.", &[entries(FloorSummary::QUANTITIES), entries(FloorResponse::QUANTITIES)]),
+        owner("Floors in plan", "buildings[].floors[]", None, "", &[entries(FloorInPlan::QUANTITIES)]),
         owner("Hinges of a building", "buildings[].hinges", None, "", &[entries(HingeSummary::QUANTITIES)]),
         owner("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries(SpringSummary::QUANTITIES)]),
         owner("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries(SectionSummary::QUANTITIES)]),

@@ -1,5 +1,8 @@
 //! Computes the numbers of `summary.json` from the outcome of a run.
 
+use super::in_plan::{
+    building_in_plan, centre_of, floor_in_plan, place_of_face, points_of, reported_impacts,
+};
 use crate::contact::{LawKind, RestitutionIs};
 use crate::history::Impact;
 use crate::hysteresis::{Side, Stage};
@@ -149,6 +152,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
             floor: k + 1,
             height_m: floor.height,
             response,
+            in_plan: floor_in_plan(index, k, run.outcome),
             without_contact,
             amplification: without_contact
                 .map(|without| Amplification::new(FloorResponse::QUANTITIES, &response, &without)),
@@ -168,6 +172,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         rayleigh_beta_s: building.equations.beta,
         floors: floors.collect(),
         response,
+        in_plan: building_in_plan(index, run.outcome),
         without_contact,
         amplification: without_contact
             .map(|without| Amplification::new(BuildingResponse::QUANTITIES, &response, &without)),
@@ -241,12 +246,22 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
     let Run {
         system, outcome, ..
     } = *run;
-    let own: Vec<usize> = (0..system.contacts.len())
+    let points: Vec<usize> = (0..system.contacts.len())
         .filter(|&contact| system.contacts[contact].gap == index)
         .collect();
+    // Faces where buildings are in space, otherwise contacts.
+    let mut own: Vec<usize> = points
+        .iter()
+        .map(|&point| {
+            system.contacts[point]
+                .plan
+                .map_or(point, |place| place.face)
+        })
+        .collect();
+    own.dedup();
     let mut counted: Vec<Vec<CountedImpact>> = own
         .iter()
-        .map(|&contact| counted_impacts(contact, gap, outcome))
+        .map(|&contact| counted_impacts(contact, gap, run))
         .collect();
     let poundings = find_simultaneous(&mut counted);
     let contacts: Vec<ContactSummary> = own
@@ -262,9 +277,9 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
     GapSummary {
         between: names(gap.between, system),
         width_m: gap.width(),
-        clearance_m: contacts
+        clearance_m: points
             .iter()
-            .map(|contact| contact.width_m - contact.closing_peak_m)
+            .map(|&point| system.contacts[point].width - outcome.closing[point].value)
             .fold(f64::INFINITY, f64::min),
         law: gap.law.kind.full_name(),
         free_restitution: gap.law.free_restitution(),
@@ -285,7 +300,7 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
                 let wider = system.contacts[contact].width - gap.width();
                 outcome.closing[contact].value - wider
             };
-            own.iter().map(needed).fold(0.0, f64::max)
+            points.iter().map(needed).fold(0.0, f64::max)
         }),
         contacts,
     }
@@ -331,9 +346,9 @@ fn link_summary(index: usize, run: &Run) -> LinkSummary {
     }
 }
 
-pub(super) fn counted_impacts(index: usize, gap: &Gap, outcome: &Outcome) -> Vec<CountedImpact> {
-    let mut impacts: Vec<&Impact> = outcome
-        .impacts
+pub(super) fn counted_impacts(index: usize, gap: &Gap, run: &Run) -> Vec<CountedImpact> {
+    let reported = reported_impacts(run.system, run.outcome);
+    let mut impacts: Vec<&Impact> = reported
         .iter()
         .filter(|impact| impact.contact == index)
         .collect();
@@ -351,19 +366,34 @@ fn contact_summary(
     let strongest = all()
         .filter(|impact| impact.peak_force > 0.0)
         .max_by(|a, b| a.peak_force.total_cmp(&b.peak_force));
-    let contact = &system.contacts[index];
+    let points = points_of(system, index);
+    let first = points.first().copied().unwrap_or(index);
+    let contact = &system.contacts[first];
+    let widths = points.iter().map(|&point| system.contacts[point].width);
+    let closing = points.iter().map(|&point| outcome.closing[point]);
+    let closing = closing.max_by(|a, b| a.value.total_cmp(&b.value));
+    let closing = closing.unwrap_or_default();
     ContactSummary {
         floors: contact.ports.floors(),
         height_m: contact.height,
-        width_m: contact.width,
-        closing_peak_m: outcome.closing[index].value,
-        closing_peak_at_s: outcome.closing[index].at,
+        in_plan: contact
+            .plan
+            .and_then(|place| place_of_face(system, place.face)),
+        width_m: widths.fold(f64::INFINITY, f64::min),
+        closing_peak_m: closing.value,
+        closing_peak_at_s: closing.at,
         impact_count: impacts.len(),
         peak_force_n: strongest.map_or(0.0, |impact| impact.peak_force),
         peak_force_at_s: strongest.map(|impact| impact.peak_force_at),
         // An empty sum would be −0.
         impulse_n_s: all().fold(0.0, |sum, impact| sum + impact.impulse),
-        impacts: impacts.iter().map(ImpactSummary::from).collect(),
+        impacts: impacts
+            .iter()
+            .map(|counted| ImpactSummary {
+                centre_m: centre_of(&counted.impact, outcome),
+                ..ImpactSummary::from(counted)
+            })
+            .collect(),
     }
 }
 
@@ -384,6 +414,7 @@ impl From<&CountedImpact> for ImpactSummary {
             finished: impact.finished,
             touches: counted.touches,
             simultaneous: counted.simultaneous,
+            centre_m: None,
         }
     }
 }

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::contact_sensitivity::ContactSensitivity;
 use super::floor_spectra::FloorSpectra;
+use super::in_plan::{BuildingInPlan, FloorInPlan, PlanContactSummary};
 use super::response::{Amplification, BuildingResponse, FloorResponse};
 use crate::quantity::{Quantity, Unit};
 
@@ -129,6 +130,9 @@ pub struct BuildingSummary {
     /// Its peaks, and what is left at the end.
     #[serde(flatten)]
     pub response: BuildingResponse,
+    /// Peaks across the row and in torsion; absent in one plane.
+    #[serde(flatten)]
+    pub in_plan: Option<BuildingInPlan>,
     /// The same in the run without contact, if it exists.
     pub without_contact: Option<BuildingResponse>,
     /// The former over the latter, if that run exists.
@@ -447,6 +451,9 @@ pub struct FloorSummary {
     /// Its peaks, and what is left at the end.
     #[serde(flatten)]
     pub response: FloorResponse,
+    /// Peaks across the row and in rotation; absent in one plane.
+    #[serde(flatten)]
+    pub in_plan: Option<FloorInPlan>,
     /// The same in the run without contact, if it exists.
     pub without_contact: Option<FloorResponse>,
     /// The former over the latter, if that run exists.
@@ -552,7 +559,10 @@ pub struct ContactSummary {
     pub floors: [Option<usize>; 2],
     /// Height above the base \[m\].
     pub height_m: f64,
-    /// Width at rest \[m\].
+    /// Where it is in plan; absent in one plane.
+    #[serde(flatten)]
+    pub in_plan: Option<PlanContactSummary>,
+    /// Width at rest, the least of its points \[m\].
     pub width_m: f64,
     /// Greatest closing u_left − u_right \[m\].
     pub closing_peak_m: f64,
@@ -671,6 +681,9 @@ pub struct ImpactSummary {
     pub touches: usize,
     /// Greatest number of contacts of the gap in impact at one instant of it, itself included.
     pub simultaneous: usize,
+    /// Centre of pressure at the greatest force, on the site; absent in one plane \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre_m: Option<[f64; 2]>,
 }
 
 #[rustfmt::skip]

@@ -2,13 +2,10 @@
 
 use super::{PathError, Settled, settle};
 use crate::linear::{NotPositive, StepMatrix};
-use crate::model::Gravity;
+use crate::model::{Gravity, STANDARD_GRAVITY};
 use crate::structure::element::{self, Y};
 use crate::structure::{AssembledBuilding, StepEquations, StickModel};
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
-
-/// Standard gravity \[m/s²\].
-pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Static displacement of every degree of freedom of a building under its own weight \[m, rad\], as long as nothing
 /// cracks; [`settle`] goes further.

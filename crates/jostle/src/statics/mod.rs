@@ -7,8 +7,9 @@
 mod equilibrium_path;
 mod gravity;
 
+pub use crate::model::STANDARD_GRAVITY;
 pub use equilibrium_path::{EquilibriumPath, PathError, Reached};
-pub use gravity::{Collapse, STANDARD_GRAVITY, compressions, static_displacement, under_gravity};
+pub use gravity::{Collapse, compressions, static_displacement, under_gravity};
 
 use crate::hysteresis::HysteresisMemory;
 use crate::structure::AssembledBuilding;

@@ -17,12 +17,47 @@ pub(super) struct StepForce {
 
 impl StepForce {
     /// Force at a fraction of the step \[N\].
-    fn at(&self, fraction: f64) -> f64 {
+    pub(super) fn at(&self, fraction: f64) -> f64 {
         match &self.curve {
             Some(curve) => curve.value(fraction),
             None => self.ends[0] + fraction * (self.ends[1] - self.ends[0]),
         }
     }
+}
+
+/// Greatest sum of forces over a step \[s\] that began at `start` \[s\]. The sum is read at both ends, where one of the forces
+/// peaks, and where the sum of smooth forces does.
+pub(super) fn peak_of_sum(forces: &[StepForce], start: f64, step: f64) -> Extreme {
+    let mut peak = Extreme::default();
+    let mut consider = |value: f64, at: f64| {
+        if value > peak.value {
+            peak = Extreme { value, at };
+        }
+    };
+    let others = |own: usize| {
+        let others = forces.iter().enumerate();
+        others.filter(move |(other, _)| *other != own)
+    };
+    for (index, own) in forces.iter().enumerate() {
+        let fraction = (own.peak.at - start) / step;
+        let beside: f64 = others(index).map(|(_, force)| force.at(fraction)).sum();
+        consider(own.peak.value + beside, own.peak.at);
+    }
+    let Some(first) = forces.first() else {
+        return peak;
+    };
+    for (end, at) in [(0, start), (1, start + step)] {
+        let beside: f64 = others(0).map(|(_, force)| force.ends[end]).sum();
+        consider(first.ends[end] + beside, at);
+    }
+    let mut sum = first.curve;
+    for (_, force) in others(0) {
+        sum = sum.zip(force.curve).map(|(a, b)| a.plus(&b));
+    }
+    if let Some(most) = sum.and_then(|sum| sum.peak(start, step)) {
+        consider(most.value, most.at);
+    }
+    peak
 }
 
 /// Peak total force of every gap.
@@ -31,6 +66,8 @@ pub(super) struct GapForces {
     pub(super) peaks: Vec<Extreme>,
     /// Closed contacts of the step just accepted, with their gaps.
     step: Vec<(usize, StepForce)>,
+    /// Those of one gap.
+    together: Vec<StepForce>,
 }
 
 impl GapForces {
@@ -39,6 +76,7 @@ impl GapForces {
         Self {
             peaks: vec![Extreme::default(); gaps.max().unwrap_or(0)],
             step: Vec::with_capacity(system.contacts.len()),
+            together: Vec::with_capacity(system.contacts.len()),
         }
     }
 
@@ -47,37 +85,19 @@ impl GapForces {
         self.step.push((gap, force));
     }
 
-    /// Updates the peaks after a step \[s\] that began at `start` \[s\]. The sum is read at both ends, where one of its
-    /// forces peaks, and where the sum of smooth forces does.
+    /// Updates the peaks after a step \[s\] that began at `start` \[s\].
     pub(super) fn finish_step(&mut self, start: f64, step: f64) {
-        for (index, (gap, own)) in self.step.iter().enumerate() {
-            let others = || {
-                let others = self.step.iter().enumerate();
-                others.filter(move |(other, (place, _))| *other != index && place == gap)
-            };
-            let peak = &mut self.peaks[*gap];
-            let mut consider = |value: f64, at: f64| {
-                if value > peak.value {
-                    *peak = Extreme { value, at };
-                }
-            };
-            let fraction = (own.peak.at - start) / step;
-            let beside: f64 = others().map(|(_, (_, force))| force.at(fraction)).sum();
-            consider(own.peak.value + beside, own.peak.at);
-            // What concerns all contacts of the gap, once.
+        for (index, (gap, _)) in self.step.iter().enumerate() {
+            // Every gap once.
             if self.step[..index].iter().any(|(place, _)| place == gap) {
                 continue;
             }
-            for (end, at) in [(0, start), (1, start + step)] {
-                let beside: f64 = others().map(|(_, (_, force))| force.ends[end]).sum();
-                consider(own.ends[end] + beside, at);
-            }
-            let mut sum = own.curve;
-            for (_, (_, force)) in others() {
-                sum = sum.zip(force.curve).map(|(a, b)| a.plus(&b));
-            }
-            if let Some(most) = sum.and_then(|sum| sum.peak(start, step)) {
-                consider(most.value, most.at);
+            let own = self.step.iter().filter(|(place, _)| place == gap);
+            self.together.clear();
+            self.together.extend(own.map(|(_, force)| *force));
+            let most = peak_of_sum(&self.together, start, step);
+            if most.value > self.peaks[*gap].value {
+                self.peaks[*gap] = most;
             }
         }
         self.step.clear();
@@ -92,6 +112,7 @@ mod tests {
         GapForces {
             peaks: vec![Extreme::default(); gaps],
             step: Vec::new(),
+            together: Vec::new(),
         }
     }
 

@@ -12,6 +12,7 @@ mod energy;
 mod episode;
 mod events;
 mod expected_work;
+mod face_forces;
 mod gap_forces;
 mod member_peaks;
 mod member_ratios;
@@ -25,7 +26,7 @@ mod sensitivity;
 mod settle;
 mod simulate;
 
-pub use outcome::{Accuracy, Outcome, Pounding, Progress, RunEnd, Settings, StepError};
+pub use outcome::{Accuracy, Outcome, PlanPeaks, Pounding, Progress, RunEnd, Settings, StepError};
 pub use plan::{ContactSteps, Plan};
 pub use sensitivity::find_sensitivity;
 pub use simulate::{simulate, simulate_from};

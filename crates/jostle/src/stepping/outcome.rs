@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use super::member_ratios::MemberRatios;
 use crate::history::{
-    Energy, Extreme, FloorPeaks, History, Impact, LinkTotals, MemberHistory, SectionRatio,
-    SpringEvent, SpringHistory, SpringTotals, Work, WorstInstant,
+    Energy, Extreme, FaceImpact, FloorPeaks, History, Impact, LinkTotals, MemberHistory,
+    SectionRatio, SpringEvent, SpringHistory, SpringTotals, Work, WorstInstant,
 };
 use crate::linear::NotPositive;
 use crate::state::State;
@@ -88,10 +88,14 @@ pub struct Outcome {
     pub impacts: Vec<Impact>,
     /// Peaks of every floor of every building.
     pub floors: Vec<Vec<FloorPeaks>>,
+    /// Further peaks of buildings in space, building by building; empty lists in one plane.
+    pub in_plan: Vec<PlanPeaks>,
     /// Greatest closing u_left − u_right of every contact \[m\].
     pub closing: Vec<Extreme>,
     /// Greatest sum of the contact forces of a gap at one instant, for each gap up to the last one with a contact \[N\].
     pub gap_forces: Vec<Extreme>,
+    /// Impacts of the faces of buildings in space, in the order in which they began.
+    pub face_impacts: Vec<FaceImpact>,
     /// Greatest elastic base shear of every building \[N\].
     pub base_shear: Vec<f64>,
     /// Peak accelerations in parts of a direct run.
@@ -128,6 +132,18 @@ pub struct Outcome {
     pub accuracy: Option<Accuracy>,
     /// Reason for the end.
     pub end: RunEnd,
+}
+
+/// Peaks of the floors of a building in space that one plane does not have, from the ground up.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlanPeaks {
+    /// Across the row: as along it, with y in place of x.
+    pub across: Vec<FloorPeaks>,
+    /// Rotations \[rad\], their drifts per height \[rad/m\], angular accelerations \[rad/s²\], and as shears the torques
+    /// about the vertical axis through the centre of mass of the lowest floor \[N·m\].
+    pub turning: Vec<FloorPeaks>,
+    /// Greatest horizontal displacement of a corner \[m\].
+    pub corner_displacement: Vec<f64>,
 }
 
 /// An a-posteriori estimate of the errors of reported peaks.
@@ -264,8 +280,10 @@ impl Outcome {
             history: None,
             impacts: Vec::new(),
             floors: system.buildings.iter().map(floors).collect(),
+            in_plan: vec![PlanPeaks::default(); system.buildings.len()],
             closing: vec![Extreme::default(); system.contacts.len()],
             gap_forces: Vec::new(),
+            face_impacts: Vec::new(),
             base_shear: vec![0.0; system.buildings.len()],
             acceleration_parts: AccelerationParts::default(),
             spring_events: Vec::new(),

@@ -112,6 +112,12 @@ impl Plan {
         let mut faults = Vec::new();
         let solver = solver_for(system, analysis);
         check_solver(solver, system, analysis, &mut faults);
+        if motion.bearing.is_some() && !system.is_in_space() {
+            faults.push(ModelFault {
+                path: "motion.angle".into(),
+                problem: "and across need buildings with a plan; give every building one, or leave both out".into(),
+            });
+        }
         let refinement = (analysis.tolerance / 1e-3).sqrt();
         let step = match analysis.step {
             Some(step) => {
@@ -361,7 +367,8 @@ fn solver_for(system: &System, analysis: &Analysis) -> Solver {
     let usual = || {
         let automatic = analysis.step.is_none() && analysis.contact_step.is_none();
         let mut buildings = system.buildings.iter();
-        if buildings.any(|building| building.modal_damping.is_some())
+        if system.is_in_space()
+            || buildings.any(|building| building.modal_damping.is_some())
             || automatic
                 && modal::refusals(system, analysis.integrator).is_empty()
                 && resolves_links(system, analysis.tolerance)
@@ -389,6 +396,12 @@ fn check_solver(
     let in_all_modes = |building: &BuildingSystem| building.modal_damping.is_some();
     let damped = system.buildings.iter().position(in_all_modes);
     if solver != Solver::Modal {
+        if system.is_in_space() {
+            faults.push(ModelFault {
+                path: "analysis.solver".into(),
+                problem: "must be \"modal\" for buildings with a plan, which other solvers cannot step yet; leave it out".into(),
+            });
+        }
         faults.extend(damped.map(|index| ModelFault {
             path: format!("building[{index}].damping.modes"),
             problem: "\"all\" needs solver = \"modal\" under [analysis], or none named there; other solvers know Rayleigh damping of one or two modes".into(),

@@ -38,6 +38,9 @@ pub(crate) struct Instant<'a> {
 /// Columns of a history, in order.
 pub(crate) fn columns(system: &System) -> Vec<Column> {
     let mut columns = vec![Column::Time, Column::GroundAcceleration];
+    if system.is_in_space() {
+        columns.push(Column::GroundAccelerationAcross);
+    }
     for (building, properties) in system.buildings.iter().enumerate() {
         for floor in 1..=properties.floors.len() {
             columns.extend([
@@ -46,8 +49,25 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
                 Column::TotalAcceleration { building, floor },
             ]);
         }
+        if properties.is_in_space() {
+            for floor in 1..=properties.floors.len() {
+                columns.extend([
+                    Column::DisplacementAcross { building, floor },
+                    Column::VelocityAcross { building, floor },
+                    Column::TotalAccelerationAcross { building, floor },
+                ]);
+            }
+            for floor in 1..=properties.floors.len() {
+                columns.extend([
+                    Column::Rotation { building, floor },
+                    Column::RotationRate { building, floor },
+                    Column::RotationAcceleration { building, floor },
+                ]);
+            }
+        }
     }
-    columns.extend((0..system.contacts.len()).map(|contact| Column::ContactForce { contact }));
+    let contacts = system.reported_contacts();
+    columns.extend((0..contacts).map(|contact| Column::ContactForce { contact }));
     columns.extend((0..system.links.len()).map(|link| Column::LinkForce { link }));
     columns.extend(EnergyTerm::ALL.map(Column::Energy));
     columns

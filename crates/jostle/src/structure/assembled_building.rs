@@ -30,7 +30,12 @@ impl AssembledBuilding {
                 Some((equations.horizontal(node)?, height))
             })
             .unzip();
-        let storeys = StoreyForces::new(&discretization.stick_model, &equations, &heights);
+        let (sticks, centres) = (&discretization.stick_model, &discretization.centres);
+        let storeys = if sticks.in_plan {
+            StoreyForces::in_plan(sticks, &equations, &heights, centres)
+        } else {
+            StoreyForces::new(sticks, &equations, &heights)
+        };
         Self {
             name: name.to_owned(),
             discretization,

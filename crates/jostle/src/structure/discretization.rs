@@ -4,6 +4,7 @@ use super::element::{THETA, X};
 use super::member_forces::{FrameMember, MemberPlace};
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
 use super::stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Support};
+use super::tiers::discretize_tiers;
 use crate::hysteresis::Hysteresis;
 use crate::model::{
     Base, Building, Frame, FrameHinges, Given, Hinges, Joint, Section, Shear, Structure,
@@ -26,6 +27,8 @@ pub struct Discretization {
     pub spring_places: Vec<SpringPlace>,
     /// Columns and beams, storey by storey from the ground up, columns first; none in a shear building.
     pub members: Vec<FrameMember>,
+    /// Centre of mass of every floor on the site, from the ground up; empty for a building in one plane \[m\].
+    pub centres: Vec<[f64; 2]>,
 }
 
 impl Discretization {
@@ -56,6 +59,7 @@ impl Discretization {
                 discretize_shear(shear, &building.base, springs)
             }
             Structure::Given(given) => discretize_given(given),
+            Structure::Tiers(tiers) => discretize_tiers(tiers, building.gravity),
         }
     }
 }
@@ -214,6 +218,7 @@ fn discretize_frame(
         right_face: Vec::new(),
         spring_places: Vec::new(),
         members: Vec::new(),
+        centres: Vec::new(),
     };
     // Hinges come before springs, in the order of the stick model.
     let at_the_base =
@@ -399,6 +404,7 @@ fn discretize_given(given: &Given) -> Discretization {
     Discretization {
         stick_model,
         members: Vec::new(),
+        centres: Vec::new(),
         foot: Some(ground),
         left_face: floors.clone(),
         right_face: floors.clone(),
@@ -415,6 +421,7 @@ fn coupling(ends: [(usize, usize); 2], part: usize, value: f64) -> Coupling {
     Coupling {
         ends,
         stiffness,
+        softening: 0.0,
         dashpot,
     }
 }
@@ -477,5 +484,6 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
         floors,
         spring_places,
         members: Vec::new(),
+        centres: Vec::new(),
     }
 }

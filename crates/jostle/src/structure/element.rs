@@ -155,6 +155,7 @@ fn of_coupling(coupling: &Coupling) -> ElementStiffness {
     let [a, b] = coupling.ends;
     let mut stiffness = ElementStiffness::default();
     stiffness.couple(Part::Elastic, a, b, coupling.stiffness);
+    stiffness.couple(Part::Undamped, a, b, -coupling.softening);
     stiffness.couple(Part::Dashpot, a, b, coupling.dashpot);
     stiffness
 }

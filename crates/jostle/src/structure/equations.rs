@@ -15,8 +15,10 @@ pub struct Equations {
     pub mass: Vec<f64>,
     /// M r: the mass on which horizontal ground acceleration acts \[kg\].
     pub driven_mass: Vec<f64>,
-    /// M r for vertical motion; used for participation only \[kg\].
+    /// M r for vertical motion; used for participation only; zero for a building in plan \[kg\].
     pub vertical_mass: Vec<f64>,
+    /// M r across the row: the mass on which ground acceleration across acts; empty in one plane \[kg\].
+    pub driven_across: Vec<f64>,
     /// K: stiffness of members and joints, which takes part in stiffness-proportional damping.
     pub stiffness: SparseSymmetric,
     /// K′: stiffness without stiffness-proportional damping: P-Delta, and base springs.
@@ -77,6 +79,7 @@ impl Equations {
         let n = path.len();
         let (mut mass, mut driven_mass, mut vertical_mass) =
             (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        let mut driven_across = vec![0.0; if stick_model.in_plan { n } else { 0 }];
         let mut total_mass = 0.0;
         for (index, node) in stick_model.nodes.iter().enumerate() {
             for (component, value) in [node.mass, node.mass, node.rotary_inertia]
@@ -89,6 +92,7 @@ impl Equations {
                 mass[dof] += value;
                 match component {
                     X => driven_mass[dof] += value,
+                    Y if stick_model.in_plan => driven_across[dof] += value,
                     Y => vertical_mass[dof] += value,
                     _ => {}
                 }
@@ -132,6 +136,7 @@ impl Equations {
             mass,
             driven_mass,
             vertical_mass,
+            driven_across,
             springs: yielding_springs(stick_model, &path),
             stiffness,
             undamped,
@@ -142,6 +147,16 @@ impl Equations {
             base_shear,
             total_mass,
         }
+    }
+
+    /// M r of a turn about every centre of mass; empty in one plane \[kg·m²\].
+    #[must_use]
+    pub fn polar_mass(&self) -> Vec<f64> {
+        let driven = self.driven_mass.iter().zip(&self.driven_across);
+        let masses = self.mass.iter().zip(driven);
+        masses
+            .map(|(mass, (along, across))| mass - along - across)
+            .collect()
     }
 
     /// Initial stiffness of every spring that yields \[N·m/rad, N/m\].

@@ -13,6 +13,7 @@ mod stick_model;
 mod storey_forces;
 #[cfg(test)]
 pub(crate) mod testkit;
+mod tiers;
 
 pub use assembled_building::AssembledBuilding;
 pub use discretization::Discretization;
@@ -26,3 +27,4 @@ pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Support};
 pub use storey_forces::{StoreyForce, StoreyForces};
+pub(crate) use tiers::motion_at;

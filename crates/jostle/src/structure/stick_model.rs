@@ -15,6 +15,9 @@ pub struct StickModel {
     pub springs: Vec<Spring>,
     /// Entries of given matrices.
     pub couplings: Vec<Coupling>,
+    /// Whether nodes are floors in plan: their vertical displacement is then the one across the row, and their rotation is
+    /// about a vertical axis.
+    pub in_plan: bool,
 }
 
 /// A point that moves by x (right), y (up) and θ (counter-clockwise).
@@ -145,6 +148,8 @@ pub struct Coupling {
     pub ends: [(usize, usize); 2],
     /// Force per difference of both \[N/m, N, N·m\].
     pub stiffness: f64,
+    /// What P-Delta takes from the stiffness; stiffness-proportional damping does not act on it.
+    pub softening: f64,
     /// Force per difference of their rates \[N·s/m, N·s, N·m·s\].
     pub dashpot: f64,
 }

@@ -4,7 +4,7 @@ use crate::linear::counting_sort::in_order;
 use crate::model::LEVEL_TOLERANCE;
 use crate::structure::Equations;
 use crate::structure::StickModel;
-use crate::structure::element::{self, Part, X};
+use crate::structure::element::{self, Part, THETA, X, Y};
 
 /// Storey forces as linear forms of displacements.
 ///
@@ -15,6 +15,8 @@ use crate::structure::element::{self, Part, X};
 #[derive(Clone, Debug, Default)]
 pub struct StoreyForces {
     storeys: Vec<Storey>,
+    /// Storeys of one direction: of the list, or a third of it for a building in plan.
+    per_direction: usize,
 }
 
 /// Forces of the nodes between the base of a storey and that of the next.
@@ -50,7 +52,10 @@ impl StoreyForces {
             });
             base = *top;
         }
-        let mut found = Self { storeys };
+        let mut found = Self {
+            per_direction: storeys.len(),
+            storeys,
+        };
         for (part, a, b, value) in
             element::stiffnesses(stick_model).flat_map(|element| element.entries)
         {
@@ -80,6 +85,60 @@ impl StoreyForces {
         found
     }
 
+    /// Of a building in plan: shears along x of all storeys, then shears across, then torques about the vertical axis
+    /// through the centre of mass of the lowest floor, each from the ground up. What acts on a floor acts at its centre of
+    /// mass.
+    pub(crate) fn in_plan(
+        stick_model: &StickModel,
+        equations: &Equations,
+        tops: &[f64],
+        centres: &[[f64; 2]],
+    ) -> Self {
+        let axis = centres.first().copied().unwrap_or_default();
+        let mut all = Self {
+            storeys: Vec::with_capacity(3 * tops.len()),
+            per_direction: tops.len(),
+        };
+        for direction in [X, Y, THETA] {
+            let mut below = 0.0;
+            let mut own = Self {
+                storeys: Vec::with_capacity(tops.len()),
+                per_direction: tops.len(),
+            };
+            for top in tops {
+                own.storeys.push(Storey {
+                    height: top - std::mem::replace(&mut below, *top),
+                    ..Storey::default()
+                });
+            }
+            let entries = element::stiffnesses(stick_model).flat_map(|element| element.entries);
+            for (part, a, b, value) in entries {
+                let height = stick_model.nodes[a.0].y;
+                let Some(dof) = equations.dof(b).filter(|_| part != Part::Dashpot) else {
+                    continue;
+                };
+                let Some((storey, arm)) = own.arm(tops, height) else {
+                    continue;
+                };
+                let floor = tops.partition_point(|top| *top + LEVEL_TOLERANCE < height);
+                let [x, y] = centres[floor.min(centres.len() - 1)];
+                let share = match (direction, a.1) {
+                    (THETA, X) => axis[1] - y,
+                    (THETA, Y) => x - axis[0],
+                    (own, component) if own == component => 1.0,
+                    _ => continue,
+                };
+                let force = share * value;
+                storey.of_displacements.push((dof, [force, arm * force]));
+            }
+            for storey in &mut own.storeys {
+                storey.of_displacements = merged(&storey.of_displacements);
+            }
+            all.storeys.append(&mut own.storeys);
+        }
+        all
+    }
+
     /// The storey of a node, and its height above the base of the storey \[m\]; `None` at the ground.
     fn arm(&mut self, tops: &[f64], height: f64) -> Option<(&mut Storey, f64)> {
         if height <= LEVEL_TOLERANCE {
@@ -91,7 +150,7 @@ impl StoreyForces {
         Some((&mut self.storeys[at], height - base))
     }
 
-    /// Number of storeys.
+    /// Number of storeys; three times as many for a building in plan.
     #[must_use]
     pub fn len(&self) -> usize {
         self.storeys.len()
@@ -103,7 +162,7 @@ impl StoreyForces {
         self.storeys.is_empty()
     }
 
-    /// Calls `take` with every storey, from the top down, and its forces, for displacements of the building \[m,
+    /// Calls `take` with every storey, from the top down, direction by direction for a building in plan, and its forces, for displacements of the building \[m,
     /// rad\] and forces of its springs that yield \[N\].
     pub fn for_each(
         &self,
@@ -113,6 +172,9 @@ impl StoreyForces {
     ) {
         let mut above = StoreyForce::default();
         for (index, storey) in self.storeys.iter().enumerate().rev() {
+            if (index + 1).is_multiple_of(self.per_direction) {
+                above = StoreyForce::default();
+            }
             let mut own = StoreyForce {
                 shear: above.shear,
                 moment: above.moment + above.shear * storey.height,

@@ -1,9 +1,10 @@
 //! From a model to a system.
 
 use super::{BuildingSystem, System, finite};
+use crate::contact::ContactLaw;
 use crate::interface::contact_points::{PointPair, SAME, mean};
-use crate::interface::{Contact, LinkElement, Port, PortPair, Row};
-use crate::model::{Model, ModelFault};
+use crate::interface::{Contact, LinkElement, PlanPlace, Port, PortPair, Row, faces_of_gap};
+use crate::model::{Model, ModelFault, PlanPoint, Structure, Tier};
 use crate::structure::Discretization;
 
 impl System {
@@ -32,6 +33,11 @@ impl System {
             if let Some(fault) = finite::of_building(index, building, &assembled) {
                 faults.push(fault);
                 continue;
+            }
+            if let Structure::Tiers(tiers) = &building.structure {
+                let plans: Vec<&[PlanPoint]> =
+                    tiers.floors.iter().map(|floor| &floor.plan[..]).collect();
+                assembled.place_corners(&plans);
             }
             if let Err(problem) = assembled.damp(&building.damping) {
                 faults.push(ModelFault {
@@ -82,6 +88,13 @@ impl System {
         let mut faults = Vec::new();
         for (index, (gap, joined)) in model.gaps.iter().zip(&row.gaps).enumerate() {
             let mut contacts = Vec::new();
+            if model.is_in_space() {
+                let first = self.contacts.last().and_then(|last| last.plan);
+                let first = first.map_or(0, |place| place.face + 1);
+                self.contacts
+                    .extend(plan_contacts(self, model, index, first));
+                continue;
+            }
             for (entry, pair) in joined.pairs.iter().enumerate() {
                 match ports(self, joined.between, pair) {
                     Ok(ports) => {
@@ -131,6 +144,79 @@ impl System {
             Err(faults)
         }
     }
+}
+
+/// Contacts of a gap between two buildings with plans, from the lowest floor up, face by face; faces are numbered from
+/// `first`.
+///
+/// The width of the gap is that of its narrowest point; all others are as much wider as the plans say. The stiffness of a
+/// face is shared by its points. So is the mass of a side, 1/(1/m + ((c − o) × n)²/J) at the middle of the face, so that
+/// dashpots of a face add up to that of the whole.
+fn plan_contacts(system: &System, model: &Model, index: usize, first: usize) -> Vec<Contact> {
+    let gap = &model.gaps[index];
+    let [Some(a), Some(b)] = gap.between else {
+        return Vec::new();
+    };
+    let tiers = |building: usize| match &model.buildings[building].structure {
+        Structure::Tiers(tiers) => Some(tiers),
+        _ => None,
+    };
+    let (Some(own), Some(other)) = (tiers(a), tiers(b)) else {
+        return Vec::new();
+    };
+    let found = faces_of_gap(model, gap).unwrap_or_default();
+    let points = found.iter().flat_map(|(_, face)| &face.points);
+    let narrowest = points.map(|point| point.gap).fold(f64::INFINITY, f64::min);
+    let wider = gap.width() - narrowest;
+    let mut contacts = Vec::new();
+    for (number, ([i, j], face)) in found.iter().enumerate() {
+        let moving = |tier: &Tier| {
+            let arm = [
+                face.middle[0] - tier.centre[0],
+                face.middle[1] - tier.centre[1],
+            ];
+            let lever = arm[0] * face.normal[1] - arm[1] * face.normal[0];
+            1.0 / (1.0 / tier.mass + lever * lever / tier.polar_mass)
+        };
+        let masses = [moving(&own.floors[*i]), moving(&other.floors[*j])];
+        let whole = match gap.in_plan.per_length {
+            true if face.overlap > 0.0 => gap.law.stiffness * face.overlap,
+            _ => gap.law.stiffness,
+        };
+        for point in &face.points {
+            let port = |building: usize, floor: usize, mass: f64| {
+                let own = &system.buildings[building];
+                Port {
+                    building,
+                    row: own.row_at(floor, point.at, face.normal),
+                    mass: point.share * mass,
+                    floor: Some(floor + 1),
+                    height: own.floors[floor].height,
+                }
+            };
+            let ports = PortPair([Some(port(a, *i, masses[0])), Some(port(b, *j, masses[1]))]);
+            let law = ContactLaw {
+                stiffness: point.share * whole,
+                ..gap.law
+            };
+            let [left, right] = ports.masses();
+            contacts.push(Contact {
+                gap: index,
+                width: point.gap + wider,
+                law: law.between(left, right),
+                plan: Some(PlanPlace {
+                    kind: face.kind,
+                    face: first + number,
+                    at: point.at,
+                    normal: face.normal,
+                    overlap: face.overlap,
+                    share: point.share,
+                }),
+                ..Contact::without_law(ports)
+            });
+        }
+    }
+    contacts
 }
 
 fn ports(

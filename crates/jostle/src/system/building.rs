@@ -3,9 +3,12 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
-use crate::eigen::{Mode, lateral_modes_along};
-use crate::model::{Damping, Gravity, usual_damping_modes};
+use crate::eigen::{Mode, lateral_modes_along, modes_dense, symmetric};
+use crate::interface::DofRow;
+use crate::model::{Damping, Gravity, PlanPoint, usual_damping_modes};
+use crate::motion::Ground;
 use crate::statics::{Collapse, Settled, under_gravity};
+use crate::structure::motion_at;
 use crate::structure::{AssembledBuilding, Discretization, MemberForces};
 use crate::transfer::riccati::RiccatiSweep;
 
@@ -20,6 +23,11 @@ pub struct BuildingSystem {
     pub offset: usize,
     /// Floors from the ground up.
     pub floors: Vec<Floor>,
+    /// Displacements whose peaks are reported: those of the floors, from the ground up; in space then those across, and
+    /// then the rotations.
+    pub tracks: Vec<Track>,
+    /// Corners of the floors in space, whose displacements are reported.
+    pub corners: Vec<Corner>,
     /// Displacements and springs under self weight, from which a run starts; empty where weight is left out.
     pub rest: Settled,
     /// First spring that yields of this building in the list of a [`crate::State`].
@@ -47,6 +55,52 @@ pub struct Floor {
     pub height: f64,
     /// Height of the storey below \[m\].
     pub storey_height: f64,
+}
+
+/// Direction of a displacement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Along the row: x.
+    Along,
+    /// Across the row: y.
+    Across,
+    /// Rotation about a vertical axis.
+    Turning,
+}
+
+impl Direction {
+    /// The component of the ground acceleration in this direction; none turns \[m/s²\].
+    #[must_use]
+    #[inline]
+    pub fn of_ground(self, ground: Ground) -> f64 {
+        match self {
+            Self::Along => ground[0],
+            Self::Across => ground[1],
+            Self::Turning => 0.0,
+        }
+    }
+}
+
+/// A displacement of a floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Track {
+    /// Its degree of freedom in the vectors of a [`crate::State`].
+    pub dof: usize,
+    /// Its direction.
+    pub direction: Direction,
+    /// Height of the storey below \[m\].
+    pub storey_height: f64,
+    /// Whether it belongs to the lowest floor.
+    pub is_lowest: bool,
+}
+
+/// A corner of a floor in plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// Index of the floor.
+    pub floor: usize,
+    /// Its displacements along x and across.
+    pub rows: [DofRow; 2],
 }
 
 impl Deref for BuildingSystem {
@@ -82,15 +136,26 @@ impl BuildingSystem {
                 storey_height,
             })
         });
-        let floors = floors.collect();
+        let floors: Vec<Floor> = floors.collect();
+        let tracks = tracks(&structure, &floors);
         let foot = structure.discretization.foot;
         let foot = foot.and_then(|node| structure.equations.horizontal(node));
-        let modes = lateral_modes_along(&structure, &sweep).unwrap_or_default();
+        let modes = if structure.discretization.stick_model.in_plan {
+            modes_dense(&structure, |lower| {
+                let (values, vectors) = symmetric::eigen(lower);
+                Some(values.into_iter().zip(vectors).collect())
+            })
+        } else {
+            lateral_modes_along(&structure, &sweep)
+        };
+        let modes = modes.unwrap_or_default();
         Self {
             structure,
             offset: 0,
             foot,
             floors,
+            tracks,
+            corners: Vec::new(),
             rest: Settled::default(),
             spring_offset: 0,
             modal_damping: None,
@@ -107,6 +172,13 @@ impl BuildingSystem {
     pub fn put_under_gravity(&mut self, gravity: Gravity) -> Result<(), Collapse> {
         if !gravity.p_delta && !gravity.preload {
             return Ok(());
+        }
+        if self.is_in_space() {
+            // P-Delta is part of its matrices.
+            return match self.modes.is_empty() {
+                true => Err(Collapse::Movable),
+                false => Ok(()),
+            };
         }
         let (leaning, rest) = under_gravity(&self.structure, gravity)?;
         if let Some(leaning) = leaning {
@@ -134,10 +206,12 @@ impl BuildingSystem {
             Damping::AllModes { .. } => (0.0, 0.0),
             Damping::Rayleigh { alpha, beta } => (*alpha, *beta),
             Damping::Ratio { ratio, modes } => {
-                let lateral: Vec<f64> = self
-                    .lateral_modes()
-                    .map(|mode| mode.circular_frequency)
-                    .collect();
+                let lateral: Vec<f64> = if self.is_in_space() {
+                    self.frequencies_along()
+                } else {
+                    let modes = self.lateral_modes();
+                    modes.map(|mode| mode.circular_frequency).collect()
+                };
                 let frequency = |number: &usize| {
                     lateral.get(number - 1).copied().ok_or_else(|| {
                         format!(
@@ -164,6 +238,67 @@ impl BuildingSystem {
         Ok(())
     }
 
+    /// Whether its floors move in both horizontal directions and turn.
+    #[must_use]
+    pub fn is_in_space(&self) -> bool {
+        self.structure.discretization.stick_model.in_plan
+    }
+
+    /// Circular frequencies with all displacements but those along x held, rising \[rad/s\].
+    fn frequencies_along(&self) -> Vec<f64> {
+        let equations = &self.equations;
+        let along: Vec<usize> = (0..equations.len())
+            .filter(|dof| equations.driven_mass[*dof] > 0.0)
+            .collect();
+        let mut column = vec![0.0; equations.len()];
+        let mut lower: Vec<Vec<f64>> = (0..along.len()).map(|row| vec![0.0; row + 1]).collect();
+        for (j, &dof) in along.iter().enumerate() {
+            let mut unit = vec![0.0; equations.len()];
+            unit[dof] = 1.0;
+            column.fill(0.0);
+            equations.stiffness.multiply_add(&unit, &mut column);
+            equations.undamped.multiply_add(&unit, &mut column);
+            for (i, &row) in along.iter().enumerate().skip(j) {
+                lower[i][j] = column[row] / (equations.mass[row] * equations.mass[dof]).sqrt();
+            }
+        }
+        let (values, _) = symmetric::eigen(&lower);
+        values.into_iter().map(f64::sqrt).collect()
+    }
+
+    /// Places the corners of its floors, given on the site from the ground up \[m\].
+    pub(crate) fn place_corners(&mut self, plans: &[&[PlanPoint]]) {
+        let n = self.floors.len();
+        for (floor, corners) in plans.iter().enumerate().take(n) {
+            let dofs = [0, 1, 2].map(|block| self.tracks[block * n + floor].dof - self.offset);
+            for corner in *corners {
+                let rows = [0, 1].map(|axis| {
+                    let direction = [f64::from(1 - axis), f64::from(axis)];
+                    self.point(floor, dofs, *corner, direction)
+                });
+                self.corners.push(Corner {
+                    floor,
+                    rows: [rows[0], rows[1]],
+                });
+            }
+        }
+    }
+
+    /// The displacement of a point of a floor in a direction, over the displacements of this building.
+    fn point(&self, floor: usize, dofs: [usize; 3], at: PlanPoint, direction: [f64; 2]) -> DofRow {
+        let [x, y, _] = motion_at(at, self.discretization.centres[floor]);
+        let shares = [0, 1, 2].map(|c| direction[0] * x[c] + direction[1] * y[c]);
+        DofRow::three(std::array::from_fn(|c| (dofs[c], shares[c])))
+    }
+
+    /// The displacement of a point of a floor, counted from 0, in a direction, over the vectors of a [`crate::State`].
+    #[must_use]
+    pub fn row_at(&self, floor: usize, at: PlanPoint, direction: [f64; 2]) -> DofRow {
+        let n = self.floors.len();
+        let dofs = [0, 1, 2].map(|block| self.tracks[block * n + floor].dof);
+        self.point(floor, dofs, at, direction)
+    }
+
     /// Springs that yield of this building in the list of a [`crate::State`].
     #[must_use]
     pub fn spring_range(&self) -> std::ops::Range<usize> {
@@ -175,4 +310,33 @@ impl BuildingSystem {
     pub fn range(&self) -> std::ops::Range<usize> {
         self.offset..self.offset + self.equations.len()
     }
+}
+
+/// Displacements of the floors whose peaks are reported.
+fn tracks(structure: &AssembledBuilding, floors: &[Floor]) -> Vec<Track> {
+    let track = |(index, floor): (usize, &Floor), dof, direction| Track {
+        dof,
+        direction,
+        storey_height: floor.storey_height,
+        is_lowest: index == 0,
+    };
+    let along = floors.iter().enumerate();
+    let mut tracks: Vec<Track> = along
+        .map(|(index, floor)| track((index, floor), floor.dof, Direction::Along))
+        .collect();
+    let discretization = &structure.discretization;
+    if discretization.stick_model.in_plan {
+        for direction in [Direction::Across, Direction::Turning] {
+            let nodes = discretization.floors.iter().zip(floors).enumerate();
+            tracks.extend(nodes.filter_map(|(index, (&node, floor))| {
+                let equations = &structure.equations;
+                let dof = match direction {
+                    Direction::Turning => equations.rotation(node),
+                    _ => equations.vertical(node),
+                };
+                Some(track((index, floor), dof?, direction))
+            }));
+        }
+    }
+    tracks
 }

@@ -80,6 +80,19 @@ fn cause(building: &Building) -> String {
                 masses.map(|(dof, mass)| (name(dof), *mass)).collect(),
             )
         }
+        Structure::Tiers(tiers) => {
+            let storeys = tiers.storeys.iter().enumerate();
+            let floors = tiers.floors.iter().enumerate();
+            let least = |k: &[f64; 3]| k[0].min(k[1]);
+            (
+                storeys
+                    .map(|(i, storey)| (format!("storey {}", i + 1), least(&storey.stiffness)))
+                    .collect(),
+                floors
+                    .map(|(i, floor)| (format!("floor {}", i + 1), floor.mass))
+                    .collect(),
+            )
+        }
         Structure::Frame(frame) => {
             let lateral = |rigidity: f64, length: f64| 12.0 * rigidity / length.powi(3);
             let columns = frame.columns.iter().zip(&frame.storey_heights).enumerate();
@@ -115,7 +128,7 @@ fn cause(building: &Building) -> String {
         }
     };
     let quantity = match &building.structure {
-        Structure::Shear(_) => "stiffnesses k",
+        Structure::Shear(_) | Structure::Tiers(_) => "stiffnesses k",
         Structure::Given(_) => "stiffnesses on the diagonal",
         Structure::Frame(_) => "stiffnesses 12 EI/L^3",
     };

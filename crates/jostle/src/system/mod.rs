@@ -9,7 +9,7 @@ mod rating;
 use crate::interface::{Contact, DofRow, LinkElement, Port, PortPair};
 use crate::model::LEVEL_TOLERANCE;
 
-pub use building::{BuildingSystem, Floor};
+pub use building::{BuildingSystem, Corner, Direction, Floor, Track};
 pub use rating::MemberRating;
 
 /// Buildings in a row and what stands between them, ready to be stepped.
@@ -52,6 +52,9 @@ impl System {
             for floor in &mut building.floors {
                 floor.dof = floor.dof - building.offset + offset;
             }
+            for track in &mut building.tracks {
+                track.dof = track.dof - building.offset + offset;
+            }
             building.foot = building.foot.map(|dof| dof - building.offset + offset);
             building.offset = offset;
             offset += building.equations.len();
@@ -63,6 +66,20 @@ impl System {
             members_followed: Vec::new(),
             ratings: Vec::new(),
         }
+    }
+
+    /// Whether its buildings move in both horizontal directions and turn.
+    #[must_use]
+    pub fn is_in_space(&self) -> bool {
+        self.buildings.iter().any(BuildingSystem::is_in_space)
+    }
+
+    /// Number of contacts as results list them: faces where buildings are in space, otherwise all.
+    #[must_use]
+    pub fn reported_contacts(&self) -> usize {
+        let faces = self.contacts.iter().filter_map(|contact| contact.plan);
+        let faces = faces.map(|place| place.face + 1).max();
+        faces.unwrap_or(self.contacts.len())
     }
 
     /// Number of degrees of freedom of all buildings.

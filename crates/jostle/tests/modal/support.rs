@@ -85,6 +85,7 @@ pub(crate) fn assembled(stick_model: StickModel, floors: Vec<usize>) -> Building
         foot: None,
         spring_places: Vec::new(),
         members: Vec::new(),
+        centres: Vec::new(),
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),

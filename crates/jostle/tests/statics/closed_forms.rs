@@ -249,6 +249,7 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
         right_face: Vec::new(),
         spring_places: Vec::new(),
         members: Vec::new(),
+        centres: Vec::new(),
     };
     BuildingSystem::new("beam", discretization)
 }

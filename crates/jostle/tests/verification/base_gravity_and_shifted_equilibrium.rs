@@ -45,7 +45,7 @@ const LEANING: Gravity = Gravity {
 fn with_everything(mut building: Building) -> Building {
     building.base = match building.structure {
         Structure::Frame(_) => soft_base(),
-        Structure::Shear(_) | Structure::Given(_) => Base {
+        Structure::Shear(_) | Structure::Tiers(_) | Structure::Given(_) => Base {
             horizontal_stiffness: Some(8e8),
             horizontal_damping: 5e6,
             mass: 2e4,

@@ -19,6 +19,7 @@ mod no_impact_is_lost_or_counted_twice;
 mod riccati_equals_direct_stiffness;
 mod rows_of_buildings;
 mod same_input_same_bits;
+mod space;
 mod storey_forces;
 mod support;
 mod total_force_of_a_gap;

@@ -306,6 +306,7 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
         foot: None,
         spring_places: Vec::new(),
         members: Vec::new(),
+        centres: Vec::new(),
         stick_model,
         floors: vec![1],
         left_face: vec![1],

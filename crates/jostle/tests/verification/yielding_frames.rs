@@ -60,7 +60,7 @@ fn yielding(mut building: Building, rule: HysteresisRule, strength: f64) -> Buil
                 .map(|stiffness| hinge(rule, *stiffness, strength * 0.004 * stiffness))
                 .collect(),
         ),
-        Structure::Given(_) => panic!("buildings given by matrices do not yield"),
+        Structure::Given(_) | Structure::Tiers(_) => panic!("they do not yield"),
     });
     building
 }

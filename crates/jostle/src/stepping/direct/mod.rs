@@ -13,6 +13,7 @@ mod within_tolerance;
 pub(super) use within_tolerance::within_tolerance;
 
 use crate::model::Integrator;
+use crate::motion::Ground;
 use crate::motion::GroundMotion;
 use crate::simd;
 use crate::state::{ContactPhase, Episode, State};
@@ -21,7 +22,9 @@ use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::control::{Observed, half_cycle, next_division};
 use crate::stepping::energy::EnergyAudit;
 use crate::stepping::events::Cubic;
-use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings, StepError};
+use crate::stepping::outcome::{
+    Accuracy, Observer, Outcome, PlanPeaks, RunEnd, Settings, StepError,
+};
 use crate::stepping::plan::Plan;
 use crate::stepping::recorder::{Instant, Recorder};
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
@@ -102,7 +105,7 @@ impl<E: StepEquations> Direct<E> {
             equations: buildings.map(|building| E::new(building)).collect(),
             factors: vec![StepFactors::blank(system, &joints)],
             divisions: vec![0],
-            unbalanced: unbalanced_load(system, &state, &links, run.ground[0], plan.integrator),
+            unbalanced: unbalanced_load(system, &state, &links, run.ground[0][0], plan.integrator),
             increment: vec![0.0; system.len()],
             rate_term: vec![0.0; system.len()],
             joints,
@@ -136,6 +139,8 @@ impl<E: StepEquations> Direct<E> {
             floors: std::mem::take(&mut self.recorder.floors),
             closing: std::mem::take(&mut self.recorder.closing),
             gap_forces: run.gap_forces.peaks,
+            face_impacts: run.face_forces.impacts,
+            in_plan: vec![PlanPeaks::default(); run.system.buildings.len()],
             base_shear: std::mem::take(&mut self.recorder.base_shear),
             acceleration_parts: std::mem::take(&mut self.recorder.parts),
             spring_history: self.recorder.springs.take(),
@@ -161,7 +166,7 @@ impl<E: StepEquations> Direct<E> {
     fn follow_members(&mut self, run: &RunState<'_>) {
         if self.recorder.members.is_asked() {
             self.state.contacts.clone_from(&run.phases);
-            let (links, ground) = (&self.links.forces, run.ground[0]);
+            let (links, ground) = (&self.links.forces, run.ground[0][0]);
             let members = &mut self.recorder.members;
             members.take(run.system, &self.state, links, ground);
         }
@@ -173,7 +178,7 @@ impl<E: StepEquations> Direct<E> {
             state: &self.state,
             contacts: &run.phases,
             links: &self.links.forces,
-            ground: run.ground[0],
+            ground: run.ground[0][0],
         };
         self.recorder
             .record(run.system, &instant, wanted, &mut self.audit);
@@ -283,7 +288,7 @@ impl<E: StepEquations> Direct<E> {
             if !driven_rise.is_finite() {
                 return Err(StepError::NotFinite { time: run.time });
             }
-            self.audit.input -= 0.5 * (run.ground[0] + run.ground[1]) * driven_rise;
+            self.audit.input -= 0.5 * (run.ground[0][0] + run.ground[1][0]) * driven_rise;
             let strained = if equations.beta > 0.0 {
                 equations.stiffness.quadratic_form(rises)
             } else {
@@ -456,10 +461,10 @@ impl<E: StepEquations> Stepper for Direct<E> {
         run: &mut RunState<'_>,
         _: f64,
         step: f64,
-        _: [f64; 2],
+        _: [Ground; 2],
         was_closed: bool,
     ) -> Result<(), StepError> {
-        let ground = run.ground[0];
+        let ground = run.ground[0][0];
         self.struck_steps = self.struck_steps.saturating_sub(1);
         self.recorder
             .after_step(run.system, &self.state, step, ground);
@@ -493,7 +498,7 @@ impl<E: StepEquations> Stepper for Direct<E> {
     }
 
     fn after_event(&mut self, run: &RunState<'_>) {
-        let ground = run.ground[0];
+        let ground = run.ground[0][0];
         self.recorder.after_jump(run.system, &self.state, ground);
     }
 }

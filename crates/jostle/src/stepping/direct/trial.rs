@@ -18,7 +18,7 @@ impl<E: StepEquations> Direct<E> {
         slot: usize,
         end: Clock,
     ) -> Result<(), StepError> {
-        run.ground[1] = run.motion.acceleration(end.time());
+        run.ground[1] = run.motion.components(end.time());
         self.fill_loads(run, slot);
         if self.yielding.is_empty() {
             self.factors[slot].solve(
@@ -57,7 +57,7 @@ impl<E: StepEquations> Direct<E> {
 
     /// Loads of the incremental step, contacts of its end not yet pushing (theory, Eq. N3).
     fn fill_loads(&mut self, run: &RunState<'_>, slot: usize) {
-        let change = run.ground[1] - run.ground[0];
+        let change = run.ground[1][0] - run.ground[0][0];
         for (building, own) in run
             .system
             .buildings

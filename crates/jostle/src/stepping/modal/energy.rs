@@ -70,11 +70,15 @@ impl ModalStepper<'_> {
         let end = [&self.q[1][..], &self.v[1]];
         let damped = table.damped(self.reduced, of, end, [&self.scratch, &self.moment]);
         let step = table.step;
-        let slope = (run.ground[1] - run.ground[0]) / step;
         // ∫ a_g q̇ dt by parts.
-        let driven = |list: &[f64]| simd::dot(&self.reduced.participation, list);
-        let [before, after] = [0, 1].map(|time| run.ground[time] * driven(&self.q[time]));
-        let input = slope * driven(&self.scratch) - (after - before);
+        let [before, after] = [0, 1].map(|time| self.reduced.driven(&self.q[time]));
+        let area = self.reduced.driven(&self.scratch);
+        let [then, now] = run.ground;
+        let mut input = 0.0;
+        for axis in 0..2 {
+            let slope = (now[axis] - then[axis]) / step;
+            input += slope * area[axis] - (now[axis] * after[axis] - then[axis] * before[axis]);
+        }
         if was_closed {
             self.contact_work(run, step);
         }

@@ -5,7 +5,8 @@ use super::peaks::{Peaks, Watched};
 use super::reduced::{Reduced, ReducedBuilding};
 use super::turning::NEAR_GREATEST;
 use crate::history::FloorPeaks;
-use crate::system::System;
+use crate::motion::Ground;
+use crate::system::{BuildingSystem, Direction, System, Track};
 
 /// Kinds of peaks of a building: displacements, drifts, total accelerations, base shear, storey shears, overturning moments.
 const KINDS: usize = 6;
@@ -94,7 +95,7 @@ impl Reached {
         reduced: &Reduced,
         accelerations: &[f64],
         watched: Watched<'_>,
-        ground: f64,
+        ground: Ground,
         forces: &[f64],
     ) {
         let quickened = self.quickened.iter_mut().zip(accelerations);
@@ -125,10 +126,14 @@ impl Reached {
             let mut below = own.foot.map_or((0.0, 0.0), |foot| (u[foot], slow[foot]));
             let shear = own.shear - own.watched.start;
             for (at, widened) in self.floors[index].iter_mut().enumerate() {
-                let height = system.buildings[index].floors[at].storey_height;
+                let track = &system.buildings[index].tracks[at];
+                if track.is_lowest && track.direction != Direction::Along {
+                    below = (0.0, 0.0);
+                }
+                let height = track.storey_height;
                 widened[0].widen(u[at], slow[at]);
                 widened[1].widen((u[at] - below.0) / height, (slow[at] - below.1) / height);
-                widened[2].widen(a[at] + ground, quick[at]);
+                widened[2].widen(a[at] + track.direction.of_ground(ground), quick[at]);
                 widened[4].widen(known[at], missed[at]);
                 widened[5].widen(known[storeys + at], missed[storeys + at]);
                 below = (u[at], slow[at]);
@@ -151,8 +156,11 @@ impl Reached {
     ) -> Vec<Vec<usize>> {
         let of_building = |index: usize| {
             let own = &reduced.buildings[index];
-            let scales = scales(&peaks.floors[index], peaks.base_shear[index]);
             let floors = &system.buildings[index].floors;
+            let scales = scales(
+                &peaks.floors[index][..floors.len()],
+                peaks.base_shear[index],
+            );
             let share = |mode: usize| {
                 let missed = |place: usize| own.of_blocks(&own.missed, place, mode);
                 let (mut most, mut below) = (0.0_f64, own.foot.map_or(0.0, missed));
@@ -224,7 +232,6 @@ impl Estimate {
         let mut worst = Self::default();
         for (index, building) in system.buildings.iter().enumerate() {
             let own = &reduced.buildings[index];
-            let scales = scales(&peaks.floors[index], peaks.base_shear[index]);
             let modes = own.modes.clone();
             let shape = |place: usize, mode: usize| own.of_blocks(&own.blocks, place, mode);
             let k = |mode: usize| reduced.stiffness[modes.start + mode];
@@ -233,46 +240,88 @@ impl Estimate {
                 let squares = (0..modes.len()).map(|mode| (term(mode) * free(mode)).powi(2));
                 squares.sum::<f64>().sqrt()
             };
-            let mut between = [0.0_f64; KINDS];
-            for (place, floor) in building.floors.iter().enumerate() {
-                let drift = |mode: usize| {
-                    let below = match place.checked_sub(1).or(own.foot) {
-                        Some(below) => shape(below, mode),
-                        None => 0.0,
-                    };
-                    (shape(place, mode) - below) / floor.storey_height
-                };
-                between[0] = between[0].max(sum(&|mode| shape(place, mode)));
-                between[1] = between[1].max(sum(&drift));
-                between[2] = between[2].max(sum(&|mode| k(mode) * shape(place, mode)));
-            }
             let storeys = building.storeys.len();
-            for storey in 0..storeys {
-                let force =
-                    |place: usize, mode: usize| own.of_blocks(&own.force_blocks, place, mode);
-                between[4] = between[4].max(sum(&|mode| force(storey, mode)));
-                between[5] = between[5].max(sum(&|mode| force(storeys + storey, mode)));
+            let per_direction = building.floors.len().max(1);
+            for first in (0..building.tracks.len()).step_by(per_direction) {
+                let places = first..first + per_direction;
+                let scales = scales_in_space(building, peaks, index, first);
+                let mut between = [0.0_f64; KINDS];
+                for place in places.clone() {
+                    let floor = &building.tracks[place];
+                    let below = match place.checked_sub(1).filter(|_| !floor.is_lowest) {
+                        Some(below) => Some(below),
+                        None => own.foot,
+                    };
+                    let drift = |mode: usize| {
+                        let below = below.map_or(0.0, |below| shape(below, mode));
+                        (shape(place, mode) - below) / floor.storey_height
+                    };
+                    between[0] = between[0].max(sum(&|mode| shape(place, mode)));
+                    between[1] = between[1].max(sum(&drift));
+                    between[2] = between[2].max(sum(&|mode| k(mode) * shape(place, mode)));
+                }
+                for storey in places.clone().filter(|storey| *storey < storeys) {
+                    let force =
+                        |place: usize, mode: usize| own.of_blocks(&own.force_blocks, place, mode);
+                    between[4] = between[4].max(sum(&|mode| force(storey, mode)));
+                    between[5] = between[5].max(sum(&|mode| force(storeys + storey, mode)));
+                }
+                if first == 0 {
+                    between[3] = sum(&|mode| shape(own.shear - own.watched.start, mode));
+                }
+                for kind in 0..KINDS {
+                    let floors = reached.floors[index][places.clone()].iter();
+                    let off = floors.map(|floor| floor[kind].off()).fold(0.0, f64::max);
+                    worst.shapes = worst.shapes.max(SHAPES_MARGIN * off / scales[kind]);
+                    let mut between = together * between[kind] / scales[kind];
+                    if kind == ACCELERATION {
+                        // Turning points that a cubic does not miss by more than this are looked at exactly.
+                        between *= (between / (1.0 - NEAR_GREATEST)).min(1.0);
+                    }
+                    worst.between = worst.between.max(between);
+                }
             }
             if let Some(members) = &peaks.members {
                 let [shapes, between] = members.errors(&own.members, free);
                 worst.shapes = worst.shapes.max(shapes);
                 worst.between = worst.between.max(together * between);
             }
-            between[3] = sum(&|mode| shape(own.shear - own.watched.start, mode));
-            for kind in 0..KINDS {
-                let floors = reached.floors[index].iter();
-                let off = floors.map(|floor| floor[kind].off()).fold(0.0, f64::max);
-                worst.shapes = worst.shapes.max(SHAPES_MARGIN * off / scales[kind]);
-                let mut between = together * between[kind] / scales[kind];
-                if kind == ACCELERATION {
-                    // Turning points that a cubic does not miss by more than this are looked at exactly.
-                    between *= (between / (1.0 - NEAR_GREATEST)).min(1.0);
-                }
-                worst.between = worst.between.max(between);
-            }
         }
         worst
     }
+}
+
+/// Least scale of rotations, in those of displacements over the radius of gyration \[–\].
+const LEAST_ROTATION: f64 = 1e-3;
+
+/// The greatest of every kind, of the direction whose floors begin at `first`: along x and across together, and rotations,
+/// which count as at least [`LEAST_ROTATION`].
+fn scales_in_space(
+    building: &BuildingSystem,
+    peaks: &Peaks,
+    index: usize,
+    first: usize,
+) -> [f64; KINDS] {
+    let (floors, n) = (&peaks.floors[index], building.floors.len());
+    let lateral = scales(&floors[..floors.len().min(2 * n)], peaks.base_shear[index]);
+    if first < 2 * n {
+        return lateral;
+    }
+    let gyration = |track: &Track| {
+        let mass = building.equations.mass[building.tracks[0].dof - building.offset];
+        (building.equations.mass[track.dof - building.offset] / mass).sqrt()
+    };
+    let radius = gyration(&building.tracks[first]);
+    let own = scales(&floors[first..], 0.0);
+    let units = [
+        1.0 / radius,
+        1.0 / radius,
+        1.0 / radius,
+        radius,
+        radius,
+        radius,
+    ];
+    std::array::from_fn(|kind| own[kind].max(LEAST_ROTATION * lateral[kind] * units[kind]))
 }
 
 /// The greatest of every kind in a building.

@@ -170,6 +170,7 @@ impl ModalStepper<'_> {
     pub(super) fn take_free(&mut self, run: &mut RunState<'_>) -> bool {
         let quiet = |phase: &ContactPhase| *phase == ContactPhase::Open;
         if !self.reduced.links.is_empty()
+            || !self.reduced.across.is_empty()
             || !run.phases.iter().all(quiet)
             || run.contact_division.iter().any(|d| *d > 1)
         {
@@ -201,7 +202,7 @@ impl ModalStepper<'_> {
         let free_steps = &mut self.free_steps;
         free_steps.ends.clear();
         free_steps.ground.clear();
-        free_steps.ground.push(run.ground[0]);
+        free_steps.ground.push(run.ground[0][0]);
         let (mut clock, mut slot) = (run.clock, None);
         while free_steps.ends.len() < free_steps.ahead {
             let stride = clock.next_step(self.least_division);
@@ -320,7 +321,7 @@ impl ModalStepper<'_> {
         let taken = Taken {
             then: free_steps.watched(places, index),
             now,
-            ground: [g0, g1],
+            ground: [[g0, 0.0], [g1, 0.0]],
             start,
             step,
             motion: StepMotion {
@@ -329,7 +330,7 @@ impl ModalStepper<'_> {
                     _ => free_steps.state(modes, index),
                 },
                 loads: Loads::Ground,
-                ground: [g0, g1],
+                ground: [[g0, 0.0], [g1, 0.0]],
                 step,
             },
         };
@@ -343,7 +344,7 @@ impl ModalStepper<'_> {
             a,
             jerk,
             time: run.time,
-            ground: g1,
+            ground: [g1, 0.0],
             phases: &run.phases,
             smooth: true,
         };
@@ -376,8 +377,14 @@ impl ModalStepper<'_> {
                     &mut self.checked_forces,
                 );
                 let forces = &self.checked_forces;
-                self.reached
-                    .look(system, reduced, accelerations, watched, ground, forces);
+                self.reached.look(
+                    system,
+                    reduced,
+                    accelerations,
+                    watched,
+                    [ground, 0.0],
+                    forces,
+                );
             }
         }
         let [q, v] = free_steps.state(self.reduced.modes(), steps);
@@ -390,10 +397,8 @@ impl ModalStepper<'_> {
         self.unloaded_jerk[0].copy_from_slice(now.unloaded_jerk);
         run.clock = free_steps.ends[steps - 1];
         let ground = free_steps.ground[steps];
-        run.ground = [ground; 2];
-        for (load, participation) in self.p[0].iter_mut().zip(&self.reduced.participation) {
-            *load = -participation * ground;
-        }
+        run.ground = [[ground, 0.0]; 2];
+        self.reduced.set_ground_loads([ground, 0.0], &mut self.p[0]);
     }
 }
 

@@ -8,6 +8,7 @@ use super::mode_kernels::{ROWS, Show};
 use super::peaks::Ends;
 use super::reduced::{Reduced, in_blocks};
 use crate::history::MemberHistory;
+use crate::motion::Ground;
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::member_ratios::MemberRatios;
@@ -210,7 +211,7 @@ pub(super) struct Instant<'a> {
     /// Rates of accelerations without those of the loads.
     pub(super) jerk: &'a [f64],
     pub(super) time: f64,
-    pub(super) ground: f64,
+    pub(super) ground: Ground,
     pub(super) phases: &'a [ContactPhase],
     /// Whether accelerations followed a cubic since the last instant.
     pub(super) smooth: bool,
@@ -333,7 +334,7 @@ impl MemberPeaks {
                 let ends = StepEnds {
                     then: from,
                     now: to,
-                    ground: [self.ground, now.ground],
+                    ground: [self.ground, now.ground[0]],
                     moved: self.watch[index].moved,
                     step,
                 };
@@ -341,7 +342,7 @@ impl MemberPeaks {
             }
         }
         self.time = now.time;
-        self.ground = now.ground;
+        self.ground = now.ground[0];
     }
 
     /// Replaces velocities, accelerations and jerks of the last instant, after they have jumped.
@@ -470,7 +471,7 @@ impl MemberPeaks {
         let watch = &mut self.watch_passed[index];
         let moved = passed.greatest.iter().zip(now).zip(then);
         let moved = moved.map(|((share, now), then)| share * (now - then).abs());
-        let rise = instant.ground - self.ground;
+        let rise = instant.ground[0] - self.ground;
         watch.moved += moved.sum::<f64>() + passed.greatest_of_ground * rise.abs();
         let pushed = passed.contacts.iter().flatten();
         let pushed = pushed
@@ -492,7 +493,7 @@ impl MemberPeaks {
             let rows = block * ROWS..((block + 1) * ROWS).min(passed.forms.len());
             let mut slack = f64::INFINITY;
             for (row, at) in rows.clone().enumerate() {
-                value[row] += passed.ground[at][0] * instant.ground;
+                value[row] += passed.ground[at][0] * instant.ground[0];
                 let contacts = passed.contacts[at].iter();
                 value[row] -= contacts.map(|c| instant.phases[*c].force()).sum::<f64>();
                 let [greatest, least] = self.passed[passed.range.start + at];
@@ -560,7 +561,7 @@ impl MemberPeaks {
                 if !self.wanted[index][*form] {
                     continue;
                 }
-                let mut sum = passed.ground[row][0] * now.ground;
+                let mut sum = passed.ground[row][0] * now.ground[0];
                 let count = own.modes.len();
                 for (part, modal) in [now.q, now.v, now.a].into_iter().enumerate() {
                     for mode in 0..count {

@@ -6,6 +6,7 @@
 //! parabolas. [`refusals`] rejects unsupported features.
 
 mod basis;
+mod corners;
 mod damped;
 mod defects;
 mod energy;

@@ -3,26 +3,31 @@
 
 use pulp::Arch;
 
+use super::corners::CornerPeaks;
 use super::members::{Instant, MemberPeaks};
 use super::mode_kernels::{Exceeds, Limits, ROWS};
 use super::reduced::Reduced;
 use super::turning::{NEAR_GREATEST, StepMotion};
 use crate::history::{Energy, Extreme, FloorPeaks, History};
+use crate::motion::Ground;
 use crate::stepping::events::Cubic;
+use crate::stepping::outcome::PlanPeaks;
 use crate::stepping::recorder::{columns, greatest_in_step};
-use crate::system::System;
+use crate::system::{Direction, System};
 
 /// Recorder of histories and peaks.
 pub(super) struct Peaks {
     history: Option<History>,
     interval: f64,
     due: f64,
+    /// Of every displacement of the floors, direction by direction.
     pub(super) floors: Vec<Vec<FloorPeaks>>,
+    pub(super) corners: Vec<CornerPeaks>,
     pub(super) closing: Vec<Extreme>,
     pub(super) base_shear: Vec<f64>,
-    /// Contribution of a unit ground acceleration to the accelerations of monitored quantities, and of its rate to
-    /// their rates.
-    driven: Vec<f64>,
+    /// Contribution of a unit ground acceleration along x to the accelerations of monitored quantities, and of its rate to
+    /// their rates; then the same across, empty in one plane.
+    driven: [Vec<f64>; 2],
     limits: Limits,
     /// Forces of storeys at the last two evaluations, and their rates at both ends if evaluated \[N, N·m; N/s,
     /// N·m/s\].
@@ -66,7 +71,7 @@ pub(super) struct Taken<'a> {
     pub(super) then: Watched<'a>,
     pub(super) now: Watched<'a>,
     /// Ground acceleration at both.
-    pub(super) ground: [f64; 2],
+    pub(super) ground: [Ground; 2],
     pub(super) start: f64,
     pub(super) step: f64,
     pub(super) motion: StepMotion<'a>,
@@ -78,6 +83,12 @@ impl Peaks {
         let (mut driven, mut spare) = (vec![0.0; watched], vec![0.0; watched]);
         let participation = &reduced.participation[..];
         reduced.show([participation, participation], [&mut driven, &mut spare]);
+        let mut across = Vec::new();
+        if !reduced.across.is_empty() {
+            across.resize(watched, 0.0);
+            let participation = &reduced.across[..];
+            reduced.show([participation, participation], [&mut across, &mut spare]);
+        }
         Self {
             history: interval.map(|_| History::new(columns(system))),
             interval: interval.unwrap_or(0.0),
@@ -85,11 +96,12 @@ impl Peaks {
             floors: system
                 .buildings
                 .iter()
-                .map(|b| vec![FloorPeaks::default(); b.floors.len()])
+                .map(|b| vec![FloorPeaks::default(); b.tracks.len()])
                 .collect(),
+            corners: system.buildings.iter().map(CornerPeaks::new).collect(),
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
-            driven,
+            driven: [driven, across],
             limits: Limits::none(reduced),
             forces: [(); 2].map(|()| vec![0.0; reduced.forces()]),
             force_rates: [(); 2].map(|()| vec![0.0; reduced.forces()]),
@@ -113,13 +125,54 @@ impl Peaks {
         }
     }
 
+    /// Peaks of the floors along x, and further ones of buildings in space.
+    pub(super) fn take_floors(
+        &mut self,
+        system: &System,
+    ) -> (Vec<Vec<FloorPeaks>>, Vec<PlanPeaks>) {
+        let mut floors = std::mem::take(&mut self.floors);
+        let corners = std::mem::take(&mut self.corners);
+        let mut in_plan = Vec::with_capacity(floors.len());
+        for ((own, building), corners) in floors.iter_mut().zip(&system.buildings).zip(corners) {
+            let mut across = own.split_off(building.floors.len().min(own.len()));
+            let turning = across.split_off(across.len() / 2);
+            in_plan.push(PlanPeaks {
+                across,
+                turning,
+                corner_displacement: match building.is_in_space() {
+                    true => corners.finish(),
+                    false => Vec::new(),
+                },
+            });
+        }
+        (floors, in_plan)
+    }
+
     pub(super) fn into_history(self) -> Option<History> {
         self.history
     }
 
     /// See the field.
-    pub(super) fn driven(&self) -> &[f64] {
+    pub(super) fn driven(&self) -> &[Vec<f64>; 2] {
         &self.driven
+    }
+
+    /// Rate of the total acceleration of a monitored place without that of modal loads of contacts, beyond its jerk without
+    /// load.
+    fn slope(&self, place: usize, direction: Direction, rate: Ground) -> f64 {
+        if self.driven[1].is_empty() {
+            return rate[0] * (1.0 - self.driven[0][place]);
+        }
+        direction.of_ground(rate) - self.driven_by(place, rate)
+    }
+
+    /// What a ground acceleration contributes to the acceleration of a monitored quantity, with the opposite sign.
+    pub(super) fn driven_by(&self, place: usize, ground: Ground) -> f64 {
+        let [along, across] = &self.driven;
+        let first = along[place] * ground[0];
+        across
+            .get(place)
+            .map_or(first, |share| first + share * ground[1])
     }
 
     /// Updates peaks with a step.
@@ -230,7 +283,7 @@ impl Peaks {
         let step = time - self.before.time;
         for (index, own) in reduced.buildings.iter().enumerate() {
             let storeys = system.buildings[index].storeys.len();
-            for storey in 0..self.floors[index].len() {
+            for storey in 0..storeys.min(self.floors[index].len()) {
                 let peaks = self.floors[index][storey];
                 let raised = [
                     (own.forces.start + storey, peaks.storey_shear),
@@ -274,10 +327,16 @@ impl Peaks {
             step,
             ..
         } = *taken;
+        if !self.driven[1].is_empty() {
+            // Places see different components of the ground motion.
+            self.seen.fill(true);
+            return true;
+        }
+        let ground = ground.map(|ground| ground[0]);
         Arch::new().dispatch(Exceeds {
             limits: &self.limits,
             ends: [then.lists(), now.lists()],
-            driven: &self.driven,
+            driven: &self.driven[0],
             ground,
             ground_rate: (ground[1] - ground[0]) / step,
             beyond: BEYOND * step,
@@ -300,7 +359,7 @@ impl Peaks {
             step,
             ..
         } = *taken;
-        let ground_rate = (ground[1] - ground[0]) / step;
+        let ground_rate = [0, 1].map(|axis| (ground[1][axis] - ground[0][axis]) / step);
         for (index, building) in system.buildings.iter().enumerate() {
             let own = &reduced.buildings[index];
             let blocks = own.watched.start / ROWS..own.watched.end / ROWS;
@@ -317,8 +376,16 @@ impl Peaks {
                 then: foot(then),
                 now: foot(now),
             };
-            let floors = self.floors[index].iter_mut().zip(&building.floors);
-            for (at, (peaks, floor)) in (own.watched.start..).zip(floors) {
+            for (at, floor) in (own.watched.start..).zip(&building.tracks) {
+                let place = at - own.watched.start;
+                let slope = self.slope(at, floor.direction, ground_rate);
+                let peaks = &mut self.floors[index][place];
+                if floor.is_lowest && floor.direction != Direction::Along {
+                    below = Ends {
+                        then: [0.0; 2],
+                        now: [0.0; 2],
+                    };
+                }
                 let ends = Ends {
                     then: [then.u[at], then.rate[at]],
                     now: [now.u[at], now.rate[at]],
@@ -334,14 +401,14 @@ impl Peaks {
                 };
                 drifts.widen(&mut peaks.storey_drift, step);
                 below = ends;
-                let slope = ground_rate * (1.0 - self.driven[at]);
+                let moved = ground.map(|ground| floor.direction.of_ground(ground));
                 let total = Ends {
                     then: [
-                        then.acceleration[at] + ground[0],
+                        then.acceleration[at] + moved[0],
                         then.unloaded_jerk[at] + slope,
                     ],
                     now: [
-                        now.acceleration[at] + ground[1],
+                        now.acceleration[at] + moved[1],
                         now.unloaded_jerk[at] + slope,
                     ],
                 };
@@ -350,7 +417,8 @@ impl Peaks {
                 } else {
                     peaks.total_acceleration = taken.motion.greatest_acceleration(
                         reduced,
-                        [index, at - own.watched.start],
+                        index,
+                        (place, floor.direction),
                         total,
                         peaks.total_acceleration,
                     );
@@ -360,12 +428,13 @@ impl Peaks {
                     self.limits.low[at] = peaks.displacement_min.value;
                 }
                 self.limits.acceleration[at] = NEAR_GREATEST * peaks.total_acceleration;
-                if at > own.watched.start {
+                if !floor.is_lowest {
                     // Slightly less, because the product is rounded.
                     let widest = peaks.storey_drift * floor.storey_height;
                     self.limits.drift[at] = (1.0 - 1e-12) * widest;
                 }
             }
+            self.corners[index].follow(own, [then, now], start, step);
             let shear = own.shear;
             let shears = Ends {
                 then: [then.u[shear], then.rate[shear]],
@@ -412,16 +481,33 @@ impl Peaks {
             }
         };
         put(time);
-        put(ground);
+        put(ground[0]);
+        if !reduced.across.is_empty() {
+            put(ground[1]);
+        }
         for (building, own) in system.buildings.iter().zip(&reduced.buildings) {
-            for floor in 0..building.floors.len().min(own.floors) {
+            for (floor, track) in building.tracks.iter().enumerate().take(own.floors) {
                 let at = own.watched.start + floor;
                 put(watched.u[at]);
                 put(watched.rate[at]);
-                put(watched.acceleration[at] + ground);
+                put(watched.acceleration[at] + track.direction.of_ground(ground));
             }
         }
-        phases.iter().for_each(|phase| put(phase.force()));
+        if reduced.across.is_empty() {
+            phases.iter().for_each(|phase| put(phase.force()));
+        } else {
+            // The points of a face follow each other.
+            let mut points = system.contacts.iter().zip(phases).peekable();
+            while let Some((contact, phase)) = points.next() {
+                let mut force = phase.force();
+                while let Some((_, phase)) = points
+                    .next_if(|(next, _)| next.plan.map(|p| p.face) == contact.plan.map(|p| p.face))
+                {
+                    force += phase.force();
+                }
+                put(force);
+            }
+        }
         links.iter().for_each(|force| put(*force));
         [
             energy.input,

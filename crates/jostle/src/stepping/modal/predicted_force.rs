@@ -155,8 +155,13 @@ impl ModalStepper<'_> {
         let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
         let start = closing(&self.u) - run.system.contacts[index].width;
         let (rate, acceleration) = (closing(&self.rate), closing(&self.acceleration));
-        let driven = self.reduced.closing(index, self.peaks.driven());
-        let jerk = closing(&self.unloaded_jerk) - driven * (run.ground[1] - run.ground[0]) / step;
+        let [along, across] = self.peaks.driven();
+        let driven = self.reduced.closing(index, along);
+        let [then, now] = run.ground;
+        let mut jerk = closing(&self.unloaded_jerk) - driven * (now[0] - then[0]) / step;
+        if !across.is_empty() {
+            jerk -= self.reduced.closing(index, across) * (now[1] - then[1]) / step;
+        }
         let respond =
             |indentation: f64, rate: f64| contact.law.follow(indentation, rate, &episode.memory);
         let force = |share: f64| {

@@ -17,8 +17,9 @@ use crate::contact::ForceLaw;
 use crate::history::Work;
 use crate::interface::{DofRow, InterfaceGraph};
 use crate::linear::NotPositive;
+use crate::motion::Ground;
 use crate::simd;
-use crate::system::{BuildingSystem, System};
+use crate::system::{BuildingSystem, Direction, System};
 
 /// A row of buildings as oscillators, with their displacements at floors and contacts.
 pub(super) struct Reduced {
@@ -26,8 +27,11 @@ pub(super) struct Reduced {
     pub(super) damping: Vec<f64>,
     /// k = ω² \[1/s²\].
     pub(super) stiffness: Vec<f64>,
-    /// Γ = φᵀM r \[kg^½\].
+    /// Γ = φᵀM r along x, and across; the latter is empty in one plane \[kg^½\].
     pub(super) participation: Vec<f64>,
+    pub(super) across: Vec<f64>,
+    /// Direction of every monitored displacement; points of contacts and links count as along x.
+    pub(super) directions: Vec<Direction>,
     pub(super) buildings: Vec<ReducedBuilding>,
     /// The available registers.
     arch: Arch,
@@ -58,8 +62,11 @@ pub(super) struct ReducedBuilding {
     /// Shears of its storeys from the ground up, then their overturning moments, among all \[N, N·m\], and padding
     /// to a whole block.
     pub(super) forces: Range<usize>,
-    /// Number of floors, the place of the foot where the base gives way sideways, and the index of the base shear.
+    /// Number of displacements of floors, the place of the foot where the base gives way sideways, and the index of the base
+    /// shear.
     pub(super) floors: usize,
+    /// Displacements of corners along x and across in turn, among all.
+    pub(super) corners: Range<usize>,
     pub(super) foot: Option<usize>,
     pub(super) shear: usize,
     /// Shapes at a block of monitored displacements, mode by mode; padding rows are zero \[kg^−½\].
@@ -110,7 +117,7 @@ impl Reduced {
     ) -> Result<Self, (usize, NotPositive)> {
         let mut bases = Vec::with_capacity(system.buildings.len());
         for (index, building) in system.buildings.iter().enumerate() {
-            let Watched { places, ports } = Watched::new(system, index);
+            let Watched { places, ports, .. } = Watched::new(system, index);
             let Rates { pushed, swaying } = rates[index];
             let [low, high] = COMPARED.map(|factor| factor * pushed);
             let mut struck = system.contacts.iter().filter(|contact| {
@@ -130,14 +137,17 @@ impl Reduced {
                 .collect();
             let demand = Demand {
                 ports: &ports,
-                floors: &places[..building.floors.len()],
+                floors: &places[..building.tracks.len()],
                 met: &met,
                 compared: &[high, low, 3.0 * swaying, swaying],
                 tolerance: closeness,
             };
             // Instantly only the mass at the contact moves, which a few modes cannot represent; and damping of all
             // modes requires all natural modes.
-            let basis = if struck.next().is_some() || building.modal_damping.is_some() {
+            let basis = if struck.next().is_some()
+                || building.modal_damping.is_some()
+                || building.is_in_space()
+            {
                 Basis::complete(building)
             } else {
                 Basis::new(building, &demand)
@@ -187,6 +197,8 @@ impl Reduced {
             damping: Vec::new(),
             stiffness: Vec::new(),
             participation: Vec::new(),
+            across: Vec::new(),
+            directions: Vec::new(),
             buildings: Vec::new(),
             arch: Arch::new(),
             ports: vec![[None; 2]; system.contacts.len()],
@@ -268,7 +280,10 @@ impl Reduced {
     ) -> Result<(), NotPositive> {
         let building = &system.buildings[index];
         let equations = &building.equations;
-        let Watched { places, .. } = Watched::new(system, index);
+        let Watched {
+            places, corners, ..
+        } = Watched::new(system, index);
+        let corners = corners.start + self.watched()..corners.end + self.watched();
         let watching = self.watched();
         for (ports, contact) in self.ports.iter_mut().zip(&system.contacts) {
             for (shown, port) in ports.iter_mut().zip(&contact.ports.0) {
@@ -292,6 +307,11 @@ impl Reduced {
         }
         self.stiffness.extend(&basis.modes.stiffness);
         self.participation.extend(&basis.modes.participation);
+        if building.is_in_space() {
+            let driven = &equations.driven_across;
+            self.across
+                .extend(basis.of_shapes(|vector| simd::dot(driven, vector)));
+        }
         let shear = basis.of_shapes(|vector| equations.base_shear(vector));
         let shown: Vec<Vec<f64>> = places
             .iter()
@@ -326,6 +346,8 @@ impl Reduced {
             forces_off = in_blocks(&defects.rows[shown.len()..first_of_members], basis.len());
             defects_of_members[1] = defects.rows.split_off(first_of_members);
         }
+        self.directions
+            .extend(building.tracks.iter().map(|track| track.direction));
         let blocks = in_blocks(&shown, basis.len());
         let rows = shown.len().div_ceil(ROWS) * ROWS;
         let [missed_of_members, off_of_members] = defects_of_members
@@ -345,6 +367,7 @@ impl Reduced {
                 off: off_of_members,
             },
         );
+        self.directions.resize(watching + rows, Direction::Along);
         self.buildings.push(ReducedBuilding {
             modes: start..self.stiffness.len(),
             watched: watching..watching + rows,
@@ -353,8 +376,9 @@ impl Reduced {
             forces_missed,
             forces_off,
             members: member_rows,
-            floors: building.floors.len(),
-            foot: building.foot.map(|_| building.floors.len()),
+            floors: building.tracks.len(),
+            foot: building.foot.map(|_| building.tracks.len()),
+            corners,
             shear: watching + shown.len() - 1,
             blocks,
             missed,
@@ -362,6 +386,27 @@ impl Reduced {
             basis,
         });
         Ok(())
+    }
+
+    /// Modal loads of the ground motion.
+    pub(super) fn set_ground_loads(&self, ground: Ground, loads: &mut [f64]) {
+        for (load, participation) in loads.iter_mut().zip(&self.participation) {
+            *load = -participation * ground[0];
+        }
+        for (load, participation) in loads.iter_mut().zip(&self.across) {
+            *load -= participation * ground[1];
+        }
+    }
+
+    /// Σ Γ x of a list of modes, along x and across.
+    pub(super) fn driven(&self, list: &[f64]) -> [f64; 2] {
+        let along = simd::dot(&self.participation, list);
+        let across = if self.across.is_empty() {
+            0.0
+        } else {
+            simd::dot(&self.across, list)
+        };
+        [along, across]
     }
 
     /// The available registers.
@@ -482,21 +527,25 @@ impl Reduced {
     }
 }
 
-/// Monitored displacements of a building: its floors from the ground up, then other points of contacts, links and
+/// Monitored displacements of a building: its floors from the ground up, its corners in plan, then other points of contacts, links and
 /// dashpots; and those of contacts, links and dashpots.
 struct Watched {
     places: Vec<DofRow>,
     ports: Vec<DofRow>,
+    /// Corners in plan among the places.
+    corners: Range<usize>,
 }
 
 impl Watched {
     fn new(system: &System, index: usize) -> Self {
         let building = &system.buildings[index];
-        let floors = building.floors.iter().map(|floor| floor.dof);
+        let floors = building.tracks.iter().map(|track| track.dof);
         let mut places: Vec<DofRow> = floors
             .chain(building.foot)
             .map(|dof| DofRow::single(dof - building.offset))
             .collect();
+        let corners = places.len()..places.len() + 2 * building.corners.len();
+        places.extend(building.corners.iter().flat_map(|corner| corner.rows));
         let mut ports = Vec::new();
         let contacts = system.contacts.iter().map(|contact| contact.ports.0);
         let links = system.links.iter().map(|link| link.ports.0);
@@ -512,7 +561,11 @@ impl Watched {
                 }
             }
         }
-        Self { places, ports }
+        Self {
+            places,
+            ports,
+            corners,
+        }
     }
 }
 

@@ -15,7 +15,7 @@ use super::reduced::{Reduced, Table};
 use super::struck::{StruckStep, WithinStep};
 use super::turning::{Loads, StepMotion};
 use crate::history::{Energy, Work};
-use crate::motion::GroundMotion;
+use crate::motion::{Ground, GroundMotion};
 use crate::state::{Episode, State};
 use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::clock::{Clock, NextStep};
@@ -157,9 +157,7 @@ impl<'a> ModalStepper<'a> {
         let (modes, watched) = (reduced.modes(), reduced.watched());
         let pair = |n: usize| [vec![0.0; n], vec![0.0; n]];
         let mut p = pair(modes);
-        for (load, participation) in p[0].iter_mut().zip(&reduced.participation) {
-            *load = -participation * ground;
-        }
+        reduced.set_ground_loads(ground, &mut p[0]);
         let contacts = system.contacts.len();
         let rows = settings
             .record_interval
@@ -168,8 +166,8 @@ impl<'a> ModalStepper<'a> {
         peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
         let mut acceleration = pair(watched);
         // At rest on moving ground buildings stay behind.
-        for (acceleration, share) in acceleration[0].iter_mut().zip(peaks.driven()) {
-            *acceleration = -share * ground;
+        for (place, acceleration) in acceleration[0].iter_mut().enumerate() {
+            *acceleration = peaks.driven_by(place, ground.map(|value| -value));
         }
         Self {
             free_steps: FreeSteps::new(reduced),
@@ -244,12 +242,15 @@ impl<'a> ModalStepper<'a> {
             },
             |members| members.finish(run.system, self.reduced),
         );
+        let (floors, in_plan) = self.peaks.take_floors(run.system);
         Outcome {
             impacts: run.impacts,
             acceleration_parts: AccelerationParts::default(),
-            floors: std::mem::take(&mut self.peaks.floors),
+            floors,
+            in_plan,
             closing: std::mem::take(&mut self.peaks.closing),
             gap_forces: run.gap_forces.peaks,
+            face_impacts: run.face_forces.impacts,
             base_shear: std::mem::take(&mut self.peaks.base_shear),
             spring_history: None,
             members,
@@ -352,7 +353,7 @@ impl<'a> ModalStepper<'a> {
 
     /// Adds the peaks of an accepted step, whose modal accelerations at the end are in `scratch` and whose
     /// jerks without the load term, in `jerk`.
-    fn look(&mut self, run: &RunState<'_>, ground: [f64; 2], start: f64, step: f64) {
+    fn look(&mut self, run: &RunState<'_>, ground: [Ground; 2], start: f64, step: f64) {
         let reduced = self.reduced;
         self.acceleration.swap(0, 1);
         self.unloaded_jerk.swap(0, 1);
@@ -515,11 +516,8 @@ impl Stepper for ModalStepper<'_> {
         slot: usize,
         end: Clock,
     ) -> Result<(), StepError> {
-        run.ground[1] = run.motion.acceleration(end.time());
-        let ground = run.ground[1];
-        for (load, participation) in self.p[1].iter_mut().zip(&self.reduced.participation) {
-            *load = -participation * ground;
-        }
+        run.ground[1] = run.motion.components(end.time());
+        self.reduced.set_ground_loads(run.ground[1], &mut self.p[1]);
         self.predict_forces(run, self.tables[slot].step);
         self.advance_modes(slot);
         if !self.reduced.links.is_empty() {
@@ -679,7 +677,7 @@ impl Stepper for ModalStepper<'_> {
         run: &mut RunState<'_>,
         start: f64,
         step: f64,
-        ground: [f64; 2],
+        ground: [Ground; 2],
         was_closed: bool,
     ) -> Result<(), StepError> {
         self.look(run, ground, start, step);

@@ -5,7 +5,9 @@ use super::mode_kernels::LANES;
 use super::peaks::Ends;
 use super::reduced::{Reduced, filled};
 use super::response::Responses;
+use crate::motion::Ground;
 use crate::stepping::events::Cubic;
+use crate::system::Direction;
 
 /// Fraction of the greatest value so far from which turning points of cubics are looked at exactly.
 pub(super) const NEAR_GREATEST: f64 = 0.95;
@@ -19,7 +21,7 @@ pub(super) struct StepMotion<'a> {
     pub(super) start: [&'a [f64]; 2],
     pub(super) loads: Loads<'a>,
     /// Ground acceleration at both ends \[m/s²\].
-    pub(super) ground: [f64; 2],
+    pub(super) ground: [Ground; 2],
     pub(super) step: f64,
 }
 
@@ -38,7 +40,7 @@ impl StepMotion<'_> {
         let [first, last, bend] = match self.loads {
             Loads::Ground => {
                 let share = -reduced.participation[mode];
-                [share * self.ground[0], share * self.ground[1], 0.0]
+                [share * self.ground[0][0], share * self.ground[1][0], 0.0]
             }
             Loads::Parabolas(lists) => lists.map(|list| list[mode]),
         };
@@ -51,10 +53,16 @@ impl StepMotion<'_> {
         ]
     }
 
-    /// Total acceleration of a floor at a fraction of the step and its rate \[m/s², m/s³\].
-    fn acceleration(&self, reduced: &Reduced, building: usize, floor: usize, tau: f64) -> [f64; 2] {
+    /// Total acceleration of a floor in a direction at a fraction of the step, and its rate \[m/s², m/s³\].
+    fn acceleration(
+        &self,
+        reduced: &Reduced,
+        building: usize,
+        (floor, direction): (usize, Direction),
+        tau: f64,
+    ) -> [f64; 2] {
         let own = &reduced.buildings[building];
-        let [g0, g1] = self.ground;
+        let [g0, g1] = self.ground.map(|ground| direction.of_ground(ground));
         let mut sums = [g0 + (g1 - g0) * tau, (g1 - g0) / self.step];
         for first in own.modes.clone().step_by(LANES) {
             let modes = first..(first + LANES).min(own.modes.end);
@@ -93,7 +101,8 @@ impl StepMotion<'_> {
     pub(super) fn greatest_acceleration(
         &self,
         reduced: &Reduced,
-        [building, floor]: [usize; 2],
+        building: usize,
+        floor: (usize, Direction),
         ends: Ends,
         known: f64,
     ) -> f64 {

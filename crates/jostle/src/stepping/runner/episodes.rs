@@ -39,6 +39,9 @@ impl<S: Stepper> Runner<'_, S> {
             ];
             let force = episode.follow_force(&contact.law, &trial, slopes, turn, start, step);
             self.run.gap_forces.add(contact.gap, force);
+            if let Some(place) = contact.plan {
+                self.run.face_forces.add(place.face, place.at, force);
+            }
             let strongest = &mut self.run.strongest[contact.gap];
             *strongest = strongest.max(episode.peak_force);
             let division = self
@@ -55,5 +58,6 @@ impl<S: Stepper> Runner<'_, S> {
             };
         }
         self.run.gap_forces.finish_step(start, step);
+        self.run.face_forces.finish_step(start, step);
     }
 }

@@ -3,10 +3,11 @@
 use super::contact_events::{ContactTrial, impact_of};
 use crate::history::{Impact, Work};
 use crate::model::Solver;
-use crate::motion::GroundMotion;
+use crate::motion::{Ground, GroundMotion};
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::clock::Clock;
 use crate::stepping::coupling::ContactEquations;
+use crate::stepping::face_forces::FaceForces;
 use crate::stepping::gap_forces::GapForces;
 use crate::stepping::outcome::{Pounding, Settings};
 use crate::stepping::plan::Plan;
@@ -22,7 +23,7 @@ pub(in crate::stepping) struct RunState<'a> {
     /// Time now \[s\].
     pub(in crate::stepping) time: f64,
     /// Ground acceleration now and at the end of the tried step \[m/s²\].
-    pub(in crate::stepping) ground: [f64; 2],
+    pub(in crate::stepping) ground: [Ground; 2],
     pub(in crate::stepping) phases: Vec<ContactPhase>,
     /// Of contacts, then of links.
     pub(in crate::stepping) trials: Vec<ContactTrial>,
@@ -32,6 +33,8 @@ pub(in crate::stepping) struct RunState<'a> {
     /// Greatest force of every gap so far, measured or expected of an impact under way \[N\].
     pub(in crate::stepping) strongest: Vec<f64>,
     pub(in crate::stepping) gap_forces: GapForces,
+    /// Impacts of the faces of buildings in space.
+    pub(in crate::stepping) face_forces: FaceForces,
     pub(in crate::stepping) coupling: ContactEquations,
     /// Whether this step ends at a corner of a contact force.
     pub(in crate::stepping) at_corner: bool,
@@ -46,7 +49,7 @@ impl<'a> RunState<'a> {
         plan: &'a Plan,
         settings: Settings,
     ) -> Self {
-        let ground = motion.acceleration(0.0);
+        let ground = motion.components(0.0);
         let contacts = system.contacts.len();
         let gaps = system.contacts.iter().map(|contact| contact.gap + 1);
         Self {
@@ -67,6 +70,7 @@ impl<'a> RunState<'a> {
             finest_in_contact: 0,
             strongest: vec![0.0; gaps.max().unwrap_or(0)],
             gap_forces: GapForces::new(system),
+            face_forces: FaceForces::new(system),
             coupling: ContactEquations::default(),
             at_corner: false,
             impacts: Vec::new(),

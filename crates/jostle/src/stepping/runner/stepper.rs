@@ -1,6 +1,7 @@
 //! The interface between the runner and a stepper.
 
 use super::{ContactTrial, RunState};
+use crate::motion::Ground;
 use crate::state::Episode;
 use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::events::Cubic;
@@ -122,7 +123,7 @@ pub(in crate::stepping) trait Stepper {
         run: &mut RunState<'_>,
         start: f64,
         step: f64,
-        ground: [f64; 2],
+        ground: [Ground; 2],
         was_closed: bool,
     ) -> Result<(), StepError>;
 

@@ -1,0 +1,374 @@
+//! Plans of shear buildings: floors that move in both horizontal directions and turn.
+
+use jostle::interface::narrowest_gap;
+use jostle::{Building, Gap, Model, PlanArea, PlanPoint, Structure, Tier, TierStorey, Tiers};
+
+use super::building::{has_length, per_storey, storeys};
+use super::shear::DEFAULT_STOREY_HEIGHT;
+use crate::keys::Section;
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// Greatest difference between the width of a gap and the distance of the plans \[m\].
+const AGREES: f64 = 1e-3;
+
+/// A building with a plan, and where it stands; `None` stands in a row.
+pub(super) struct Read {
+    pub(super) tiers: Tiers,
+    pub(super) at: Option<PlanPoint>,
+}
+
+/// Reads the keys of a shear building that has a plan; after a fault, harmless values are used.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Read {
+    let elements = reader
+        .get(view, "element")
+        .and_then(|field| field.entries());
+    let lists: &[&'static str] = if elements.is_some() {
+        &["mass", "storey_height"]
+    } else {
+        &["mass", "stiffness", "storey_height"]
+    };
+    let count = if is_single_floor(reader, view) {
+        1
+    } else {
+        storeys(reader, view, lists).unwrap_or(1)
+    };
+    let list = |reader: &mut Reader<'_>, key, dimension| {
+        let field = reader.get(view, key)?;
+        per_storey(reader, &field, dimension, Some(count))
+    };
+    let masses = list(reader, "mass", Dimension::Mass);
+    if !view.has("mass") {
+        reader.missing(
+            view,
+            "mass",
+            "add mass = \"250 t\", or a list from the ground up",
+        );
+    }
+    let masses = masses.unwrap_or_else(|| vec![1.0; count]);
+    let heights = list(reader, "storey_height", Dimension::Length);
+    let polar = list(reader, "polar_mass", Dimension::PolarMass);
+    let plans = reader
+        .get(view, "plan")
+        .and_then(|field| read_plans(reader, &field, count));
+    let square = || vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let plans = plans.unwrap_or_else(|| vec![square(); count]);
+    let at = reader
+        .get(view, "at")
+        .and_then(|field| pair(reader, &field));
+    let centre = reader
+        .get(view, "mass_centre")
+        .and_then(|field| pairs(reader, &field, count));
+    let floors: Vec<Tier> = plans
+        .iter()
+        .enumerate()
+        .map(|(floor, plan)| {
+            let area = PlanArea::new(plan);
+            let mass = masses.get(floor).copied().unwrap_or(1.0);
+            let own = centre.as_ref().and_then(|list| list.get(floor).copied());
+            let centre = own.unwrap_or(area.centroid);
+            let polar = polar.as_ref().and_then(|list| list.get(floor).copied());
+            Tier {
+                mass,
+                polar_mass: polar.unwrap_or(mass * area.gyration()),
+                centre,
+                plan: plan.clone(),
+            }
+        })
+        .collect();
+    let storeys = match elements {
+        Some(entries) => {
+            for key in ["stiffness", "eccentricity"] {
+                if let Some(field) = reader.get(view, key) {
+                    *reader.bad(&field, "cannot be combined with elements") =
+                        Some(format!("remove {key}; the elements give it"));
+                }
+            }
+            of_elements(reader, &entries, count)
+        }
+        None => of_stiffness(reader, view, &floors, &plans),
+    };
+    Read {
+        tiers: Tiers {
+            floors,
+            storeys,
+            storey_heights: heights.unwrap_or_else(|| vec![DEFAULT_STOREY_HEIGHT; count]),
+        },
+        at,
+    }
+}
+
+/// Whether nothing speaks of more than one floor.
+fn is_single_floor(reader: &mut Reader<'_>, view: &View<'_>) -> bool {
+    let counted = view.has("storeys") || view.has("floors");
+    let mut single = |key| {
+        let field = reader.get(view, key);
+        field.is_none_or(|field| field.entries().is_none())
+    };
+    !counted && single("mass") && single("stiffness") && single("storey_height")
+}
+
+/// Two lengths.
+fn pair(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<PlanPoint> {
+    let entries = field.entries().unwrap_or_default();
+    let [x, y] = &entries[..] else {
+        let found = field.node.describe();
+        reader.bad(
+            field,
+            format!("expected two lengths, along x and across, such as [\"1 m\", \"-0.5 m\"]; found {found}"),
+        );
+        return None;
+    };
+    let x = reader.quantity(x, Dimension::Length);
+    let y = reader.quantity(y, Dimension::Length);
+    Some([x?, y?])
+}
+
+/// Two lengths for all storeys, or a list of such pairs from the ground up.
+fn pairs(reader: &mut Reader<'_>, field: &Field<'_>, count: usize) -> Option<Vec<PlanPoint>> {
+    let entries = field.entries().unwrap_or_default();
+    if entries
+        .first()
+        .is_none_or(|entry| entry.entries().is_none())
+    {
+        return pair(reader, field).map(|pair| vec![pair; count]);
+    }
+    has_length(reader, field, entries.len(), Some(count))?;
+    let list: Vec<_> = entries.iter().map(|entry| pair(reader, entry)).collect();
+    list.into_iter().collect()
+}
+
+/// A plan for all floors, or a list of plans from the ground up, each a table with its size or its corners.
+fn read_plans(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    count: usize,
+) -> Option<Vec<Vec<PlanPoint>>> {
+    let entries = field.entries().unwrap_or_default();
+    let tables = entries
+        .first()
+        .is_some_and(|entry| entry.named_entries().is_some());
+    if !tables {
+        return read_plan(reader, field).map(|plan| vec![plan; count]);
+    }
+    has_length(reader, field, entries.len(), Some(count))?;
+    let plans: Vec<_> = entries
+        .iter()
+        .map(|entry| {
+            let view = reader.open(entry, &[Section::FloorPlan])?;
+            match (reader.get(&view, "size"), reader.get(&view, "corners")) {
+                (Some(field), None) | (None, Some(field)) => read_plan(reader, &field),
+                _ => {
+                    reader.missing(
+                        &view,
+                        "size",
+                        "give either size = [\"20 m\", \"12 m\"], or corners",
+                    );
+                    None
+                }
+            }
+        })
+        .collect();
+    plans.into_iter().collect()
+}
+
+/// The width along x and the depth across of a rectangle, or a list of corners.
+fn read_plan(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<PlanPoint>> {
+    let entries = field.entries().unwrap_or_default();
+    if entries
+        .first()
+        .is_some_and(|entry| entry.entries().is_some())
+    {
+        let corners: Vec<_> = entries.iter().map(|entry| pair(reader, entry)).collect();
+        return corners.into_iter().collect();
+    }
+    let [width, depth] = &entries[..] else {
+        let found = field.node.describe();
+        *reader.bad(field, format!("expected a width and a depth, or corners; found {found}")) =
+            Some("write plan = [\"20 m\", \"12 m\"], or plan = [[\"0 m\", \"0 m\"], [\"20 m\", \"0 m\"], …] counter-clockwise".into());
+        return None;
+    };
+    let width = reader.positive(width, Dimension::Length);
+    let depth = reader.positive(depth, Dimension::Length);
+    let (a, b) = (width?, depth?);
+    Some(vec![[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]])
+}
+
+/// Stiffness of every storey: one value or table, or a list of them from the ground up.
+fn of_stiffness(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    floors: &[Tier],
+    plans: &[Vec<PlanPoint>],
+) -> Vec<TierStorey> {
+    let count = floors.len();
+    let eccentricity = reader
+        .get(view, "eccentricity")
+        .and_then(|field| pairs(reader, &field, count));
+    let given = match reader.get(view, "stiffness") {
+        Some(field) => match field.entries() {
+            Some(entries) => has_length(reader, &field, entries.len(), Some(count))
+                .map(|()| entries.iter().map(|entry| spring(reader, entry)).collect()),
+            None => Some(vec![spring(reader, &field); count]),
+        },
+        None => {
+            reader.missing(
+                view,
+                "stiffness",
+                "add stiffness = { x = \"60 MN/m\", y = \"85 MN/m\" }, or [[building.element]]",
+            );
+            None
+        }
+    };
+    let given: Vec<Option<Spring>> = given.unwrap_or_else(|| vec![None; count]);
+    let storeys = floors.iter().zip(plans).zip(given).enumerate();
+    storeys
+        .map(|(storey, ((floor, plan), spring))| {
+            let [x, y, torsion] = spring.unwrap_or([Some(1.0), Some(1.0), Some(1.0)]);
+            let x = x.unwrap_or(1.0);
+            let y = y.unwrap_or(x);
+            let even = || TierStorey::torsion_of_even([x, y], &PlanArea::new(plan));
+            let own = eccentricity
+                .as_ref()
+                .and_then(|list| list.get(storey).copied());
+            let [ex, ey] = own.unwrap_or_default();
+            TierStorey {
+                stiffness: [x, y, torsion.unwrap_or_else(even)],
+                centre: [floor.centre[0] + ex, floor.centre[1] + ey],
+            }
+        })
+        .collect()
+}
+
+/// Stiffness along x, across and in torsion, as far as it is given.
+type Spring = [Option<f64>; 3];
+
+fn spring(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Spring> {
+    if field.named_entries().is_none() {
+        let value = reader.quantity(field, Dimension::Stiffness)?;
+        return Some([Some(value), None, None]);
+    }
+    let view = reader.open(field, &[Section::PlanStiffness])?;
+    let mut part = |key, dimension| {
+        let field = reader.get(&view, key)?;
+        reader.quantity(&field, dimension)
+    };
+    let found = [
+        part("x", Dimension::Stiffness),
+        part("y", Dimension::Stiffness),
+        part("torsion", Dimension::RotationalStiffness),
+    ];
+    if !view.has("x") {
+        reader.missing(&view, "x", "add x = \"60 MN/m\"");
+    }
+    Some(found)
+}
+
+/// Storeys from columns and walls at points of the plan.
+fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> Vec<TierStorey> {
+    let mut of_storey: Vec<Vec<(PlanPoint, [f64; 2])>> = vec![Vec::new(); count];
+    for entry in entries {
+        let Some(view) = reader.open(entry, &[Section::Element]) else {
+            continue;
+        };
+        let at = match reader.get(&view, "at") {
+            Some(field) => pair(reader, &field),
+            None => {
+                reader.missing(&view, "at", "add at = [\"0.5 m\", \"0.5 m\"]");
+                None
+            }
+        };
+        let spring = match reader.get(&view, "stiffness") {
+            Some(field) => spring(reader, &field),
+            None => {
+                reader.missing(
+                    &view,
+                    "stiffness",
+                    "add stiffness = { x = \"12 MN/m\", y = \"10 MN/m\" }",
+                );
+                None
+            }
+        };
+        let range = match reader.get(&view, "storeys") {
+            Some(field) => storey_range(reader, &field, count),
+            None => Some([1, count]),
+        };
+        if let (Some(at), Some([x, y, _]), Some([from, to])) = (at, spring, range) {
+            let x = x.unwrap_or(0.0);
+            for storey in &mut of_storey[from - 1..to] {
+                storey.push((at, [x, y.unwrap_or(x)]));
+            }
+        }
+    }
+    of_storey
+        .iter()
+        .map(|elements| TierStorey::of_elements(elements))
+        .collect()
+}
+
+/// First and last storey.
+fn storey_range(reader: &mut Reader<'_>, field: &Field<'_>, count: usize) -> Option<[usize; 2]> {
+    let entries = field.entries().unwrap_or_default();
+    let [from, to] = &entries[..] else {
+        reader.bad(
+            field,
+            "expected the first and the last storey, such as [1, 5]",
+        );
+        return None;
+    };
+    let (from, to) = (reader.count(from)?, reader.count(to)?);
+    if from == 0 || to < from || to > count {
+        reader.bad(
+            field,
+            format!("must rise and lie between 1 and {count}, found [{from}, {to}]"),
+        );
+        return None;
+    }
+    Some([from, to])
+}
+
+/// Moves buildings to their places: those with `at` there, the others in a row along x, each as far from the one before as
+/// the gap between them is wide.
+pub(super) fn place(buildings: &mut [Building], at: &[Option<PlanPoint>], gaps: &[Gap]) {
+    let mut end = 0.0;
+    for index in 0..buildings.len() {
+        let Structure::Tiers(tiers) = &mut buildings[index].structure else {
+            continue;
+        };
+        let [from, to] = tiers.extent_along();
+        let place = at.get(index).copied().flatten().unwrap_or_else(|| {
+            let before = index.checked_sub(1);
+            let gap = gaps
+                .iter()
+                .find(|gap| before.is_some() && gap.between == [before, Some(index)]);
+            [end + gap.map_or(0.0, Gap::width) - from, 0.0]
+        });
+        tiers.move_by(place);
+        end = to + place[0];
+    }
+}
+
+/// Notes gaps whose width differs from the distance of the plans.
+pub(super) fn check_widths(reader: &mut Reader<'_>, model: &mut Model, gaps: &[Field<'_>]) {
+    let narrowest: Vec<Option<f64>> = (0..model.gaps.len())
+        .map(|gap| narrowest_gap(model, gap))
+        .collect();
+    for ((gap, narrowest), field) in model.gaps.iter_mut().zip(narrowest).zip(gaps) {
+        let Some(narrowest) = narrowest else {
+            continue;
+        };
+        let view = reader.reopen(field, &[Section::Gap]);
+        let stated = view.and_then(|view| reader.get(&view, "width"));
+        match stated {
+            None => gap.widths = vec![narrowest],
+            Some(field) if (gap.width() - narrowest).abs() > AGREES => {
+                let (width, narrowest) = (gap.width() * 1e3, narrowest * 1e3);
+                *reader.bad(
+                    &field,
+                    format!("is {width:.1} mm, but at and plan put the buildings {narrowest:.1} mm apart"),
+                ) = Some("change at, or leave width out".into());
+            }
+            Some(_) => {}
+        }
+    }
+}

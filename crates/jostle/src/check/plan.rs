@@ -1,0 +1,325 @@
+//! Faults of buildings with plans, and of gaps between them.
+
+use super::{Faults, each};
+use crate::interface::faces_of_gap;
+use crate::interface::plan_contacts::MOST_POINTS;
+use crate::model::{Base, Building, Gap, Model, PlanArea, PlanPoint, Structure, Tiers};
+
+/// Whether all buildings have plans, or none has.
+pub(super) fn check_space(faults: &mut Faults, model: &Model) {
+    if !model.is_in_space() {
+        return;
+    }
+    for (path, building) in each(&model.buildings, "building") {
+        let has_plan = matches!(building.structure, Structure::Tiers(_));
+        faults.require(has_plan, format!("{path}.plan"), || {
+            "is missing: other buildings have one, and a model is either in space or in one plane; give it a plan, or remove plan from the others".into()
+        });
+    }
+    faults.require(model.links.is_empty(), "link".to_owned(), || {
+        "is not possible between buildings with a plan yet; leave it out".into()
+    });
+    check_overlaps(faults, model);
+}
+
+pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, building: &Building) {
+    let n = tiers.floors.len();
+    let at = |field: &str| format!("{path}.{field}");
+    faults.require(n >= 1, at("mass"), || "needs at least one floor".into());
+    for (field, count) in [
+        ("stiffness", tiers.storeys.len()),
+        ("storey_height", tiers.storey_heights.len()),
+    ] {
+        faults.require(count == n, at(field), || {
+            format!("has {count} entries for {n} floors; give one per storey from the ground up")
+        });
+    }
+    for (index, floor) in tiers.floors.iter().enumerate() {
+        let of_floor = |field: &str| {
+            if n > 1 {
+                format!("{path}.{field}[{index}]")
+            } else {
+                at(field)
+            }
+        };
+        faults.positive(floor.mass, of_floor("mass"), "kg");
+        faults.positive(floor.polar_mass, of_floor("polar_mass"), "kg.m2");
+        if let Some(problem) = polygon_fault(&floor.plan) {
+            faults.add(of_floor("plan"), problem);
+            continue;
+        }
+        faults.require(
+            is_inside_hull(floor.centre, &floor.plan),
+            of_floor("mass_centre"),
+            || {
+                "lies outside the plan; measure it from the same origin as the corners of the plan"
+                    .into()
+            },
+        );
+        let reach = floor.plan.iter().map(|corner| {
+            (corner[0] - floor.centre[0]).powi(2) + (corner[1] - floor.centre[1]).powi(2)
+        });
+        let most = floor.mass * reach.fold(0.0, f64::max);
+        faults.require(floor.polar_mass <= most, of_floor("polar_mass"), || {
+            format!(
+                "is {:.4e} kg.m2, more than {most:.4e} kg.m2, which all mass in the farthest corner has; check its unit",
+                floor.polar_mass
+            )
+        });
+    }
+    for (index, storey) in tiers.storeys.iter().enumerate() {
+        let field = if n > 1 {
+            format!("{path}.stiffness[{index}]")
+        } else {
+            at("stiffness")
+        };
+        for (key, value, unit) in [
+            ("x", storey.stiffness[0], "N/m"),
+            ("y", storey.stiffness[1], "N/m"),
+            ("torsion", storey.stiffness[2], "N.m/rad"),
+        ] {
+            let usable = value.is_finite() && value > 0.0;
+            let remedy = match key {
+                "torsion" => "; with elements, put two of them at different points",
+                _ => "",
+            };
+            faults.require(usable, format!("{field}.{key}"), || {
+                format!("must be greater than 0 {unit}, found {value}{remedy}")
+            });
+        }
+        faults.require(
+            storey.centre.iter().all(|value| value.is_finite()),
+            at("eccentricity"),
+            || "must be finite".into(),
+        );
+    }
+    faults.require(building.base == Base::default(), at("base"), || {
+        "is not possible for a building with a plan yet; leave it out".into()
+    });
+    faults.require(building.hinges.is_none(), at("hinges"), || {
+        "are not possible for a building with a plan yet; leave them out".into()
+    });
+}
+
+/// What is wrong with a polygon.
+fn polygon_fault(plan: &[PlanPoint]) -> Option<String> {
+    if plan.len() < 3 {
+        return Some(format!(
+            "has {} corners; a plan needs at least three",
+            plan.len()
+        ));
+    }
+    if plan.iter().flatten().any(|value| !value.is_finite()) {
+        return Some("has corners that are not finite".into());
+    }
+    let n = plan.len();
+    let next = |index: usize| plan[(index + 1) % n];
+    for (index, corner) in plan.iter().enumerate() {
+        let end = next(index);
+        if (end[0] - corner[0]).hypot(end[1] - corner[1]) < 1e-6 {
+            return Some(format!(
+                "has two equal corners, {} and {}; remove one",
+                index + 1,
+                (index + 1) % n + 1
+            ));
+        }
+    }
+    for i in 0..n {
+        for j in i + 1..n {
+            let neighbours = j == i + 1 || (i == 0 && j == n - 1);
+            if !neighbours && cross([plan[i], next(i)], [plan[j], next(j)]) {
+                return Some(format!(
+                    "crosses itself: the edges after corners {} and {} intersect",
+                    i + 1,
+                    j + 1
+                ));
+            }
+        }
+    }
+    let area = PlanArea::new(plan).area;
+    if area < -1e-9 {
+        let reversed: Vec<String> = plan
+            .iter()
+            .rev()
+            .map(|[x, y]| format!("[\"{x} m\", \"{y} m\"]"))
+            .collect();
+        return Some(format!(
+            "has clockwise corners; give them counter-clockwise: [{}]",
+            reversed.join(", ")
+        ));
+    }
+    (area < 1e-9).then(|| "has no area".into())
+}
+
+/// On which side of a line a point lies.
+fn side([a, b]: [PlanPoint; 2], p: PlanPoint) -> f64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+/// Whether two segments intersect.
+fn cross(first: [PlanPoint; 2], second: [PlanPoint; 2]) -> bool {
+    let apart = |line: [PlanPoint; 2], ends: [PlanPoint; 2]| {
+        side(line, ends[0]) * side(line, ends[1]) <= 0.0
+    };
+    apart(first, second) && apart(second, first)
+}
+
+/// Whether a point lies within the convex hull of corners: on no line through two of them are all corners on its far side.
+fn is_inside_hull(point: PlanPoint, plan: &[PlanPoint]) -> bool {
+    let pairs = plan
+        .iter()
+        .flat_map(|a| plan.iter().map(move |b| [*a, *b]))
+        .filter(|[a, b]| a != b);
+    for line in pairs {
+        let all_left = plan.iter().all(|corner| side(line, *corner) >= -1e-9);
+        if all_left && side(line, point) < -1e-9 {
+            return false;
+        }
+    }
+    point.iter().all(|value| value.is_finite())
+}
+
+/// Whether two polygons overlap: edges intersect, or a corner of one lies within the other.
+fn overlap(first: &[PlanPoint], second: &[PlanPoint]) -> bool {
+    let edges = |plan: &[PlanPoint]| -> Vec<[PlanPoint; 2]> {
+        let next = plan.iter().cycle().skip(1);
+        plan.iter().zip(next).map(|(a, b)| [*a, *b]).collect()
+    };
+    let strictly = |a: [PlanPoint; 2], b: [PlanPoint; 2]| {
+        let apart = |line: [PlanPoint; 2], ends: [PlanPoint; 2]| {
+            let sides = ends.map(|end| side(line, end));
+            sides[0] * sides[1] < 0.0 && sides.iter().all(|side| side.abs() > 1e-9)
+        };
+        apart(a, b) && apart(b, a)
+    };
+    let (a, b) = (edges(first), edges(second));
+    a.iter()
+        .any(|one| b.iter().any(|other| strictly(*one, *other)))
+        || contains(first, &second[0])
+        || contains(second, &first[0])
+}
+
+/// Whether a point lies inside a polygon, not on its edge.
+fn contains(plan: &[PlanPoint], point: &PlanPoint) -> bool {
+    let next = plan.iter().cycle().skip(1);
+    let mut inside = false;
+    for (a, b) in plan.iter().zip(next) {
+        if side([*a, *b], *point).abs() < 1e-9 {
+            return false;
+        }
+        if (a[1] > point[1]) != (b[1] > point[1]) {
+            let x = a[0] + (point[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            inside ^= point[0] < x;
+        }
+    }
+    inside
+}
+
+/// Plans of two buildings that overlap at a common height.
+fn check_overlaps(faults: &mut Faults, model: &Model) {
+    for (index, building) in model.buildings.iter().enumerate() {
+        for other in &model.buildings[..index] {
+            let (Structure::Tiers(own), Structure::Tiers(others)) =
+                (&building.structure, &other.structure)
+            else {
+                continue;
+            };
+            let common = own.floors.iter().zip(&others.floors);
+            let sound = |plan: &[PlanPoint]| polygon_fault(plan).is_none();
+            for (floor, (a, b)) in common.enumerate() {
+                if sound(&a.plan) && sound(&b.plan) && overlap(&a.plan, &b.plan) {
+                    faults.add(
+                        format!("building[{index}].at"),
+                        format!(
+                            "puts floor {} into that of \"{}\": their plans overlap; move one of the buildings",
+                            floor + 1,
+                            other.name
+                        ),
+                    );
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// Faults of a gap between two buildings with plans.
+pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
+    let last = model.buildings.len();
+    let between = match gap.between {
+        [Some(a), Some(b)] if a != b && a < last && b < last => [a, b],
+        [None, _] | [_, None] => {
+            faults.add(
+                format!("{path}.between"),
+                "names a wall, which buildings with a plan cannot have yet; name two buildings",
+            );
+            return;
+        }
+        _ => {
+            faults.add(
+                format!("{path}.between"),
+                "must name two different buildings",
+            );
+            return;
+        }
+    };
+    let contact = gap.in_plan;
+    faults.require(
+        (2..=MOST_POINTS).contains(&contact.points),
+        format!("{path}.points"),
+        || {
+            format!(
+                "must lie between 2 and {MOST_POINTS}, found {}; 5 suits most models, 3 is faster",
+                contact.points
+            )
+        },
+    );
+    faults.positive(contact.reach, format!("{path}.reach"), "m");
+    faults.require(gap.widths.len() == 1, format!("{path}.width"), || {
+        "takes one value between buildings with a plan".into()
+    });
+    if contact.points < 2 || !(contact.reach > 0.0) {
+        return;
+    }
+    let touches = faces_of_gap(model, gap).is_none_or(|faces| !faces.is_empty());
+    faults.require(touches, format!("{path}.reach"), || {
+        format!(
+            "of {} m finds no edges of \"{}\" and \"{}\" that face each other at a common floor; check at and plan, or raise reach",
+            contact.reach,
+            model.buildings[between[0]].name,
+            model.buildings[between[1]].name
+        )
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polygons_are_judged() {
+        let square = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+        assert_eq!(polygon_fault(&square), None);
+        let clockwise: Vec<PlanPoint> = square.iter().rev().copied().collect();
+        let said = polygon_fault(&clockwise).expect("a fault");
+        assert!(
+            said.contains("counter-clockwise: [[\"0 m\", \"0 m\"]"),
+            "{said}"
+        );
+        let bow = vec![[0.0, 0.0], [4.0, 4.0], [4.0, 0.0], [0.0, 4.0]];
+        assert!(
+            polygon_fault(&bow)
+                .expect("a fault")
+                .contains("crosses itself")
+        );
+        assert!(polygon_fault(&square[..2]).is_some());
+        assert!(polygon_fault(&[[0.0, 0.0], [0.0, 0.0], [1.0, 1.0]]).is_some());
+        assert!(is_inside_hull([2.0, 2.0], &square) && !is_inside_hull([5.0, 2.0], &square));
+        let beside: Vec<PlanPoint> = square.iter().map(|[x, y]| [x + 4.0, *y]).collect();
+        assert!(!overlap(&square, &beside));
+        let into: Vec<PlanPoint> = square.iter().map(|[x, y]| [x + 3.9, y + 1.0]).collect();
+        assert!(overlap(&square, &into));
+        let within = vec![[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0]];
+        assert!(overlap(&square, &within) && overlap(&within, &square));
+    }
+}

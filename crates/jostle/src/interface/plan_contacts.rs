@@ -1,0 +1,328 @@
+//! Where the plans of two floors can touch: faces, which are pairs of facing edges, and corners before edges.
+
+use std::f64::consts::PI;
+
+use crate::model::{PlanContact, PlanPoint};
+
+/// Greatest angle between edges that face each other \[rad\].
+const FACING: f64 = 0.1;
+/// Least overlap of two edges that form a face \[m\].
+const LEAST_OVERLAP: f64 = 1e-3;
+/// Most points of a face.
+pub(crate) const MOST_POINTS: usize = 9;
+
+/// How two plans touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlanContactKind {
+    /// Two edges that face each other.
+    Face,
+    /// A corner before an edge.
+    Corner,
+}
+
+impl PlanContactKind {
+    /// As results spell it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Face => "face",
+            Self::Corner => "corner",
+        }
+    }
+}
+
+/// Two edges that face each other, or a corner before an edge.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PlanFace {
+    pub(crate) kind: PlanContactKind,
+    /// Unit normal from the first plan to the second.
+    pub(crate) normal: PlanPoint,
+    /// Length of the face; zero for a corner \[m\].
+    pub(crate) overlap: f64,
+    /// Middle of the face, or the corner, midway across the gap \[m\].
+    pub(crate) middle: PlanPoint,
+    pub(crate) points: Vec<FacePoint>,
+}
+
+/// A point of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FacePoint {
+    /// Midway across the gap \[m\].
+    pub(crate) at: PlanPoint,
+    /// Distance of the two edges there \[m\].
+    pub(crate) gap: f64,
+    /// Share of the stiffness of the face \[–\].
+    pub(crate) share: f64,
+}
+
+fn minus(a: PlanPoint, b: PlanPoint) -> PlanPoint {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn dot(a: PlanPoint, b: PlanPoint) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn cross(a: PlanPoint, b: PlanPoint) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn unit(a: PlanPoint) -> PlanPoint {
+    let length = a[0].hypot(a[1]);
+    a.map(|value| value / length)
+}
+
+fn midway(a: PlanPoint, b: PlanPoint) -> PlanPoint {
+    [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+}
+
+/// Edges of a polygon with counter-clockwise corners: both ends, and the unit normal outwards.
+fn edges(plan: &[PlanPoint]) -> impl Iterator<Item = ([PlanPoint; 2], PlanPoint)> + '_ {
+    let next = plan.iter().cycle().skip(1);
+    plan.iter().zip(next).map(|(&a, &b)| {
+        let along = unit(minus(b, a));
+        ([a, b], [along[1], -along[0]])
+    })
+}
+
+/// All faces and corners between two plans, in the order of the edges of the first, then of the second.
+pub(crate) fn plan_faces(
+    first: &[PlanPoint],
+    second: &[PlanPoint],
+    contact: &PlanContact,
+) -> Vec<PlanFace> {
+    let mut found = Vec::new();
+    for (own, outward) in edges(first) {
+        for (other, inward) in edges(second) {
+            found.extend(face([own, other], [outward, inward], contact));
+        }
+    }
+    found.extend(corners(first, second, contact, 1.0));
+    found.extend(corners(second, first, contact, -1.0));
+    found
+}
+
+/// The face of two edges with their outward normals, if they form one.
+fn face(
+    [own, other]: [[PlanPoint; 2]; 2],
+    [outward, inward]: [PlanPoint; 2],
+    contact: &PlanContact,
+) -> Option<PlanFace> {
+    if -dot(outward, inward) <= FACING.cos() {
+        return None;
+    }
+    let normal = unit(minus(outward, inward));
+    let along = [-normal[1], normal[0]];
+    // The edge of the first plan runs in the direction of `along`, that of the second against it.
+    let ends = [own.map(|p| dot(p, along)), other.map(|p| dot(p, along))];
+    let from = ends[0][0].max(ends[1][1]);
+    let to = ends[0][1].min(ends[1][0]);
+    let overlap = to - from;
+    if overlap <= LEAST_OVERLAP {
+        return None;
+    }
+    let at = |[a, b]: [PlanPoint; 2], s: f64| {
+        let [start, end] = [dot(a, along), dot(b, along)];
+        let share = (s - start) / (end - start);
+        [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])]
+    };
+    let point = |s: f64, share: f64| {
+        let [near, far] = [at(own, s), at(other, s)];
+        FacePoint {
+            at: midway(near, far),
+            gap: dot(minus(far, near), normal),
+            share,
+        }
+    };
+    let least = point(from, 0.0).gap.min(point(to, 0.0).gap);
+    if !(least > -0.5 * contact.reach && least <= contact.reach) {
+        return None;
+    }
+    let middle = point(0.5 * (from + to), 1.0).at;
+    let rule = lobatto(contact.points.clamp(2, MOST_POINTS));
+    let points = rule
+        .into_iter()
+        .map(|(place, share)| point(from + 0.5 * (1.0 + place) * overlap, share));
+    Some(PlanFace {
+        kind: PlanContactKind::Face,
+        normal,
+        overlap,
+        middle,
+        points: points.collect(),
+    })
+}
+
+/// Corners of a plan before edges of another that they do not share a face with; `sign` is −1 if the plan is the second of
+/// the two.
+fn corners(
+    plan: &[PlanPoint],
+    other: &[PlanPoint],
+    contact: &PlanContact,
+    sign: f64,
+) -> Vec<PlanFace> {
+    let own: Vec<([PlanPoint; 2], PlanPoint)> = edges(plan).collect();
+    let mut found = Vec::new();
+    for (index, (ends, after)) in own.iter().enumerate() {
+        let corner = ends[0];
+        let before = own[(index + own.len() - 1) % own.len()].1;
+        for ([a, b], outward) in edges(other) {
+            let towards = outward.map(|value| -value);
+            // The corner points at the edge: its direction lies between the normals of both edges of the corner.
+            let inside = FACING.sin();
+            if cross(before, towards) <= inside
+                || cross(towards, *after) <= inside
+                || dot(towards, before) + dot(towards, *after) <= 0.0
+            {
+                continue;
+            }
+            let length = minus(b, a)[0].hypot(minus(b, a)[1]);
+            let along = unit(minus(b, a));
+            let place = dot(minus(corner, a), along);
+            let gap = dot(minus(corner, a), outward);
+            if !(0.0..=length).contains(&place) || !(gap >= 0.0 && gap <= contact.reach) {
+                continue;
+            }
+            let foot = [a[0] + place * along[0], a[1] + place * along[1]];
+            let at = midway(corner, foot);
+            found.push(PlanFace {
+                kind: PlanContactKind::Corner,
+                normal: towards.map(|value| sign * value),
+                overlap: 0.0,
+                middle: at,
+                points: vec![FacePoint {
+                    at,
+                    gap,
+                    share: 1.0,
+                }],
+            });
+        }
+    }
+    found
+}
+
+/// Places in −1…1 and weights, of sum 1, of the Gauss–Lobatto rule: ±1 and the roots of P′ₙ₋₁, with 1/(n(n − 1)P²ₙ₋₁/…)
+/// normalised (M. Abramowitz, I. A. Stegun, 1964, Eq. 25.4.32).
+pub(crate) fn lobatto(points: usize) -> Vec<(f64, f64)> {
+    let n = points - 1;
+    // P of order n and of order n − 1.
+    let legendre = |x: f64| {
+        let (mut before, mut now) = (1.0, x);
+        for k in 1..n {
+            let k = k as f64;
+            let next = ((2.0 * k + 1.0) * x * now - k * before) / (k + 1.0);
+            (before, now) = (now, next);
+        }
+        (now, before)
+    };
+    let order = n as f64;
+    let mut rule: Vec<(f64, f64)> = (0..points)
+        .map(|index| {
+            // Chebyshev's points are close to the roots.
+            let mut x = -(PI * index as f64 / order).cos();
+            if index > 0 && index < n {
+                for _ in 0..50 {
+                    let (now, before) = legendre(x);
+                    // (1 − x²) P′ = n (P₋₁ − x P), and its derivative −n (n + 1) P.
+                    let change = (before - x * now) / ((order + 1.0) * now);
+                    x += change;
+                    if change.abs() < 1e-16 {
+                        break;
+                    }
+                }
+            }
+            let (value, _) = legendre(x);
+            (x, 1.0 / (order * (order + 1.0) * value * value))
+        })
+        .collect();
+    if points % 2 == 1 {
+        rule[n / 2].0 = 0.0;
+    }
+    rule
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Weights of sum 1 with Σw s² = 1/12 of the squared length from three points on; rules of the handbook.
+    #[test]
+    fn shares_keep_force_and_moment() {
+        for points in 2..=MOST_POINTS {
+            let rule = lobatto(points);
+            let sum: f64 = rule.iter().map(|(_, share)| share).sum();
+            assert!((sum - 1.0).abs() < 1e-14, "{points}: {sum}");
+            let second: f64 = rule.iter().map(|(s, share)| 0.25 * s * s * share).sum();
+            let expected = if points == 2 { 0.25 } else { 1.0 / 12.0 };
+            assert!((second - expected).abs() < 1e-14, "{points}: {second}");
+        }
+        let three = lobatto(3);
+        assert!((three[0].1 - 1.0 / 6.0).abs() < 1e-15 && (three[1].1 - 2.0 / 3.0).abs() < 1e-15);
+        let five = lobatto(5);
+        assert!((five[1].0 + (3.0_f64 / 7.0).sqrt()).abs() < 1e-14);
+        assert!((five[1].1 - 49.0 / 180.0).abs() < 1e-14);
+    }
+
+    fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
+        vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
+    }
+
+    #[test]
+    fn two_rectangles_share_the_overlap_of_their_edges() {
+        let (a, b) = (
+            rectangle(0.0, 0.0, 10.0, 8.0),
+            rectangle(10.02, 2.0, 12.0, 9.0),
+        );
+        let found = plan_faces(&a, &b, &PlanContact::default());
+        assert_eq!(found.len(), 1, "{found:?}");
+        let face = &found[0];
+        assert_eq!(
+            (face.kind, face.normal),
+            (PlanContactKind::Face, [1.0, 0.0])
+        );
+        assert!((face.overlap - 6.0).abs() < 1e-12);
+        assert!((face.points[0].at[1] - 2.0).abs() < 1e-12);
+        assert!((face.points[4].at[1] - 8.0).abs() < 1e-12);
+        assert!(face.points.iter().all(|p| (p.gap - 0.02).abs() < 1e-12));
+        // From the other side the normal turns round.
+        let back = plan_faces(&b, &a, &PlanContact::default());
+        assert_eq!(back[0].normal, [-1.0, 0.0]);
+        assert!(
+            plan_faces(
+                &a,
+                &rectangle(11.0, 2.0, 12.0, 9.0),
+                &PlanContact::default()
+            )
+            .is_empty()
+        );
+    }
+
+    #[test]
+    fn a_turned_square_meets_an_edge_with_its_corner() {
+        let wall = rectangle(5.0, -10.0, 1.0, 20.0);
+        let square = vec![[0.0, -4.0], [4.0, 0.0], [0.0, 4.0], [-4.0, 0.0]];
+        let contact = PlanContact {
+            reach: 1.5,
+            ..PlanContact::default()
+        };
+        for (first, second, sign) in [(&square, &wall, 1.0), (&wall, &square, -1.0)] {
+            let found = plan_faces(first, second, &contact);
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert_eq!(found[0].kind, PlanContactKind::Corner);
+            assert!((found[0].normal[0] - sign).abs() < 1e-15);
+            assert!((found[0].points[0].gap - 1.0).abs() < 1e-12);
+            assert!((found[0].middle[0] - 4.5).abs() < 1e-12);
+        }
+    }
+
+    /// Two edges with an angle of 0.05 rad: the gap grows along the face.
+    #[test]
+    fn every_point_of_a_wedge_has_its_own_gap() {
+        let a = rectangle(0.0, 0.0, 10.0, 8.0);
+        let b = vec![[10.02, 0.0], [20.0, 0.0], [20.0, 8.0], [10.42, 8.0]];
+        let found = plan_faces(&a, &b, &PlanContact::default());
+        assert_eq!(found.len(), 1);
+        let gaps: Vec<f64> = found[0].points.iter().map(|p| p.gap).collect();
+        assert!(gaps.windows(2).all(|pair| pair[1] > pair[0]), "{gaps:?}");
+        assert!((gaps[0] - 0.02).abs() < 1e-3 && (gaps[4] - 0.42).abs() < 0.02);
+    }
+}

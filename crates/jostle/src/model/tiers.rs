@@ -1,0 +1,181 @@
+//! A shear building in space: floors that move in both horizontal directions and turn about a vertical axis.
+
+/// A point or a vector in plan: x along the row, y across it \[m\].
+pub type PlanPoint = [f64; 2];
+
+/// Rigid floors one above the other, joined by springs that act at points of the plan.
+///
+/// A floor moves by u_x, u_y and θ at its centre of mass, relative to the ground. Storey s deforms by
+/// Δ = T_s(c) q_s − T_{s−1}(c) q_{s−1}, T(c) = \[1 0 −(c_y − o_y); 0 1 c_x − o_x; 0 0 1\], with c the centre of stiffness of
+/// the storey and o the centre of mass of a floor (A. K. Chopra, Dynamics of Structures, section 9.6).
+///
+/// ```
+/// use jostle::{Tier, TierStorey, Tiers};
+///
+/// // 20 m × 12 m, 250 t, stiffness centre 1 m right of the centre of mass.
+/// let plan = vec![[0.0, 0.0], [20.0, 0.0], [20.0, 12.0], [0.0, 12.0]];
+/// let tier = Tier::uniform(250e3, plan).expect("a plan with an area");
+/// assert_eq!(tier.centre, [10.0, 6.0]);
+/// assert!((tier.polar_mass / (250e3 * (400.0 + 144.0) / 12.0) - 1.0).abs() < 1e-14);
+/// let storey = TierStorey { stiffness: [60e6, 85e6, 5.5e9], centre: [11.0, 6.0] };
+/// let tiers = Tiers {
+///     floors: vec![tier],
+///     storeys: vec![storey],
+///     storey_heights: vec![3.2],
+/// };
+/// assert_eq!(tiers.floors.len(), tiers.storeys.len());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tiers {
+    /// Floors from the ground up.
+    pub floors: Vec<Tier>,
+    /// Storeys from the ground up, as many as floors.
+    pub storeys: Vec<TierStorey>,
+    /// Storey heights from the ground up, > 0 \[m\].
+    pub storey_heights: Vec<f64>,
+}
+
+/// A floor in plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tier {
+    /// Mass, > 0 \[kg\].
+    pub mass: f64,
+    /// Mass moment of inertia about the vertical axis through the centre of mass, > 0 \[kg·m²\].
+    pub polar_mass: f64,
+    /// Centre of mass on the site \[m\].
+    pub centre: PlanPoint,
+    /// Corners on the site, counter-clockwise, at least three \[m\].
+    pub plan: Vec<PlanPoint>,
+}
+
+/// Springs of a storey.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TierStorey {
+    /// Along x, across, and in torsion about the centre of stiffness, > 0 \[N/m, N/m, N·m/rad\].
+    pub stiffness: [f64; 3],
+    /// Centre of stiffness on the site \[m\].
+    pub centre: PlanPoint,
+}
+
+/// Area, centroid and second moments of area of a polygon.
+///
+/// A = ½Σw, c = Σ(p_i + p_{i+1}) w_i/(6A), I_xx = ∫y², I_yy = ∫x² about c, w_i = x_i y_{i+1} − x_{i+1} y_i (Green's theorem).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanArea {
+    /// Area, positive if the corners run counter-clockwise \[m²\].
+    pub area: f64,
+    /// Centroid \[m\].
+    pub centroid: PlanPoint,
+    /// ∫y² and ∫x² about the centroid \[m⁴\].
+    pub second_moments: [f64; 2],
+}
+
+impl PlanArea {
+    /// Of a polygon given by its corners. Without area the centroid is not a number.
+    #[must_use]
+    pub fn new(corners: &[PlanPoint]) -> Self {
+        // Relative to the first corner, so that distant sites lose no digits.
+        let origin = corners.first().copied().unwrap_or_default();
+        let own: Vec<PlanPoint> = corners
+            .iter()
+            .map(|p| [p[0] - origin[0], p[1] - origin[1]])
+            .collect();
+        let next = own.iter().cycle().skip(1);
+        let (mut area, mut first, mut second) = (0.0, [0.0; 2], [0.0; 2]);
+        for (a, b) in own.iter().zip(next) {
+            let w = a[0] * b[1] - b[0] * a[1];
+            area += 0.5 * w;
+            for k in 0..2 {
+                first[k] += (a[k] + b[k]) * w / 6.0;
+                let across = 1 - k;
+                second[k] +=
+                    (a[across] * a[across] + a[across] * b[across] + b[across] * b[across]) * w
+                        / 12.0;
+            }
+        }
+        let centre = first.map(|moment| moment / area);
+        Self {
+            area,
+            centroid: [centre[0] + origin[0], centre[1] + origin[1]],
+            second_moments: [
+                second[0] - area * centre[1] * centre[1],
+                second[1] - area * centre[0] * centre[0],
+            ],
+        }
+    }
+
+    /// (I_xx + I_yy)/A: the squared polar radius of gyration \[m²\].
+    #[must_use]
+    pub fn gyration(&self) -> f64 {
+        (self.second_moments[0] + self.second_moments[1]) / self.area
+    }
+}
+
+impl Tiers {
+    /// Moves it on the site \[m\].
+    pub fn move_by(&mut self, by: PlanPoint) {
+        let shift = |point: &mut PlanPoint| {
+            for (value, by) in point.iter_mut().zip(by) {
+                *value += by;
+            }
+        };
+        for floor in &mut self.floors {
+            shift(&mut floor.centre);
+            floor.plan.iter_mut().for_each(shift);
+        }
+        self.storeys
+            .iter_mut()
+            .for_each(|storey| shift(&mut storey.centre));
+    }
+
+    /// Least and greatest x of its corners \[m\].
+    #[must_use]
+    pub fn extent_along(&self) -> [f64; 2] {
+        let corners = self.floors.iter().flat_map(|floor| &floor.plan);
+        corners.fold(
+            [f64::INFINITY, f64::NEG_INFINITY],
+            |[least, most], corner| [least.min(corner[0]), most.max(corner[0])],
+        )
+    }
+}
+
+impl Tier {
+    /// A floor whose mass is spread evenly over its plan; `None` if the plan has no area.
+    #[must_use]
+    pub fn uniform(mass: f64, plan: Vec<PlanPoint>) -> Option<Self> {
+        let area = PlanArea::new(&plan);
+        (area.area > 0.0).then(|| Self {
+            mass,
+            polar_mass: mass * area.gyration(),
+            centre: area.centroid,
+            plan,
+        })
+    }
+}
+
+impl TierStorey {
+    /// Stiffness that is spread evenly over a plan: torsion follows as (k_x I_xx + k_y I_yy)/A.
+    #[must_use]
+    pub fn torsion_of_even(stiffness: PlanPoint, area: &PlanArea) -> f64 {
+        let [ixx, iyy] = area.second_moments;
+        (stiffness[0] * ixx + stiffness[1] * iyy) / area.area
+    }
+
+    /// Elements at points of the plan, each with its stiffness along x and across: c_y = Σk_x y/Σk_x, c_x = Σk_y x/Σk_y,
+    /// k_θ = Σk_x (y − c_y)² + k_y (x − c_x)².
+    #[must_use]
+    pub fn of_elements(elements: &[(PlanPoint, [f64; 2])]) -> Self {
+        let sum = |of: &dyn Fn(&(PlanPoint, [f64; 2])) -> f64| elements.iter().map(of).sum::<f64>();
+        let [kx, ky] = [0, 1].map(|axis| sum(&|(_, k)| k[axis]));
+        let centre = [
+            sum(&|(at, k)| k[1] * at[0]) / ky,
+            sum(&|(at, k)| k[0] * at[1]) / kx,
+        ];
+        let torsion =
+            sum(&|(at, k)| k[0] * (at[1] - centre[1]).powi(2) + k[1] * (at[0] - centre[0]).powi(2));
+        Self {
+            stiffness: [kx, ky, torsion],
+            centre,
+        }
+    }
+}

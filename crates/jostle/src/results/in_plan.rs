@@ -1,0 +1,197 @@
+//! Numbers that only buildings in space have.
+
+use serde::Serialize;
+
+use crate::history::{FaceImpact, FloorPeaks, Impact};
+use crate::interface::Contact;
+use crate::quantity::{Quantity, Unit};
+use crate::stepping::Outcome;
+use crate::system::System;
+
+/// Peaks of a floor across the row and in rotation.
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
+pub struct FloorInPlan {
+    /// Greatest displacement across, counter-clockwise from x \[m\].
+    pub displacement_across_max_m: f64,
+    /// Its instant \[s\].
+    pub displacement_across_max_at_s: f64,
+    /// Least displacement across, ≤ 0 \[m\].
+    pub displacement_across_min_m: f64,
+    /// Its instant \[s\].
+    pub displacement_across_min_at_s: f64,
+    /// Greatest rotation, counter-clockwise seen from above \[rad\].
+    pub rotation_max_rad: f64,
+    /// Its instant \[s\].
+    pub rotation_max_at_s: f64,
+    /// Least rotation, ≤ 0 \[rad\].
+    pub rotation_min_rad: f64,
+    /// Its instant \[s\].
+    pub rotation_min_at_s: f64,
+    /// Greatest horizontal displacement of a corner \[m\].
+    pub corner_displacement_peak_m: f64,
+    /// Greatest total acceleration across, either sign \[m/s²\].
+    pub total_acceleration_across_peak_m_s2: f64,
+    /// Greatest drift ratio across of the storey below, either sign \[–\].
+    pub storey_drift_across_peak: f64,
+    /// Greatest shear across of the storey below, either sign \[N\].
+    pub storey_shear_across_peak_n: f64,
+    /// Greatest torque of the storey below about the centre of mass of the lowest floor, either sign \[N·m\].
+    pub storey_torque_peak_n_m: f64,
+}
+
+#[rustfmt::skip]
+impl FloorInPlan {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement across the row", |f| f.displacement_across_max_m),
+        Quantity::<Self>::real("displacement_across_max_at_s", Unit::S, "its instant", |f| f.displacement_across_max_at_s),
+        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "least displacement across the row, ≤ 0", |f| f.displacement_across_min_m),
+        Quantity::<Self>::real("displacement_across_min_at_s", Unit::S, "its instant", |f| f.displacement_across_min_at_s),
+        Quantity::<Self>::real("rotation_max_rad", Unit::RAD, "greatest rotation, counter-clockwise seen from above", |f| f.rotation_max_rad),
+        Quantity::<Self>::real("rotation_max_at_s", Unit::S, "its instant", |f| f.rotation_max_at_s),
+        Quantity::<Self>::real("rotation_min_rad", Unit::RAD, "least rotation, ≤ 0", |f| f.rotation_min_rad),
+        Quantity::<Self>::real("rotation_min_at_s", Unit::S, "its instant", |f| f.rotation_min_at_s),
+        Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner", |f| f.corner_displacement_peak_m),
+        Quantity::<Self>::real("total_acceleration_across_peak_m_s2", Unit::M_S2, "greatest total acceleration across", |f| f.total_acceleration_across_peak_m_s2),
+        Quantity::<Self>::real("storey_drift_across_peak", Unit::NONE, "greatest drift ratio across of the storey", |f| f.storey_drift_across_peak),
+        Quantity::<Self>::real("storey_shear_across_peak_n", Unit::N, "greatest shear across of the storey", |f| f.storey_shear_across_peak_n),
+        Quantity::<Self>::real("storey_torque_peak_n_m", Unit::NM, "greatest torque of the storey about the centre of mass of the lowest floor", |f| f.storey_torque_peak_n_m),
+    ];
+}
+
+/// Peaks of a building across the row and in torsion.
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
+pub struct BuildingInPlan {
+    /// Greatest base shear across, either sign \[N\].
+    pub base_shear_across_peak_n: f64,
+    /// Greatest base torque about the centre of mass of the lowest floor, either sign \[N·m\].
+    pub base_torque_peak_n_m: f64,
+}
+
+#[rustfmt::skip]
+impl BuildingInPlan {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("base_shear_across_peak_n", Unit::N, "greatest base shear across", |b| b.base_shear_across_peak_n),
+        Quantity::<Self>::real("base_torque_peak_n_m", Unit::NM, "greatest base torque about the centre of mass of the lowest floor", |b| b.base_torque_peak_n_m),
+    ];
+}
+
+/// Where a contact of two plans is.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct PlanContactSummary {
+    /// `face` or `corner`.
+    pub kind: &'static str,
+    /// Middle of the face, or the corner, on the site \[m\].
+    pub plan_m: [f64; 2],
+    /// Unit normal from the first building to the second.
+    pub normal: [f64; 2],
+    /// Length of the face; zero for a corner \[m\].
+    pub overlap_m: f64,
+}
+
+/// Of a floor of a building in a run; `None` in one plane.
+pub(super) fn floor_in_plan(index: usize, floor: usize, outcome: &Outcome) -> Option<FloorInPlan> {
+    let peaks = outcome.in_plan.get(index)?;
+    let (across, turning): (&FloorPeaks, &FloorPeaks) =
+        (peaks.across.get(floor)?, peaks.turning.get(floor)?);
+    Some(FloorInPlan {
+        displacement_across_max_m: across.displacement_max.value,
+        displacement_across_max_at_s: across.displacement_max.at,
+        displacement_across_min_m: across.displacement_min.value,
+        displacement_across_min_at_s: across.displacement_min.at,
+        rotation_max_rad: turning.displacement_max.value,
+        rotation_max_at_s: turning.displacement_max.at,
+        rotation_min_rad: turning.displacement_min.value,
+        rotation_min_at_s: turning.displacement_min.at,
+        corner_displacement_peak_m: peaks.corner_displacement.get(floor).copied().unwrap_or(0.0),
+        total_acceleration_across_peak_m_s2: across.total_acceleration,
+        storey_drift_across_peak: across.storey_drift,
+        storey_shear_across_peak_n: across.storey_shear,
+        storey_torque_peak_n_m: turning.storey_shear,
+    })
+}
+
+/// Of a building in a run; `None` in one plane.
+pub(super) fn building_in_plan(index: usize, outcome: &Outcome) -> Option<BuildingInPlan> {
+    let lowest = floor_in_plan(index, 0, outcome)?;
+    Some(BuildingInPlan {
+        base_shear_across_peak_n: lowest.storey_shear_across_peak_n,
+        base_torque_peak_n_m: lowest.storey_torque_peak_n_m,
+    })
+}
+
+/// Where a face is, from its points.
+pub(super) fn place_of_face(system: &System, face: usize) -> Option<PlanContactSummary> {
+    let points = || system.contacts.iter().filter_map(|contact| contact.plan);
+    let mut own = points().filter(|place| place.face == face);
+    let first = own.next()?;
+    let last = own.last().unwrap_or(first);
+    Some(PlanContactSummary {
+        kind: first.kind.name(),
+        plan_m: [0, 1].map(|axis| 0.5 * (first.at[axis] + last.at[axis])),
+        normal: first.normal,
+        overlap_m: first.overlap,
+    })
+}
+
+/// Contacts of the system that belong to a reported contact: the points of a face, or itself.
+pub(super) fn points_of(system: &System, reported: usize) -> Vec<usize> {
+    let is_own = |contact: &Contact, index: usize| match contact.plan {
+        Some(place) => place.face == reported,
+        None => index == reported,
+    };
+    let contacts = system.contacts.iter().enumerate();
+    contacts
+        .filter(|(index, contact)| is_own(contact, *index))
+        .map(|(index, _)| index)
+        .collect()
+}
+
+/// Impacts as they are reported, numbered by reported contact: those of a face from the first point that touches to the last
+/// that parts, with the greatest total force, the sum of impulses and dissipated energies, the greatest indentation of a
+/// point, the impact speed of the first and the separation speed of the last.
+pub(super) fn reported_impacts(system: &System, outcome: &Outcome) -> Vec<Impact> {
+    if !system.is_in_space() {
+        return outcome.impacts.clone();
+    }
+    let whole = |face: &FaceImpact| {
+        let of_face = |impact: &&Impact| {
+            let place = system.contacts[impact.contact].plan;
+            place.is_some_and(|place| place.face == face.face)
+                && impact.start < face.end
+                && impact.end > face.start
+        };
+        let mut points: Vec<&Impact> = outcome.impacts.iter().filter(of_face).collect();
+        points.sort_by(|a, b| a.start.total_cmp(&b.start));
+        let (first, last) = (
+            points.first()?,
+            points.iter().max_by(|a, b| a.end.total_cmp(&b.end))?,
+        );
+        Some(Impact {
+            contact: face.face,
+            start: first.start,
+            end: last.end,
+            peak_force: face.peak_force.value,
+            peak_force_at: face.peak_force.at,
+            peak_indentation: points
+                .iter()
+                .map(|p| p.peak_indentation)
+                .fold(0.0, f64::max),
+            impact_speed: first.impact_speed,
+            separation_speed: last.separation_speed,
+            finished: points.iter().all(|point| point.finished),
+            impulse: points.iter().fold(0.0, |sum, point| sum + point.impulse),
+            dissipated: points.iter().fold(0.0, |sum, point| sum + point.dissipated),
+        })
+    };
+    outcome.face_impacts.iter().filter_map(whole).collect()
+}
+
+/// Centre of pressure at the greatest force of an impact \[m\]; `None` in one plane.
+pub(super) fn centre_of(impact: &Impact, outcome: &Outcome) -> Option<[f64; 2]> {
+    let mut faces = outcome.face_impacts.iter();
+    let own = faces
+        .find(|face| face.face == impact.contact && face.peak_force.at == impact.peak_force_at);
+    own.map(|face| face.centre)
+}

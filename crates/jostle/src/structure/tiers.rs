@@ -1,0 +1,140 @@
+//! A shear building in space as lumped masses and entries of its matrix.
+
+use super::discretization::Discretization;
+use super::element::{THETA, X, Y};
+use super::stick_model::{Coupling, Node, StickModel, Support};
+use crate::model::{Gravity, PlanArea, PlanPoint, STANDARD_GRAVITY, TierStorey, Tiers};
+
+/// Displacements of a floor.
+const COMPONENTS: [usize; 3] = [X, Y, THETA];
+
+/// Motion of a plan point per displacement of a floor with its centre of mass at `centre`: rows x, across and rotation.
+pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
+    let (x, y) = (point[0] - centre[0], point[1] - centre[1]);
+    [[1.0, 0.0, -y], [0.0, 1.0, x], [0.0, 0.0, 1.0]]
+}
+
+/// The lumped masses and the stiffness of a building; with P-Delta, what the weight above every storey takes from it.
+pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretization {
+    let mut stick_model = StickModel {
+        in_plan: true,
+        ..StickModel::default()
+    };
+    let mut height = 0.0;
+    let mut add = |height: f64, support, mass, rotary_inertia| {
+        stick_model.nodes.push(Node {
+            x: 0.0,
+            y: height,
+            mass,
+            rotary_inertia,
+            support,
+        });
+        stick_model.nodes.len() - 1
+    };
+    let ground = add(0.0, Support::Fixed, 0.0, 0.0);
+    let mut floors = Vec::with_capacity(tiers.floors.len());
+    for (floor, storey_height) in tiers.floors.iter().zip(&tiers.storey_heights) {
+        height += storey_height;
+        floors.push(add(height, Support::Free, floor.mass, floor.polar_mass));
+    }
+    let n = floors.len();
+    let mut matrix = PlanMatrix::new(3 * n);
+    for (index, storey) in tiers.storeys.iter().enumerate().take(n) {
+        matrix.add_storey(tiers, index, storey, Part::Stiffness);
+        if gravity.p_delta {
+            let softening = softening(tiers, index);
+            matrix.add_storey(tiers, index, &softening, Part::Softening);
+        }
+    }
+    stick_model.couplings = matrix.couplings(ground, &floors);
+    Discretization {
+        stick_model,
+        foot: None,
+        left_face: Vec::new(),
+        right_face: Vec::new(),
+        centres: tiers.floors.iter().map(|floor| floor.centre).collect(),
+        floors,
+        spring_places: Vec::new(),
+        members: Vec::new(),
+    }
+}
+
+/// (P/h) diag(1, 1, ρ²) at the centroid of what the storey carries, ρ² = (I_xx + I_yy)/A of its upper floor.
+fn softening(tiers: &Tiers, storey: usize) -> TierStorey {
+    let above = &tiers.floors[storey..];
+    let mass: f64 = above.iter().map(|floor| floor.mass).sum();
+    let moment = |axis: usize| above.iter().map(|f| f.mass * f.centre[axis]).sum::<f64>();
+    let push = mass * STANDARD_GRAVITY / tiers.storey_heights[storey];
+    let gyration = PlanArea::new(&tiers.floors[storey].plan).gyration();
+    TierStorey {
+        stiffness: [push, push, push * gyration],
+        centre: [moment(0) / mass, moment(1) / mass],
+    }
+}
+
+/// The matrix an entry belongs to.
+#[derive(Clone, Copy)]
+enum Part {
+    Stiffness,
+    Softening,
+}
+
+/// A symmetric matrix over three displacements of every floor, in parts; block tridiagonal.
+struct PlanMatrix {
+    rows: Vec<Vec<[f64; 2]>>,
+}
+
+impl PlanMatrix {
+    fn new(order: usize) -> Self {
+        Self {
+            rows: (0..order).map(|row| vec![[0.0; 2]; row + 1]).collect(),
+        }
+    }
+
+    /// Adds Bᵀ diag(k) B of a storey.
+    fn add_storey(&mut self, tiers: &Tiers, index: usize, storey: &TierStorey, part: Part) {
+        let upper = motion_at(storey.centre, tiers.floors[index].centre);
+        let mut places: Vec<(usize, [f64; 3])> = Vec::with_capacity(6);
+        if index > 0 {
+            let lower = motion_at(storey.centre, tiers.floors[index - 1].centre);
+            places.extend((0..3).map(|c| (3 * (index - 1) + c, [0, 1, 2].map(|r| -lower[r][c]))));
+        }
+        places.extend((0..3).map(|c| (3 * index + c, [0, 1, 2].map(|r| upper[r][c]))));
+        for (i, (row, a)) in places.iter().enumerate() {
+            for (column, b) in &places[..=i] {
+                let value: f64 = (0..3).map(|r| storey.stiffness[r] * a[r] * b[r]).sum();
+                self.rows[*row][*column][part as usize] += value;
+            }
+        }
+    }
+
+    /// As springs between displacements, and between displacements and the ground.
+    fn couplings(&self, ground: usize, floors: &[usize]) -> Vec<Coupling> {
+        let place = |at: usize| (floors[at / 3], COMPONENTS[at % 3]);
+        let coupling = |ends, [stiffness, softening]: [f64; 2]| Coupling {
+            ends,
+            stiffness,
+            softening,
+            dashpot: 0.0,
+        };
+        let mut list = Vec::new();
+        let mut sums = vec![[0.0; 2]; self.rows.len()];
+        for (row, values) in self.rows.iter().enumerate() {
+            for (column, value) in values.iter().enumerate() {
+                for part in 0..2 {
+                    sums[row][part] += value[part];
+                    if row != column {
+                        sums[column][part] += value[part];
+                    }
+                }
+                if row != column && *value != [0.0; 2] {
+                    list.push(coupling([place(row), place(column)], value.map(|v| -v)));
+                }
+            }
+        }
+        for (at, sum) in sums.into_iter().enumerate() {
+            list.push(coupling([(ground, X), place(at)], sum));
+        }
+        list
+    }
+}

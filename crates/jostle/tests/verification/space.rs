@@ -1,0 +1,453 @@
+//! Buildings in space: the plane as their limit, and the site that may be turned, mirrored and listed in any order.
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use jostle::{
+    Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome,
+    Plan, PlanArea, PlanContact, PlanPoint, RestitutionIs, Settings, Shear, Solver, Structure,
+    System, Tier, TierStorey, Tiers, Wave, simulate,
+};
+
+const LAW: ContactLaw = ContactLaw {
+    kind: LawKind::HertzDamp,
+    stiffness: 2e9,
+    restitution: 0.65,
+    restitution_is: RestitutionIs::Input,
+};
+
+/// A shaking without symmetry, 10 s long.
+fn shaking(name: &str, rate: f64) -> GroundMotion {
+    let at = |i: u32| {
+        let t = 0.02 * f64::from(i);
+        3.0 * (rate * t).sin() * (-0.1 * t).exp() + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp()
+    };
+    GroundMotion::sampled(name, 0.02, (0..=500).map(at).collect())
+}
+
+fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
+    vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
+}
+
+fn building(name: &str, structure: Structure) -> Building {
+    Building {
+        name: name.to_owned(),
+        structure,
+        damping: Damping::Ratio {
+            ratio: 0.05,
+            modes: Vec::new(),
+        },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
+    }
+}
+
+fn tower(
+    name: &str,
+    storeys: usize,
+    [mass, stiffness]: [f64; 2],
+    plan: &[PlanPoint],
+    eccentricity: PlanPoint,
+) -> Building {
+    let tier = Tier::uniform(mass, plan.to_vec()).expect("an area");
+    let area = PlanArea::new(plan);
+    let sides = [stiffness, 1.3 * stiffness];
+    let storey = TierStorey {
+        stiffness: [
+            sides[0],
+            sides[1],
+            TierStorey::torsion_of_even(sides, &area),
+        ],
+        centre: [
+            tier.centre[0] + eccentricity[0],
+            tier.centre[1] + eccentricity[1],
+        ],
+    };
+    building(
+        name,
+        Structure::Tiers(Tiers {
+            floors: vec![tier; storeys],
+            storeys: vec![storey; storeys],
+            storey_heights: vec![3.0; storeys],
+        }),
+    )
+}
+
+fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
+    Model {
+        title: "space".to_owned(),
+        buildings,
+        gaps,
+        links: Vec::new(),
+        analysis: Analysis {
+            solver: Some(Solver::Modal),
+            ..Analysis::default()
+        },
+    }
+}
+
+fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
+    let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let plan = Plan::choose(&system, motion, &model.analysis).expect("modal stepping");
+    let settings = Settings {
+        record_interval: None,
+        ..Settings::default()
+    };
+    let outcome = simulate(&system, motion, &plan, settings, |_| {
+        ControlFlow::Continue(())
+    });
+    assert!(outcome.energy.worst_imbalance < 1e-10);
+    (system, outcome)
+}
+
+fn close(a: f64, b: f64, scale: f64, tolerance: f64, what: &str) {
+    assert!(
+        (a - b).abs() <= tolerance * scale,
+        "{what}: {a} against {b}"
+    );
+}
+
+/// Without eccentricity and across no shaking, everything is as in one plane, and nothing moves across or turns.
+#[test]
+fn plans_without_eccentricity_keep_the_numbers_of_the_plane() {
+    let [left, right] = [[150e3, 90e6], [110e3, 200e6]];
+    let shear = |storeys: usize, [mass, stiffness]: [f64; 2]| {
+        Structure::Shear(Shear {
+            mass: vec![mass; storeys],
+            stiffness: vec![stiffness; storeys],
+            storey_heights: vec![3.0; storeys],
+        })
+    };
+    let plane = model(
+        vec![
+            building("A", shear(5, left)),
+            building("B", shear(3, right)),
+        ],
+        vec![Gap::after(0, 0.02, LAW)],
+    );
+    let space = model(
+        vec![
+            tower("A", 5, left, &rectangle(0.0, 0.0, 12.0, 10.0), [0.0; 2]),
+            tower("B", 3, right, &rectangle(12.02, 0.0, 9.0, 10.0), [0.0; 2]),
+        ],
+        vec![Gap::after(0, 0.02, LAW)],
+    );
+    let motion = shaking("along", 7.0);
+    let (_, flat) = run(&plane, &motion);
+    let (system, outcome) = run(&space, &motion);
+    assert!(flat.impacts.len() > 4, "{} impacts", flat.impacts.len());
+    for (index, (own, other)) in outcome.floors.iter().zip(&flat.floors).enumerate() {
+        let scale = other
+            .iter()
+            .map(|floor| floor.displacement_max.value)
+            .fold(0.0, f64::max);
+        for (a, b) in own.iter().zip(other) {
+            let (a_max, b_max) = (a.displacement_max.value, b.displacement_max.value);
+            close(a_max, b_max, scale, 1e-9, "right");
+            close(
+                a.displacement_min.value,
+                b.displacement_min.value,
+                scale,
+                1e-9,
+                "left",
+            );
+            close(
+                a.storey_shear,
+                b.storey_shear,
+                b.storey_shear,
+                1e-9,
+                "shear",
+            );
+            close(
+                a.total_acceleration,
+                b.total_acceleration,
+                b.total_acceleration,
+                1e-9,
+                "acceleration",
+            );
+        }
+        close(
+            outcome.base_shear[index],
+            flat.base_shear[index],
+            flat.base_shear[index],
+            1e-9,
+            "base shear",
+        );
+        for floor in &outcome.in_plan[index].turning {
+            assert!(floor.displacement_max.value.abs() < 1e-12 * scale);
+        }
+        for floor in &outcome.in_plan[index].across {
+            assert!(floor.displacement_max.value.abs() < 1e-12 * scale);
+        }
+    }
+    // All points of a face together are the contact of the plane.
+    let strongest = |peaks: &mut dyn Iterator<Item = f64>| peaks.fold(0.0, f64::max);
+    let face = strongest(&mut outcome.face_impacts.iter().map(|i| i.peak_force.value));
+    let contact = strongest(&mut flat.impacts.iter().map(|i| i.peak_force));
+    close(face, contact, contact, 1e-9, "force");
+    assert_eq!(outcome.face_impacts.len(), flat.impacts.len());
+    assert_eq!(system.contacts.len(), 5 * 3);
+}
+
+/// Three eccentric towers around a corner, shaken along a bearing and across it.
+fn around_a_corner() -> (Vec<Building>, Vec<Gap>, GroundMotion) {
+    let plans = [
+        rectangle(0.0, 0.0, 12.0, 10.0),
+        rectangle(12.02, 2.0, 9.0, 7.0),
+        rectangle(1.0, 10.02, 10.0, 8.0),
+    ];
+    let buildings = vec![
+        tower("corner", 3, [150e3, 60e6], &plans[0], [1.0, -0.5]),
+        tower("right", 2, [100e3, 150e6], &plans[1], [-0.4, 0.3]),
+        tower("behind", 3, [110e3, 170e6], &plans[2], [0.5, 0.6]),
+    ];
+    let gap = |a: usize, b: usize| Gap::between([Some(a), Some(b)], 0.02, LAW);
+    let mut motion = shaking("along", 7.0);
+    motion.bearing = Some(Box::new(Bearing {
+        angle: 0.4,
+        across: Some(shaking("across", 5.3)),
+    }));
+    (buildings, vec![gap(0, 1), gap(0, 2)], motion)
+}
+
+/// Greatest forces of all faces, in order of size, and the greatest corner displacement of every building.
+fn numbers(outcome: &Outcome) -> (Vec<f64>, Vec<f64>) {
+    let faces = outcome.face_impacts.iter();
+    let mut forces: Vec<f64> = faces.map(|impact| impact.peak_force.value).collect();
+    forces.sort_by(f64::total_cmp);
+    let corners = outcome.in_plan.iter();
+    let corners = corners.map(|plan| plan.corner_displacement.iter().copied().fold(0.0, f64::max));
+    (forces, corners.collect())
+}
+
+fn same(a: &Outcome, b: &Outcome, order: [usize; 3], what: &str) {
+    let ((forces, corners), (other_forces, other_corners)) = (numbers(a), numbers(b));
+    assert_eq!(forces.len(), other_forces.len(), "{what}: impacts");
+    assert!(forces.len() > 10, "{} impacts", forces.len());
+    let most = forces[forces.len() - 1];
+    for (own, other) in forces.iter().zip(&other_forces) {
+        close(*own, *other, most, 1e-8, what);
+    }
+    for (index, own) in corners.iter().enumerate() {
+        close(*own, other_corners[order[index]], *own, 1e-8, what);
+    }
+}
+
+fn changed(
+    buildings: &[Building],
+    point: impl Fn(PlanPoint) -> PlanPoint,
+    turn_corners: bool,
+    stiffness: impl Fn([f64; 3]) -> [f64; 3],
+) -> Vec<Building> {
+    let mut all = buildings.to_vec();
+    for building in &mut all {
+        let Structure::Tiers(tiers) = &mut building.structure else {
+            unreachable!("all have plans")
+        };
+        for floor in &mut tiers.floors {
+            floor.centre = point(floor.centre);
+            floor.plan = floor.plan.iter().map(|p| point(*p)).collect();
+            if turn_corners {
+                floor.plan.reverse();
+            }
+        }
+        for storey in &mut tiers.storeys {
+            storey.centre = point(storey.centre);
+            storey.stiffness = stiffness(storey.stiffness);
+        }
+    }
+    all
+}
+
+/// The site turned by a right angle with everything on it: along becomes across.
+#[test]
+fn a_turned_site_has_the_same_impacts() {
+    let (mut buildings, gaps, motion) = around_a_corner();
+    // Damping counts modes along x, so it is given here.
+    for building in &mut buildings {
+        building.damping = Damping::Rayleigh {
+            alpha: 0.5,
+            beta: 2e-3,
+        };
+    }
+    let (_, own) = run(&model(buildings.clone(), gaps.clone()), &motion);
+    let turned = changed(&buildings, |[x, y]| [-y, x], false, |[x, y, t]| [y, x, t]);
+    let mut turned_motion = motion.clone();
+    turned_motion.bearing.as_mut().expect("a bearing").angle += 0.5 * PI;
+    let (_, other) = run(&model(turned, gaps), &turned_motion);
+    same(&own, &other, [0, 1, 2], "turned");
+}
+
+/// Everything seen in a mirror along x.
+#[test]
+fn a_mirrored_site_has_the_same_impacts() {
+    let (buildings, gaps, motion) = around_a_corner();
+    let (_, own) = run(&model(buildings.clone(), gaps.clone()), &motion);
+    let mirrored = changed(&buildings, |[x, y]| [x, -y], true, |k| k);
+    let mut mirrored_motion = motion.clone();
+    let bearing = mirrored_motion.bearing.as_mut().expect("a bearing");
+    bearing.angle = -bearing.angle;
+    bearing.across.as_mut().expect("a motion across").scale = -1.0;
+    let (_, other) = run(&model(mirrored, gaps), &mirrored_motion);
+    same(&own, &other, [0, 1, 2], "mirrored");
+}
+
+#[test]
+fn the_order_of_buildings_does_not_matter() {
+    let (buildings, gaps, motion) = around_a_corner();
+    let (_, own) = run(&model(buildings.clone(), gaps.clone()), &motion);
+    let shuffled = vec![
+        buildings[2].clone(),
+        buildings[0].clone(),
+        buildings[1].clone(),
+    ];
+    let gap = |a: usize, b: usize| Gap::between([Some(a), Some(b)], 0.02, LAW);
+    // The second named first as well: the normal turns round.
+    let (_, other) = run(&model(shuffled, vec![gap(0, 1), gap(1, 2)]), &motion);
+    same(&own, &other, [1, 2, 0], "in another order");
+}
+
+/// A free oscillator at the end of a lever: a storey that turns only, hit at its corner, against K and J of its own.
+#[test]
+fn torsion_has_the_period_of_its_polar_mass() {
+    let plan = rectangle(0.0, 0.0, 10.0, 6.0);
+    let tower = tower("A", 1, [1e5, 4e7], &plan, [0.0; 2]);
+    let system = System::assemble(&model(vec![tower], Vec::new())).expect("a sound model");
+    let mut periods: Vec<f64> = system.buildings[0]
+        .modes
+        .iter()
+        .map(|m| m.period())
+        .collect();
+    periods.sort_by(f64::total_cmp);
+    let polar = 1e5 * (100.0 + 36.0) / 12.0;
+    let torsion = 4e7 * 36.0 / 12.0 + 5.2e7 * 100.0 / 12.0;
+    let mut expected = [1e5 / 4e7, 1e5 / 5.2e7, polar / torsion].map(|r: f64| 2.0 * PI * r.sqrt());
+    expected.sort_by(f64::total_cmp);
+    for (got, expected) in periods.iter().zip(expected) {
+        close(*got, expected, expected, 1e-12, "period");
+    }
+}
+
+/// P-Delta takes P/h from both directions and P ρ²/h from torsion.
+#[test]
+fn weight_softens_all_three_directions() {
+    let plan = rectangle(0.0, 0.0, 10.0, 6.0);
+    let mut leaning = tower("A", 1, [1e5, 4e7], &plan, [0.0; 2]);
+    leaning.gravity.p_delta = true;
+    let system =
+        System::assemble(&model(vec![leaning.clone()], Vec::new())).expect("a sound model");
+    let push = 1e5 * 9.806_65 / 3.0;
+    let gyration = (100.0 + 36.0) / 12.0;
+    let polar = 1e5 * gyration;
+    let torsion = 4e7 * 36.0 / 12.0 + 5.2e7 * 100.0 / 12.0;
+    let mut expected = [
+        (4e7 - push) / 1e5,
+        (5.2e7 - push) / 1e5,
+        (torsion - push * gyration) / polar,
+    ]
+    .map(f64::sqrt);
+    expected.sort_by(f64::total_cmp);
+    let mut got: Vec<f64> = system.buildings[0]
+        .modes
+        .iter()
+        .map(|mode| mode.circular_frequency)
+        .collect();
+    got.sort_by(f64::total_cmp);
+    for (got, expected) in got.iter().zip(expected) {
+        close(*got, expected, expected, 1e-12, "ω");
+    }
+    // A storey softer than its weight falls over.
+    let Structure::Tiers(tiers) = &mut leaning.structure else {
+        unreachable!("it has a plan")
+    };
+    tiers.storeys[0].stiffness = [0.9 * push, 5.2e7, torsion];
+    assert!(System::assemble(&model(vec![leaning], Vec::new())).is_err());
+}
+
+/// The wave across counts although the first motion is a record.
+#[test]
+fn a_sine_across_shakes_across() {
+    let plan = rectangle(0.0, 0.0, 10.0, 6.0);
+    let tower = tower("A", 2, [1e5, 4e7], &plan, [0.0; 2]);
+    let mut motion = shaking("along", 7.0);
+    motion.bearing = Some(Box::new(Bearing {
+        angle: 0.0,
+        across: Some(GroundMotion {
+            name: "sine".to_owned(),
+            scale: 1.0,
+            duration: 10.0,
+            wave: Wave::Sine {
+                amplitude: 1.0,
+                period: 0.6,
+            },
+            bearing: None,
+        }),
+    }));
+    let own = model(vec![tower], Vec::new());
+    let (_, outcome) = run(&own, &motion);
+    // As a building in one plane with the stiffness across.
+    let plane = model(
+        vec![building(
+            "A",
+            Structure::Shear(Shear {
+                mass: vec![1e5; 2],
+                stiffness: vec![5.2e7; 2],
+                storey_heights: vec![3.0; 2],
+            }),
+        )],
+        Vec::new(),
+    );
+    let mut plane = plane;
+    let (system, _) = run(&own, &motion);
+    let equations = &system.buildings[0].equations;
+    plane.buildings[0].damping = Damping::Rayleigh {
+        alpha: equations.alpha,
+        beta: equations.beta,
+    };
+    let across = motion.bearing.as_ref().and_then(|b| b.across.clone());
+    let (_, flat) = run(&plane, &across.expect("a motion across"));
+    for (a, b) in outcome.in_plan[0].across.iter().zip(&flat.floors[0]) {
+        let scale = b.displacement_max.value;
+        close(a.displacement_max.value, scale, scale, 1e-6, "across");
+        close(
+            a.storey_shear,
+            b.storey_shear,
+            b.storey_shear,
+            1e-6,
+            "shear",
+        );
+    }
+}
+
+#[test]
+fn plans_that_do_not_fit_are_refused() {
+    let (buildings, gaps, _) = around_a_corner();
+    let said = |buildings: Vec<Building>, gaps: Vec<Gap>| -> String {
+        let faults = model(buildings, gaps).check().expect_err("a fault");
+        let all: Vec<String> = faults.iter().map(ToString::to_string).collect();
+        all.join("\n")
+    };
+    let mut into = buildings.clone();
+    let Structure::Tiers(tiers) = &mut into[1].structure else {
+        unreachable!("it has a plan")
+    };
+    tiers.move_by([-1.0, 0.0]);
+    assert!(said(into, gaps.clone()).contains("their plans overlap"));
+    let mut far = gaps.clone();
+    far[0].in_plan = PlanContact {
+        reach: 0.01,
+        ..PlanContact::default()
+    };
+    assert!(said(buildings.clone(), far).contains("finds no edges"));
+    let mut wall = gaps.clone();
+    wall[0].between = [Some(0), None];
+    assert!(said(buildings.clone(), wall).contains("names a wall"));
+    let mut mixed = buildings.clone();
+    mixed[1].structure = Structure::Shear(Shear {
+        mass: vec![1e5],
+        stiffness: vec![1e8],
+        storey_heights: vec![3.0],
+    });
+    assert!(said(mixed, gaps).contains("building[1].plan"));
+}
