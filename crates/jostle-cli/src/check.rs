@@ -149,17 +149,27 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         let [left, right] = names(system, gap.between);
         writeln!(text, "{}", styled(BOLD, &format!("{left} ↔ {right}")))?;
         let widths: Vec<String> = contacts.iter().map(|contact| mm(contact.width)).collect();
-        writeln!(
-            text,
-            "  gap {} mm, {} at {} m",
-            if gap.widths.len() > 1 {
-                widths.join(", ")
-            } else {
-                mm(gap.width())
-            },
-            counted(contacts.len(), "contact"),
-            heights.join(", ")
-        )?;
+        if system.is_in_space() {
+            writeln!(
+                text,
+                "  gap {} mm, {} of {} points each",
+                mm(gap.width()),
+                counted(faces_among(&contacts), "face"),
+                gap.in_plan.points
+            )?;
+        } else {
+            writeln!(
+                text,
+                "  gap {} mm, {} at {} m",
+                if gap.widths.len() > 1 {
+                    widths.join(", ")
+                } else {
+                    mm(gap.width())
+                },
+                counted(contacts.len(), "contact"),
+                heights.join(", ")
+            )?;
+        }
         let unit = if gap.law.kind.is_hertzian() {
             "N/m^1.5"
         } else {
@@ -214,8 +224,18 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
     Ok(())
 }
 
+/// Number of faces and corners.
+fn faces_among(contacts: &[&jostle::interface::Contact]) -> usize {
+    let mut faces: Vec<usize> = contacts
+        .iter()
+        .filter_map(|contact| Some(contact.plan?.face))
+        .collect();
+    faces.dedup();
+    faces.len()
+}
+
 /// Faces and corners of two plans, floor by floor.
-fn describe_faces(text: &mut String, contacts: &[&Contact]) -> std::fmt::Result {
+fn describe_faces(text: &mut String, contacts: &[&jostle::interface::Contact]) -> std::fmt::Result {
     writeln!(
         text,
         "  floors     kind     overlap      gap   normal          middle"

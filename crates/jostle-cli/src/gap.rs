@@ -67,6 +67,7 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         let model = ModelArgs {
             model: args.model.clone(),
             pga: args.pga.clone(),
+            angle: None,
             gap: None,
             record,
             accept_unusual: args.accept_unusual,

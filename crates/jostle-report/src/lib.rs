@@ -25,6 +25,7 @@ mod payload;
 mod pushover;
 mod section;
 mod selection;
+mod site_plan;
 mod special;
 mod spread;
 mod static_plot;

@@ -7,7 +7,7 @@ use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{
     Page, calculation, contact_box, describe, floor_spectra, format, hinges, joints, members,
-    method, payload, spread, tables,
+    method, payload, site_plan, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -83,6 +83,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         (envelopes(page, &run, without))
                         (tables::peaks(page))
                     }
+                    @if let Some(site) = site_plan::section(page) { (site) }
                     @if let Some(members) = members::section(page) { (members) }
                     @if let Some(spectra) = floor_spectra::section(page) { (spectra) }
                     (calculation::motion_section(page))

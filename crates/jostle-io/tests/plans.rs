@@ -1,0 +1,256 @@
+//! Buildings with plans: what a file says, and what is refused.
+
+use std::path::Path;
+
+use jostle::{Structure, System, Tiers};
+use jostle_io::{Format, Input, read_model_text};
+
+const A: &str = r#"
+[[building]]
+name = "A"
+kind = "shear"
+plan = ["20 m", "12 m"]
+mass = "250 t"
+stiffness = { x = "60 MN/m", y = "85 MN/m" }
+eccentricity = ["1 m", "-0.5 m"]
+"#;
+
+const B: &str = r#"
+[[building]]
+name = "B"
+kind = "shear"
+plan = [["0 m", "0 m"], ["9 m", "0 m"], ["9 m", "8 m"], ["0 m", "8 m"]]
+mass = "100 t"
+stiffness = "90 MN/m"
+"#;
+
+const GAP: &str = r#"
+[[gap]]
+between = ["A", "B"]
+width = "20 mm"
+"#;
+
+fn read(text: &str) -> Result<Input, jostle_io::InputError> {
+    read_model_text("model.toml", text, Format::Toml, Path::new(""))
+}
+
+fn tiers(input: &Input, building: usize) -> &Tiers {
+    match &input.model.buildings[building].structure {
+        Structure::Tiers(tiers) => tiers,
+        other => panic!("no plan: {other:?}"),
+    }
+}
+
+/// What is said of a text that must be refused.
+fn said(text: &str) -> String {
+    let error = read(text).err();
+    let error = error.unwrap_or_else(|| panic!("this should be refused:\n{text}"));
+    error.to_string()
+}
+
+#[test]
+fn defaults_follow_from_the_plan() {
+    let input = read(&format!("{A}{B}{GAP}")).expect("a sound model");
+    let (a, b) = (tiers(&input, 0), tiers(&input, 1));
+    // Even mass, and torsion of even stiffness: (k_x b² + k_y a²)/12.
+    let polar = 250e3 * (400.0 + 144.0) / 12.0;
+    assert!((a.floors[0].polar_mass / polar - 1.0).abs() < 1e-12);
+    let torsion = (60e6 * 144.0 + 85e6 * 400.0) / 12.0;
+    assert!((a.storeys[0].stiffness[2] / torsion - 1.0).abs() < 1e-12);
+    assert_eq!(a.floors[0].centre, [10.0, 6.0]);
+    assert_eq!(a.storeys[0].centre, [11.0, 5.5]);
+    // A bare stiffness counts in both directions, and buildings stand in a row, as far apart as the gap is wide.
+    assert_eq!(b.storeys[0].stiffness[..2], [90e6, 90e6]);
+    assert!((b.floors[0].plan[0][0] - 20.02).abs() < 1e-12);
+    assert_eq!(b.floors[0].plan[0][1], 0.0);
+    let system = System::assemble(&input.model).expect("a sound model");
+    assert_eq!(system.contacts.len(), 5);
+    assert!(
+        system
+            .contacts
+            .iter()
+            .all(|c| (c.width - 0.02).abs() < 1e-12)
+    );
+}
+
+#[test]
+fn elements_give_stiffness_and_its_centre() {
+    let text = r#"
+[[building]]
+name = "A"
+kind = "shear"
+storeys = 2
+plan = ["10 m", "6 m"]
+at = ["100 m", "50 m"]
+mass = "100 t"
+[[building.element]]
+at = ["1 m", "1 m"]
+stiffness = { x = "10 MN/m", y = "20 MN/m" }
+[[building.element]]
+at = ["9 m", "4 m"]
+stiffness = { x = "30 MN/m", y = "20 MN/m" }
+[[building.element]]
+at = ["5 m", "3 m"]
+stiffness = "5 MN/m"
+storeys = [2, 2]
+"#;
+    let input = read(text).expect("a sound model");
+    let [lower, upper] = &tiers(&input, 0).storeys[..] else {
+        panic!("two storeys")
+    };
+    // c_y by k_x, c_x by k_y.
+    assert!((lower.centre[0] - 105.0).abs() < 1e-9);
+    assert!((lower.centre[1] - (50.0 + (10.0 + 120.0) / 40.0)).abs() < 1e-9);
+    let y = 3.25;
+    let torsion = 10e6 * (1.0_f64 - y).powi(2) + 30e6 * (4.0_f64 - y).powi(2) + 40e6 * 16.0;
+    assert!((lower.stiffness[2] / torsion - 1.0).abs() < 1e-12);
+    assert_eq!(lower.stiffness[..2], [40e6, 40e6]);
+    assert_eq!(upper.stiffness[..2], [45e6, 45e6]);
+}
+
+#[test]
+fn set_backs_have_plans_of_their_own() {
+    let text = r#"
+[[building]]
+name = "A"
+kind = "shear"
+plan = [{ size = ["20 m", "12 m"] }, { corners = [["0 m", "0 m"], ["10 m", "0 m"], ["10 m", "12 m"], ["0 m", "12 m"]] }]
+mass = ["250 t", "120 t"]
+stiffness = [{ x = "60 MN/m", y = "85 MN/m", torsion = "5.5 GN.m/rad" }, "40 MN/m"]
+polar_mass = ["1e7 kg.m2", "2e6 kg.m2"]
+"#;
+    let input = read(text).expect("a sound model");
+    let tiers = tiers(&input, 0);
+    assert_eq!(tiers.floors[1].centre, [5.0, 6.0]);
+    assert_eq!(
+        [tiers.floors[0].polar_mass, tiers.floors[1].polar_mass],
+        [1e7, 2e6]
+    );
+    assert_eq!(tiers.storeys[0].stiffness[2], 5.5e9);
+    // The spring acts where the floor above has its mass.
+    assert_eq!(tiers.storeys[1].centre, [5.0, 6.0]);
+}
+
+#[test]
+fn a_pair_of_records_is_scaled_together() {
+    let motion = r#"
+[motion]
+record = "el-centro-1940-ns"
+pga = "0.2 g"
+angle = "30 deg"
+across = "el-centro-1940-ns"
+"#;
+    let input = read(&format!("{motion}{A}")).expect("a sound model");
+    let motion = input.ground_motion().expect("a motion");
+    let [x, y] = motion.components(2.0);
+    let a = motion.acceleration(2.0);
+    let (sin, cos) = 30.0_f64.to_radians().sin_cos();
+    assert!((x - a * (cos - sin)).abs() < 1e-12 && (y - a * (sin + cos)).abs() < 1e-12);
+    assert!(a.abs() > 0.01);
+}
+
+#[test]
+fn stiffness_per_length_follows_the_overlap() {
+    let gap = "[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"20 mm\"\nlaw = \"linear\"\nstiffness_per_length = \"20 MN/m/m\"\npoints = 3\n";
+    let input = read(&format!("{A}{B}{gap}")).expect("a sound model");
+    let system = System::assemble(&input.model).expect("a sound model");
+    let stiffness: f64 = system.contacts.iter().map(|c| c.law.stiffness()).sum();
+    assert_eq!(system.contacts.len(), 3);
+    assert!(
+        (stiffness / (8.0 * 20e6) - 1.0).abs() < 1e-12,
+        "{stiffness}"
+    );
+}
+
+#[test]
+fn what_does_not_fit_is_refused_with_its_place() {
+    let with = |a: &str, b: &str| format!("{}{B}{GAP}", A.replace(a, b));
+    for (text, wanted) in [
+        (
+            with("plan = [\"20 m\", \"12 m\"]", "plan = [\"20 m\"]"),
+            "building[0].plan: expected a width and a depth, or corners",
+        ),
+        (
+            with(
+                "plan = [\"20 m\", \"12 m\"]",
+                "plan = [[\"0 m\", \"0 m\"], [\"0 m\", \"8 m\"], [\"9 m\", \"8 m\"], [\"9 m\", \"0 m\"]]",
+            ),
+            "building[0].plan: has clockwise corners; give them counter-clockwise: [[\"9 m\", \"0 m\"]",
+        ),
+        (
+            with("x = \"60 MN/m\", ", "x = \"0 MN/m\", "),
+            "building[0].stiffness.x: must be greater than 0 N/m, found 0",
+        ),
+        (
+            with(
+                "mass = \"250 t\"",
+                "mass = \"250 t\"\nmass_centre = [\"30 m\", \"6 m\"]",
+            ),
+            "building[0].mass_centre: lies outside the plan",
+        ),
+        (
+            with(
+                "mass = \"250 t\"",
+                "mass = \"250 t\"\npolar_mass = \"1e10 kg.m2\"",
+            ),
+            "building[0].polar_mass: is 1.0000e10 kg.m2, more than",
+        ),
+        (
+            with("plan = [\"20 m\", \"12 m\"]\n", ""),
+            "building[0].eccentricity: needs a plan",
+        ),
+        (
+            with(
+                "mass = \"250 t\"",
+                "mass = \"250 t\"\nhinges = { rule = \"bilinear\", yield = \"20 mm\" }",
+            ),
+            "building[0].hinges: is not possible for a building with a plan yet",
+        ),
+        (
+            format!(
+                "{A}{}{GAP}",
+                B.replace("plan", "at = [\"20.5 m\", \"0 m\"]\nplan")
+            ),
+            "gap[0].width: is 20.0 mm, but at and plan put the buildings 500.0 mm apart",
+        ),
+        (
+            format!(
+                "{A}{}{GAP}",
+                B.replace("plan", "at = [\"19 m\", \"0 m\"]\nplan")
+            ),
+            "building[1].at: puts floor 1 into that of \"A\": their plans overlap",
+        ),
+        (
+            format!("{A}{B}[[gap]]\nbetween = [\"A\", \"wall\"]\nwidth = \"20 mm\"\n"),
+            "gap[0].between: names a wall, which buildings with a plan cannot have yet",
+        ),
+        (
+            format!("{A}{B}{GAP}points = 1\n"),
+            "gap[0].points: must lie between 2 and 9, found 1",
+        ),
+    ] {
+        let said = said(&text);
+        assert!(said.contains(wanted), "{said}\ninstead of\n{wanted}");
+        assert!(said.starts_with("model.toml:"), "{said}");
+    }
+}
+
+#[test]
+fn an_angle_needs_plans() {
+    let text = r#"
+[motion]
+record = "el-centro-1940-ns"
+angle = "30 deg"
+[[building]]
+name = "A"
+kind = "shear"
+mass = "40 t"
+stiffness = "60 MN/m"
+"#;
+    let input = read(text).expect("a sound model");
+    let system = System::assemble(&input.model).expect("a sound model");
+    let motion = input.ground_motion().expect("a motion");
+    let faults = jostle::Plan::choose(&system, &motion, &input.model.analysis);
+    let faults = faults.expect_err("a fault");
+    assert_eq!(faults[0].path, "motion.angle");
+}
