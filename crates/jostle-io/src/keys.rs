@@ -152,6 +152,8 @@ pub(crate) enum Kind {
     Named(Section),
     /// A list of lists of numbers.
     NumberLists,
+    /// A record, or a table like `[motion]`.
+    TextOrMotion,
     /// Width and depth, corners, or a list of plans.
     Plan,
     /// Two lengths, or a list of pairs from the ground up.
@@ -323,7 +325,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Motion, "governing", Choice(&GoverningRule::NAMES), "the code of match, else \"maximum\"", "Rule for the governing value of several records: gb50011, en1998 and asce7 take the mean or the greatest by their number."),
     default(S::Motion, "reverse", Flag, "false", "Change the sign of the motion."),
     default(S::Motion, "angle", Quantity(D::Dimensionless), "0", "For buildings with a plan: angle from x to the motion, counter-clockwise, such as \"30 deg\"."),
-    optional(S::Motion, "across", TextOrTable(S::Motion), "For buildings with a plan: the motion at a right angle to this one, counter-clockwise from it: a record, or a table like [motion]."),
+    optional(S::Motion, "across", Kind::TextOrMotion, "For buildings with a plan: the motion at a right angle to this one, counter-clockwise from it: a record, or a table like [motion]."),
     default(S::Motion, "duration", Quantity(D::Time), "the whole record", "Length of the analysis: cuts the record, or continues with the ground at rest."),
     optional(S::Motion, "unit", Text, "Unit of the numbers of a record that does not state it, such as \"g\"."),
     optional(S::Motion, "step", Quantity(D::Time), "Time step of a record that does not state it."),
@@ -514,7 +516,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::StoreyHinges, "post_yield", PerStorey(D::Dimensionless), "Ratio of post-yield to initial stiffness."),
 
     required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),
-    required(S::Gap, "width", PerContact(D::Length), "Width at rest, optional between plans with at: one value, or a list for the contacts in the order of floors, from the lowest contact up if floors are not listed."),
+    optional(S::Gap, "width", PerContact(D::Length), "Width at rest, required except between plans with at: one value, or a list for the contacts in the order of floors, from the lowest contact up if floors are not listed."),
     default(S::Gap, "floors", FloorPairs, "\"common\"", "Contact locations: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights."),
     default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can touch."),
     default(S::Gap, "law", Choice(LAWS), "\"hertz-damp\"", "Contact law."),

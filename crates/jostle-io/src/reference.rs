@@ -27,6 +27,13 @@ const TABLES: &[(Section, &str, &str)] = &[
     ),
     (Section::Frame, "`[[building]]` with `kind = \"frame\"`", ""),
     (Section::Shear, "`[[building]]` with `kind = \"shear\"`", ""),
+    (Section::FloorPlan, "`plan` of a floor, in a list", ""),
+    (
+        Section::PlanStiffness,
+        "`stiffness` of a storey with a plan, or of an element",
+        "",
+    ),
+    (Section::Element, "`[[building.element]]`", ""),
     (
         Section::Given,
         "`[[building]]` with `kind = \"given\"`",
@@ -206,6 +213,7 @@ fn value(key: &Key) -> String {
         Kind::Count => "whole number".into(),
         Kind::Any => "value or list".into(),
         Kind::Named(_) => "table of tables".into(),
+        Kind::TextOrMotion => "text, or a table like `[motion]`".into(),
         Kind::Plan => "two lengths, a list of corners, or a list of tables".into(),
         Kind::PlanPoints => "two lengths; or a list of such pairs".into(),
         Kind::PlanStiffness => "stiffness, or a table; or a list from the ground up".into(),

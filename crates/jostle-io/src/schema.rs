@@ -85,6 +85,8 @@ fn kind(kind: Kind) -> Value {
             json!({ "type": "object", "additionalProperties": table(&[section]) })
         }
         Kind::TextOrNumbers => json!({ "anyOf": [{ "type": "string" }, { "type": "array" }] }),
+        // The table is that of [motion], which contains this key.
+        Kind::TextOrMotion => json!({ "type": ["string", "object"] }),
         Kind::Plan => json!({ "type": "array", "items": { "anyOf": [
             quantity(Dimension::Length),
             { "type": "array", "items": quantity(Dimension::Length) },

@@ -79,6 +79,17 @@ fn assert_finite(input: &Input) {
                 numbers.extend(&shear.mass);
                 numbers.extend(&shear.stiffness);
             }
+            Structure::Tiers(tiers) => {
+                for floor in &tiers.floors {
+                    numbers.extend([floor.mass, floor.polar_mass]);
+                    numbers.extend(floor.centre);
+                    numbers.extend(floor.plan.iter().flatten());
+                }
+                for storey in &tiers.storeys {
+                    numbers.extend(storey.stiffness);
+                    numbers.extend(storey.centre);
+                }
+            }
             Structure::Given(given) => {
                 numbers.extend(&given.mass);
                 numbers.extend(given.stiffness.iter().map(|entry| &entry.2));

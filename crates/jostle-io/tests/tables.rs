@@ -41,6 +41,7 @@ width = "10 mm"
 
 fn impact(start: f64) -> ImpactSummary {
     ImpactSummary {
+        centre_m: None,
         start_s: start,
         end_s: start + 0.25,
         peak_force_n: 1e6,
@@ -63,6 +64,7 @@ fn contact(
     impacts: Vec<ImpactSummary>,
 ) -> ContactSummary {
     ContactSummary {
+        in_plan: None,
         floors,
         height_m,
         width_m: 0.01,

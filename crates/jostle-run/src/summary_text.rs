@@ -486,6 +486,7 @@ mod tests {
             ..FloorResponse::default()
         };
         FloorSummary {
+            in_plan: None,
             floor: number,
             height_m: 3.0 * number as f64,
             response: response(with),
