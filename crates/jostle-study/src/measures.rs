@@ -3,7 +3,8 @@
 use jostle::quantity::Read;
 use jostle::results::response::{BuildingResponse, FloorResponse};
 use jostle::results::summary::{
-    BuildingSummary, ContactSummary, EnergySummary, GapSummary, MotionSummary, WorkSummary,
+    BuildingSummary, CapacitySummary, ContactSummary, EnergySummary, GapSummary, MotionSummary,
+    WorkSummary,
 };
 use jostle::{GroundMotion, Quantity, Summary, Wave};
 use jostle_motion::{Accelerogram, Reading, response_spectrum};
@@ -113,6 +114,10 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
     let yields = building.hinges.total > 0;
     let response = (&building.response, building.without_contact.as_ref());
     list.add_response(&place, BuildingResponse::QUANTITIES, response, yields);
+    if let Some(capacity) = &building.capacity {
+        let place = format!("{place}capacity_");
+        list.add(&place, CapacitySummary::QUANTITIES, capacity);
+    }
     for floor in &building.floors {
         let place = format!("{place}floor{}.", floor.floor);
         let response = (&floor.response, floor.without_contact.as_ref());

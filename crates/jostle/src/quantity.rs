@@ -30,6 +30,7 @@ impl Unit {
     pub const N: Self = Self { symbol: "N", suffix: "_n" };
     pub const NM: Self = Self { symbol: "N·m", suffix: "_n_m" };
     pub const NS: Self = Self { symbol: "N·s", suffix: "_n_s" };
+    pub const HZ: Self = Self { symbol: "Hz", suffix: "_hz" };
     pub const J: Self = Self { symbol: "J", suffix: "_j" };
     pub const N_PER_M: Self = Self { symbol: "N/m", suffix: "_n_m" };
     pub const NS_PER_M: Self = Self { symbol: "N·s/m", suffix: "_n_s_m" };

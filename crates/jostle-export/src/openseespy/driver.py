@@ -19,6 +19,7 @@ STIFF = 1e4
 HALVINGS = 30  # of a step that does not converge, at most
 MOST_PARTS = 10_000  # of such a step
 SETTLED = 1e-10  # displacement in the last iteration [m]
+LONGEST = 1e4  # of a sine [s]: OpenSees integrates it to its end before the first step
 DIRECTIONS = {1: 1, 2: 2, 6: 3}
 
 
@@ -137,7 +138,7 @@ def shake():
     """Horizontal ground motion, and the accelerations that belong to its first value."""
     if "SINE" in globals():
         amplitude, period = SINE
-        ops.timeSeries("Trig", 2, 0.0, 1e9, period, "-factor", amplitude * MOTION_FACTOR)
+        ops.timeSeries("Trig", 2, 0.0, LONGEST, period, "-factor", amplitude * MOTION_FACTOR)
         start = 0.0
     else:
         step, values = ground_values()

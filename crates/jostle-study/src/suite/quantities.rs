@@ -77,6 +77,15 @@ pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
             format!("{name}.residual_drift_peak"),
             greatest(&|floor| floor["residual_drift"].as_f64().map(f64::abs)),
         );
+        let capacity = &building["capacity"];
+        add(
+            format!("{name}.capacity_ratio"),
+            capacity["worst"]["ratio"].as_f64(),
+        );
+        add(
+            format!("{name}.capacity_exceeded"),
+            capacity["exceeded"].as_f64(),
+        );
         if building["hinges"]["total"].as_u64().unwrap_or(0) > 0 {
             add(
                 format!("{name}.ductility"),
@@ -124,4 +133,24 @@ pub(super) fn displacement(floor: &Value) -> Option<f64> {
 /// The entries of a list of a summary.
 pub(super) fn list<'v>(value: &'v Value, key: &str) -> impl Iterator<Item = &'v Value> {
     value[key].as_array().into_iter().flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn capacities_are_compared_where_they_are_known() {
+        let summary = serde_json::json!({ "buildings": [
+            { "name": "A", "capacity": { "exceeded": 3, "worst": { "ratio": 1.25 } } },
+            { "name": "B" },
+        ] });
+        let all = quantities(&summary);
+        let found = all.iter().filter(|own| own.name.contains("capacity"));
+        let found: Vec<(&str, f64)> = found.map(|own| (&own.name[..], own.value)).collect();
+        assert_eq!(
+            found,
+            [("A.capacity_ratio", 1.25), ("A.capacity_exceeded", 3.0)]
+        );
+    }
 }

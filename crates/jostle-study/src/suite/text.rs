@@ -24,7 +24,7 @@ pub(super) struct Shown {
 
 /// The form of a quantity by the unit at the end of its name.
 pub(super) fn shown(name: &str) -> Shown {
-    let forms: [(&str, f64, &str, usize); 8] = [
+    let forms: [(&str, f64, &str, usize); 10] = [
         ("drift_peak", 100.0, "%", 3),
         ("_m_s2", 1.0, "m/s²", 2),
         ("moment_peak_n_m", 1e-3, "kN·m", 0),
@@ -33,6 +33,8 @@ pub(super) fn shown(name: &str) -> Shown {
         ("impact_count", 1.0, "", 1),
         ("hinges_yielded", 1.0, "", 1),
         ("ductility", 1.0, "", 2),
+        ("capacity_ratio", 1.0, "", 2),
+        ("capacity_exceeded", 1.0, "", 1),
     ];
     let found = forms.into_iter().find(|(end, ..)| name.ends_with(end));
     let (_, factor, unit, decimals) = found.unwrap_or(("", 1.0, "", 3));
@@ -51,7 +53,7 @@ impl Shown {
 
 /// Quantities of the tables on screen and page, with their names in words: of every gap, then of every building.
 pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatistics)> {
-    const ENDS: [(&str, &str); 10] = [
+    const ENDS: [(&str, &str); 11] = [
         (".peak_force_n", "peak force"),
         (".impact_count", "impacts"),
         (".closing_peak_m", "peak closing"),
@@ -64,6 +66,7 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
         (".total_acceleration_peak_m_s2", "floor acceleration"),
         (".base_shear_peak_n", "base shear"),
         (".ductility", "ductility"),
+        (".capacity_ratio", "demand over capacity of members"),
         (".residual_drift_peak", "residual drift"),
     ];
     let all = results.quantities.iter().filter_map(|quantity| {

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::quantity::{Quantity, Unit};
+
 /// Response spectra of floors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FloorSpectra {
@@ -17,6 +19,15 @@ pub struct FloorSpectra {
     pub floors: Vec<FloorSpectrum>,
 }
 
+#[rustfmt::skip]
+impl FloorSpectra {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("row_interval_s", Unit::S, "least time between instants of the floor motion in free vibration", |f| f.row_interval_s),
+        Quantity::<Self>::real("resolution", Unit::NONE, "estimated greatest error of the spectra from the distance of these instants, relative to each value", |f| f.resolution),
+    ];
+}
+
 /// A filter that peak accelerations went through.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FilterSummary {
@@ -26,6 +37,15 @@ pub struct FilterSummary {
     pub order: usize,
     /// Corner frequency, where both passes together have a gain of one half \[Hz\].
     pub corner_hz: f64,
+}
+
+#[rustfmt::skip]
+impl FilterSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("order", "order of one pass", |f| f.order),
+        Quantity::<Self>::real("corner_hz", Unit::HZ, "corner frequency, where both passes together have a gain of one half", |f| f.corner_hz),
+    ];
 }
 
 /// One floor.
@@ -44,6 +64,15 @@ pub struct FloorSpectrum {
     pub without_contact: Option<FloorResponse>,
 }
 
+#[rustfmt::skip]
+impl FloorSpectrum {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("floor", "floor, from 1", |f| f.floor),
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |f| f.height_m),
+    ];
+}
+
 /// What a floor does in one run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct FloorResponse {
@@ -53,6 +82,15 @@ pub struct FloorResponse {
     pub filtered_peak_acceleration_m_s2: f64,
     /// One entry for each damping ratio.
     pub spectra: Vec<FloorCurve>,
+}
+
+#[rustfmt::skip]
+impl FloorResponse {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("peak_acceleration_m_s2", Unit::M_S2, "peak total acceleration, as computed: it depends on the contact stiffness", |f| f.peak_acceleration_m_s2),
+        Quantity::<Self>::real("filtered_peak_acceleration_m_s2", Unit::M_S2, "the same after the filter", |f| f.filtered_peak_acceleration_m_s2),
+    ];
 }
 
 /// Peaks of oscillators with one damping ratio that stand on a floor, by period.

@@ -2,12 +2,14 @@
 
 use serde::Serialize;
 
+use super::floor_spectra::{self, FilterSummary, FloorSpectra, FloorSpectrum};
 use super::in_plan::{BuildingInPlan, FloorInPlan};
 use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
-    BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
-    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SectionSummary,
-    SpringSummary, StruckSummary, Summary, WorkSummary,
+    AcceptanceSummary, AxialFailureSummary, BuildingSummary, CapacitySummary, ContactSummary,
+    EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, GapSummary, HingeSummary,
+    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, RatioPlace,
+    RatioSummary, SectionSummary, SpringSummary, StruckSummary, Summary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -66,11 +68,21 @@ pub fn owners() -> Vec<Owner> {
         owner("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries(SpringSummary::QUANTITIES)]),
         owner("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries(SectionSummary::QUANTITIES)]),
         owner("Struck points of columns", "buildings[].members[].struck[]", None, "", &[entries(StruckSummary::QUANTITIES)]),
+        owner("Forces of members at the worst instant", "buildings[].members[].at_worst[]", None, "", &[entries(ForcesSummary::QUANTITIES)]),
+        owner("Capacity of members", "buildings[].capacity", None, "J1.capacity_", &[entries(CapacitySummary::QUANTITIES)]),
+        owner("Worst member", "buildings[].capacity.worst", None, "", &[entries(ExceededSummary::QUANTITIES)]),
+        owner("Demand over capacity of a member", "buildings[].members[].ratio", None, "", &[entries(RatioSummary::QUANTITIES)]),
+        owner("Greatest bending of a member against its capacity", "buildings[].members[].ratio.bending_at", None, "", &[entries(RatioPlace::QUANTITIES)]),
+        owner("Rotations against accepted ones", "buildings[].members[].acceptance[]", None, "", &[entries(AcceptanceSummary::QUANTITIES)]),
+        owner("Axial failure of columns", "buildings[].members[].axial_failure", None, "", &[entries(AxialFailureSummary::QUANTITIES)]),
         owner("Gaps", "gaps[]", None, "J1-J2.", &[entries(GapSummary::QUANTITIES), entries(GapSummary::WITHOUT_CONTACT)]),
         owner("Contacts", "gaps[].contacts[]", None, "J1-J2.floor5-5.", &[entries(ContactSummary::QUANTITIES)]),
         owner("Impacts", "gaps[].contacts[].impacts[]", Some("impacts.parquet"), "", &[entries(ImpactSummary::QUANTITIES)]),
         owner("Links", "links[]", None, "", &[entries(LinkSummary::QUANTITIES)]),
         owner("Linked floors", "links[].floors[]", None, "", &[entries(LinkFloorSummary::QUANTITIES)]),
+        owner("Floor spectra", "floor_spectra", None, "", &[entries(FloorSpectra::QUANTITIES)]),
+        owner("Filter of floor accelerations", "floor_spectra.filter", None, "", &[entries(FilterSummary::QUANTITIES)]),
+        owner("Floors with spectra", "floor_spectra.floors[]", None, "", &[entries(FloorSpectrum::QUANTITIES), entries(floor_spectra::FloorResponse::QUANTITIES)]),
         owner("Energies", "energy", None, "energy_", &[entries(EnergySummary::QUANTITIES)]),
         owner("Accuracy", "promise", None, "", &[entries(PromiseSummary::QUANTITIES)]),
         owner("Work", "work", None, "", &[entries(WorkSummary::QUANTITIES)]),

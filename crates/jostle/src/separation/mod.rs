@@ -2,18 +2,22 @@
 //!
 //! [`required_gaps`] lists what every rule requires of two neighbours; the rules themselves are functions of numbers.
 
+mod code_inputs;
 mod codes;
 mod rules;
 
+pub use code_inputs::{
+    BuildingCodes, Code, CodeInputs, HazardZone, MotionLevel, USUAL_AMPLIFICATION,
+    USUAL_RESPONSE_MODIFICATION,
+};
 pub use codes::{
     IRAN2800_MOST_STOREYS, Nsr10Neighbour, asce7_displacement, e030_2018_joint, e030_2026_joint,
     e030_share, en1998_joint, iran2800_setback, is1893_joint, nsr10_setback, ntc2018_joint,
     tbdy2018_joint, tbdy2018_least_joint,
 };
 pub use rules::{
-    BuildingCodes, Code, CodeInputs, HazardZone, LeftOut, MotionLevel, Neighbours, Place,
-    Requirement, Requirements, Side, USUAL_AMPLIFICATION, USUAL_RESPONSE_MODIFICATION,
-    floors_are_level, peak_at_height, required_gaps,
+    LeftOut, Neighbours, Place, Requirement, Requirements, Side, floors_are_level, peak_at_height,
+    required_gaps,
 };
 
 /// Width of the seismic joint between concrete frame structures, GB 50011-2010 (2016) §6.1.4 \[m\].

@@ -3,10 +3,12 @@
 use std::ops::Range;
 
 use super::basis::Basis;
+use super::member_kernels::{self, Drive, FollowOwn, FollowPassed, PassedWatch};
 use super::member_ratios::{ModalRatios, StepEnds};
-use super::mode_kernels::{ROWS, Show};
-use super::peaks::Ends;
+use super::member_reach::{BlockWatch, PARTS, PartRows, Reach, low_modes, norms_in_blocks};
+use super::mode_kernels::ROWS;
 use super::reduced::{Reduced, in_blocks};
+use super::unit_force::UnitForce;
 use crate::history::MemberHistory;
 use crate::motion::Ground;
 use crate::simd;
@@ -27,28 +29,74 @@ pub(super) struct MemberRows {
     /// Axial force, shear or moment, row by row.
     kinds: Vec<usize>,
     /// Forces of shapes, what a unit acceleration of every mode adds statically, and how far they may be off even so.
-    shapes: Vec<[f64; ROWS]>,
-    missed: Vec<[f64; ROWS]>,
-    off: Vec<[f64; ROWS]>,
-    /// Most that every row changes per change of Σ (ω q)², the square root of it.
-    norms: Vec<f64>,
+    pub(super) shapes: Vec<[f64; ROWS]>,
+    pub(super) missed: Vec<[f64; ROWS]>,
+    pub(super) off: Vec<[f64; ROWS]>,
+    /// Most that every row changes per ‖ω Δq‖, block by block.
+    pub(super) norms: Vec<PartRows>,
     /// Axial forces that pass through rigid beams: they also follow from velocities, accelerations and pushes.
     passed: Passed,
 }
 
 /// Axial forces of beams that keep their length.
 #[derive(Default)]
-struct Passed {
-    range: Range<usize>,
-    forms: Vec<usize>,
+pub(super) struct Passed {
+    pub(super) range: Range<usize>,
+    pub(super) forms: Vec<usize>,
     /// Shares of modal displacements, velocities and accelerations, one after the other.
-    shares: Vec<[f64; ROWS]>,
-    /// The greatest of every mode, and of the ground acceleration.
-    greatest: Vec<f64>,
-    greatest_of_ground: f64,
+    pub(super) shares: Vec<[f64; ROWS]>,
+    /// Its bounds, block by block.
+    pub(super) bounds: Vec<PassedBounds>,
     /// Force per ground acceleration, and per rate of it while modes are free \[kg\].
-    ground: Vec<[f64; 2]>,
-    contacts: Vec<Vec<usize>>,
+    pub(super) ground: Vec<[f64; 2]>,
+    pub(super) contacts: Vec<Vec<usize>>,
+}
+
+/// What bounds eight axial forces that pass through rigid beams. Accelerations follow from the equations of modes,
+/// q̈ = −Γ a_g − D q̇ − K q + Σ φ f of contact forces f, so that displacements, velocities, the ground and contacts remain.
+pub(super) struct PassedBounds {
+    /// Shares of the displacements of low modes, mode by mode.
+    pub(super) low: Vec<[f64; ROWS]>,
+    /// Most that a row changes per ‖ω Δq‖ and per ‖ω q̇‖.
+    pub(super) norms: PartRows,
+    pub(super) norms_of_rates: PartRows,
+    /// Per ground acceleration \[kg\], and per contact force, contact by contact.
+    pub(super) ground: [f64; ROWS],
+    pub(super) pushed: Vec<[f64; ROWS]>,
+}
+
+impl PassedBounds {
+    /// `rows`: shares of displacements, velocities and accelerations of up to eight rows; `ground`: their forces per ground
+    /// acceleration.
+    fn new(rows: &[Vec<f64>], ground: &[[f64; 2]], basis: &Basis, damping: &[f64]) -> Self {
+        let (stiffness, count) = (&basis.modes.stiffness, basis.len());
+        let (mut by_q, mut by_v, mut of_ground) = (Vec::new(), Vec::new(), [0.0; ROWS]);
+        for (row, (shares, [fixed, _])) in rows.iter().zip(ground).enumerate() {
+            let [q, v, a] = [0, 1, 2].map(|part| &shares[part * count..(part + 1) * count]);
+            let less = |own: &[f64], factors: &[f64]| -> Vec<f64> {
+                let lists = own.iter().zip(a).zip(factors);
+                lists.map(|((own, a), factor)| own - a * factor).collect()
+            };
+            by_q.push(less(q, stiffness));
+            by_v.push(less(v, damping));
+            of_ground[row] = (fixed - simd::dot(a, &basis.modes.participation)).abs();
+        }
+        let low: Vec<Vec<f64>> = by_q
+            .iter()
+            .map(|row| row[..low_modes(count)].to_vec())
+            .collect();
+        let one = |rows: &[Vec<f64>]| {
+            let blocks = norms_in_blocks(rows.iter(), stiffness);
+            blocks.first().copied().unwrap_or([[0.0; ROWS]; PARTS])
+        };
+        Self {
+            low: in_blocks(&low, low_modes(count)),
+            norms: one(&by_q),
+            norms_of_rates: one(&by_v),
+            ground: of_ground,
+            pushed: Vec::new(),
+        }
+    }
 }
 
 /// What is known of the forces of a building: rows of shapes, and of what they miss and may be off, form by form.
@@ -69,7 +117,7 @@ impl MemberRows {
     ) -> Self {
         let forms = &building.members.forms;
         let count = modes.len();
-        let (own, passed): (Vec<usize>, Vec<usize>) =
+        let (mut own, passed): (Vec<usize>, Vec<usize>) =
             (0..forms.len()).partition(|form| forms[*form].follows_displacements());
         let pick = |rows: Option<&[Vec<f64>]>, list: &[usize]| match rows {
             Some(rows) => {
@@ -85,6 +133,8 @@ impl MemberRows {
                 kind_of[*form] = kind;
             }
         }
+        // Blocks of one kind, storey by storey: their rows come near their peaks together.
+        own.sort_by_key(|form| kind_of[*form]);
         let dense = |list: &[(usize, f64)]| {
             basis.of_shapes(|vector| list.iter().map(|(dof, share)| share * vector[*dof]).sum())
         };
@@ -113,31 +163,23 @@ impl MemberRows {
             }
             shares.push([&rows.shapes[*form][..], &velocity, &acceleration].concat());
         }
-        let mut greatest = vec![0.0_f64; 3 * count];
-        for row in &shares {
-            for (most, share) in greatest.iter_mut().zip(row) {
-                *most = most.max(share.abs());
-            }
-        }
-        let squares = |form: &usize| {
-            let row = rows.shapes[*form].iter().zip(&basis.modes.stiffness);
-            row.map(|(share, k)| share * share / k).sum::<f64>()
-        };
+        let bounds = shares.chunks(ROWS).zip(ground.chunks(ROWS));
+        let bounds = bounds.map(|(rows, ground)| PassedBounds::new(rows, ground, basis, damping));
         let padded = |start: usize, count: usize| start..start + count.div_ceil(ROWS) * ROWS;
         Self {
             range: padded(starts[0], own.len()),
-            norms: own.iter().map(|form| squares(form).sqrt()).collect(),
+            norms: norms_in_blocks(
+                own.iter().map(|form| &rows.shapes[*form]),
+                &basis.modes.stiffness,
+            ),
             kinds: own.iter().map(|form| kind_of[*form]).collect(),
             shapes: pick(Some(rows.shapes), &own),
             missed: pick(rows.missed, &own),
             off: pick(rows.off, &own),
             passed: Passed {
                 range: padded(starts[1], passed.len()),
+                bounds: bounds.collect(),
                 shares: in_blocks(&shares, 3 * count),
-                greatest,
-                greatest_of_ground: ground
-                    .iter()
-                    .fold(0.0, |most, [g, _]: &[f64; 2]| most.max(g.abs())),
                 ground,
                 contacts: passed
                     .iter()
@@ -150,6 +192,30 @@ impl MemberRows {
         }
     }
 
+    /// Completes the bounds of forces that pass through rigid beams with what contacts do to them.
+    pub(super) fn set_pushes(&mut self, unit_forces: &[UnitForce]) {
+        let (count, passed) = (self.modes.len(), &mut self.passed);
+        for (block, bounds) in passed.bounds.iter_mut().enumerate() {
+            let inertia = &passed.shares[(3 * block + 2) * count..3 * (block + 1) * count];
+            bounds.pushed = vec![[0.0; ROWS]; unit_forces.len()];
+            for (contact, (push, to)) in unit_forces.iter().zip(&mut bounds.pushed).enumerate() {
+                for (row, to) in to.iter_mut().enumerate() {
+                    let mut sum = 0.0;
+                    for (mode, inertia) in self.modes.clone().zip(inertia) {
+                        let own = mode.checked_sub(push.modes.start);
+                        let load = own.and_then(|own| push.loads.get(own));
+                        sum += inertia[row] * load.unwrap_or(&0.0);
+                    }
+                    let contacts = passed.contacts.get(block * ROWS + row);
+                    if contacts.is_some_and(|contacts| contacts.contains(&contact)) {
+                        sum -= 1.0;
+                    }
+                    *to = sum.abs();
+                }
+            }
+        }
+    }
+
     /// Where the rows of the next building begin.
     pub(super) fn ends(&self) -> [usize; 2] {
         [self.range.end, self.passed.range.end]
@@ -157,6 +223,11 @@ impl MemberRows {
 
     fn value(&self, blocks: &[[f64; ROWS]], row: usize, mode: usize) -> f64 {
         blocks[row / ROWS * self.modes.len() + mode][row % ROWS]
+    }
+
+    /// Blocks of rows that displacements determine, among those of all buildings.
+    fn blocks(&self) -> Range<usize> {
+        self.range.start / ROWS..self.range.end / ROWS
     }
 
     /// Modes of the building among all.
@@ -217,17 +288,28 @@ pub(super) struct Instant<'a> {
     pub(super) smooth: bool,
 }
 
-/// Follows the forces of columns and beams. A block of them is looked at only once the building has moved so far that one
-/// could come near its greatest or least value.
+/// Follows the forces of columns and beams. A block of them is computed only once modes can have carried one beyond its
+/// greatest or least value; what is found is the same, bit by bit, as if all were computed in every step.
 pub(super) struct MemberPeaks {
     /// Greatest and least value, and greatest size with what may be missed.
-    greatest: Vec<f64>,
-    least: Vec<f64>,
-    with_off: Vec<f64>,
-    watch: Vec<Watch>,
+    greatest: Vec<[f64; ROWS]>,
+    least: Vec<[f64; ROWS]>,
+    with_off: Vec<[f64; ROWS]>,
+    /// Of every row, most that the accelerations so far add to what displacements say, with what may be off.
+    loose: Vec<[f64; ROWS]>,
+    /// The greatest acceleration of every mode so far, with a margin, building by building.
+    accelerations: Vec<f64>,
+    /// What the modes of every building have done.
+    reach: Vec<Reach>,
+    /// Way of every building that is long enough for rated sections.
+    moved: Vec<f64>,
+    watch: Vec<Vec<BlockWatch>>,
     /// The same of axial forces that pass through beams.
-    passed: Vec<[f64; 2]>,
-    watch_passed: Vec<Watch>,
+    passed_greatest: Vec<[f64; ROWS]>,
+    passed_least: Vec<[f64; ROWS]>,
+    watch_passed: Vec<Vec<PassedWatch>>,
+    /// Whether modes are driven by other forces than the ground's and those of contacts.
+    is_linked: bool,
     /// Modal displacements, velocities, accelerations and jerks now and before, building by building.
     modal: [Vec<f64>; 2],
     time: f64,
@@ -240,26 +322,22 @@ pub(super) struct MemberPeaks {
     wanted: Vec<Vec<bool>>,
 }
 
-/// How far a building has moved, and how far it may before a block of forces is looked at.
-#[derive(Clone, Default)]
-struct Watch {
-    moved: f64,
-    rate: f64,
-    /// Block by block.
-    until: Vec<f64>,
+#[cfg(test)]
+thread_local! {
+    /// Whether all forces are computed in every step.
+    pub(super) static LOOK_ALWAYS: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
 }
 
-impl Watch {
-    fn new(range: &Range<usize>) -> Self {
-        Self {
-            until: vec![0.0; range.len() / ROWS],
-            ..Self::default()
-        }
-    }
+#[cfg(test)]
+pub(super) fn tests_look_always() -> bool {
+    LOOK_ALWAYS.get()
 }
 
-/// Share of the extreme so far from which a step is looked at more closely.
-const NEAR: f64 = 0.8;
+#[cfg(not(test))]
+pub(super) const fn tests_look_always() -> bool {
+    false
+}
+
 /// What the path between instants may be longer than their velocities say.
 const LONGER: f64 = 1.2;
 /// Lists of modal values that are kept: q, its rate, the rate of that and the jerk.
@@ -282,14 +360,22 @@ impl MemberPeaks {
         }
         let buildings = || reduced.buildings.iter().map(|own| &own.members);
         Some(Self {
-            greatest: vec![0.0; own],
-            least: vec![0.0; own],
-            with_off: vec![0.0; own],
-            watch: buildings().map(|own| Watch::new(&own.range)).collect(),
-            passed: vec![[0.0; 2]; passed],
-            watch_passed: buildings()
-                .map(|own| Watch::new(&own.passed.range))
+            greatest: vec![[0.0; ROWS]; own / ROWS],
+            least: vec![[0.0; ROWS]; own / ROWS],
+            with_off: vec![[0.0; ROWS]; own / ROWS],
+            loose: vec![[0.0; ROWS]; own / ROWS],
+            accelerations: vec![0.0; reduced.modes()],
+            reach: buildings().map(|own| Reach::new(own.modes.len())).collect(),
+            moved: vec![0.0; reduced.buildings.len()],
+            watch: buildings()
+                .map(|own| vec![BlockWatch::DUE; own.range.len() / ROWS])
                 .collect(),
+            passed_greatest: vec![[0.0; ROWS]; passed / ROWS],
+            passed_least: vec![[0.0; ROWS]; passed / ROWS],
+            watch_passed: buildings()
+                .map(|own| vec![PassedWatch::DUE; own.passed.range.len() / ROWS])
+                .collect(),
+            is_linked: !reduced.links.is_empty(),
             modal: [(); 2].map(|()| vec![0.0; LISTS * reduced.modes()]),
             time: 0.0,
             ground: 0.0,
@@ -322,7 +408,18 @@ impl MemberPeaks {
                 to.copy_from_slice(&list[own.modes.clone()]);
             }
             let stiffness = &reduced.stiffness[own.modes.clone()];
-            self.follow_own(reduced, index, own, stiffness, step);
+            let reach = &mut self.reach[index];
+            reach.add(
+                reduced.arch(),
+                stiffness,
+                [now.q, now.v, now.a].map(|list| &list[own.modes.clone()]),
+                &self.modal[1][all.start..all.start + count],
+                step,
+            );
+            let rates = [reach.rate, reach.rate_before].map(|rate| simd::dot(&rate, &rate));
+            self.moved[index] += LONGER * step * rates[0].max(rates[1]).sqrt();
+            self.raise_accelerations(index, own, &now.a[own.modes.clone()]);
+            self.follow_own(reduced, index, own, step);
             self.follow_passed(reduced, index, own, now, step);
             if let Some(ratios) = &mut self.ratios {
                 let [to, from] = self.modal.each_ref().map(|list| {
@@ -335,7 +432,7 @@ impl MemberPeaks {
                     then: from,
                     now: to,
                     ground: [self.ground, now.ground[0]],
-                    moved: self.watch[index].moved,
+                    moved: self.moved[index],
                     step,
                 };
                 ratios.follow(system, index, &ends, now);
@@ -351,102 +448,49 @@ impl MemberPeaks {
             let own = &own.members;
             let count = own.modes.len();
             let kept = LISTS * own.modes.start + count..LISTS * own.modes.end;
-            let shares = own.passed.greatest.get(count..).unwrap_or_default();
-            let mut moved = 0.0;
             let lists = self.modal[0][kept].chunks_mut(count.max(1));
-            for (list, (to, new)) in lists.zip(jumped).enumerate() {
-                let new = &new[own.modes.clone()];
-                if let Some(shares) = shares.get(list * count..) {
-                    let jumps = shares.iter().zip(&*to).zip(new);
-                    moved += jumps.map(|((s, a), b)| s * (b - a).abs()).sum::<f64>();
-                }
-                to.copy_from_slice(new);
+            for (to, new) in lists.zip(jumped) {
+                to.copy_from_slice(&new[own.modes.clone()]);
             }
-            self.watch_passed[index].moved += moved;
+            let [velocities, accelerations, _] = jumped.map(|list| &list[own.modes.clone()]);
             let stiffness = &reduced.stiffness[own.modes.clone()];
-            self.watch[index].rate =
-                simd::weighted_square(stiffness, &jumped[0][own.modes.clone()]).sqrt();
+            let jumped = [velocities, accelerations];
+            self.reach[index].restart(reduced.arch(), stiffness, jumped);
+            self.raise_accelerations(index, own, accelerations);
         }
     }
 
-    fn follow_own(
-        &mut self,
-        reduced: &Reduced,
-        index: usize,
-        own: &MemberRows,
-        stiffness: &[f64],
-        step: f64,
-    ) {
-        let count = own.modes.len();
-        let first = LISTS * own.modes.start;
-        let [now, then] = self
-            .modal
-            .each_ref()
-            .map(|list| &list[first..first + LISTS * count]);
-        let of = |list: usize| list * count..(list + 1) * count;
-        let watch = &mut self.watch[index];
-        let rate = simd::weighted_square(stiffness, &now[of(1)]).sqrt();
-        watch.moved += LONGER * step * watch.rate.max(rate);
-        watch.rate = rate;
-        let arch = reduced.arch();
-        for (block, until) in watch.until.iter_mut().enumerate() {
-            if watch.moved < *until {
-                continue;
-            }
-            let blocks =
-                |blocks: &'_ [[f64; ROWS]]| block * count..((block + 1) * count).min(blocks.len());
-            let mut value = [0.0; ROWS];
-            arch.dispatch(Show {
-                blocks: &own.shapes[blocks(&own.shapes)],
-                modal: [&now[of(0)]],
-                watched: [&mut value],
-            });
-            let places = own.range.start + block * ROWS..own.range.start + (block + 1) * ROWS;
-            let (greatest, least) = (
-                &mut self.greatest[places.clone()],
-                &mut self.least[places.clone()],
-            );
-            let mut slack = f64::INFINITY;
-            for (row, norm) in own.norms[block * ROWS..].iter().take(ROWS).enumerate() {
-                let above = NEAR * greatest[row] - value[row];
-                let below = value[row] - NEAR * least[row];
-                slack = slack.min(above.min(below) / norm.max(f64::MIN_POSITIVE));
-            }
-            *until = watch.moved + slack.max(0.0);
-            if slack > 0.0 {
-                continue;
-            }
-            let (mut before, mut missed, mut off) =
-                ([[0.0; ROWS]; 3], [[0.0; ROWS]; 2], [0.0; ROWS]);
-            let [value_then, rate_then, rate_now] = &mut before;
-            arch.dispatch(Show {
-                blocks: &own.shapes[blocks(&own.shapes)],
-                modal: [&then[of(0)], &then[of(1)], &now[of(1)]],
-                watched: [value_then, rate_then, rate_now],
-            });
-            if !own.missed.is_empty() {
-                let [missed_then, missed_now] = &mut missed;
-                arch.dispatch(Show {
-                    blocks: &own.missed[blocks(&own.missed)],
-                    modal: [&then[of(2)], &now[of(2)]],
-                    watched: [missed_then, missed_now],
-                });
-                arch.dispatch(Show {
-                    blocks: &own.off[blocks(&own.off)],
-                    modal: [&now[of(2)]],
-                    watched: [&mut off],
-                });
-            }
-            let with_off = &mut self.with_off[places];
-            for row in 0..ROWS {
-                let ends = Ends {
-                    then: [before[0][row] + missed[0][row], before[1][row]],
-                    now: [value[row] + missed[1][row], before[2][row]],
-                };
-                [greatest[row], least[row]] = ends.extremes([greatest[row], least[row]], step);
-                with_off[row] = with_off[row].max(ends.now[0].abs() + off[row].abs());
-            }
+    /// Raises the greatest accelerations of modes, and what they may add to forces.
+    fn raise_accelerations(&mut self, index: usize, own: &MemberRows, accelerations: &[f64]) {
+        if own.missed.is_empty() {
+            return;
         }
+        let known = &mut self.accelerations[own.modes.clone()];
+        let loose = &mut self.loose[own.blocks()];
+        if member_kernels::raise_accelerations(own, accelerations, known, loose) {
+            self.watch[index].fill(BlockWatch::DUE);
+        }
+    }
+
+    fn follow_own(&mut self, reduced: &Reduced, index: usize, own: &MemberRows, step: f64) {
+        let first = LISTS * own.modes.start;
+        let count = own.modes.len();
+        let [now, then] = self.modal.each_ref().map(|list| {
+            [0, 1, 2].map(|part| &list[first + part * count..first + (part + 1) * count])
+        });
+        let blocks = own.blocks();
+        reduced.arch().dispatch(FollowOwn {
+            rows: own,
+            watch: &mut self.watch[index],
+            reach: &self.reach[index],
+            greatest: &mut self.greatest[blocks.clone()],
+            least: &mut self.least[blocks.clone()],
+            with_off: &mut self.with_off[blocks.clone()],
+            loose: &self.loose[blocks],
+            now,
+            then,
+            step,
+        });
     }
 
     fn follow_passed(
@@ -467,71 +511,29 @@ impl MemberPeaks {
             .modal
             .each_ref()
             .map(|list| &list[first..first + LISTS * count]);
-        let (values, rates) = (0..3 * count, count..4 * count);
-        let watch = &mut self.watch_passed[index];
-        let moved = passed.greatest.iter().zip(now).zip(then);
-        let moved = moved.map(|((share, now), then)| share * (now - then).abs());
-        let rise = instant.ground[0] - self.ground;
-        watch.moved += moved.sum::<f64>() + passed.greatest_of_ground * rise.abs();
-        let pushed = passed.contacts.iter().flatten();
-        let pushed = pushed
-            .into_iter()
-            .any(|contact| instant.phases[*contact].force() != 0.0);
-        let cubic = instant.smooth && step > 0.0;
-        for (block, until) in watch.until.iter_mut().enumerate() {
-            if watch.moved < *until && !pushed {
-                continue;
-            }
-            let blocks = &passed.shares[block * 3 * count..(block + 1) * 3 * count];
-            let (mut value, mut before) = ([0.0; ROWS], [[0.0; ROWS]; 3]);
-            let arch = reduced.arch();
-            arch.dispatch(Show {
-                blocks,
-                modal: [&now[values.clone()]],
-                watched: [&mut value],
-            });
-            let rows = block * ROWS..((block + 1) * ROWS).min(passed.forms.len());
-            let mut slack = f64::INFINITY;
-            for (row, at) in rows.clone().enumerate() {
-                value[row] += passed.ground[at][0] * instant.ground[0];
-                let contacts = passed.contacts[at].iter();
-                value[row] -= contacts.map(|c| instant.phases[*c].force()).sum::<f64>();
-                let [greatest, least] = self.passed[passed.range.start + at];
-                let above = NEAR * greatest - value[row];
-                slack = slack.min(above).min(value[row] - NEAR * least);
-            }
-            *until = watch.moved + slack.max(0.0);
-            if slack > 0.0 {
-                continue;
-            }
-            if cubic {
-                let [value_then, rate_then, rate_now] = &mut before;
-                arch.dispatch(Show {
-                    blocks,
-                    modal: [
-                        &then[values.clone()],
-                        &then[rates.clone()],
-                        &now[rates.clone()],
-                    ],
-                    watched: [value_then, rate_then, rate_now],
-                });
-            }
-            for (row, at) in rows.enumerate() {
-                let [fixed, free] = passed.ground[at];
-                let extremes = &mut self.passed[passed.range.start + at];
-                if cubic {
-                    let slope = free * rise / step;
-                    let ends = Ends {
-                        then: [before[0][row] + fixed * self.ground, before[1][row] + slope],
-                        now: [value[row], before[2][row] + slope],
-                    };
-                    *extremes = ends.extremes(*extremes, step);
-                } else {
-                    let [greatest, least] = *extremes;
-                    *extremes = [greatest.max(value[row]), least.min(value[row])];
-                }
-            }
-        }
+        let reach = &self.reach[index];
+        let drive = Drive {
+            rates: reach.greatest_rates(),
+            ground: instant.ground[0].abs().max(self.ground.abs()),
+            pushes: instant.phases.iter().map(|phase| phase.force().abs()).sum(),
+            phases: instant.phases,
+        };
+        let blocks = passed.range.start / ROWS..passed.range.end / ROWS;
+        reduced.arch().dispatch(FollowPassed {
+            passed,
+            watch: &mut self.watch_passed[index],
+            reach,
+            greatest: &mut self.passed_greatest[blocks.clone()],
+            least: &mut self.passed_least[blocks],
+            now,
+            then,
+            count,
+            ground: [self.ground, instant.ground[0]],
+            drive,
+            cubic: instant.smooth && step > 0.0,
+            is_bounded: !self.is_linked,
+            step,
+        });
     }
 
     /// Adds a row to the histories.
@@ -589,13 +591,12 @@ impl MemberPeaks {
             let constants = building.members.forms.iter().map(|form| form.constant);
             let mut extremes: Vec<[f64; 2]> = constants.map(|constant| [constant; 2]).collect();
             for (place, form) in own.range.clone().zip(&own.forms) {
-                extremes[*form][0] += self.greatest[place];
-                extremes[*form][1] += self.least[place];
+                extremes[*form][0] += self.greatest.as_flattened()[place];
+                extremes[*form][1] += self.least.as_flattened()[place];
             }
             for (place, form) in own.passed.range.clone().zip(&own.passed.forms) {
-                let [greatest, least] = self.passed[place];
-                extremes[*form][0] += greatest;
-                extremes[*form][1] += least;
+                extremes[*form][0] += self.passed_greatest.as_flattened()[place];
+                extremes[*form][1] += self.passed_least.as_flattened()[place];
             }
             all.push(extremes);
         }
@@ -607,11 +608,14 @@ impl MemberPeaks {
     fn scales(&self, own: &MemberRows) -> [f64; KINDS] {
         let mut scales = [f64::MIN_POSITIVE; KINDS];
         for (place, kind) in own.range.clone().zip(&own.kinds) {
-            let size = self.greatest[place].max(-self.least[place]);
+            let size = self.greatest.as_flattened()[place].max(-self.least.as_flattened()[place]);
             scales[*kind] = scales[*kind].max(size);
         }
         for place in own.passed.range.clone() {
-            let [greatest, least] = self.passed[place];
+            let (greatest, least) = (
+                self.passed_greatest.as_flattened()[place],
+                self.passed_least.as_flattened()[place],
+            );
             scales[0] = scales[0].max(greatest).max(-least);
         }
         scales
@@ -625,8 +629,8 @@ impl MemberPeaks {
         let (mut shapes, mut between) = (0.0_f64, 0.0_f64);
         for (row, kind) in own.kinds.iter().enumerate() {
             let place = own.range.start + row;
-            let known = self.greatest[place].max(-self.least[place]);
-            let off = (self.with_off[place] - known).max(0.0);
+            let known = self.greatest.as_flattened()[place].max(-self.least.as_flattened()[place]);
+            let off = (self.with_off.as_flattened()[place] - known).max(0.0);
             shapes = shapes.max(off / scales[*kind]);
             let squares = free.iter().enumerate();
             let squares = squares.map(|(mode, q)| (own.value(&own.shapes, row, mode) * q).powi(2));

@@ -526,7 +526,7 @@ impl Peaks {
 /// mode.
 const NEAR: f64 = 0.8;
 /// Largest excess of a cubic over the range of its ends, in steps times the sum of its end slopes: 4/27.
-const BEYOND: f64 = 0.15;
+pub(super) const BEYOND: f64 = 0.15;
 
 impl Limits {
     /// No peaks so far; other contact points have no peaks, and the drift of the lowest storey is the displacement

@@ -218,6 +218,9 @@ impl Reduced {
         reduced.unit_forces = contacts
             .map(|contact| UnitForce::new(&reduced, contact))
             .collect();
+        for own in &mut reduced.buildings {
+            own.members.set_pushes(&reduced.unit_forces);
+        }
         let ports = system.contacts.iter().map(|contact| &contact.ports);
         let groups = (0..reduced.buildings.len()).map(|own| reduced.linked_with(own).start);
         let groups: Vec<usize> = groups.collect();

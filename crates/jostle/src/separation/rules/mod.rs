@@ -1,184 +1,27 @@
 //! The gap that every rule requires between two neighbours, from their displacements without contact.
 
-use super::codes::{
-    Nsr10Neighbour, asce7_displacement, e030_2018_joint, e030_2026_joint, e030_share, en1998_joint,
-    iran2800_setback, is1893_joint, nsr10_setback, ntc2018_joint, tbdy2018_joint,
-};
-use crate::model::{FloorPairs, Gap, Model};
+mod asce7;
+mod e030;
+mod en1998;
+mod gb50011;
+mod general;
+mod iran2800;
+mod is1893;
+mod nsr10;
+mod ntc2018;
+mod tbdy2018;
+mod ubc97;
 
-use super::{
-    EN1998_ALIGNED_FLOORS, JointSystem, UBC97_OF_ELASTIC, absolute_sum, double_difference,
-    gb50011_joint, srss,
+use super::code_inputs::{
+    BuildingCodes, Code, CodeInputs, HazardZone, MotionLevel, USUAL_AMPLIFICATION,
+    USUAL_RESPONSE_MODIFICATION,
 };
+use super::codes::asce7_displacement;
+use super::srss;
+use crate::model::{FloorPairs, Gap, Model};
 
 /// Standard gravity, to which codes refer ground accelerations \[m/s²\].
 const GRAVITY: f64 = 9.806_65;
-
-/// Codes whose rules are known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Code {
-    /// UBC-97.
-    Ubc97,
-    /// GB 50011-2010 (2016).
-    Gb50011,
-    /// EN 1998-1:2004.
-    En1998,
-    /// ASCE 7-16.
-    Asce7,
-    /// TBDY 2018 (Turkey).
-    Tbdy2018,
-    /// IS 1893 (Part 1): 2016 (India).
-    Is1893,
-    /// NTC 2018 (Italy).
-    Ntc2018,
-    /// E.030 (Peru), editions 2018 and 2026.
-    E030,
-    /// NSR-10 (Colombia).
-    Nsr10,
-    /// Standard 2800, 4th edition (Iran).
-    Iran2800,
-}
-
-impl Code {
-    /// All codes, in the order of tables.
-    pub const ALL: [Self; 10] = [
-        Self::Ubc97,
-        Self::Gb50011,
-        Self::En1998,
-        Self::Asce7,
-        Self::Tbdy2018,
-        Self::Is1893,
-        Self::Ntc2018,
-        Self::E030,
-        Self::Nsr10,
-        Self::Iran2800,
-    ];
-
-    /// Name in files and options.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Ubc97 => "ubc97",
-            Self::Gb50011 => "gb50011",
-            Self::En1998 => "en1998",
-            Self::Asce7 => "asce7",
-            Self::Tbdy2018 => "tbdy2018",
-            Self::Is1893 => "is1893",
-            Self::Ntc2018 => "ntc2018",
-            Self::E030 => "e030",
-            Self::Nsr10 => "nsr10",
-            Self::Iran2800 => "iran2800",
-        }
-    }
-
-    /// The code of a name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|code| code.name() == name)
-    }
-}
-
-/// What the displacements of a run belong to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MotionLevel {
-    /// The design motion in full: displacements of elastic buildings are the elastic ones, those of yielding buildings
-    /// the inelastic ones.
-    #[default]
-    Full,
-    /// A motion divided by the behaviour factor q or R of the code.
-    Reduced,
-}
-
-impl MotionLevel {
-    /// Both, in the order of [`MotionLevel::NAMES`].
-    pub const ALL: [Self; 2] = [Self::Full, Self::Reduced];
-    /// Names in files.
-    pub const NAMES: [&'static str; 2] = ["full", "reduced"];
-}
-
-/// Seismic hazard of the site, NSR-10.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum HazardZone {
-    /// Low: NSR-10 requires no separation.
-    Low,
-    /// Intermediate.
-    Intermediate,
-    /// High.
-    #[default]
-    High,
-}
-
-impl HazardZone {
-    /// All, in the order of [`HazardZone::NAMES`].
-    pub const ALL: [Self; 3] = [Self::Low, Self::Intermediate, Self::High];
-    /// Names in files.
-    pub const NAMES: [&'static str; 3] = ["low", "intermediate", "high"];
-}
-
-/// C_d where nothing is stated: special moment frames of reinforced concrete, ASCE 7-16 table 12.2-1 \[–\].
-pub const USUAL_AMPLIFICATION: f64 = 5.5;
-/// R of the same structures \[–\].
-pub const USUAL_RESPONSE_MODIFICATION: f64 = 8.0;
-
-/// What codes need to know about one building.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BuildingCodes {
-    /// Importance factor I or I_e, > 0; `None` is 1 \[–\].
-    pub importance: Option<f64>,
-    /// Behaviour factor q of EN 1998-1 and NTC 2018, ≥ 1 \[–\].
-    pub behaviour_factor: Option<f64>,
-    /// Response modification R of ASCE 7, TBDY 2018, IS 1893, E.030 and Standard 2800, ≥ 1 \[–\].
-    pub response_modification: Option<f64>,
-    /// Deflection amplification C_d of ASCE 7 and Standard 2800, > 0 \[–\].
-    pub deflection_amplification: Option<f64>,
-    /// Whether the structure is regular, for E.030; `None` is regular.
-    pub is_regular: Option<bool>,
-}
-
-impl BuildingCodes {
-    /// Values of `self`, and those of `other` where `self` has none.
-    #[must_use]
-    pub fn or(self, other: Self) -> Self {
-        Self {
-            importance: self.importance.or(other.importance),
-            behaviour_factor: self.behaviour_factor.or(other.behaviour_factor),
-            response_modification: self.response_modification.or(other.response_modification),
-            deflection_amplification: self
-                .deflection_amplification
-                .or(other.deflection_amplification),
-            is_regular: self.is_regular.or(other.is_regular),
-        }
-    }
-}
-
-/// What codes need to know beyond displacements and heights.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CodeInputs {
-    /// Codes whose rules are wanted; empty means all.
-    pub shown: Vec<Code>,
-    /// What the displacements belong to.
-    pub motion: MotionLevel,
-    /// Structural system for GB 50011.
-    pub system: JointSystem,
-    /// Whether all floors that face each other lie at equal height; `None` follows the model.
-    pub floors_are_level: Option<bool>,
-    /// a_g S of NTC 2018; `None` is the peak of the motion \[m/s²\].
-    pub ground_acceleration: Option<f64>,
-    /// Hazard of the site for NSR-10.
-    pub hazard: HazardZone,
-    /// Zone factor Z of E.030-2026 \[–\].
-    pub zone_factor: Option<f64>,
-    /// Soil factor S of E.030-2026 \[–\].
-    pub soil_factor: Option<f64>,
-    /// By building of the model; buildings beyond the end have no values of their own.
-    pub buildings: Vec<BuildingCodes>,
-}
-
-impl CodeInputs {
-    fn shows(&self, code: Code) -> bool {
-        self.shown.is_empty() || self.shown.contains(&code)
-    }
-}
 
 /// A height at which neighbours can touch, and how far they move there without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -406,82 +249,9 @@ impl Table<'_> {
         Some((factors, used))
     }
 
-    fn general(&mut self) {
-        let Some((sum, _)) = self.widest(|place| absolute_sum(place.peaks[0], place.peaks[1]))
-        else {
-            return;
-        };
-        self.add("ABS", None, "sum of peak displacements", sum, Vec::new());
-        let root = self.root();
-        self.add(
-            "SRSS",
-            None,
-            "square root of the sum of squares of peak displacements",
-            root,
-            Vec::new(),
-        );
-        if self.level().0 {
-            self.add(
-                "0.7 SRSS",
-                None,
-                "0.7 of SRSS, floors at equal height",
-                EN1998_ALIGNED_FLOORS * root,
-                Vec::new(),
-            );
-        }
-        if let Some(rho) = self.neighbours.correlation {
-            let widest =
-                self.widest(|place| double_difference(place.peaks[0], place.peaks[1], rho));
-            let width = widest.map_or(0.0, |(width, _)| width);
-            self.add(
-                "DDC",
-                None,
-                "double difference, Jeng, Kasai and Maison (1992)",
-                width,
-                Vec::new(),
-            );
-        }
-    }
-
     fn root(&self) -> f64 {
         let widest = self.widest(|place| srss(place.peaks[0], place.peaks[1]));
         widest.map_or(0.0, |(width, _)| width)
-    }
-
-    /// 0.7 R times the displacement under forces divided by R: 0.7 of the elastic one.
-    fn ubc97(&mut self) {
-        let mut sides = self.neighbours.sides.iter().flatten();
-        let is_elastic = sides.all(|side| !side.yields);
-        if is_elastic
-            && self.inputs.motion == MotionLevel::Full
-            && !self.neighbours.places.is_empty()
-        {
-            let width = UBC97_OF_ELASTIC * self.root();
-            self.add(
-                "UBC-97",
-                Some(Code::Ubc97),
-                "UBC-97 §1630.9.2 and §1633.2.11, with the computed displacements as the elastic ones",
-                width,
-                Vec::new(),
-            );
-        }
-    }
-
-    fn gb50011(&mut self) {
-        let height = self.lower_height();
-        let system = self.inputs.system;
-        for intensity in 6..=9 {
-            let width = gb50011_joint(height, intensity, system).filter(|width| width.is_finite());
-            if let Some(width) = width {
-                self.add(
-                    &format!("GB 50011, {intensity}"),
-                    Some(Code::Gb50011),
-                    &format!("GB 50011-2010 (2016) §6.1.4, intensity {intensity}, {height:.1} m"),
-                    width,
-                    vec![format!("system = {}", system.name())],
-                );
-            }
-        }
     }
 
     /// Displacements of the seismic design situation by EN 1998-1 §4.3.4 and NTC 2018 §7.3.3.3.
@@ -492,28 +262,6 @@ impl Table<'_> {
             (MotionLevel::Reduced, Some(q)) => Ok((q, Some(format!("q = {q}")))),
             (MotionLevel::Reduced, None) => Err("behaviour_factor"),
         })
-    }
-
-    fn en1998(&mut self) {
-        let (level, words) = self.level();
-        let Some(([l, r], mut used)) = self.by_behaviour_factor("EN 1998-1") else {
-            return;
-        };
-        let widest =
-            self.widest(|place| en1998_joint([l * place.peaks[0], r * place.peaks[1]], level));
-        let Some((width, _)) = widest else { return };
-        used.push(words);
-        self.add(
-            "EN 1998-1",
-            Some(Code::En1998),
-            if level {
-                "EN 1998-1 §4.4.2.7(2)b and (3): 0.7 of the square root of the sum of squares"
-            } else {
-                "EN 1998-1 §4.4.2.7(2)b: square root of the sum of squares"
-            },
-            width,
-            used,
-        );
     }
 
     /// C_d δ/I_e: of elastic displacements under the full motion C_d/R, of inelastic ones 1.
@@ -545,248 +293,11 @@ impl Table<'_> {
         })
     }
 
-    fn asce7(&mut self) {
-        let Some(([l, r], used)) = self.amplified("ASCE 7", true) else {
-            return;
-        };
-        let widest = self.widest(|place| srss(l * place.peaks[0], r * place.peaks[1]));
-        let Some((width, _)) = widest else { return };
-        self.add(
-            "ASCE 7",
-            Some(Code::Asce7),
-            "ASCE 7-16 §12.12.3, Eq. (12.12-1) and (12.12-2)",
-            width,
-            used.clone(),
-        );
-        let setbacks = [0, 1].map(|side| {
-            let own = self.neighbours.places.iter();
-            own.map(|place| [l, r][side] * place.peaks[side].abs())
-                .fold(0.0, f64::max)
-        });
-        self.add(
-            "ASCE 7, line",
-            Some(Code::Asce7),
-            "ASCE 7-16 §12.12.3, a property line between the buildings: each keeps its own δ_M",
-            setbacks[0] + setbacks[1],
-            used,
-        );
-        self.set_setbacks(setbacks);
-    }
-
     /// States the distances from the property line of the rule added last.
     fn set_setbacks(&mut self, setbacks: [f64; 2]) {
         if let Some(last) = self.found.rules.last_mut() {
             last.setbacks = Some(setbacks);
         }
-    }
-
-    fn tbdy2018(&mut self) {
-        let (level, words) = self.level();
-        let motion = self.inputs.motion;
-        // Under the full motion, u R/I is the elastic displacement.
-        let factors = self.factors("TBDY 2018", |_, codes| match motion {
-            MotionLevel::Full => Ok((1.0, None)),
-            MotionLevel::Reduced => {
-                let r = codes.response_modification.ok_or("response_modification")?;
-                let (importance, words) = stated("I", codes.importance, 1.0);
-                Ok((r / importance, Some(format!("R = {r}, {words}"))))
-            }
-        });
-        let Some(([l, r], mut used)) = factors else {
-            return;
-        };
-        let widest = self.widest(|place| {
-            tbdy2018_joint(
-                [l * place.peaks[0], r * place.peaks[1]],
-                level,
-                place.height,
-            )
-        });
-        let Some((width, _)) = widest else { return };
-        used.push(words);
-        self.add(
-            "TBDY 2018",
-            Some(Code::Tbdy2018),
-            if level {
-                "TBDY 2018 §4.9.3, α = 0.25 R/I"
-            } else {
-                "TBDY 2018 §4.9.3, α = 0.5 R/I"
-            },
-            width,
-            used,
-        );
-    }
-
-    fn is1893(&mut self) {
-        let motion = self.inputs.motion;
-        let factors = self.factors("IS 1893", |_, codes| match motion {
-            // Design forces are those of the full motion times I/R, and R Δ is I times its displacement.
-            MotionLevel::Full => {
-                let (importance, words) = stated("I", codes.importance, 1.0);
-                Ok((importance, Some(words)))
-            }
-            MotionLevel::Reduced => {
-                let r = codes.response_modification.ok_or("response_modification")?;
-                Ok((r, Some(format!("R = {r}"))))
-            }
-        });
-        let Some(([l, r], used)) = factors else {
-            return;
-        };
-        let widest = self.widest(|place| is1893_joint([l * place.peaks[0], r * place.peaks[1]]));
-        let Some((width, _)) = widest else { return };
-        self.add(
-            "IS 1893",
-            Some(Code::Is1893),
-            "IS 1893 (Part 1): 2016 §7.11.3, R₁Δ₁ + R₂Δ₂",
-            width,
-            used,
-        );
-    }
-
-    fn ntc2018(&mut self) {
-        let acceleration = match self.inputs.ground_acceleration {
-            Some(given) => (given, format!("a_g S = {given:.3} m/s²")),
-            None => {
-                let peak = self.neighbours.peak_ground_acceleration;
-                let words = format!("a_g S = {peak:.3} m/s² (default: peak of the motion)");
-                (peak, words)
-            }
-        };
-        let Some(([l, r], mut used)) = self.by_behaviour_factor("NTC 2018") else {
-            return;
-        };
-        let ratio = acceleration.0 / GRAVITY;
-        let widest = self.widest(|place| {
-            ntc2018_joint(
-                [l * place.peaks[0], r * place.peaks[1]],
-                place.height,
-                ratio,
-            )
-        });
-        let Some((width, _)) = widest else { return };
-        used.push(acceleration.1);
-        self.add(
-            "NTC 2018",
-            Some(Code::Ntc2018),
-            "NTC 2018 §7.2.1, at least h/100 · 2 a_g S/g",
-            width,
-            used,
-        );
-    }
-
-    fn e030(&mut self) {
-        let motion = self.inputs.motion;
-        let factors = self.factors("E.030", |side, codes| {
-            let (share, words) = match codes.is_regular {
-                Some(true) => (e030_share(true), "regular"),
-                Some(false) => (e030_share(false), "irregular"),
-                None => (e030_share(true), "regular (default)"),
-            };
-            match motion {
-                MotionLevel::Full if side.yields => {
-                    Ok((1.0, Some("inelastic displacements as computed".into())))
-                }
-                MotionLevel::Full => Ok((share, Some(words.into()))),
-                MotionLevel::Reduced => {
-                    let r = codes.response_modification.ok_or("response_modification")?;
-                    Ok((share * r, Some(format!("{words}, R = {r}"))))
-                }
-            }
-        });
-        let Some(([l, r], used)) = factors else {
-            return;
-        };
-        let moved = |place: &Place| [l * place.peaks[0], r * place.peaks[1]];
-        let widest = self.widest(|place| e030_2018_joint(moved(place), place.height));
-        let Some((width, _)) = widest else { return };
-        self.add(
-            "E.030-2018",
-            Some(Code::E030),
-            "E.030-2018 Art. 33, at least 0.006 h and 30 mm",
-            width,
-            used.clone(),
-        );
-        let (Some(zone), Some(soil)) = (self.inputs.zone_factor, self.inputs.soil_factor) else {
-            return self.leave_out("E.030-2026", "zone_factor and soil_factor");
-        };
-        let widest = self.widest(|place| e030_2026_joint(moved(place), place.height, zone, soil));
-        let width = widest.map_or(0.0, |(width, _)| width);
-        let mut used = used;
-        used.push(format!("Z = {zone}, S = {soil}"));
-        self.add(
-            "E.030-2026",
-            Some(Code::E030),
-            "E.030-2026 Art. 52, at least 0.02 Z S h and 30 mm",
-            width,
-            used,
-        );
-    }
-
-    /// Either building may be the new one, beside a neighbour that stands on the line.
-    fn nsr10(&mut self) {
-        let (level, words) = self.level();
-        let neighbour = if level {
-            Nsr10Neighbour::LevelSlabs
-        } else {
-            Nsr10Neighbour::OtherSlabs
-        };
-        let hazard = self.inputs.hazard;
-        let setbacks = self.neighbours.sides.each_ref().map(|side| match side {
-            Some(side) if hazard != HazardZone::Low => {
-                nsr10_setback(side.height, side.storeys, neighbour)
-            }
-            _ => 0.0,
-        });
-        let hazard_words = HazardZone::NAMES[hazard as usize];
-        self.add(
-            "NSR-10",
-            Some(Code::Nsr10),
-            "NSR-10 §A.6.5.2.3, table A.6.5-1: the new building beside a neighbour on the line; the greater of both as the new one",
-            setbacks[0].max(setbacks[1]),
-            vec![format!("hazard = {hazard_words}"), words],
-        );
-        self.set_setbacks(setbacks);
-    }
-
-    fn iran2800(&mut self) {
-        let Some((factors, used)) = self.amplified("Standard 2800", false) else {
-            return;
-        };
-        let sides = self.neighbours.sides.clone();
-        let own = |place: &Place| {
-            [0, 1].map(|index| {
-                let Some(side) = &sides[index] else {
-                    return 0.0;
-                };
-                let importance = self.codes_of(side).importance.unwrap_or(1.0);
-                let displacement = factors[index] * place.peaks[index];
-                iran2800_setback(place.height, side.storeys, importance > 1.0, displacement)
-            })
-        };
-        let widest = self.widest(|place| own(place).iter().sum());
-        let Some((width, place)) = widest else { return };
-        let setbacks = own(place);
-        // Displacements count only where the share of the height does not.
-        let by_displacement = sides.iter().flatten().filter(|side| {
-            let importance = self.codes_of(side).importance.unwrap_or(1.0);
-            side.storeys > super::codes::IRAN2800_MOST_STOREYS || importance > 1.0
-        });
-        let names: Vec<String> = by_displacement
-            .map(|side| format!("{}:", side.name))
-            .collect();
-        let used = used
-            .into_iter()
-            .filter(|words| names.iter().any(|name| words.starts_with(name)))
-            .collect();
-        self.add(
-            "Standard 2800",
-            Some(Code::Iran2800),
-            "Iranian Standard 2800, 4th edition, §1-4-1: distances of both from the property line",
-            width,
-            used,
-        );
-        self.set_setbacks(setbacks);
     }
 }
 

@@ -1,0 +1,84 @@
+//! Buildings and floors.
+
+use serde::Serialize;
+
+use super::capacity::CapacitySummary;
+use super::hinges::HingeSummary;
+use super::members::MemberSummary;
+use crate::quantity::{Quantity, Unit};
+use crate::results::in_plan::{BuildingInPlan, FloorInPlan};
+use crate::results::response::{Amplification, BuildingResponse, FloorResponse};
+
+/// One building.
+#[derive(Clone, Debug, Default, Serialize, PartialEq)]
+pub struct BuildingSummary {
+    /// Name.
+    pub name: String,
+    /// Vibrating mass \[kg\].
+    pub mass_kg: f64,
+    /// Periods of the lateral modes (at least 1 % of the horizontal effective mass), longest first \[s\].
+    pub periods_s: Vec<f64>,
+    /// Rayleigh damping in use: mass coefficient \[1/s\].
+    pub rayleigh_alpha_per_s: f64,
+    /// Rayleigh damping in use: stiffness coefficient \[s\].
+    pub rayleigh_beta_s: f64,
+    /// Floors from the ground up.
+    pub floors: Vec<FloorSummary>,
+    /// Its peaks, and what is left at the end.
+    #[serde(flatten)]
+    pub response: BuildingResponse,
+    /// Peaks across the row and in torsion; absent in one plane.
+    #[serde(flatten)]
+    pub in_plan: Option<BuildingInPlan>,
+    /// The same in the run without contact, if it exists.
+    pub without_contact: Option<BuildingResponse>,
+    /// The former over the latter, if that run exists.
+    pub amplification: Option<Amplification>,
+    /// Hinge counts.
+    pub hinges: HingeSummary,
+    /// Columns and beams, storey by storey from the ground up, columns first; absent unless asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberSummary>,
+    /// Members beyond their capacity; absent unless capacities are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub capacity: Option<CapacitySummary>,
+}
+
+#[rustfmt::skip]
+impl BuildingSummary {
+    /// Numbers that do not depend on the motion.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("mass_kg", Unit::KG, "vibrating mass", |b| b.mass_kg),
+        Quantity::<Self>::optional("period_s", Unit::S, "period of the first lateral mode", |b| b.periods_s.first().copied()).not_in_summary().in_study(),
+        Quantity::<Self>::real("rayleigh_alpha_per_s", Unit::PER_S, "Rayleigh damping: coefficient of the mass", |b| b.rayleigh_alpha_per_s),
+        Quantity::<Self>::real("rayleigh_beta_s", Unit::S, "Rayleigh damping: coefficient of the stiffness", |b| b.rayleigh_beta_s),
+    ];
+}
+
+/// One floor.
+#[derive(Clone, Debug, Default, Serialize, PartialEq)]
+pub struct FloorSummary {
+    /// Floor, from 1.
+    pub floor: usize,
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Its peaks, and what is left at the end.
+    #[serde(flatten)]
+    pub response: FloorResponse,
+    /// Peaks across the row and in rotation; absent in one plane.
+    #[serde(flatten)]
+    pub in_plan: Option<FloorInPlan>,
+    /// The same in the run without contact, if it exists.
+    pub without_contact: Option<FloorResponse>,
+    /// The former over the latter, if that run exists.
+    pub amplification: Option<Amplification>,
+}
+
+#[rustfmt::skip]
+impl FloorSummary {
+    /// Where it is.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("floor", "floor, from 1", |f| f.floor),
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |f| f.height_m),
+    ];
+}

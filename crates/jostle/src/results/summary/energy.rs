@@ -1,0 +1,44 @@
+//! Energies.
+
+use serde::Serialize;
+
+use crate::quantity::{Quantity, Unit};
+
+/// Energies at the end of the run \[J\].
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
+pub struct EnergySummary {
+    /// Work of the ground motion.
+    pub input_j: f64,
+    /// Kinetic energy.
+    pub kinetic_j: f64,
+    /// Strain energy.
+    pub strain_j: f64,
+    /// Dissipated by viscous damping, that of links included.
+    pub damped_j: f64,
+    /// The part of links.
+    pub links_j: f64,
+    /// Energy of hinges.
+    pub hysteretic_j: f64,
+    /// Energy of contacts.
+    pub contact_j: f64,
+    /// |input − sum of the others| / input at the end \[–\].
+    pub imbalance: f64,
+    /// Greatest imbalance over time, relative to the greatest energy until then \[–\].
+    pub worst_imbalance: f64,
+}
+
+#[rustfmt::skip]
+impl EnergySummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("input_j", Unit::J, "work of the ground motion", |e| e.input_j).in_study(),
+        Quantity::<Self>::real("kinetic_j", Unit::J, "kinetic energy", |e| e.kinetic_j),
+        Quantity::<Self>::real("strain_j", Unit::J, "strain energy", |e| e.strain_j),
+        Quantity::<Self>::real("damped_j", Unit::J, "dissipated by viscous damping, that of links included", |e| e.damped_j).in_study(),
+        Quantity::<Self>::real("links_j", Unit::J, "the part of links", |e| e.links_j),
+        Quantity::<Self>::real("hysteretic_j", Unit::J, "energy of hinges", |e| e.hysteretic_j).in_study(),
+        Quantity::<Self>::real("contact_j", Unit::J, "energy of contacts", |e| e.contact_j).in_study(),
+        Quantity::<Self>::real("imbalance", Unit::NONE, "energy imbalance at the end, relative to the input", |e| e.imbalance).in_study(),
+        Quantity::<Self>::real("worst_imbalance", Unit::NONE, "greatest imbalance over time, relative to the greatest energy until then", |e| e.worst_imbalance).in_study(),
+    ];
+}

@@ -1,0 +1,110 @@
+//! Columns and beams.
+
+use serde::Serialize;
+
+use super::capacity::{AcceptanceSummary, AxialFailureSummary, RatioSummary};
+use crate::quantity::{Quantity, Unit};
+
+/// Greatest forces of one column or beam.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct MemberSummary {
+    /// `J1.column.LINE.STOREY` or `J1.beam.FLOOR.SPAN`, counted from 1.
+    pub name: String,
+    /// Foot and head of a column, left and right end of a beam.
+    pub ends: Vec<SectionSummary>,
+    /// Points of a column between its ends where a neighbour can strike it, from the lowest up.
+    pub struck: Vec<StruckSummary>,
+    /// Forces of both ends, then below and above every struck point, when the building had its greatest ratio of demand to
+    /// capacity (`capacity.worst.at_s` of the building, or the end of that step); empty where no capacity is known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at_worst: Vec<ForcesSummary>,
+    /// Greatest demand over capacity by the governing rule; absent where the capacity is unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ratio: Option<RatioSummary>,
+    /// The same by every other rule.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub other_ratios: Vec<RatioSummary>,
+    /// Rotations of yielding ends against the limits of codes; empty where hinges or limits are unknown.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub acceptance: Vec<AcceptanceSummary>,
+    /// Drift at which a column that failed in shear would lose its axial load; absent if unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_failure: Option<AxialFailureSummary>,
+}
+
+/// Forces at one section of a member at an instant.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct ForcesSummary {
+    /// `foot`, `head`, `left`, `right`, `below` or `above`.
+    pub at: &'static str,
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Axial force, positive in tension \[N\].
+    pub axial_n: f64,
+    /// Shear, with its sign \[N\].
+    pub shear_n: f64,
+    /// Moment, with its sign \[N·m\].
+    pub moment_n_m: f64,
+}
+
+#[rustfmt::skip]
+impl ForcesSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |f| f.height_m),
+        Quantity::<Self>::real("axial_n", Unit::N, "axial force, positive in tension", |f| f.axial_n),
+        Quantity::<Self>::real("shear_n", Unit::N, "shear, with its sign", |f| f.shear_n),
+        Quantity::<Self>::real("moment_n_m", Unit::NM, "moment, with its sign", |f| f.moment_n_m),
+    ];
+}
+
+/// Greatest forces at one section of a member.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct SectionSummary {
+    /// `foot`, `head`, `left`, `right`, `below` or `above`.
+    pub at: &'static str,
+    /// Greatest axial force, positive in tension \[N\].
+    pub axial_max_n: f64,
+    /// Least axial force, negative in compression \[N\].
+    pub axial_min_n: f64,
+    /// Greatest shear, either sign \[N\].
+    pub shear_peak_n: f64,
+    /// Greatest moment, either sign \[N·m\].
+    pub moment_peak_n_m: f64,
+}
+
+#[rustfmt::skip]
+impl SectionSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("axial_max_n", Unit::N, "greatest axial force, positive in tension", |s| s.axial_max_n),
+        Quantity::<Self>::real("axial_min_n", Unit::N, "least axial force, negative in compression", |s| s.axial_min_n),
+        Quantity::<Self>::real("shear_peak_n", Unit::N, "greatest shear", |s| s.shear_peak_n),
+        Quantity::<Self>::real("moment_peak_n_m", Unit::NM, "greatest moment", |s| s.moment_peak_n_m),
+    ];
+}
+
+/// A point of a column between its ends where a neighbour can strike it.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct StruckSummary {
+    /// Height above the base \[m\].
+    pub height_m: f64,
+    /// Number of impacts on it.
+    pub impact_count: usize,
+    /// Greatest contact force on it \[N\].
+    pub peak_force_n: f64,
+    /// Just below the point.
+    pub below: SectionSummary,
+    /// Just above it.
+    pub above: SectionSummary,
+}
+
+#[rustfmt::skip]
+impl StruckSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |s| s.height_m),
+        Quantity::<Self>::whole("impact_count", "impacts on the point", |s| s.impact_count),
+        Quantity::<Self>::real("peak_force_n", Unit::N, "greatest contact force on it", |s| s.peak_force_n),
+    ];
+}

@@ -1,0 +1,23 @@
+//! GB 50011.
+
+use super::{Code, Table};
+use crate::separation::gb50011_joint;
+
+impl Table<'_> {
+    pub(super) fn gb50011(&mut self) {
+        let height = self.lower_height();
+        let system = self.inputs.system;
+        for intensity in 6..=9 {
+            let width = gb50011_joint(height, intensity, system).filter(|width| width.is_finite());
+            if let Some(width) = width {
+                self.add(
+                    &format!("GB 50011, {intensity}"),
+                    Some(Code::Gb50011),
+                    &format!("GB 50011-2010 (2016) §6.1.4, intensity {intensity}, {height:.1} m"),
+                    width,
+                    vec![format!("system = {}", system.name())],
+                );
+            }
+        }
+    }
+}

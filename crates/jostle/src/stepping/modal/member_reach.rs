@@ -1,0 +1,403 @@
+//! How far modes can have carried the forces of columns and beams since they were last computed.
+//!
+//! A force is F = Σ s q over modes. By Cauchy's inequality it changes by no more than ‖s/ω‖ ‖ω Δq‖ over any set of modes.
+//! The lowest modes are taken in groups, for which the way since the last computation counts. Of all others, which are many
+//! and fast, the size at the instant counts. Within a step, a cubic leaves the range of its ends by no more than
+//! [`BEYOND`] times the step and the sum of its end slopes.
+
+use std::ops::Range;
+
+use pulp::{Arch, NullaryFnOnce};
+
+use super::mode_kernels::ROWS;
+use super::peaks::BEYOND;
+
+/// Groups of low modes.
+pub(super) const GROUPS: usize = 3;
+/// Ends of these groups; together they fill one list of lanes.
+const ENDS: [usize; GROUPS] = [1, 3, ROWS];
+/// Parts of a bound: those groups, and the rest.
+pub(super) const PARTS: usize = GROUPS + 1;
+
+/// Modes of every part.
+pub(super) fn parts(modes: usize) -> [Range<usize>; PARTS] {
+    std::array::from_fn(|part| {
+        let start = if part == 0 { 0 } else { ENDS[part - 1] };
+        let end = ENDS.get(part).copied().unwrap_or(modes);
+        start.min(modes)..end.min(modes)
+    })
+}
+
+/// Number of modes in groups.
+pub(super) fn low_modes(modes: usize) -> usize {
+    ENDS[GROUPS - 1].min(modes)
+}
+
+/// ‖s/ω‖ of a row, part by part.
+pub(super) fn norms(row: &[f64], stiffness: &[f64]) -> [f64; PARTS] {
+    parts(row.len()).map(|part| {
+        let squares = row[part.clone()].iter().zip(&stiffness[part]);
+        squares.map(|(s, k)| s * s / k).sum::<f64>().sqrt()
+    })
+}
+
+/// Numbers of eight rows, part by part.
+pub(super) type PartRows = [[f64; ROWS]; PARTS];
+
+/// Norms of rows in blocks of eight; padding rows are zero.
+pub(super) fn norms_in_blocks<'a>(
+    rows: impl Iterator<Item = &'a Vec<f64>>,
+    stiffness: &[f64],
+) -> Vec<PartRows> {
+    let mut blocks: Vec<PartRows> = Vec::new();
+    for (index, row) in rows.enumerate() {
+        if index % ROWS == 0 {
+            blocks.push([[0.0; ROWS]; PARTS]);
+        }
+        if let Some(block) = blocks.last_mut() {
+            for (part, norm) in block.iter_mut().zip(norms(row, stiffness)) {
+                part[index % ROWS] = norm;
+            }
+        }
+    }
+    blocks
+}
+
+/// What the modes of a building have done in a step and before.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Reach {
+    /// Number of modes in groups.
+    pub(super) low: usize,
+    /// Way of every group so far: Σ ‖ω Δq‖.
+    pub(super) way: [f64; GROUPS],
+    /// ‖ω Δq‖ over the step, and what a cubic may add within, part by part.
+    pub(super) moved: [f64; PARTS],
+    pub(super) beyond: [f64; PARTS],
+    /// Most that the rest reaches within the step: ‖ω q‖.
+    pub(super) rest: f64,
+    /// ‖ω q̇‖ and ‖ω q̈‖ at the end of the step, part by part.
+    pub(super) rate: [f64; PARTS],
+    pub(super) quickening: [f64; PARTS],
+    /// The same of q̇ at its start.
+    pub(super) rate_before: [f64; PARTS],
+    /// What a cubic of velocities may add within.
+    pub(super) beyond_rates: [f64; PARTS],
+    rest_before: f64,
+    quickening_before: [f64; PARTS],
+}
+
+impl Reach {
+    /// Of a building with so many modes, at rest.
+    pub(super) fn new(modes: usize) -> Self {
+        Self {
+            low: low_modes(modes),
+            ..Self::default()
+        }
+    }
+
+    /// Adds a step; lists are displacements, velocities and accelerations.
+    pub(super) fn add(
+        &mut self,
+        arch: Arch,
+        stiffness: &[f64],
+        now: [&[f64]; 3],
+        then: &[f64],
+        step: f64,
+    ) {
+        self.rate_before = self.rate;
+        self.quickening_before = self.quickening;
+        let norms = arch.dispatch(Norms {
+            stiffness,
+            now,
+            then,
+        });
+        let [moved, rate, quickening] = norms.sums;
+        (self.moved, self.rate, self.quickening) = (moved, rate, quickening);
+        for part in 0..PARTS {
+            self.beyond[part] = BEYOND * step * (self.rate[part] + self.rate_before[part]);
+            self.beyond_rates[part] =
+                BEYOND * step * (self.quickening[part] + self.quickening_before[part]);
+        }
+        self.rest = norms.rest.max(self.rest_before) + self.beyond[GROUPS];
+        self.rest_before = norms.rest;
+        for (way, moved) in self.way.iter_mut().zip(&self.moved) {
+            *way += moved;
+        }
+    }
+
+    /// Replaces velocities and accelerations at the end of the last step.
+    pub(super) fn restart(&mut self, arch: Arch, stiffness: &[f64], jumped: [&[f64]; 2]) {
+        let [rate, quickening] = jumped;
+        let norms = arch.dispatch(Norms {
+            stiffness,
+            now: [rate, rate, quickening],
+            then: rate,
+        });
+        let [_, rate, quickening] = norms.sums;
+        (self.rate, self.quickening) = (rate, quickening);
+    }
+
+    /// How far low modes move within the step, and how far all others are from rest.
+    #[inline(always)]
+    pub(super) fn of_low(&self) -> [f64; PARTS] {
+        let mut parts = self.of_all();
+        parts[GROUPS] = self.rest;
+        parts
+    }
+
+    /// How far all modes move within the step.
+    #[inline(always)]
+    pub(super) fn of_all(&self) -> [f64; PARTS] {
+        std::array::from_fn(|part| self.moved[part] + self.beyond[part])
+    }
+
+    /// Greatest ‖ω q̇‖ within the step, part by part.
+    #[inline(always)]
+    pub(super) fn greatest_rates(&self) -> [f64; PARTS] {
+        std::array::from_fn(|part| {
+            self.rate[part].max(self.rate_before[part]) + self.beyond_rates[part]
+        })
+    }
+}
+
+/// ‖ω Δq‖, ‖ω q̇‖ and ‖ω q̈‖ of every part, and ‖ω q‖ of the rest.
+struct Norms<'a> {
+    stiffness: &'a [f64],
+    now: [&'a [f64]; 3],
+    then: &'a [f64],
+}
+
+#[derive(Default)]
+struct StepNorms {
+    sums: [[f64; PARTS]; 3],
+    rest: f64,
+}
+
+/// Sums of squares over a chunk of modes, lane by lane: k Δq², k q̇², k q̈² and k q².
+#[inline(always)]
+fn squares(k: &[f64], lists: [&[f64]; 4], lanes: &mut [[f64; ROWS]; 4]) {
+    let [q, then, v, a] = lists;
+    for (lane, k) in k.iter().enumerate() {
+        let change = q[lane] - then[lane];
+        lanes[0][lane] += k * change * change;
+        lanes[1][lane] += k * v[lane] * v[lane];
+        lanes[2][lane] += k * a[lane] * a[lane];
+        lanes[3][lane] += k * q[lane] * q[lane];
+    }
+}
+
+impl NullaryFnOnce for Norms<'_> {
+    type Output = StepNorms;
+
+    #[inline(always)]
+    fn call(self) -> StepNorms {
+        let n = self.stiffness.len();
+        let [q, v, a] = self.now.map(|list| &list[..n]);
+        let (stiffness, then) = (&self.stiffness[..n], &self.then[..n]);
+        let low = low_modes(n);
+        let part = |range: Range<usize>| [q, then, v, a].map(|list| &list[range.clone()]);
+        let (mut grouped, mut rest) = ([[0.0; ROWS]; 4], [[0.0; ROWS]; 4]);
+        squares(&stiffness[..low], part(0..low), &mut grouped);
+        let whole = low + (n - low) / ROWS * ROWS;
+        for first in (low..whole).step_by(ROWS) {
+            let range = first..first + ROWS;
+            squares(&stiffness[range.clone()], part(range), &mut rest);
+        }
+        squares(&stiffness[whole..], part(whole..n), &mut rest);
+        let mut norms = StepNorms::default();
+        for (sums, (grouped, rest)) in norms.sums.iter_mut().zip(grouped.iter().zip(&rest)) {
+            let mut start = 0;
+            for (sum, end) in sums.iter_mut().zip(ENDS) {
+                *sum = grouped[start..end].iter().sum();
+                start = end;
+            }
+            sums[GROUPS] = rest.iter().sum();
+            for sum in sums {
+                *sum = sum.sqrt();
+            }
+        }
+        norms.rest = rest[3].iter().sum::<f64>().sqrt();
+        norms
+    }
+}
+
+/// When a block of forces has to be computed again.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BlockWatch {
+    /// Share of its slack that every part uses up per unit.
+    per: [f64; PARTS],
+    /// That of the ways when it was computed; −∞ if it is due in any case.
+    base: f64,
+}
+
+impl BlockWatch {
+    pub(super) const DUE: Self = Self {
+        per: [0.0; PARTS],
+        base: f64::NEG_INFINITY,
+    };
+
+    /// Whether a force of the block may exceed its greatest or least value within the step; `more`: what besides modal
+    /// displacements uses up the slack.
+    #[inline(always)]
+    pub(super) fn is_due(&self, reach: &Reach, more: f64) -> bool {
+        let mut used = self.per[GROUPS] * reach.rest + more - self.base;
+        for part in 0..GROUPS {
+            used += self.per[part] * (reach.way[part] + reach.beyond[part]);
+        }
+        used >= 1.0
+    }
+
+    /// After rows had these slacks with their low modes alone; `norms`: change of every row per ‖ω Δq‖.
+    #[inline(always)]
+    pub(super) fn set(&mut self, reach: &Reach, norms: &PartRows, slack: &[f64; ROWS]) {
+        *self = Self::DUE;
+        let mut per = [0.0_f64; PARTS];
+        for row in 0..ROWS {
+            if norms.iter().all(|part| part[row] == 0.0) {
+                continue;
+            }
+            if slack[row] <= 0.0 {
+                return;
+            }
+            for (per, norms) in per.iter_mut().zip(norms) {
+                *per = per.max(norms[row] / slack[row]);
+            }
+        }
+        let base = per.iter().zip(&reach.way).map(|(per, way)| per * way).sum();
+        *self = Self { per, base };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::super::members::LOOK_ALWAYS;
+    use crate::{
+        Analysis, Axial, Base, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, Gravity,
+        GroundMotion, Joint, LawKind, Level, Link, MemberRequest, Model, Outcome, Plan,
+        RestitutionIs, Section, Settings, Solver, Structure, System, simulate,
+    };
+
+    fn building(name: &str, storeys: usize, axial: Option<f64>, damping: &Damping) -> Building {
+        let section = |rigidity: f64| Section {
+            flexural_rigidity: rigidity,
+            axial_rigidity: axial,
+            line_mass: 625.0,
+            shear_rigidity: None,
+        };
+        Building {
+            name: name.to_owned(),
+            structure: Structure::Frame(Frame {
+                storey_heights: vec![3.2; storeys],
+                spans: vec![2.4, 6.0],
+                columns: vec![section(1.56e8); storeys],
+                beams: vec![section(1.62e8); storeys],
+                beam_mass: vec![3600.0; storeys],
+                floor_mass: vec![0.0; storeys],
+                column_segments: 2,
+                beam_segments: vec![2, 3],
+                axial: Axial::default(),
+                joint: Joint::default(),
+            }),
+            damping: damping.clone(),
+            base: Base::default(),
+            gravity: Gravity::default(),
+            hinges: None,
+        }
+    }
+
+    fn run(model: &Model, always: bool) -> Outcome {
+        let system = System::assemble(model).expect("sound");
+        let wave = (0..=400).map(|i| {
+            let t = 0.02 * f64::from(i);
+            let strength = (t / 2.0).min(1.0) * (-0.3 * (t - 4.0).max(0.0)).exp();
+            strength * (4.0 * (7.0 * t).sin() + 2.0 * (23.0 * t).cos() + 1.5 * (61.0 * t).sin())
+        });
+        let motion = GroundMotion::sampled("sines", 0.02, wave.collect());
+        let plan = Plan::choose(&system, &motion, &model.analysis).expect("planned");
+        let settings = Settings {
+            record_interval: None,
+            ..Settings::default()
+        };
+        LOOK_ALWAYS.set(always);
+        let outcome = simulate(&system, &motion, &plan, settings, |_| {
+            ControlFlow::Continue(())
+        });
+        LOOK_ALWAYS.set(false);
+        outcome
+    }
+
+    /// Frames against each other, floors against columns, damped in three ways, with and without a link.
+    fn models() -> Vec<Model> {
+        let law = |kind| ContactLaw {
+            kind,
+            stiffness: 2e9,
+            restitution: 0.65,
+            restitution_is: RestitutionIs::Realised,
+        };
+        let pair = |axial: Option<f64>, damping: Damping, gap: Gap, links: Vec<Link>| Model {
+            title: "Five and eight storeys".to_owned(),
+            buildings: vec![
+                building("A", 5, axial, &damping),
+                building("B", 8, axial, &damping),
+            ],
+            gaps: vec![gap],
+            links,
+            analysis: Analysis {
+                solver: Some(Solver::Modal),
+                members: MemberRequest::all(),
+                ..Analysis::default()
+            },
+        };
+        let ratio = Damping::Ratio {
+            ratio: 0.05,
+            modes: Vec::new(),
+        };
+        let hertz = || Gap::after(0, 0.02, law(LawKind::HertzDamp));
+        let at_columns = Gap {
+            floors: FloorPairs::Listed(vec![
+                [Level::Height(4.8), Level::Height(4.8)],
+                [Level::Floor(4), Level::Floor(4)],
+                [Level::Floor(5), Level::Floor(5)],
+            ]),
+            ..hertz()
+        };
+        let link = Link {
+            between: [Some(0), Some(1)],
+            floors: FloorPairs::Listed(vec![[Level::Floor(3), Level::Floor(3)]]),
+            level_tolerance: 1e-3,
+            stiffness: 2e7,
+            damping: 1e5,
+        };
+        let beta = Damping::Rayleigh {
+            alpha: 0.2,
+            beta: 0.004,
+        };
+        vec![
+            pair(None, ratio.clone(), hertz(), Vec::new()),
+            pair(Some(4e9), ratio.clone(), hertz(), Vec::new()),
+            pair(None, beta, at_columns, Vec::new()),
+            pair(None, Damping::AllModes { ratio: 0.03 }, hertz(), Vec::new()),
+            pair(None, ratio, hertz(), vec![link]),
+        ]
+    }
+
+    /// Forces that are computed only where they can matter have the envelopes of those computed in every step, bit by bit,
+    /// and so has the estimate of their errors.
+    #[test]
+    fn no_extreme_is_missed() {
+        for (index, model) in models().iter().enumerate() {
+            let [always, seldom] = [true, false].map(|always| run(model, always));
+            assert!(always.impacts.len() > 3, "model {index}");
+            assert_eq!(always.work, seldom.work, "model {index}");
+            for (of_always, of_seldom) in always.members.iter().zip(&seldom.members) {
+                for (form, (due, found)) in of_always.iter().zip(of_seldom).enumerate() {
+                    assert_eq!(due, found, "model {index}, force {form}");
+                }
+            }
+            let estimate = |outcome: &Outcome| outcome.accuracy.map(|accuracy| accuracy.residual);
+            assert_eq!(estimate(&always), estimate(&seldom), "model {index}");
+        }
+    }
+}
