@@ -50,6 +50,8 @@ pub(crate) fn open_address(address: &str, width: u32, height: u32) -> Option<Ope
         .path(Some(chromium()))
         .sandbox(false)
         .window_size(Some((width, height)))
+        // A busy machine may leave the browser without a word for long.
+        .idle_browser_timeout(Duration::from_secs(600))
         .args(
             ["--disable-gpu", "--disable-quic", "--disable-sync"]
                 .map(std::ffi::OsStr::new)
