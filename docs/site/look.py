@@ -58,6 +58,7 @@ def main() -> int:
             faults += [f"{here[0]}: formula: {text}" for text in found["wrong"]]
             # Dollars around a command of TeX: a formula that Markdown did not see.
             faults += [f"{here[0]}: raw formula: {raw}" for raw in re.findall(r"\${1,2}[^$\n]*\\[a-z]+[^$\n]*\$", found["text"])]
+            faults += [f"{here[0]}: table not set: {raw[:60]}" for raw in re.findall(r"(?m)^\s*\|[^|\n]+\|[^|\n]+\|", found["text"])]
             formulas += page.locator(".katex").count()
             if "--screens" in sys.argv:
                 folder = Path(sys.argv[sys.argv.index("--screens") + 1])

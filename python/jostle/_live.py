@@ -103,6 +103,7 @@ class LiveWidget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
         self._runs = ThreadPoolExecutor(1, "jostle-run")
         self._curves = ThreadPoolExecutor(1, "jostle-curve")
         self._curve = 0
+        self._run = 0
         super().__init__(_page=_jostle.live_page(title))
         self.on_msg(self._take)
 
@@ -122,6 +123,7 @@ class LiveWidget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
     def close(self) -> None:
         """Removes the page and ends what it computes."""
         self._engine.stop()
+        self._run += 1
         self._curve += 1
         self._runs.shutdown(wait=False)
         self._curves.shutdown(wait=False)
@@ -147,13 +149,20 @@ class LiveWidget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
             self._say(json.dumps({**hello, "text": self._engine.text}))
         elif op in ("run", "report", "stop"):
             if op != "report":
+                self._run += 1
                 self._engine.stop()
             if op != "stop":
-                self._runs.submit(lambda: self._say(self._engine.answer(request)))
+                self._runs.submit(self._solve, request, op, self._run)
         else:
             self._curve += op != "study"
             number = self._curve
             self._curves.submit(self._compute, request, op, number)
+
+    def _solve(self, request: str, op: str, number: int) -> None:
+        self._say(self._engine.answer(request))
+        # Takes another run; a newer request stops it.
+        if op == "run" and number == self._run:
+            self._say(self._engine.accuracy())
 
     def _compute(self, request: str, op: str, number: int) -> None:
         if number != self._curve and op != "study":

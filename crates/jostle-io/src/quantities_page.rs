@@ -106,6 +106,7 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
         Column::RotationRate { building, floor },
         Column::RotationAcceleration { building, floor },
         Column::ContactForce { contact: 0 },
+        Column::Closing { contact: 0 },
         Column::LinkForce { link: 0 },
     ];
     let energies = EnergyTerm::ALL.into_iter().map(Column::Energy);
@@ -116,6 +117,7 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
     writeln!(page, "| column | unit | meaning |\n|---|---|---|")?;
     for recorded in columns.into_iter().chain(energies).map(Column::recorded) {
         let place = match recorded.owner {
+            "contact" if recorded.name == "closing" => "J1-J2.at3200mm.",
             "floor" => "J1.floor3.",
             "contact" => "J1-J2.floor5-5.",
             "link" => "J1-J2.link5-5.",

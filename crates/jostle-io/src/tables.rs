@@ -546,7 +546,7 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
             let name = name.unwrap_or_else(|| format!("B{}", index + 1));
             format!("{name}.floor{floor}.")
         }
-        Column::ContactForce { .. } => joint(contacts, "contact"),
+        Column::ContactForce { .. } | Column::Closing { .. } => joint(contacts, "contact"),
         Column::LinkForce { .. } => joint(links, "link"),
         Column::Energy(_) => "energy_".to_owned(),
     };

@@ -68,7 +68,7 @@ function fillOver() {
     Object.assign(curve, { path: restored.path, from: restored.from, to: restored.to, fixed: restored.fixed, records: restored.records ?? [] });
     const knob = knobs.find((one) => one.path === curve.path.replace("[*]", "[0]"));
     Object.assign(curve, { unit: knob.unit, whole: knob.kind === "count" });
-    if (restored.across) curve.across = axisAcross(restored.across);
+    curve.across = restored.across ? axisAcross(restored.across) : null;
   } else if (!known(curve.path)) chooseOver(entries[0]?.[0] ?? null);
   restored = null;
   const unit = knobs.find((one) => one.path === curve.path?.replace("[*]", "[0]"))?.unit;

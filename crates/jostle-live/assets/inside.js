@@ -35,9 +35,10 @@ function restart() {
   worker.postMessage({ compiled, inside, greet: !greeted });
 }
 
-function take({ data, share, done, failed }) {
+function take({ data, share, busy: searching, done, failed }) {
   if (data !== undefined) receive(data);
   if (share !== undefined && waiting) showProgress({ id: waiting.id, share });
+  if (searching) busy += 1;
   if (done) busy = Math.max(busy - 1, 0);
   if (failed !== undefined) {
     const id = waiting?.id;

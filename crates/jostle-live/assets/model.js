@@ -105,6 +105,18 @@ async function fromTheAddress() {
   }
 }
 
+// Another address in the same tab, or a step back in its history, does not load the page anew.
+addEventListener("hashchange", async () => {
+  const kept = await fromTheAddress();
+  if (!kept) return;
+  remember(null);
+  edits.clear();
+  Object.assign(state, { text: kept.text, record: kept.record ?? 0 });
+  restoreCurve(kept.curve);
+  curveChanged();
+  ask();
+});
+
 // --- The engine ----------------------------------------------------------------------------------------
 
 let asked = 0;

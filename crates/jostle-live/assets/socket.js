@@ -17,6 +17,8 @@ function connect() {
   socket.onmessage = ({ data }) => receive(data);
   socket.onclose = () => {
     waiting = null;
+    byId("working").hidden = true;
+    showWaiting();
     showConnection("No connection to jostle. If it has ended, start it again. Reconnecting …");
     tries += 1;
     setTimeout(connect, Math.min(250 * 2 ** tries, 5000));

@@ -6,6 +6,8 @@ const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 const fromBase64 = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
+/** Without a request for this long, the accuracy of the latest run is looked for [ms]. */
+const rest = 400;
 /** Points of a curve are computed for this long before requests are looked at again [ms]. */
 const turn = 12;
 
@@ -65,6 +67,7 @@ function answer(request) {
   if (!wasm.answer()) return postMessage({ failed: problem() });
   drain();
   if (op === "run" || op === "report") postMessage({ done: true });
+  planSearch();
   if (op === "curve" && !computing) {
     computing = true;
     turns.port2.postMessage(0);
@@ -79,6 +82,22 @@ function compute() {
   drain();
   if (more) turns.port2.postMessage(0);
   else computing = false;
+}
+
+let search = 0;
+/** Looks for the accuracy of the latest run once nothing else is asked for. */
+function planSearch() {
+  clearTimeout(search);
+  search = setTimeout(() => guarded(findAccuracy), rest);
+}
+
+/** Takes another run, which a change of the model replaces like any long one. */
+function findAccuracy() {
+  if (computing) return planSearch();
+  postMessage({ busy: true });
+  wasm.accuracy();
+  drain();
+  postMessage({ done: true });
 }
 
 /** Runs a step; the engine ends only by a fault in it, or without memory. */

@@ -49,7 +49,6 @@ pub(crate) fn frame(
 }
 
 /// What takes longer than the frame and is not seen at first: whether results are sensitive.
-#[cfg(not(target_family = "wasm"))]
 pub(crate) fn accuracy(
     id: u64,
     solved: Solved,

@@ -363,7 +363,6 @@ impl Engine {
 impl Solved {
     /// Finds out from when on results depend on contacts made or missed within the tolerance, which takes another run:
     /// accuracy and notes in words. `None` without contacts.
-    #[cfg(not(target_family = "wasm"))]
     pub(crate) fn sensitive(
         mut self,
         watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),

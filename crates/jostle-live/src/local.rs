@@ -1,12 +1,13 @@
 //! Requests answered one after the other, without a server.
 
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use jostle::stepping::Progress;
 
 use crate::answer::{self, Answer};
 use crate::curve::Cases;
-use crate::engine::{Engine, Trouble};
+use crate::engine::{Engine, Solved, Trouble};
 use crate::message::{Reply, Request, Run};
 
 /// An open model and the curve that is being computed.
@@ -16,6 +17,8 @@ pub struct Local {
     text: String,
     /// Cases of the curve, and how many are done.
     curve: Option<(Cases, usize)>,
+    /// The latest run, whose sensitive instants were not looked for yet, and its number.
+    solved: Option<(u64, Solved)>,
 }
 
 impl Local {
@@ -26,6 +29,7 @@ impl Local {
             text: engine.text().to_owned(),
             engine,
             curve: None,
+            solved: None,
         }
     }
 
@@ -113,7 +117,9 @@ impl Local {
                 {
                     tree.text().clone_into(&mut self.text);
                 }
-                Some(answer::frame(&self.engine, &run, &watch).0)
+                let (answer, solved) = answer::frame(&self.engine, &run, &watch);
+                self.solved = solved.map(|solved| (run.id, solved));
+                Some(answer)
             }
             Request::Report(run) => Some(answer::report(&self.engine, &run, &watch)),
             Request::Study(curve) => Some(answer::study(&self.engine, &curve)),
@@ -130,6 +136,19 @@ impl Local {
             }
             Request::Stop => None,
         })
+    }
+
+    /// Accuracy of the latest run, once it is known whether its results are sensitive. This takes another run, so it is
+    /// asked for when nothing else is to be computed. `None` if there is nothing to look for, or if `watch` stopped it.
+    pub fn accuracy(&mut self, watch: &(dyn Fn() -> ControlFlow<()> + Sync)) -> Option<Answer> {
+        let (id, solved) = self.solved.take()?;
+        let stopped = AtomicBool::new(false);
+        let watch = |_| {
+            let going_on = watch();
+            stopped.fetch_or(going_on.is_break(), Ordering::Relaxed);
+            going_on
+        };
+        answer::accuracy(id, solved, &watch).filter(|_| !stopped.load(Ordering::Relaxed))
     }
 
     /// The next point of the curve, or what follows the last one; `None` when there is nothing more to compute.

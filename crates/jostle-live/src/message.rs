@@ -118,7 +118,6 @@ pub(crate) enum Reply<'a> {
     #[cfg(not(target_family = "wasm"))]
     Progress { id: u64, share: f64 },
     /// Accuracy and notes of a run whose frame was sent, once it is known whether its results are sensitive.
-    #[cfg(not(target_family = "wasm"))]
     Accuracy {
         id: u64,
         text: String,

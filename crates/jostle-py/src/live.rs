@@ -65,6 +65,22 @@ impl Live {
         answer.map(|answer| to_python(py, answer))
     }
 
+    /// Accuracy of the latest run, once it is known whether its results are sensitive; `None` if there is nothing to find.
+    fn accuracy(&self, py: Python<'_>) -> Option<Py<PyAny>> {
+        let answer = py.detach(|| {
+            let stops = self.stops.load(Ordering::Relaxed);
+            let watch = || {
+                if self.stops.load(Ordering::Relaxed) == stops {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                }
+            };
+            self.local().accuracy(&watch)
+        });
+        answer.map(|answer| to_python(py, answer))
+    }
+
     /// Stops the run under way.
     fn stop(&self) {
         self.stops.fetch_add(1, Ordering::Relaxed);

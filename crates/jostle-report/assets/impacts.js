@@ -121,7 +121,7 @@ class ImpactPanels {
     // A force that acts at once has no indentation.
     const deep = points.filter(({ depth, force }) => depth !== null && (depth > 0 || force === 0));
     if (deep.some(({ depth }) => depth > 0)) this.dots.push(this.picture("Contact force over indentation", "mm", deep, "depth"));
-    else html("p", "quiet", "No loop: histories have the motion of floors alone, and this contact lies between floors.", this.pictures);
+    else html("p", "quiet", "No loop: this force acts at one instant.", this.pictures);
     this.draw(player?.time ?? 0);
   }
 

@@ -100,19 +100,21 @@ function contactCharts(contact) {
     const values = scaled(side.without, 1e3);
     series.push({ label: `${side.name} without`, colour: colours(side.building), time: without.time, values, dashed: true });
   }
-  const closing = ([left, right]) => left.map((u, i) => (u - right[i]) * 1e3);
+  // Between floors columns bend, so the run itself says how far they close.
+  const closing = (table, [left, right]) => scaled(table.columns.get(`c:${contact.index}`) ?? left.map((u, i) => u - right[i]), 1e3);
   const closings = [
-    { label: "closing", colour: "var(--ink)", time: run.time, values: closing(sides.map((s) => s.run)) },
+    { label: "closing", colour: "var(--ink)", time: run.time, values: closing(run, sides.map((s) => s.run)) },
   ];
   if (sides.every((side) => side.without)) {
-    const values = closing(sides.map((s) => s.without));
+    const values = closing(without, sides.map((s) => s.without));
     closings.push({ label: "without", colour: "var(--ink-2)", time: without.time, values, dashed: true });
   }
   const width = contact.width * 1e3;
   const levels = [{ value: width, label: `gap ${readableLength(contact.width)}` }];
   const name = contactName(contact);
+  const bent = moving.some((side) => !contact.floors[sides.indexOf(side)]);
   return [
-    { title: `Displacement, ${name}`, unit: "mm", series },
+    { title: `Displacement, ${name}${bent ? " (straight lines between floors)" : ""}`, unit: "mm", series },
     { title: `Closing, ${name}`, unit: "mm", series: closings, levels, zone: width },
   ];
 }

@@ -154,12 +154,11 @@ struct Series {
 struct ForceData {
     #[serde(flatten)]
     force: Series,
-    /// Indentation at the same instants; `null` where a side is neither a floor nor a wall, because histories have the
-    /// motion of floors alone.
+    /// Indentation at the same instants; `null` where the history does not hold it.
     indentation: Option<Packed>,
 }
 
-/// Quantities on common instants, named `u:building:floor` and `e:term`.
+/// Quantities on common instants, named `u:building:floor`, `c:contact` and `e:term`.
 #[derive(Serialize)]
 struct Table {
     time: Packed,
@@ -422,8 +421,8 @@ fn force_data(
         let contacts = summary.contacts.iter();
         contacts.map(move |contact| (gap, contact))
     });
-    let all = force.iter().zip(kept).zip(closed);
-    all.map(|((force, rows), (gap, contact))| {
+    let all = force.iter().zip(kept).zip(closed).enumerate();
+    all.map(|(index, ((force, rows), (gap, contact)))| {
         let instants: Vec<f64> = rows
             .iter()
             .filter_map(|row| time.get(*row).copied())
@@ -431,7 +430,7 @@ fn force_data(
         let depths = if rows.is_empty() {
             None
         } else {
-            indentation(page.history, gap, contact)
+            indentation(page.history, gap, contact, index)
         };
         ForceData {
             force: Series {
@@ -445,9 +444,17 @@ fn force_data(
     .collect()
 }
 
-/// Indentation of a contact in every row of a history, negative while it is open; `None` where a side is neither a floor
-/// nor a wall \[m\].
-fn indentation(history: &History, gap: &Gap, contact: &ContactSummary) -> Option<Vec<f64>> {
+/// Indentation of a contact in every row of a history, negative while it is open; `None` where the history holds neither
+/// its closing nor its floors \[m\].
+fn indentation(
+    history: &History,
+    gap: &Gap,
+    contact: &ContactSummary,
+    index: usize,
+) -> Option<Vec<f64>> {
+    if let Some(closing) = history.column(Column::Closing { contact: index }) {
+        return Some(closing.iter().map(|u| u - contact.width_m).collect());
+    }
     let mut depths = vec![-contact.width_m; history.len()];
     for (side, sign) in [(0, 1.0), (1, -1.0)] {
         let Some(building) = gap.between[side] else {
@@ -473,7 +480,7 @@ fn table(
     pack: &mut Packer,
 ) -> Table {
     let time = history.column(Column::Time).unwrap_or_default();
-    let columns: Vec<(String, Vec<f64>)> = wanted(page, energies)
+    let columns: Vec<(String, Vec<f64>)> = wanted(page, history, energies)
         .into_iter()
         .filter_map(|(name, column)| Some((name, history.column(column)?)))
         .collect();
@@ -483,7 +490,7 @@ fn table(
     }
     let always: Vec<usize> = columns
         .iter()
-        .filter(|(name, _)| name.starts_with('u'))
+        .filter(|(name, _)| name.starts_with(['u', 'c']))
         .flat_map(|(_, values)| peaks(values))
         .collect();
     // An instant takes as much as two values.
@@ -506,7 +513,7 @@ fn peaks(values: &[f64]) -> impl Iterator<Item = usize> {
     least.into_iter().chain(greatest).map(|(row, _)| row)
 }
 
-fn wanted(page: &Page, energies: bool) -> Vec<(String, Column)> {
+fn wanted(page: &Page, history: &History, energies: bool) -> Vec<(String, Column)> {
     let mut wanted = Vec::new();
     for (building, shape) in page.model.buildings.iter().enumerate() {
         for floor in 1..=shape.floors() {
@@ -516,6 +523,13 @@ fn wanted(page: &Page, energies: bool) -> Vec<(String, Column)> {
             ));
         }
     }
+    let closings = history.columns().iter().filter_map(|column| {
+        let Column::Closing { contact } = column else {
+            return None;
+        };
+        Some((format!("c:{contact}"), *column))
+    });
+    wanted.extend(closings);
     if energies {
         wanted.extend(
             EnergyTerm::ALL.map(|term| (format!("e:{}", energy_name(term)), Column::Energy(term))),

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use jostle::Settings;
+use jostle::{Column, EnergyTerm, Settings};
 use jostle_io::{Format, read_model_text, summary_json};
 use jostle_run::{Content, Opened, Ran, summary_text};
 
@@ -56,6 +56,57 @@ fn run(more: &str, output: &str) -> Ran {
         panic!("not prepared")
     };
     prepared.run(Settings::default(), &mut |_, _| ControlFlow::Continue(()))
+}
+
+/// Contacts on columns between floors: the recorded force is Hertz's law of the recorded closing, and columns keep their
+/// places.
+#[test]
+fn histories_hold_the_closing_of_struck_columns() {
+    for solver in ["modal", "riccati"] {
+        let output = format!("[analysis]\nsolver = \"{solver}\"");
+        let text = MODEL
+            .replace("MORE", "")
+            .replace("restitution = 0.65", "")
+            .replace("hertz-damp", "hertz")
+            .replace("[output]", "");
+        let input = read_model_text("model.toml", &(text + &output), Format::Toml, Path::new(""));
+        let opened = Opened::new(input.unwrap_or_else(|error| panic!("{error}")), "model");
+        let prepared = opened.unwrap_or_else(|error| panic!("{error}")).prepare();
+        let Ok(prepared) = prepared else {
+            panic!("not prepared")
+        };
+        let ran = prepared.run(Settings::default(), &mut |_, _| ControlFlow::Continue(()));
+        let history = ran.outcome.history.as_ref().expect("recorded");
+        let mut struck = 0;
+        for (contact, one) in ran.prepared.system.contacts.iter().enumerate() {
+            let closing = history.column(Column::Closing { contact });
+            assert_eq!(closing.is_some(), one.is_between_floors());
+            let Some(closing) = closing else { continue };
+            let force = history
+                .column(Column::ContactForce { contact })
+                .expect("recorded");
+            let most = force.iter().copied().fold(0.0, f64::max);
+            struck += usize::from(most > 0.0);
+            for (u, force) in closing.iter().zip(&force) {
+                let law = 2e9 * (u - one.width).max(0.0).powf(1.5);
+                assert!(
+                    (force - law).abs() <= 1e-6 * most,
+                    "{solver}: {force} N recorded, {law} N by the law"
+                );
+            }
+        }
+        assert!(struck > 1, "{solver}: {struck} contacts were struck");
+        // What comes behind is still the energies, and they balance.
+        let of = |term| history.column(Column::Energy(term)).expect("recorded");
+        let [input, parts @ ..] = EnergyTerm::ALL.map(of);
+        let last = history.len() - 1;
+        let sum: f64 = parts.iter().map(|part| part[last]).sum();
+        assert!(
+            (input[last] - sum).abs() < 1e-6 * input[last],
+            "{solver}: {} and {sum}",
+            input[last]
+        );
+    }
 }
 
 /// Writes the files of a run; returns the report and the names.

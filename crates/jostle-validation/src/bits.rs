@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 use jostle::stepping::find_sensitivity;
-use jostle::{Outcome, Plan, Pounding, Run, Settings, Solver, Summary, System, simulate};
+use jostle::{Column, Outcome, Plan, Pounding, Run, Settings, Solver, Summary, System, simulate};
 use jostle_io::{Format, Input, builtin_model, read_model_text};
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -169,8 +169,19 @@ fn feed(outcome: &Outcome, summary: &Value, digest: &mut Sha256) {
         ]);
     }
     if let Some(history) = &outcome.history {
+        // Closings came later than the recorded digests.
+        let older = history
+            .columns()
+            .iter()
+            .map(|column| !matches!(column, Column::Closing { .. }));
+        let older: Vec<bool> = older.collect();
         for row in 0..history.len() {
-            bits(history.row(row));
+            let values = history.row(row).iter().zip(&older);
+            let kept: Vec<f64> = values
+                .filter(|(_, kept)| **kept)
+                .map(|(value, _)| *value)
+                .collect();
+            bits(&kept);
         }
     }
     if let Some(springs) = &outcome.spring_history {

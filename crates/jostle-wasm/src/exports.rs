@@ -107,6 +107,18 @@ pub(crate) extern "C" fn more() -> u32 {
     })
 }
 
+/// Looks for an instant on which the later results of the latest run depend: 0 when there is nothing to look for.
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn accuracy() -> u32 {
+    with(|kept| {
+        let local = kept.local.as_mut();
+        let answer = local.and_then(|local| local.accuracy(&|| ControlFlow::Continue(())));
+        let found = u32::from(answer.is_some());
+        kept.answers.extend(answer);
+        found
+    })
+}
+
 /// Takes the next answer: 0 when there is none, 1 for text, 2 for binary.
 #[unsafe(no_mangle)]
 pub(crate) extern "C" fn next() -> u32 {

@@ -117,6 +117,12 @@ pub enum Column {
         /// Contact index.
         contact: usize,
     },
+    /// Closing of a contact on a column between floors (index into the contacts of the system) \[m\]. That of other
+    /// contacts follows from the displacements of their floors.
+    Closing {
+        /// Contact index.
+        contact: usize,
+    },
     /// Compression of a link (index into the links of the system), negative in tension \[N\].
     LinkForce {
         /// Link index.
@@ -159,6 +165,7 @@ impl Column {
             Self::RotationRate { .. } => of("floor", "rotation_rate", Unit::RAD_S, "its rate"),
             Self::RotationAcceleration { .. } => of("floor", "rotation_acceleration", Unit::RAD_S2, "the rate of that"),
             Self::ContactForce { .. } => of("contact", "force", Unit::N, "contact force, positive in compression"),
+            Self::Closing { .. } => of("contact", "closing", Unit::M, "closing; only of contacts on a column between floors"),
             Self::LinkForce { .. } => of("link", "force", Unit::N, "force of the link, positive in compression"),
             Self::Energy(EnergyTerm::Input) => of("energy", "input", Unit::J, "work of the ground motion until then"),
             Self::Energy(EnergyTerm::Kinetic) => of("energy", "kinetic", Unit::J, "kinetic energy relative to the ground"),
@@ -186,7 +193,7 @@ impl Column {
             | Self::Rotation { building, floor }
             | Self::RotationRate { building, floor }
             | Self::RotationAcceleration { building, floor } => [building, floor],
-            Self::ContactForce { contact } => [contact, 0],
+            Self::ContactForce { contact } | Self::Closing { contact } => [contact, 0],
             Self::LinkForce { link } => [link, 0],
         }
     }

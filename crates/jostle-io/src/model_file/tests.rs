@@ -10,7 +10,19 @@ use crate::source::Source;
 use crate::tree::{Format, parse};
 
 /// Models that together have every table of a file.
-const ALL_TABLES: [&str; 4] = [
+const ALL_TABLES: [&str; 5] = [
+    r#"
+[[building]]
+kind = "shear"
+plan = [{ size = [1, 1] }, { corners = [[0, 0], [1, 0], [1, 1]] }]
+mass = [1, 1]
+stiffness = [{ x = 1, y = 1, torsion = 1 }, 1]
+[[building]]
+kind = "shear"
+plan = [1, 1]
+mass = 1
+element = [{ at = [0, 0], stiffness = 1, storeys = [1, 1] }]
+"#,
     r#"
 [motion]
 record = "el-centro"

@@ -34,7 +34,7 @@ pub struct Bar {
 
 const WIDTH: f64 = 520.0;
 const LEFT: f64 = 170.0;
-const RIGHT: f64 = 56.0;
+const RIGHT: f64 = 72.0;
 const ROW: f64 = 34.0;
 /// Room for the base value above, and for ticks and their title below.
 const TOP: f64 = 20.0;

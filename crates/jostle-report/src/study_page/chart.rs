@@ -70,6 +70,8 @@ const LEFT: f64 = 66.0;
 const RIGHT: f64 = 12.0;
 const TOP: f64 = 10.0;
 const BOTTOM: f64 = 40.0;
+/// Width of a letter.
+const LETTER: f64 = 6.6;
 /// Colours of the style sheet.
 const COLOURS: usize = 7;
 /// Series in a legend at most.
@@ -154,7 +156,12 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                     @for x in &xs { line x1=(px(*x)) x2=(px(*x)) y1=(TOP) y2=(HEIGHT - BOTTOM) {} }
                 }
                 @for y in &ys { text x=(LEFT - 6.0) y=(py(*y) + 4.0) text-anchor="end" { (number(*y)) } }
-                @for x in &xs { text x=(px(*x)) y=(HEIGHT - BOTTOM + 15.0) text-anchor="middle" { (number(*x)) } }
+                @for x in &xs {
+                    @let name = number(*x);
+                    // The last one is kept within the picture.
+                    @let half = 0.5 * LETTER * name.chars().count() as f64;
+                    text x=(px(*x).min(WIDTH - half)) y=(HEIGHT - BOTTOM + 15.0) text-anchor="middle" { (name) }
+                }
                 @for series in &chart.series {
                     @if series.band.len() == series.points.len() && series.points.len() > 1 {
                         path.study-band d=(area(series)) style=(colour(series.colour)) {}

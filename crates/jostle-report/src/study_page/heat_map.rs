@@ -37,7 +37,7 @@ pub struct Cell {
 const WIDTH: f64 = 460.0;
 const LEFT: f64 = 52.0;
 /// Room for the colour bar.
-const RIGHT: f64 = 62.0;
+const RIGHT: f64 = 78.0;
 const BOTTOM: f64 = 44.0;
 /// Room for the title of the upward axis.
 const TOP: f64 = 24.0;

@@ -17,6 +17,8 @@ pub use suite::{SuitePage, SuiteRow, render_suite};
 
 const OWN_STYLE: &str = include_str!("../../assets/study.css");
 
+/// Characters beyond which a fact is no heading.
+const WORDY: usize = 24;
 /// Characters beyond which a cell of a table is broken into lines.
 const LONG: usize = 60;
 
@@ -96,7 +98,7 @@ pub fn render_study(page: &StudyPage) -> String {
                     @for sentence in &page.headline { p.verdict { (sentence) } }
                     div.tiles {
                         @for (name, value) in &page.facts {
-                            div.tile { div.tile-name { (name) } div.tile-value.study-value { (value) } }
+                            div.tile { div.tile-name { (name) } div.tile-value.study-value.in-words[value.chars().count() > WORDY] { (value) } }
                         }
                     }
                     @if !page.maps.is_empty() { (maps(page)) }

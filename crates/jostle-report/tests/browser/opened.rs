@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use headless_chrome::protocol::cdp::types::Event;
-use headless_chrome::protocol::cdp::{Emulation, Input, Log, Page, Runtime};
+use headless_chrome::protocol::cdp::{Emulation, HeapProfiler, Input, Log, Page, Runtime};
 use headless_chrome::{Browser, LaunchOptions, Tab};
 
 fn chromium() -> PathBuf {
@@ -50,6 +50,8 @@ pub(crate) fn open_address(address: &str, width: u32, height: u32) -> Option<Ope
         .path(Some(chromium()))
         .sandbox(false)
         .window_size(Some((width, height)))
+        // A busy machine may leave the browser without a word for long.
+        .idle_browser_timeout(Duration::from_secs(600))
         .args(
             ["--disable-gpu", "--disable-quic", "--disable-sync"]
                 .map(std::ffi::OsStr::new)
@@ -152,6 +154,18 @@ impl Opened {
     #[allow(dead_code, reason = "not every test file presses keys")]
     pub(crate) fn press(&self, key: &str) {
         self.tab.press_key(key).unwrap();
+    }
+
+    /// Memory that scripts of the page hold after everything unused was freed \[bytes\].
+    #[allow(dead_code, reason = "not every test file asks for it")]
+    pub(crate) fn heap(&self) -> f64 {
+        for _ in 0..2 {
+            self.tab
+                .call_method(HeapProfiler::CollectGarbage(None))
+                .unwrap();
+        }
+        let usage = self.tab.call_method(Runtime::GetHeapUsage(None)).unwrap();
+        usage.used_size
     }
 
     /// The page is asked not to move.

@@ -321,7 +321,25 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
     };
     let mut series = Vec::new();
     for (colour, one) in fitted.iter().enumerate() {
-        let Ok(curve) = one.curve else { continue };
+        let name = if one.name.is_empty() {
+            event.clone()
+        } else {
+            one.name.clone()
+        };
+        let shares = one.stripes.iter();
+        let mut dots = Series {
+            name: String::new(),
+            points: shares.map(|[at, share]| [size * at, *share]).collect(),
+            band: Vec::new(),
+            stroke: Stroke::Dots,
+            colour,
+        };
+        let Ok(curve) = one.curve else {
+            // What was observed is shown without a curve too.
+            dots.name = format!("{name} (no curve)");
+            series.push(dots);
+            continue;
+        };
         let points = one
             .grid
             .iter()
@@ -334,27 +352,13 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
                 .collect()
         });
         series.push(Series {
-            name: if one.name.is_empty() {
-                event.clone()
-            } else {
-                one.name.clone()
-            },
+            name,
             points: points.collect(),
             band,
             stroke: Stroke::Line,
             colour,
         });
-        series.push(Series {
-            name: String::new(),
-            points: one
-                .stripes
-                .iter()
-                .map(|[at, share]| [size * at, *share])
-                .collect(),
-            band: Vec::new(),
-            stroke: Stroke::Dots,
-            colour,
-        });
+        series.push(dots);
     }
     let method = match wanted.method {
         FragilityMethod::MultipleStripe => {

@@ -46,6 +46,15 @@ impl Contact {
         self.ports.effective_mass()
     }
 
+    /// Whether a side lies on a column between floors.
+    #[must_use]
+    pub fn is_between_floors(&self) -> bool {
+        let sides = self.ports.buildings().into_iter().zip(self.ports.floors());
+        sides
+            .into_iter()
+            .any(|(building, floor)| building.is_some() && floor.is_none())
+    }
+
     /// A contact without width whose law is still to be given.
     #[must_use]
     pub fn without_law(ports: PortPair) -> Self {

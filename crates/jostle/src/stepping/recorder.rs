@@ -68,6 +68,11 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
     }
     let contacts = system.reported_contacts();
     columns.extend((0..contacts).map(|contact| Column::ContactForce { contact }));
+    columns.extend(
+        (0..system.contacts.len())
+            .filter(|contact| system.contacts[*contact].is_between_floors())
+            .map(|contact| Column::Closing { contact }),
+    );
     columns.extend((0..system.links.len()).map(|link| Column::LinkForce { link }));
     columns.extend(EnergyTerm::ALL.map(Column::Energy));
     columns
@@ -246,6 +251,11 @@ impl Recorder {
             put(state.acceleration[floor.dof] + ground);
         }
         contacts.iter().for_each(|phase| put(phase.force()));
+        system
+            .contacts
+            .iter()
+            .filter(|contact| contact.is_between_floors())
+            .for_each(|contact| put(contact.ports.closing(&state.displacement)));
         links.iter().for_each(|force| put(*force));
         let Energy {
             input,
@@ -259,6 +269,7 @@ impl Recorder {
         [input, kinetic, strain, damped, hysteretic, contact]
             .into_iter()
             .for_each(put);
+        debug_assert!(row.next().is_none(), "every column has a value");
     }
 }
 

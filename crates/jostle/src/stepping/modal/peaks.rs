@@ -508,6 +508,10 @@ impl Peaks {
                 put(force);
             }
         }
+        let contacts = system.contacts.iter().enumerate();
+        contacts
+            .filter(|(_, contact)| contact.is_between_floors())
+            .for_each(|(contact, _)| put(reduced.closing(contact, watched.u)));
         links.iter().for_each(|force| put(*force));
         [
             energy.input,
@@ -519,6 +523,7 @@ impl Peaks {
         ]
         .into_iter()
         .for_each(put);
+        debug_assert!(row.next().is_none(), "every column has a value");
     }
 }
 
