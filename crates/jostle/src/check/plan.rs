@@ -278,7 +278,7 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
     faults.require(gap.widths.len() == 1, format!("{path}.width"), || {
         "takes one value between buildings with a plan".into()
     });
-    if contact.points < 2 || !(contact.reach > 0.0) {
+    if contact.points < 2 || contact.reach <= 0.0 || contact.reach.is_nan() {
         return;
     }
     let touches = faces_of_gap(model, gap).is_none_or(|faces| !faces.is_empty());

@@ -179,7 +179,8 @@ fn corners(
             let along = unit(minus(b, a));
             let place = dot(minus(corner, a), along);
             let gap = dot(minus(corner, a), outward);
-            if !(0.0..=length).contains(&place) || !(gap >= 0.0 && gap <= contact.reach) {
+            let is_near = (0.0..=contact.reach).contains(&gap);
+            if !is_near || !(0.0..=length).contains(&place) {
                 continue;
             }
             let foot = [a[0] + place * along[0], a[1] + place * along[1]];

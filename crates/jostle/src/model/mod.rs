@@ -18,7 +18,7 @@ pub use capacity::{
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
 pub use members::MemberRequest;
-pub use tiers::{PlanArea, PlanPoint, Tier, TierStorey, Tiers};
+pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
 
 /// Buildings in a row, gaps and links between them, and the settings of the analysis.
 ///

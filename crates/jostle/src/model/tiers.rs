@@ -57,6 +57,9 @@ pub struct TierStorey {
     pub centre: PlanPoint,
 }
 
+/// Place of a column or a wall in plan \[m\], and its stiffness along x and across \[N/m\].
+pub type PlanElement = (PlanPoint, [f64; 2]);
+
 /// Area, centroid and second moments of area of a polygon.
 ///
 /// A = ½Σw, c = Σ(p_i + p_{i+1}) w_i/(6A), I_xx = ∫y², I_yy = ∫x² about c, w_i = x_i y_{i+1} − x_{i+1} y_i (Green's theorem).
@@ -164,8 +167,8 @@ impl TierStorey {
     /// Elements at points of the plan, each with its stiffness along x and across: c_y = Σk_x y/Σk_x, c_x = Σk_y x/Σk_y,
     /// k_θ = Σk_x (y − c_y)² + k_y (x − c_x)².
     #[must_use]
-    pub fn of_elements(elements: &[(PlanPoint, [f64; 2])]) -> Self {
-        let sum = |of: &dyn Fn(&(PlanPoint, [f64; 2])) -> f64| elements.iter().map(of).sum::<f64>();
+    pub fn of_elements(elements: &[PlanElement]) -> Self {
+        let sum = |of: &dyn Fn(&PlanElement) -> f64| elements.iter().map(of).sum::<f64>();
         let [kx, ky] = [0, 1].map(|axis| sum(&|(_, k)| k[axis]));
         let centre = [
             sum(&|(at, k)| k[1] * at[0]) / ky,

@@ -126,7 +126,7 @@ pub(super) fn place_of_face(system: &System, face: usize) -> Option<PlanContactS
     let points = || system.contacts.iter().filter_map(|contact| contact.plan);
     let mut own = points().filter(|place| place.face == face);
     let first = own.next()?;
-    let last = own.last().unwrap_or(first);
+    let last = own.next_back().unwrap_or(first);
     Some(PlanContactSummary {
         kind: first.kind.name(),
         plan_m: [0, 1].map(|axis| 0.5 * (first.at[axis] + last.at[axis])),
