@@ -5,7 +5,7 @@ use super::modal;
 use crate::interface::Contact;
 use crate::model::Integrator;
 use crate::model::{Analysis, ModelFault, Solver};
-use crate::motion::GroundMotion;
+use crate::motion::{GroundMotion, Wave};
 use crate::system::{BuildingSystem, System};
 use crate::transfer::{ProductEquations, ProductRefusal};
 
@@ -118,6 +118,7 @@ impl Plan {
                 problem: "and across need buildings with a plan; give every building one, or leave both out".into(),
             });
         }
+        faults.extend(steps_of_components(motion));
         let refinement = (analysis.tolerance / 1e-3).sqrt();
         let step = match analysis.step {
             Some(step) => {
@@ -379,6 +380,22 @@ fn solver_for(system: &System, analysis: &Analysis) -> Solver {
         }
     };
     analysis.solver.unwrap_or_else(usual)
+}
+
+/// Two records whose steps do not fit: no step could end at the points of both.
+fn steps_of_components(motion: &GroundMotion) -> Option<ModelFault> {
+    let step = |motion: &GroundMotion| match motion.wave {
+        Wave::Sampled { step, .. } => Some(step),
+        _ => None,
+    };
+    let (own, across) = (step(motion)?, step(motion.across()?)?);
+    let ratio = own.max(across) / own.min(across);
+    ((ratio - ratio.round()).abs() > 1e-9 * ratio).then(|| ModelFault {
+        path: "motion.across".into(),
+        problem: format!(
+            "has points every {across} s, the record every {own} s; one must be a multiple of the other, so resample one of them"
+        ),
+    })
 }
 
 /// Whether modal stepping can afford the steps that links need: stiff ones are for direct steps, which need not resolve them.

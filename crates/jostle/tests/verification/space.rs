@@ -420,6 +420,19 @@ fn a_sine_across_shakes_across() {
     }
 }
 
+/// No step could end at the points of both records.
+#[test]
+fn records_with_steps_that_do_not_fit_are_refused() {
+    let (buildings, gaps, mut motion) = around_a_corner();
+    let system = System::assemble(&model(buildings, gaps)).expect("a sound model");
+    for (step, fits) in [(0.01, true), (0.04, true), (0.03, false), (0.013, false)] {
+        let across = GroundMotion::sampled("across", step, vec![0.0, 1.0, 0.5, 0.0]);
+        motion.bearing.as_mut().expect("a bearing").across = Some(across);
+        let plan = Plan::choose(&system, &motion, &Analysis::default());
+        assert_eq!(plan.is_ok(), fits, "{step}");
+    }
+}
+
 #[test]
 fn plans_that_do_not_fit_are_refused() {
     let (buildings, gaps, _) = around_a_corner();
