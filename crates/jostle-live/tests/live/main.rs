@@ -636,11 +636,12 @@ fn two_keys_make_a_map_and_a_click_sets_both() {
         return;
     };
     let cells = "document.querySelectorAll('.cells rect').length";
+    // The knob is in view before the map begins, which takes a second or two.
+    page.search("ratio");
     page.value("{ const a = document.getElementById('across'); a.value = 'motion.pga'; a.dispatchEvent(new Event('change')); }");
     page.wait("document.getElementById('curve-note').textContent.includes('cells.')");
     // A knob that is neither of the two cancels it: no cell comes until the new one begins.
     page.value("{ window.few = 0; window.sent = []; const send = WebSocket.prototype.send; WebSocket.prototype.send = function (text) { window.sent.push(JSON.parse(text).op); send.call(this, text); }; }");
-    page.search("ratio");
     page.type_into("building[1].damping.ratio", "0.03");
     page.wait("window.sent.includes('curve')");
     assert!(
