@@ -121,8 +121,8 @@ fn axes_have_titles_and_rankings_their_base_and_ticks() {
     ] {
         assert!(text.contains(part), "{part} is missing");
     }
-    // From 80 to 130 kN on the 294 px between 170 and 464: the base at 287.6, a tick at 120 kN.
-    let at = |value: f64| format!("{:.1}", 170.0 + 294.0 * (value - 80.0) / 50.0);
+    // From 80 to 130 kN on the 278 px between 170 and 448: the base at 281.2, a tick at 120 kN.
+    let at = |value: f64| format!("{:.1}", 170.0 + 278.0 * (value - 80.0) / 50.0);
     assert!(text.contains(&format!("x=\"{}\" y=\"11\"", at(100.0))));
     for (value, label) in [(80.0, "80"), (90.0, "90"), (120.0, "120"), (130.0, "130")] {
         let tick = format!(

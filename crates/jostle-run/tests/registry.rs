@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use jostle::results::floor_spectra::{self, FilterSummary, FloorSpectra, FloorSpectrum};
-use jostle::results::registry::owners;
+use jostle::results::registry::{Owner, owners};
 use jostle::results::response::{BuildingResponse, FloorResponse};
 use jostle::results::summary::{
     AcceptanceSummary, AxialFailureSummary, CapacitySummary, ContactSummary, EnergySummary,
@@ -57,8 +57,34 @@ capacity = ["gb50010", "asce41", "en1998-3"]
 floor_spectra = true
 "#;
 
+/// Two buildings in space.
+const IN_SPACE: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.3 g", duration = "3 s" }
+[[building]]
+name = "A"
+kind = "shear"
+plan = ["10 m", "8 m"]
+mass = "150 t"
+stiffness = "20 MN/m"
+storey_height = "3 m"
+[[building]]
+name = "B"
+kind = "shear"
+plan = ["9 m", "7 m"]
+mass = "100 t"
+stiffness = "90 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["A", "B"]
+width = "10 mm"
+"#;
+
 fn summary() -> Summary {
-    let tree = ModelTree::parse("m", MODEL, Format::Toml, Path::new(""))
+    summary_of(MODEL)
+}
+
+fn summary_of(model: &str) -> Summary {
+    let tree = ModelTree::parse("m", model, Format::Toml, Path::new(""))
         .unwrap_or_else(|error| panic!("{error}"));
     let input = tree.input().unwrap_or_else(|error| panic!("{error}"));
     let prepared = CaseCache::default()
@@ -95,21 +121,37 @@ fn objects<'v>(root: &'v Value, key: &str) -> Vec<&'v Value> {
 
 #[test]
 fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
-    let summary = serde_json::to_value(summary()).expect("a summary is JSON");
-    for owner in owners().iter().filter(|owner| !owner.key.is_empty()) {
-        let found = objects(&summary, owner.key);
-        assert!(!found.is_empty(), "the model has no {}", owner.title);
-        let names = owner.entries.iter().filter(|entry| entry.places.summary);
-        let names: BTreeSet<&str> = names.map(|entry| entry.name).collect();
-        for object in found {
-            let fields = object.as_object().expect("an object");
-            let numbers = fields
-                .iter()
-                .filter(|(_, value)| value.is_number() || value.is_boolean() || value.is_null())
-                .filter(|(key, _)| !OBJECTS.contains(&&key[..]));
-            let keys: BTreeSet<&str> = numbers.map(|(key, _)| &key[..]).collect();
-            assert_eq!(keys, names, "{}", owner.title);
+    let plane = serde_json::to_value(summary()).expect("a summary is JSON");
+    let space = serde_json::to_value(summary_of(IN_SPACE)).expect("a summary is JSON");
+    let in_space = |owner: &&Owner| owner.title.ends_with("in plan");
+    let all = owners();
+    for owner in all.iter().filter(|owner| !owner.key.is_empty()) {
+        if in_space(&owner) {
+            // The same objects have the numbers of one plane as well.
+            let same_key = all.iter().filter(|other| other.key == owner.key);
+            compare(&space, &same_key.collect::<Vec<_>>());
+        } else {
+            compare(&plane, &[owner]);
         }
+    }
+}
+
+/// Compares the numbers of all objects of a key with the lists of their owners.
+fn compare(summary: &Value, owners: &[&Owner]) {
+    let title = owners[0].title;
+    let found = objects(summary, owners[0].key);
+    assert!(!found.is_empty(), "the model has no {title}");
+    let entries = owners.iter().flat_map(|owner| &owner.entries);
+    let names = entries.filter(|entry| entry.places.summary);
+    let names: BTreeSet<&str> = names.map(|entry| entry.name).collect();
+    for object in found {
+        let fields = object.as_object().expect("an object");
+        let numbers = fields
+            .iter()
+            .filter(|(_, value)| value.is_number() || value.is_boolean() || value.is_null())
+            .filter(|(key, _)| !OBJECTS.contains(&&key[..]));
+        let keys: BTreeSet<&str> = numbers.map(|(key, _)| &key[..]).collect();
+        assert_eq!(keys, names, "{title}");
     }
 }
 
