@@ -187,7 +187,7 @@ class Shear(Part):
     Args:
         name: name of the building, used by gaps and links; ``"B1"``, ``"B2"``, … by default.
         mass: floor masses from the ground up, or one for all.
-        stiffness: storey stiffnesses from the ground up, or one for all.
+        stiffness: storey stiffnesses from the ground up, or one for all; with a plan also ``{"x": …, "y": …, "torsion": …}``.
         storeys: number of storeys, 1 to 200; not needed with a list per storey.
         storey_height: one length, or a list from the ground up; 3 m by default.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
@@ -198,6 +198,14 @@ class Shear(Part):
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         floors: the same as ``storeys``.
+        plan: width along x and depth across, ``["20 m", "12 m"]``, corners counter-clockwise, or a list of ``{"size": …}`` or
+            ``{"corners": …}`` from the ground up; the building then moves in both directions and turns.
+        at: where the origin of the plan stands on the site; in a row by default.
+        mass_centre: centre of mass from the origin of the plan; its centroid by default.
+        polar_mass: mass moment of inertia; that of mass spread evenly over the plan by default.
+        eccentricity: centre of stiffness from the centre of mass; 0 by default.
+        element: columns and walls at points of the plan, instead of ``stiffness``:
+            ``[{"at": ["1 m", "1 m"], "stiffness": {"x": "10 MN/m", "y": "12 MN/m"}}]``.
         **units: the same with units in names, as in ``mass_t=[40, 40]``.
 
     Raises:
@@ -211,7 +219,7 @@ class Shear(Part):
         name: str | None = None,
         *,
         mass: Quantities | None = None,
-        stiffness: Quantities | None = None,
+        stiffness: Quantities | Table | Sequence[Any] | None = None,
         storeys: int | None = None,
         storey_height: Quantities | None = None,
         damping: Table | None = None,
@@ -221,6 +229,12 @@ class Shear(Part):
         p_delta: bool | None = None,
         codes: Table | None = None,
         floors: int | None = None,
+        plan: Sequence[Any] | None = None,
+        at: Sequence[Quantity] | None = None,
+        mass_centre: Sequence[Any] | None = None,
+        polar_mass: Quantities | None = None,
+        eccentricity: Sequence[Any] | None = None,
+        element: Sequence[Any] | None = None,
         **units: Unpack[ShearUnits],
     ) -> None:
         super().__init__(
@@ -238,6 +252,12 @@ class Shear(Part):
                 "p_delta": p_delta,
                 "codes": codes,
                 "floors": floors,
+                "plan": plan,
+                "at": at,
+                "mass_centre": mass_centre,
+                "polar_mass": polar_mass,
+                "eccentricity": eccentricity,
+                "element": element,
             },
             units,
         )
@@ -334,6 +354,9 @@ class Gap(Part):
             each impact.
         thickness: of the law ``"rubber"``: thickness of the bumper.
         exponent: of the law ``"rubber"``: exponent of the compression, 2.65 by default.
+        stiffness_per_length: between plans, instead of ``stiffness``: that of a face per metre of its length.
+        points: between plans: contact points of a face, 2 to 9, 5 by default.
+        reach: between plans: greatest distance of edges that can touch, 0.5 m by default.
         minimum_separation: impacts of one contact closer in time than this count as one, 0 s by default.
         **units: the same with units in names, as in ``width_mm=20``.
 
@@ -359,6 +382,9 @@ class Gap(Part):
         design_speed: Quantity | None = None,
         thickness: Quantity | None = None,
         exponent: float | None = None,
+        stiffness_per_length: Quantity | None = None,
+        points: int | None = None,
+        reach: Quantity | None = None,
         minimum_separation: Quantity | None = None,
         **units: Unpack[GapUnits],
     ) -> None:
@@ -377,6 +403,9 @@ class Gap(Part):
                 "design_speed": design_speed,
                 "thickness": thickness,
                 "exponent": exponent,
+                "stiffness_per_length": stiffness_per_length,
+                "points": points,
+                "reach": reach,
                 "minimum_separation": minimum_separation,
             },
             units,
