@@ -138,7 +138,7 @@ fn drawing(page: &Page) -> Markup {
     }
 }
 
-/// Faces of the highest common floor that was struck hardest, gap by gap.
+/// All faces, as thick as their greatest force, and corners as dots.
 fn face_marks(page: &Page, scale: &Scale) -> Markup {
     let contacts = || page.summary.gaps.iter().flat_map(|gap| &gap.contacts);
     let most = contacts()

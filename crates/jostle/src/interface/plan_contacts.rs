@@ -135,7 +135,8 @@ fn face(
         }
     };
     let least = point(from, 0.0).gap.min(point(to, 0.0).gap);
-    if !(least > -0.5 * contact.reach && least <= contact.reach) {
+    // Edges on the far sides of two buildings have passed each other.
+    if !(-LEAST_OVERLAP..=contact.reach).contains(&least) {
         return None;
     }
     let middle = point(0.5 * (from + to), 1.0).at;
@@ -201,8 +202,8 @@ fn corners(
     found
 }
 
-/// Places in −1…1 and weights, of sum 1, of the Gauss–Lobatto rule: ±1 and the roots of P′ₙ₋₁, with 1/(n(n − 1)P²ₙ₋₁/…)
-/// normalised (M. Abramowitz, I. A. Stegun, 1964, Eq. 25.4.32).
+/// Places in −1…1 and weights of the Gauss–Lobatto rule of n points: ±1 and the roots of P′ₙ₋₁; the weights
+/// 1/(n (n − 1) P²ₙ₋₁) have the sum 1 (M. Abramowitz, I. A. Stegun, 1964, Eq. 25.4.32, halved).
 pub(crate) fn lobatto(points: usize) -> Vec<(f64, f64)> {
     let n = points - 1;
     // P of order n and of order n − 1.
@@ -287,6 +288,12 @@ mod tests {
         // From the other side the normal turns round.
         let back = plan_faces(&b, &a, &PlanContact::default());
         assert_eq!(back[0].normal, [-1.0, 0.0]);
+        // However far edges may be apart, those on the far sides do not face each other.
+        let far = PlanContact {
+            reach: 30.0,
+            ..PlanContact::default()
+        };
+        assert_eq!(plan_faces(&a, &b, &far).len(), 1);
         assert!(
             plan_faces(
                 &a,

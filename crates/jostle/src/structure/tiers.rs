@@ -138,3 +138,19 @@ impl PlanMatrix {
         list
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A turn moves every point at a right angle to its arm, counter-clockwise, by the length of the arm.
+    #[test]
+    fn a_turn_is_counter_clockwise_about_the_centre() {
+        let (centre, point) = ([2.0, 1.0], [5.0, -3.0]);
+        let arm = [point[0] - centre[0], point[1] - centre[1]];
+        let [x, y, _] = motion_at(point, centre);
+        let moved = [x[2], y[2]];
+        assert_eq!(arm[0] * moved[0] + arm[1] * moved[1], 0.0);
+        assert_eq!(arm[0] * moved[1] - arm[1] * moved[0], 25.0);
+    }
+}

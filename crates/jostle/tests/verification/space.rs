@@ -308,7 +308,7 @@ fn the_order_of_buildings_does_not_matter() {
     same(&own, &other, [1, 2, 0], "in another order");
 }
 
-/// A free oscillator at the end of a lever: a storey that turns only, hit at its corner, against K and J of its own.
+/// T = 2π √(m/k_x), 2π √(m/k_y) and 2π √(J/k_θ) without eccentricity.
 #[test]
 fn torsion_has_the_period_of_its_polar_mass() {
     let plan = rectangle(0.0, 0.0, 10.0, 6.0);

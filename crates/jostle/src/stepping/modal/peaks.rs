@@ -157,8 +157,8 @@ impl Peaks {
         &self.driven
     }
 
-    /// Rate of the total acceleration of a monitored place without that of modal loads of contacts, beyond its jerk without
-    /// load.
+    /// What the rate of the ground acceleration adds to the jerk without load: with it, the rate of the total acceleration
+    /// of a monitored place.
     fn slope(&self, place: usize, direction: Direction, rate: Ground) -> f64 {
         if self.driven[1].is_empty() {
             return rate[0] * (1.0 - self.driven[0][place]);
