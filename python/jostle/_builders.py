@@ -357,6 +357,9 @@ class Gap(Part):
         stiffness_per_length: between plans, instead of ``stiffness``: that of a face per metre of its length.
         points: between plans: contact points of a face, 2 to 9, 5 by default.
         reach: between plans: greatest distance of edges that can touch, 0.5 m by default.
+        friction: between plans: coefficient of friction along faces, at least 0 and below 1; 0 by default.
+        tangential_stiffness: between plans with friction: stiffness of a whole face against sliding while it sticks;
+            without it, 0.89 times that against pressing.
         minimum_separation: impacts of one contact closer in time than this count as one, 0 s by default.
         **units: the same with units in names, as in ``width_mm=20``.
 
@@ -385,6 +388,8 @@ class Gap(Part):
         stiffness_per_length: Quantity | None = None,
         points: int | None = None,
         reach: Quantity | None = None,
+        friction: float | None = None,
+        tangential_stiffness: Quantity | None = None,
         minimum_separation: Quantity | None = None,
         **units: Unpack[GapUnits],
     ) -> None:
@@ -406,6 +411,8 @@ class Gap(Part):
                 "stiffness_per_length": stiffness_per_length,
                 "points": points,
                 "reach": reach,
+                "friction": friction,
+                "tangential_stiffness": tangential_stiffness,
                 "minimum_separation": minimum_separation,
             },
             units,

@@ -532,6 +532,8 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Gap, "stiffness_per_length", ContactStiffness, "Between plans, instead of stiffness: that of a face per metre of its length."),
     default(S::Gap, "points", Count, "5", "Between plans: contact points of a face, 2 to 9, by the Lobatto rule. Two points are too stiff in rotation."),
     default(S::Gap, "reach", Quantity(D::Length), "\"0.5 m\"", "Between plans: greatest distance of edges that can touch."),
+    default(S::Gap, "friction", Quantity(D::Dimensionless), "0", "Between plans: coefficient of friction along faces, at least 0 and below 1; concrete on concrete has some 0.4."),
+    optional(S::Gap, "tangential_stiffness", Quantity(D::Stiffness), "Between plans with friction: stiffness of a whole face against sliding while it sticks; without it, 0.89 times that against pressing."),
     default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact closer in time than this count as one."),
 
     required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),

@@ -236,6 +236,53 @@ fn what_does_not_fit_is_refused_with_its_place() {
 }
 
 #[test]
+fn friction_has_its_keys_and_limits() {
+    let gap = |more: &str| format!("{A}{B}{GAP}{more}");
+    let input = read(&gap(
+        "friction = 0.4\ntangential_stiffness = \"180 MN/m\"\n",
+    ));
+    let input = input.expect("a sound model");
+    let system = System::assemble(&input.model).expect("a sound model");
+    let own = |index: usize| system.contacts[index].friction.expect("friction");
+    let sum: f64 = (0..5).map(|index| own(index).stiffness).sum();
+    assert!((sum / 180e6 - 1.0).abs() < 1e-12, "{sum}");
+    assert_eq!(own(0).coefficient, 0.4);
+    // Without a stiffness: 2(1 − ν)/(2 − ν) with ν = 0.2 of that against pressing.
+    let input = read(&gap(
+        "friction = 0.4\nlaw = \"linear\"\nstiffness = \"900 MN/m\"\n",
+    ));
+    let system = System::assemble(&input.expect("a sound model").model).expect("a sound model");
+    let sum: f64 = system
+        .contacts
+        .iter()
+        .map(|contact| contact.friction.expect("friction").stiffness)
+        .sum();
+    assert!((sum / 800e6 - 1.0).abs() < 1e-12, "{sum}");
+    let system = System::assemble(&read(&gap("")).expect("a sound model").model);
+    let system = system.expect("a sound model");
+    assert!(
+        system
+            .contacts
+            .iter()
+            .all(|contact| contact.friction.is_none())
+    );
+    for (more, expected) in [
+        ("friction = 1.0\n", "must lie between 0 and 1"),
+        ("friction = -0.1\n", "must lie between 0 and 1"),
+        (
+            "tangential_stiffness = \"180 MN/m\"\n",
+            "is for faces with friction",
+        ),
+        (
+            "friction = 0.4\nlaw = \"restitution\"\n",
+            "needs a contact force",
+        ),
+    ] {
+        assert!(said(&gap(more)).contains(expected), "{}", said(&gap(more)));
+    }
+}
+
+#[test]
 fn an_angle_needs_plans() {
     let text = r#"
 [motion]

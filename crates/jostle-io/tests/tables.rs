@@ -41,6 +41,7 @@ width = "10 mm"
 
 fn impact(start: f64) -> ImpactSummary {
     ImpactSummary {
+        sliding: None,
         centre_m: None,
         start_s: start,
         end_s: start + 0.25,

@@ -344,8 +344,30 @@ pub struct Impact {
     pub finished: bool,
     /// Time integral of the force \[N·s\].
     pub impulse: f64,
-    /// Energy dissipated by the contact \[J\].
+    /// Energy dissipated by the contact, without friction \[J\].
     pub dissipated: f64,
+    /// What slides along the face.
+    pub sliding: Sliding,
+}
+
+/// What happens along the face of an impact of two buildings in space.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sliding {
+    /// Speed along the face at first contact, the first building against the second, along the normal turned by +90°
+    /// \[m/s\].
+    pub slip_speed: f64,
+    /// Greatest friction force, either sign, and its instant \[N, s\].
+    pub peak_force: f64,
+    /// See `peak_force`.
+    pub peak_force_at: f64,
+    /// Greatest slip since first contact, either sign \[m\].
+    pub slip_peak: f64,
+    /// Time integral of the friction force, with its sign \[N·s\].
+    pub impulse: f64,
+    /// Energy dissipated by friction \[J\].
+    pub friction: f64,
+    /// Whether it ended because a corner slid off, with its force up.
+    pub slid_off: bool,
 }
 
 impl Impact {
@@ -370,6 +392,8 @@ pub struct FaceImpact {
     pub peak_force: Extreme,
     /// Centre of pressure then, on the site \[m\].
     pub centre: [f64; 2],
+    /// Greatest total friction force along the face, either sign, at the end of a step, and its instant \[N\].
+    pub peak_friction: Extreme,
 }
 
 impl FaceImpact {
@@ -381,6 +405,7 @@ impl FaceImpact {
             end: start,
             peak_force: Extreme::default(),
             centre: [0.0; 2],
+            peak_friction: Extreme::default(),
         }
     }
 }
@@ -426,17 +451,20 @@ pub struct Energy {
     pub links: f64,
     /// Energy of hinges.
     pub hysteretic: f64,
-    /// Energy of contacts.
+    /// Energy of contacts, without friction.
     pub contact: f64,
+    /// Dissipated by friction along faces, with what its springs hold.
+    pub friction: f64,
     /// Greatest |imbalance| met at any recorded instant, relative to the greatest energy until then \[–\].
     pub worst_imbalance: f64,
 }
 
 impl Energy {
-    /// Input − (kinetic + strain + damped + hysteretic + contact) \[J\].
+    /// Input − (kinetic + strain + damped + hysteretic + contact + friction) \[J\].
     #[must_use]
     pub fn residual(&self) -> f64 {
-        self.input - (self.kinetic + self.strain + self.damped + self.hysteretic + self.contact)
+        let held = self.kinetic + self.strain + self.damped + self.hysteretic + self.contact;
+        self.input - (held + self.friction)
     }
 
     /// |residual| / input at this instant \[–\]; zero without input energy.

@@ -111,7 +111,7 @@ mod simd;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
-pub use interface::{UnmatchedFloors, floor_and_height};
+pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Given, Gravity,
     Hinges, Integrator, Joint, Level, Link, MemberRequest, Model, ModelFault, PlanArea,

@@ -2,6 +2,7 @@
 
 use crate::contact::Memory;
 use crate::hysteresis::HysteresisMemory;
+use crate::interface::FrictionMemory;
 use crate::structure::{Motion, StoreyForce};
 use crate::system::{BuildingSystem, System};
 
@@ -73,6 +74,8 @@ pub struct Episode {
     pub impulse: f64,
     /// Work done so far \[J\].
     pub work: f64,
+    /// Friction along the face.
+    pub friction: FrictionMemory,
 }
 
 impl Episode {
@@ -91,6 +94,7 @@ impl Episode {
             peak_indentation: 0.0,
             impulse: 0.0,
             work: 0.0,
+            friction: FrictionMemory::default(),
         }
     }
 }

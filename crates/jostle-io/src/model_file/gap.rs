@@ -98,7 +98,13 @@ fn plan_contact<'n>(
 ) -> (PlanContact, Option<Field<'n>>) {
     let mut contact = PlanContact::default();
     if !in_space {
-        for key in ["points", "reach", "stiffness_per_length"] {
+        for key in [
+            "points",
+            "reach",
+            "stiffness_per_length",
+            "friction",
+            "tangential_stiffness",
+        ] {
             if let Some(field) = reader.get(view, key) {
                 *reader.bad(&field, "is for buildings with a plan") =
                     Some(format!("remove {key}, or give every building a plan"));
@@ -117,6 +123,10 @@ fn plan_contact<'n>(
             .quantity(&field, Dimension::Length)
             .unwrap_or(contact.reach);
     }
+    let friction = optional(reader, view, "friction", Dimension::Dimensionless);
+    contact.friction = friction.unwrap_or(contact.friction);
+    contact.tangential_stiffness =
+        optional(reader, view, "tangential_stiffness", Dimension::Stiffness);
     let per_length = reader.get(view, "stiffness_per_length");
     if let (Some(field), true) = (&per_length, view.has("stiffness")) {
         *reader.bad(field, "cannot be combined with stiffness") = Some("keep one of them".into());

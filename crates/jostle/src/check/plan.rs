@@ -1,6 +1,7 @@
 //! Faults of buildings with plans, and of gaps between them.
 
 use super::{Faults, each};
+use crate::contact::LawKind;
 use crate::interface::faces_of_gap;
 use crate::interface::plan_contacts::MOST_POINTS;
 use crate::model::{Base, Building, Gap, Model, PlanArea, PlanPoint, Structure, Tiers};
@@ -275,6 +276,7 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
         },
     );
     faults.positive(contact.reach, format!("{path}.reach"), "m");
+    check_friction(faults, path, gap);
     faults.require(gap.widths.len() == 1, format!("{path}.width"), || {
         "takes one value between buildings with a plan".into()
     });
@@ -290,6 +292,47 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
             model.buildings[between[1]].name
         )
     });
+}
+
+/// Faults of friction along the faces of a gap.
+fn check_friction(faults: &mut Faults, path: &str, gap: &Gap) {
+    let contact = gap.in_plan;
+    faults.require(
+        (0.0..1.0).contains(&contact.friction),
+        format!("{path}.friction"),
+        || {
+            format!(
+                "must lie between 0 and 1, 1 excluded, found {}; concrete on concrete has some 0.4",
+                contact.friction
+            )
+        },
+    );
+    if let Some(stiffness) = contact.tangential_stiffness {
+        let at = format!("{path}.tangential_stiffness");
+        faults.positive(stiffness, at.clone(), "N/m");
+        faults.require(contact.friction != 0.0, at, || {
+            "is for faces with friction; add friction = 0.4, or remove it".into()
+        });
+    }
+    if contact.friction > 0.0 {
+        let law = gap.law.kind;
+        faults.require(
+            law != LawKind::Restitution,
+            format!("{path}.friction"),
+            || {
+                format!(
+                    "needs a contact force, which the law {} does not have; choose another law",
+                    law.name()
+                )
+            },
+        );
+        let is_rubber = matches!(law, LawKind::Rubber(_));
+        faults.require(
+            !is_rubber || contact.tangential_stiffness.is_some(),
+            format!("{path}.tangential_stiffness"),
+            || "has no usual value for rubber; add tangential_stiffness = \"50 MN/m\"".into(),
+        );
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! A place where two buildings, or a building and a wall, can touch.
 
 use super::PortPair;
+use super::friction::Friction;
 use super::plan_contacts::PlanContactKind;
 use crate::contact::ForceLaw;
 use crate::model::PlanPoint;
@@ -20,6 +21,8 @@ pub struct Contact {
     pub law: ForceLaw,
     /// Where it is in plan; `None` in one plane.
     pub plan: Option<PlanPlace>,
+    /// Friction along the face; `None` without.
+    pub friction: Option<Friction>,
 }
 
 /// A point of a face, or a corner, in plan.
@@ -68,6 +71,7 @@ impl Contact {
                 damping: 0.0,
             },
             plan: None,
+            friction: None,
         }
     }
 }

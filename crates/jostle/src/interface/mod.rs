@@ -3,6 +3,7 @@
 mod contact;
 pub(crate) mod contact_points;
 mod dof_row;
+mod friction;
 mod graph;
 mod link;
 pub(crate) mod plan_contacts;
@@ -13,6 +14,7 @@ mod row;
 pub use contact::{Contact, PlanPlace};
 pub use contact_points::{UnmatchedFloors, floor_and_height};
 pub use dof_row::DofRow;
+pub use friction::{Friction, FrictionMemory, sticking_stiffness};
 pub(crate) use graph::InterfaceGraph;
 pub use link::LinkElement;
 pub use plan_contacts::PlanContactKind;

@@ -464,6 +464,12 @@ pub struct PlanContact {
     pub reach: f64,
     /// Whether the stiffness of the law is per metre of face rather than that of a whole face.
     pub per_length: bool,
+    /// Coefficient of friction along faces, 0 ≤ μ < 1 \[–\].
+    pub friction: f64,
+    /// Stiffness of a whole face against sliding while it sticks, > 0; `None` for that of [`sticking_stiffness`] \[N/m\].
+    ///
+    /// [`sticking_stiffness`]: crate::sticking_stiffness
+    pub tangential_stiffness: Option<f64>,
 }
 
 impl Default for PlanContact {
@@ -472,6 +478,8 @@ impl Default for PlanContact {
             points: 5,
             reach: 0.5,
             per_length: false,
+            friction: 0.0,
+            tangential_stiffness: None,
         }
     }
 }

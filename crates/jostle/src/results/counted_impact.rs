@@ -119,6 +119,7 @@ mod tests {
             finished: true,
             impulse: 10.0,
             dissipated: 2.0,
+            sliding: crate::history::Sliding::default(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::history::{FaceImpact, FloorPeaks, Impact};
+use crate::history::{FaceImpact, FloorPeaks, Impact, Sliding};
 use crate::interface::Contact;
 use crate::quantity::{Quantity, Unit};
 use crate::stepping::Outcome;
@@ -88,6 +88,47 @@ pub struct PlanContactSummary {
     pub normal: [f64; 2],
     /// Length of the face; zero for a corner \[m\].
     pub overlap_m: f64,
+    /// What slides along it; absent without friction.
+    #[serde(flatten)]
+    pub sliding: Option<SlidingSummary>,
+}
+
+/// Friction along a face over all its impacts.
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
+pub struct SlidingSummary {
+    /// Greatest friction force, either sign \[N\].
+    pub tangential_peak_n: f64,
+    /// Time integral of the friction force, with its sign \[N·s\].
+    pub tangential_impulse_n_s: f64,
+    /// Greatest slip since the first contact of an impact, either sign \[m\].
+    pub slip_peak_m: f64,
+    /// Energy dissipated by friction \[J\].
+    pub friction_j: f64,
+}
+
+impl SlidingSummary {
+    /// Of all impacts of a contact.
+    pub(super) fn new<'a>(impacts: impl Iterator<Item = &'a Impact>) -> Self {
+        impacts.fold(Self::default(), |all, impact| {
+            let own = &impact.sliding;
+            Self {
+                tangential_peak_n: all.tangential_peak_n.max(own.peak_force),
+                tangential_impulse_n_s: all.tangential_impulse_n_s + own.impulse,
+                slip_peak_m: all.slip_peak_m.max(own.slip_peak),
+                friction_j: all.friction_j + own.friction,
+            }
+        })
+    }
+}
+
+/// Friction along the face of one impact.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct ImpactSliding {
+    /// Speed along the face at first contact, the first building against the second, along the normal turned by +90°
+    /// \[m/s\].
+    pub slip_speed_m_s: f64,
+    /// Time integral of the friction force, with its sign \[N·s\].
+    pub tangential_impulse_n_s: f64,
 }
 
 /// Of a floor of a building in a run; `None` in one plane.
@@ -132,6 +173,7 @@ pub(super) fn place_of_face(system: &System, face: usize) -> Option<PlanContactS
         plan_m: [0, 1].map(|axis| 0.5 * (first.at[axis] + last.at[axis])),
         normal: first.normal,
         overlap_m: first.overlap,
+        sliding: None,
     })
 }
 
@@ -183,9 +225,27 @@ pub(super) fn reported_impacts(system: &System, outcome: &Outcome) -> Vec<Impact
             finished: points.iter().all(|point| point.finished),
             impulse: points.iter().fold(0.0, |sum, point| sum + point.impulse),
             dissipated: points.iter().fold(0.0, |sum, point| sum + point.dissipated),
+            sliding: sliding_of(face, &points),
         })
     };
     outcome.face_impacts.iter().filter_map(whole).collect()
+}
+
+/// Of a face: the greatest total friction, the slip speed of the first point that touched, the greatest slip of any, and sums.
+fn sliding_of(face: &FaceImpact, points: &[&Impact]) -> Sliding {
+    let sum = |of: fn(&Sliding) -> f64| points.iter().fold(0.0, |sum, p| sum + of(&p.sliding));
+    Sliding {
+        slip_speed: points.first().map_or(0.0, |first| first.sliding.slip_speed),
+        peak_force: face.peak_friction.value,
+        peak_force_at: face.peak_friction.at,
+        slip_peak: points
+            .iter()
+            .map(|point| point.sliding.slip_peak)
+            .fold(0.0, f64::max),
+        impulse: sum(|own| own.impulse),
+        friction: sum(|own| own.friction),
+        slid_off: points.iter().any(|point| point.sliding.slid_off),
+    }
 }
 
 /// Centre of pressure at the greatest force of an impact \[m\]; `None` in one plane.

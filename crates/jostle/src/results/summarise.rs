@@ -1,7 +1,8 @@
 //! Computes the numbers of `summary.json` from the outcome of a run.
 
 use super::in_plan::{
-    building_in_plan, centre_of, floor_in_plan, place_of_face, points_of, reported_impacts,
+    ImpactSliding, PlanContactSummary, SlidingSummary, building_in_plan, centre_of, floor_in_plan,
+    place_of_face, points_of, reported_impacts,
 };
 use crate::contact::{LawKind, RestitutionIs};
 use crate::history::Impact;
@@ -114,7 +115,7 @@ impl Summary {
             links: (0..model.links.len())
                 .map(|index| link_summary(index, run))
                 .collect(),
-            energy: energy_summary(outcome),
+            energy: energy_summary(system, outcome),
             promise: promise_summary(run),
             work: work_summary(run),
             contact_sensitivity: None,
@@ -378,7 +379,11 @@ fn contact_summary(
         height_m: contact.height,
         in_plan: contact
             .plan
-            .and_then(|place| place_of_face(system, place.face)),
+            .and_then(|place| place_of_face(system, place.face))
+            .map(|place| PlanContactSummary {
+                sliding: contact.friction.map(|_| SlidingSummary::new(all())),
+                ..place
+            }),
         width_m: widths.fold(f64::INFINITY, f64::min),
         closing_peak_m: closing.value,
         closing_peak_at_s: closing.at,
@@ -391,6 +396,10 @@ fn contact_summary(
             .iter()
             .map(|counted| ImpactSummary {
                 centre_m: centre_of(&counted.impact, outcome),
+                sliding: contact.friction.map(|_| ImpactSliding {
+                    slip_speed_m_s: counted.impact.sliding.slip_speed,
+                    tangential_impulse_n_s: counted.impact.sliding.impulse,
+                }),
                 ..ImpactSummary::from(counted)
             })
             .collect(),
@@ -415,11 +424,12 @@ impl From<&CountedImpact> for ImpactSummary {
             touches: counted.touches,
             simultaneous: counted.simultaneous,
             centre_m: None,
+            sliding: None,
         }
     }
 }
 
-fn energy_summary(outcome: &Outcome) -> EnergySummary {
+fn energy_summary(system: &System, outcome: &Outcome) -> EnergySummary {
     let energy = &outcome.energy;
     EnergySummary {
         input_j: energy.input,
@@ -429,6 +439,11 @@ fn energy_summary(outcome: &Outcome) -> EnergySummary {
         links_j: energy.links,
         hysteretic_j: energy.hysteretic,
         contact_j: energy.contact,
+        friction_j: system
+            .contacts
+            .iter()
+            .any(|c| c.friction.is_some())
+            .then_some(energy.friction),
         imbalance: energy.imbalance(),
         worst_imbalance: energy.worst_imbalance,
     }

@@ -100,6 +100,7 @@ impl EnergyAudit {
             links,
             hysteretic: self.springs - stored.springs,
             contact: self.contact,
+            friction: 0.0,
             worst_imbalance: 0.0,
         })
     }

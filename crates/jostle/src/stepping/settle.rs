@@ -44,9 +44,10 @@ impl ContactEquations {
 /// The zero of δ + w F(δ) − (δ_free − others), which increases with δ.
 fn settle_one(closed: &mut Closed, own_compliance: f64, opened_by_others: f64) {
     let free = closed.free - opened_by_others;
+    let start = *closed;
     let force = |indentation: f64| {
-        let rate = closed.free_rate + closed.rate_gain * (indentation - closed.free);
-        closed.law.follow(indentation, rate, &closed.memory).force
+        let rate = start.free_rate + start.rate_gain * (indentation - start.free);
+        start.respond(indentation, rate).force
     };
     // The force cannot be greater than at `free`, so the indentation cannot be less than this.
     let other = free - own_compliance * force(free);
@@ -88,6 +89,7 @@ mod tests {
             start_slope: 0.0,
             turn: None,
             start_acceleration: 0.0,
+            friction: None,
         }
     }
 

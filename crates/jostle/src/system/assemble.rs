@@ -1,9 +1,12 @@
 //! From a model to a system.
 
 use super::{BuildingSystem, System, finite};
-use crate::contact::ContactLaw;
+use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean};
-use crate::interface::{Contact, LinkElement, PlanPlace, Port, PortPair, Row, faces_of_gap};
+use crate::interface::{
+    Contact, Friction, LinkElement, PlanPlace, Port, PortPair, Row, faces_of_gap,
+    sticking_stiffness,
+};
 use crate::model::{Model, ModelFault, PlanPoint, Structure, Tier};
 use crate::structure::Discretization;
 
@@ -183,18 +186,36 @@ fn plan_contacts(system: &System, model: &Model, index: usize, first: usize) -> 
             true if face.overlap > 0.0 => gap.law.stiffness * face.overlap,
             _ => gap.law.stiffness,
         };
+        let sticking = gap.in_plan.tangential_stiffness.unwrap_or_else(|| {
+            let law = ContactLaw {
+                stiffness: whole,
+                ..gap.law
+            };
+            sticking_stiffness(&law, effective_mass(masses[0], masses[1]))
+        });
         for point in &face.points {
-            let port = |building: usize, floor: usize, mass: f64| {
+            let port = |building: usize, floor: usize, mass: f64, direction: PlanPoint| {
                 let own = &system.buildings[building];
-                Port {
+                Some(Port {
                     building,
-                    row: own.row_at(floor, point.at, face.normal),
+                    row: own.row_at(floor, point.at, direction),
                     mass: point.share * mass,
                     floor: Some(floor + 1),
                     height: own.floors[floor].height,
-                }
+                })
             };
-            let ports = PortPair([Some(port(a, *i, masses[0])), Some(port(b, *j, masses[1]))]);
+            let ports = |direction| {
+                PortPair([
+                    port(a, *i, masses[0], direction),
+                    port(b, *j, masses[1], direction),
+                ])
+            };
+            let friction = (gap.in_plan.friction > 0.0).then(|| Friction {
+                coefficient: gap.in_plan.friction,
+                stiffness: point.share * sticking,
+                ports: ports([-face.normal[1], face.normal[0]]),
+            });
+            let ports = ports(face.normal);
             let law = ContactLaw {
                 stiffness: point.share * whole,
                 ..gap.law
@@ -212,6 +233,7 @@ fn plan_contacts(system: &System, model: &Model, index: usize, first: usize) -> 
                     overlap: face.overlap,
                     share: point.share,
                 }),
+                friction,
                 ..Contact::without_law(ports)
             });
         }

@@ -6,7 +6,7 @@ mod finite;
 mod members;
 mod rating;
 
-use crate::interface::{Contact, DofRow, LinkElement, Port, PortPair};
+use crate::interface::{Contact, DofRow, Friction, LinkElement, Port, PortPair};
 use crate::model::LEVEL_TOLERANCE;
 
 pub use building::{BuildingSystem, Corner, Direction, Floor, Track};
@@ -66,6 +66,18 @@ impl System {
             members_followed: Vec::new(),
             ratings: Vec::new(),
         }
+    }
+
+    /// Contacts with friction along their faces.
+    pub(crate) fn frictions(&self) -> impl Iterator<Item = &Friction> {
+        let contacts = self.contacts.iter();
+        contacts.filter_map(|contact| contact.friction.as_ref())
+    }
+
+    /// Points of all contacts, then those along the faces of contacts with friction.
+    pub(crate) fn contact_ports(&self) -> impl Iterator<Item = &PortPair> {
+        let normal = self.contacts.iter().map(|contact| &contact.ports);
+        normal.chain(self.frictions().map(|friction| &friction.ports))
     }
 
     /// Whether its buildings move in both horizontal directions and turn.

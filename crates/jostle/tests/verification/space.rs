@@ -271,12 +271,17 @@ fn a_turned_site_has_the_same_impacts() {
             beta: 2e-3,
         };
     }
-    let (_, own) = run(&model(buildings.clone(), gaps.clone()), &motion);
     let turned = changed(&buildings, |[x, y]| [-y, x], false, |[x, y, t]| [y, x, t]);
     let mut turned_motion = motion.clone();
     turned_motion.bearing.as_mut().expect("a bearing").angle += 0.5 * PI;
-    let (_, other) = run(&model(turned, gaps), &turned_motion);
-    same(&own, &other, [0, 1, 2], "turned");
+    for friction in [0.0, 0.3] {
+        let mut gaps = gaps.clone();
+        gaps.iter_mut()
+            .for_each(|gap| gap.in_plan.friction = friction);
+        let (_, own) = run(&model(buildings.clone(), gaps.clone()), &motion);
+        let (_, other) = run(&model(turned.clone(), gaps), &turned_motion);
+        same(&own, &other, [0, 1, 2], "turned");
+    }
 }
 
 /// Everything seen in a mirror along x.
@@ -309,6 +314,43 @@ fn the_order_of_buildings_does_not_matter() {
 }
 
 /// T = 2π √(m/k_x), 2π √(m/k_y) and 2π √(J/k_θ) without eccentricity.
+/// Friction takes energy, is bounded by μ times the contact force, and leaves nothing behind without a coefficient.
+#[test]
+fn friction_takes_energy_and_vanishes_with_its_coefficient() {
+    let (buildings, mut gaps, motion) = around_a_corner();
+    for gap in &mut gaps {
+        gap.in_plan.friction = 0.3;
+    }
+    let (_, rough) = run(&model(buildings.clone(), gaps.clone()), &motion);
+    assert!(rough.energy.friction > 1.0, "{}", rough.energy.friction);
+    assert!(rough.energy.worst_imbalance < 1e-9);
+    let works: f64 = rough.impacts.iter().map(|own| own.sliding.friction).sum();
+    close(
+        works,
+        rough.energy.friction,
+        works,
+        1e-9,
+        "work of friction",
+    );
+    for impact in &rough.impacts {
+        let bound = 0.3 * impact.peak_force * (1.0 + 1e-9);
+        assert!(impact.sliding.peak_force <= bound, "{impact:?}");
+        assert!(impact.sliding.impulse.abs() <= 0.3 * impact.impulse * (1.0 + 1e-6));
+        assert!(impact.sliding.friction >= -1e-6 * rough.energy.friction);
+    }
+    // Hardly any friction is close to none.
+    for gap in &mut gaps {
+        gap.in_plan.friction = 0.0;
+    }
+    let (_, smooth) = run(&model(buildings.clone(), gaps.clone()), &motion);
+    for gap in &mut gaps {
+        gap.in_plan.friction = 1e-9;
+    }
+    let (_, almost) = run(&model(buildings, gaps), &motion);
+    same(&smooth, &almost, [0, 1, 2], "friction of a billionth");
+    assert!(rough.impacts.len() != smooth.impacts.len() || rough.impacts != smooth.impacts);
+}
+
 #[test]
 fn torsion_has_the_period_of_its_polar_mass() {
     let plan = rectangle(0.0, 0.0, 10.0, 6.0);

@@ -21,6 +21,9 @@ pub struct EnergySummary {
     pub hysteretic_j: f64,
     /// Energy of contacts.
     pub contact_j: f64,
+    /// Dissipated by friction along faces; absent without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_j: Option<f64>,
     /// |input − sum of the others| / input at the end \[–\].
     pub imbalance: f64,
     /// Greatest imbalance over time, relative to the greatest energy until then \[–\].
@@ -38,6 +41,7 @@ impl EnergySummary {
         Quantity::<Self>::real("links_j", Unit::J, "the part of links", |e| e.links_j),
         Quantity::<Self>::real("hysteretic_j", Unit::J, "energy of hinges", |e| e.hysteretic_j).in_study(),
         Quantity::<Self>::real("contact_j", Unit::J, "energy of contacts", |e| e.contact_j).in_study(),
+        Quantity::<Self>::optional("friction_j", Unit::J, "dissipated by friction along faces; only with friction", |e| e.friction_j).not_in_summary(),
         Quantity::<Self>::real("imbalance", Unit::NONE, "energy imbalance at the end, relative to the input", |e| e.imbalance).in_study(),
         Quantity::<Self>::real("worst_imbalance", Unit::NONE, "greatest imbalance over time, relative to the greatest energy until then", |e| e.worst_imbalance).in_study(),
     ];

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::quantity::{Quantity, Unit};
-use crate::results::in_plan::PlanContactSummary;
+use crate::results::in_plan::{ImpactSliding, PlanContactSummary};
 
 /// One gap and its contacts.
 #[derive(Clone, Debug, Serialize, PartialEq)]
@@ -163,6 +163,9 @@ pub struct ImpactSummary {
     /// Centre of pressure at the greatest force, on the site; absent in one plane \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre_m: Option<[f64; 2]>,
+    /// Friction along the face; absent without.
+    #[serde(flatten)]
+    pub sliding: Option<ImpactSliding>,
 }
 
 #[rustfmt::skip]

@@ -100,6 +100,7 @@ impl<E: StepEquations> Direct<E> {
             start_slope: 0.0,
             turn: None,
             start_acceleration: 0.0,
+            friction: None,
         }
     }
 

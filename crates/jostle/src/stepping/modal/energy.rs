@@ -21,6 +21,7 @@ pub(super) struct Audit {
     pub(super) input: f64,
     pub(super) damped: f64,
     pub(super) contact: f64,
+    pub(super) friction: f64,
     imbalance: Imbalance,
 }
 
@@ -45,6 +46,7 @@ impl Audit {
             links,
             hysteretic: 0.0,
             contact: self.contact,
+            friction: self.friction,
             worst_imbalance: 0.0,
         })
     }
@@ -92,21 +94,30 @@ impl ModalStepper<'_> {
     fn contact_work(&mut self, run: &mut RunState<'_>, step: f64) {
         for closed in &run.coupling.closed {
             let index = closed.contact;
-            let ContactPhase::Closed(episode) = &mut run.phases[index] else {
+            let contact = closed.friction.map_or(index, |friction| friction.contact);
+            let ContactPhase::Closed(episode) = &mut run.phases[contact] else {
                 continue;
             };
-            let width = run.system.contacts[index].width;
+            let (width, first) = match closed.friction {
+                Some(_) => (0.0, episode.friction.force),
+                None => (run.system.contacts[index].width, episode.force),
+            };
             let closing = self.reduced.closing_of_modes(index, &self.scratch);
             let leaning = 2.0 * self.reduced.closing_of_modes(index, &self.moment) - closing;
             let before = self.reduced.closing(index, &self.u[0]) - width;
-            let (first, last) = (episode.force, run.trials[index].force);
+            let last = run.trials[index].force;
             let bent = self.predicted[index].bend(first, last);
             let work = last * run.trials[index].indentation
                 - first * before
                 - (last - first) * (closing / step - width)
                 - bent * leaning / step;
-            episode.work += work;
-            self.energy.contact += work;
+            if closed.friction.is_some() {
+                episode.friction.work += work;
+                self.energy.friction += work;
+            } else {
+                episode.work += work;
+                self.energy.contact += work;
+            }
         }
     }
 

@@ -101,6 +101,9 @@ impl ModalStepper<'_> {
         for _ in 0..ROUNDS {
             for row in 0..n {
                 let closed = &mut run.coupling.closed[row];
+                if let Some(friction) = &mut closed.friction {
+                    friction.pressed = forces[friction.normal];
+                }
                 let gain = closed.rate_gain;
                 let others = openings.columns(row);
                 let beyond: f64 = others
@@ -227,13 +230,25 @@ impl ForceEquations {
         self.change.clear();
         for (row, closed) in closed.iter().enumerate() {
             let (indentation, rate) = self.pressed(row, closed);
-            let response = closed.law.follow(indentation, rate, &closed.memory);
+            let pressed = closed.friction.map(|own| self.forces[own.normal]);
+            let response = match (&closed.friction, pressed) {
+                (Some(own), Some(pressed)) => own.respond(indentation, pressed),
+                _ => closed.law.follow(indentation, rate, &closed.memory),
+            };
             self.change.push(response.force - self.forces[row]);
             for column in openings.columns(row) {
                 let slope = response.by_indentation * openings.get(row, column)
                     + response.by_rate * rates.get(row, column);
                 let unit = if column == row { 1.0 } else { 0.0 };
                 self.matrix.set(row, column, slope + unit);
+            }
+            // Friction that slips follows the contact force.
+            if let (Some(own), Some(pressed)) = (&closed.friction, pressed)
+                && response.by_indentation == 0.0
+                && pressed > 0.0
+            {
+                let share = own.friction.coefficient.copysign(response.force);
+                self.matrix.set(row, own.normal, -share);
             }
         }
     }
@@ -267,6 +282,7 @@ mod tests {
             start_slope: 0.0,
             turn: None,
             start_acceleration: 0.0,
+            friction: None,
         }
     }
 

@@ -13,6 +13,7 @@ mod energy;
 mod estimate;
 mod forces;
 mod free_steps;
+mod friction;
 mod links;
 mod member_kernels;
 mod member_ratios;

@@ -3,7 +3,7 @@
 use super::stepper::ModalStepper;
 use crate::contact::{ForceLaw, momentum};
 use crate::state::{ContactPhase, Episode};
-use crate::stepping::coupling::Closed;
+use crate::stepping::coupling::{Closed, Rubbing};
 use crate::stepping::runner::{Jump, RunState};
 
 /// Fewest and most parts of a free step after velocities have jumped: dashpots and high modes answer at once, and soon no
@@ -17,6 +17,8 @@ const STEPS_PER_RADIAN: f64 = 2.0;
 pub(super) const AHEAD: f64 = 1e-3;
 /// Parts of a step in which a force sets in or ends.
 const CORNER_PARTS: u32 = 16;
+/// Parts of a step over which friction is predicted.
+const FRICTION_PARTS: u32 = 16;
 
 /// A contact force as it can be predicted at the start of a step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,6 +29,44 @@ pub(super) struct PredictedForce {
     slope: f64,
     /// What the parabola of the same mean and end would rise over the step if it went on as it starts \[N\].
     rise: f64,
+}
+
+/// Relative motion of two faces that accelerate evenly.
+#[derive(Clone, Copy, Debug)]
+struct Drift {
+    start: f64,
+    rate: f64,
+    acceleration: f64,
+    jerk: f64,
+}
+
+impl Drift {
+    /// Displacement and rate after a time \[s\].
+    fn after(&self, t: f64) -> [f64; 2] {
+        let Self {
+            start,
+            rate,
+            acceleration,
+            jerk,
+        } = self;
+        [
+            start + t * (rate + t / 2.0 * (acceleration + t / 3.0 * jerk)),
+            rate + t * (acceleration + t / 2.0 * jerk),
+        ]
+    }
+}
+
+/// Friction of a closed contact, if it has any.
+fn rubbing(run: &RunState<'_>, contact: usize, episode: &Episode) -> Option<Rubbing> {
+    let friction = run.system.contacts[contact].friction?;
+    let mut closed = run.coupling.closed.iter();
+    Some(Rubbing {
+        contact,
+        normal: closed.position(|closed| closed.contact == contact)?,
+        friction,
+        origin: episode.friction.origin,
+        pressed: episode.force,
+    })
 }
 
 impl PredictedForce {
@@ -40,6 +80,7 @@ impl ModalStepper<'_> {
     /// A closed contact that would open and close again within the tried step.
     pub(super) fn opens_unseen(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
         let closed = run.coupling.closed.iter();
+        let closed = closed.filter(|closed| closed.friction.is_none());
         let mut unseen = closed.filter(|closed| {
             let trial = &run.trials[closed.contact];
             let parting = self.reduced.closing(closed.contact, &self.rate[0]) < 0.0;
@@ -58,7 +99,9 @@ impl ModalStepper<'_> {
         if !run.plan.chooses_contact_steps() {
             return None;
         }
-        let mut closed = run.coupling.closed.iter().map(|closed| closed.contact);
+        let closed = run.coupling.closed.iter();
+        let closed = closed.filter(|closed| closed.friction.is_none());
+        let mut closed = closed.map(|closed| closed.contact);
         closed.find(|&index| {
             let known = match run.phases[index] {
                 ContactPhase::Closed(episode) => episode.force.abs(),
@@ -118,13 +161,24 @@ impl ModalStepper<'_> {
         self.bend.fill(0.0);
         run.coupling.clear();
         for (place, &index) in self.reduced.graph.order.iter().enumerate() {
-            let ContactPhase::Closed(episode) = &run.phases[index] else {
+            let contact = self.contact_of(run, index);
+            let ContactPhase::Closed(episode) = &run.phases[contact] else {
                 continue;
             };
-            let predicted = self.predict(run, index, episode, step);
+            let (friction, predicted, start) = if contact == index {
+                let predicted = self.predict(run, index, episode, step);
+                (None, predicted, episode.force)
+            } else {
+                let Some(rubbing) = rubbing(run, contact, episode) else {
+                    continue;
+                };
+                let predicted = self.predict_friction(run, index, &rubbing, episode, step);
+                (Some(rubbing), predicted, episode.friction.force)
+            };
             let closed = Closed {
                 contact: index,
-                law: run.system.contacts[index].law,
+                friction,
+                law: run.system.contacts[contact].law,
                 memory: episode.memory,
                 free: 0.0,
                 free_rate: 0.0,
@@ -135,12 +189,85 @@ impl ModalStepper<'_> {
                 turn: None,
                 start_acceleration: 0.0,
             };
-            let bend = predicted.bend(episode.force, 0.0);
+            let bend = predicted.bend(start, 0.0);
             self.reduced.push_apart(index, bend, &mut self.bend);
             run.coupling.closed.push(closed);
             run.coupling.places.push(place);
             self.predicted[index] = predicted;
         }
+    }
+
+    /// Relative motion of a contact over a step if its faces go on as they accelerate now.
+    fn drift(&self, run: &RunState<'_>, index: usize, step: f64) -> Drift {
+        let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
+        let [along, across] = self.peaks.driven();
+        let driven = self.reduced.closing(index, along);
+        let [then, now] = run.ground;
+        let mut jerk = closing(&self.unloaded_jerk) - driven * (now[0] - then[0]) / step;
+        if !across.is_empty() {
+            jerk -= self.reduced.closing(index, across) * (now[1] - then[1]) / step;
+        }
+        Drift {
+            start: closing(&self.u),
+            rate: closing(&self.rate),
+            acceleration: closing(&self.acceleration),
+            jerk,
+        }
+    }
+
+    /// Friction over a step if the faces go on as they accelerate now: it may stick and slip by turns.
+    fn predict_friction(
+        &self,
+        run: &RunState<'_>,
+        index: usize,
+        rubbing: &Rubbing,
+        episode: &Episode,
+        step: f64,
+    ) -> PredictedForce {
+        let contact = &run.system.contacts[rubbing.contact];
+        let pressing = self.drift(run, rubbing.contact, step);
+        let sliding = self.drift(run, index, step);
+        let own = &rubbing.friction;
+        let before = episode.friction.force;
+        let (mut origin, mut end, mut sum, mut first) = (rubbing.origin, before, before, before);
+        for part in 1..=FRICTION_PARTS {
+            let t = step * f64::from(part) / f64::from(FRICTION_PARTS);
+            let [closing, rate] = pressing.after(t);
+            let pressed = contact
+                .law
+                .follow(closing - contact.width, rate, &episode.memory);
+            let [slip, _] = sliding.after(t);
+            (end, _) = own.force(slip, origin, pressed.force);
+            origin = own.origin(slip, end);
+            // Simpson's rule.
+            sum += match part {
+                FRICTION_PARTS => end,
+                _ if part % 2 == 1 => 4.0 * end,
+                _ => 2.0 * end,
+            };
+            if part == 1 {
+                first = end;
+            }
+        }
+        let parts = f64::from(FRICTION_PARTS);
+        let mean = sum / (3.0 * parts);
+        PredictedForce {
+            end,
+            slope: (first - before) * parts / step,
+            rise: 6.0 * mean - 4.0 * before - 2.0 * end,
+        }
+    }
+
+    /// The contact whose force, or friction, has a place in the list of ports.
+    pub(super) fn contact_of(&self, run: &RunState<'_>, index: usize) -> usize {
+        let contacts = run.phases.len();
+        if index < contacts {
+            return index;
+        }
+        let own = self.reduced.friction.iter();
+        own.clone()
+            .position(|place| *place == Some(index))
+            .unwrap_or(index)
     }
 
     /// A contact force over a step if the faces go on as they accelerate now.
@@ -152,22 +279,15 @@ impl ModalStepper<'_> {
         step: f64,
     ) -> PredictedForce {
         let contact = &run.system.contacts[index];
-        let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
-        let start = closing(&self.u) - run.system.contacts[index].width;
-        let (rate, acceleration) = (closing(&self.rate), closing(&self.acceleration));
-        let [along, across] = self.peaks.driven();
-        let driven = self.reduced.closing(index, along);
-        let [then, now] = run.ground;
-        let mut jerk = closing(&self.unloaded_jerk) - driven * (now[0] - then[0]) / step;
-        if !across.is_empty() {
-            jerk -= self.reduced.closing(index, across) * (now[1] - then[1]) / step;
-        }
+        let drift = self.drift(run, index, step);
+        let (start, rate, acceleration) =
+            (drift.start - contact.width, drift.rate, drift.acceleration);
         let respond =
             |indentation: f64, rate: f64| contact.law.follow(indentation, rate, &episode.memory);
         let force = |share: f64| {
             let t = share * step;
-            let indentation = start + t * (rate + t / 2.0 * (acceleration + t / 3.0 * jerk));
-            let rate = rate + t * (acceleration + t / 2.0 * jerk);
+            let indentation = start + t * (rate + t / 2.0 * (acceleration + t / 3.0 * drift.jerk));
+            let rate = rate + t * (acceleration + t / 2.0 * drift.jerk);
             respond(indentation, rate).force
         };
         let (before, half, end) = (episode.force, force(0.5), force(1.0));

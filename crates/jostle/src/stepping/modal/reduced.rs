@@ -35,9 +35,11 @@ pub(super) struct Reduced {
     pub(super) buildings: Vec<ReducedBuilding>,
     /// The available registers.
     arch: Arch,
-    /// Where the two faces of every contact show; `None` is a wall.
+    /// Where the two faces of every contact show, then those of friction along them; `None` is a wall.
     pub(super) ports: Vec<[Option<Shown>; 2]>,
-    /// What a force at every contact makes of modal loads.
+    /// Of every contact, the place of its friction in the list of ports and in all that follow its order.
+    pub(super) friction: Vec<Option<usize>>,
+    /// What a force at every contact makes of modal loads, then friction.
     pub(super) unit_forces: Vec<UnitForce>,
     /// Links of the system, then damping of buildings that couples their modes.
     pub(super) links: Vec<ModalLink>,
@@ -193,6 +195,12 @@ impl Reduced {
         bases: Vec<Arc<Basis>>,
         work: &mut Work,
     ) -> Result<Self, (usize, NotPositive)> {
+        let mut rubbing = system.contacts.len()..;
+        let friction = system
+            .contacts
+            .iter()
+            .map(|contact| contact.friction.and_then(|_| rubbing.next()));
+        let friction: Vec<Option<usize>> = friction.collect();
         let mut reduced = Self {
             damping: Vec::new(),
             stiffness: Vec::new(),
@@ -201,7 +209,8 @@ impl Reduced {
             directions: Vec::new(),
             buildings: Vec::new(),
             arch: Arch::new(),
-            ports: vec![[None; 2]; system.contacts.len()],
+            ports: vec![[None; 2]; rubbing.start],
+            friction,
             unit_forces: Vec::new(),
             links: Vec::new(),
             graph: InterfaceGraph::default(),
@@ -214,14 +223,13 @@ impl Reduced {
             reduced.arch = Arch::Scalar;
         }
         reduced.add_links(system);
-        let contacts = 0..system.contacts.len();
-        reduced.unit_forces = contacts
+        reduced.unit_forces = (0..reduced.ports.len())
             .map(|contact| UnitForce::new(&reduced, contact))
             .collect();
         for own in &mut reduced.buildings {
             own.members.set_pushes(&reduced.unit_forces);
         }
-        let ports = system.contacts.iter().map(|contact| &contact.ports);
+        let ports = system.contact_ports();
         let groups = (0..reduced.buildings.len()).map(|own| reduced.linked_with(own).start);
         let groups: Vec<usize> = groups.collect();
         reduced.graph = InterfaceGraph::new(ports, groups.len(), |own| groups[own]);
@@ -288,8 +296,8 @@ impl Reduced {
         } = Watched::new(system, index);
         let corners = corners.start + self.watched()..corners.end + self.watched();
         let watching = self.watched();
-        for (ports, contact) in self.ports.iter_mut().zip(&system.contacts) {
-            for (shown, port) in ports.iter_mut().zip(&contact.ports.0) {
+        for (ports, pair) in self.ports.iter_mut().zip(system.contact_ports()) {
+            for (shown, port) in ports.iter_mut().zip(&pair.0) {
                 let Some(port) = port.filter(|port| port.building == index) else {
                     continue;
                 };
@@ -550,7 +558,7 @@ impl Watched {
         let corners = places.len()..places.len() + 2 * building.corners.len();
         places.extend(building.corners.iter().flat_map(|corner| corner.rows));
         let mut ports = Vec::new();
-        let contacts = system.contacts.iter().map(|contact| contact.ports.0);
+        let contacts = system.contact_ports().map(|ports| ports.0);
         let links = system.links.iter().map(|link| link.ports.0);
         let all = contacts.chain(links).flatten().flatten();
         let joined = all.filter(|port| port.building == index);

@@ -14,9 +14,9 @@ use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
 use super::reduced::{Reduced, Table};
 use super::struck::{StruckStep, WithinStep};
 use super::turning::{Loads, StepMotion};
-use crate::history::{Energy, Work};
+use crate::history::{Energy, Extreme, Work};
 use crate::motion::{Ground, GroundMotion};
-use crate::state::{Episode, State};
+use crate::state::{ContactPhase, Episode, State};
 use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::control::{Observed, next_division};
@@ -189,7 +189,7 @@ impl<'a> ModalStepper<'a> {
             jerk: vec![0.0; modes],
             open_steps: vec![0; contacts],
             equations: ForceEquations::default(),
-            predicted: vec![PredictedForce::default(); contacts],
+            predicted: vec![PredictedForce::default(); reduced.ports.len()],
             links: LinkMotion::new(system, reduced),
             energy: Audit::default(),
             peaks,
@@ -340,6 +340,14 @@ impl<'a> ModalStepper<'a> {
             trial.rate = self.reduced.closing(index, &self.rate[1]);
             trial.force = 0.0;
         }
+        // Slips of faces with friction follow.
+        for (index, trial) in run.trials.iter_mut().enumerate().skip(contacts) {
+            if index < self.reduced.ports.len() {
+                trial.indentation = self.reduced.closing(index, &self.u[1]);
+                trial.rate = self.reduced.closing(index, &self.rate[1]);
+                trial.force = 0.0;
+            }
+        }
     }
 
     /// Modal jerks now without the load term, into `jerk`; the modal accelerations are in `scratch`.
@@ -427,6 +435,9 @@ impl<'a> ModalStepper<'a> {
             if slope != 0.0 {
                 self.reduced.push_apart(index, slope, &mut self.jerk);
             }
+            if let ContactPhase::Closed(episode) = &run.phases[index] {
+                self.push_friction_slope(run, index, episode.force, episode, slope);
+            }
         }
         self.show_accelerations();
         let jumped = [&self.v[0][..], &self.scratch, &self.jerk];
@@ -490,6 +501,29 @@ impl Stepper for ModalStepper<'_> {
 
     fn closing_rate(&self, _: &RunState<'_>, contact: usize) -> f64 {
         self.reduced.closing(contact, &self.rate[0])
+    }
+
+    fn slip(&self, _: &RunState<'_>, contact: usize) -> [f64; 2] {
+        self.reduced.friction[contact].map_or([0.0; 2], |place| {
+            [&self.u[0], &self.rate[0]].map(|list| self.reduced.closing(place, list))
+        })
+    }
+
+    fn follow_friction(
+        &mut self,
+        run: &RunState<'_>,
+        contact: usize,
+        episode: &mut Episode,
+        peak: Extreme,
+        span: [f64; 2],
+    ) {
+        self.rub(run, contact, episode, peak, span);
+    }
+
+    fn change_friction(&mut self, contact: usize, change: f64) {
+        if let Some(place) = self.reduced.friction[contact] {
+            self.reduced.push_apart(place, change, &mut self.p[0]);
+        }
     }
 
     fn division(&self, run: &RunState<'_>) -> u32 {
@@ -614,6 +648,7 @@ impl Stepper for ModalStepper<'_> {
         };
         // Still the slope at the end when the contact opens there.
         self.reduced.push_apart(contact, slope, &mut self.jerk);
+        self.push_friction_slope(run, contact, trial.force, episode, slope);
         slope
     }
 
@@ -639,7 +674,11 @@ impl Stepper for ModalStepper<'_> {
         let (contact, trial) = (&run.system.contacts[index], &run.trials[index]);
         let law = &contact.law;
         let response = law.follow(trial.indentation, trial.rate, &episode.memory);
-        let missed = (trial.force - self.predicted[index].end).abs();
+        let mut missed = (trial.force - self.predicted[index].end).abs();
+        if let Some(place) = self.reduced.friction[index] {
+            let rubbed = run.trials[place].force - self.predicted[place].end;
+            missed = missed.max(rubbed.abs());
+        }
         let observed = Observed {
             step,
             stiffness: response.by_indentation,

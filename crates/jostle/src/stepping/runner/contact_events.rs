@@ -1,7 +1,7 @@
 //! Contacts that close and open: found in tried steps, and applied.
 
 use super::{RunState, Runner, Stepper};
-use crate::history::Impact;
+use crate::history::{Impact, Sliding};
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::clock::NextStep;
 use crate::stepping::events::{Crossing, Cubic};
@@ -209,6 +209,8 @@ impl<S: Stepper> Runner<'_, S> {
         if episode.force != 0.0 {
             self.stepper
                 .change_force(&self.run, contact, -episode.force);
+            self.stepper
+                .change_friction(contact, -episode.friction.force);
             self.stepper.restart(&self.run, false);
         }
         episode.end = self.run.time;
@@ -268,6 +270,7 @@ impl<S: Stepper> Runner<'_, S> {
             finished: true,
             impulse: jump.impulse,
             dissipated: jump.dissipated,
+            sliding: Sliding::default(),
         });
     }
 
@@ -277,6 +280,14 @@ impl<S: Stepper> Runner<'_, S> {
             if let ContactPhase::Closed(mut episode) = self.run.phases[index] {
                 let law = &self.run.system.contacts[index].law;
                 let change = episode.jump(law, &self.run.trials[index], self.run.time);
+                if let Some(friction) = &self.run.system.contacts[index].friction {
+                    // What presses may hold no more.
+                    let own = &mut episode.friction;
+                    let [slip, _] = self.stepper.slip(&self.run, index);
+                    let (force, _) = friction.force(slip, own.origin, episode.force);
+                    self.stepper.change_friction(index, force - own.force);
+                    (own.origin, own.force) = (friction.origin(slip, force), force);
+                }
                 self.run.phases[index] = ContactPhase::Closed(episode);
                 self.stepper.change_force(&self.run, index, change);
             }
@@ -295,6 +306,12 @@ impl<S: Stepper> Runner<'_, S> {
         );
         episode.force = contact.law.onset(rate);
         episode.peak_force = episode.force;
+        if contact.friction.is_some() {
+            let [slip, speed] = self.stepper.slip(&self.run, index);
+            let own = &mut episode.friction;
+            (own.origin, own.touched_at, own.slip_speed) = (slip, slip, speed);
+            own.peak_at = self.run.time;
+        }
         // The division that the impact expected of this rate needs, in view of the strongest of the gap so far.
         let expected = contact.law.elastic_force(contact.effective_mass(), rate);
         let strongest = &mut self.run.strongest[contact.gap];
@@ -356,5 +373,14 @@ pub(super) fn impact_of(contact: usize, episode: &Episode, finished: bool) -> Op
         finished,
         impulse: episode.impulse,
         dissipated: episode.work,
+        sliding: Sliding {
+            slip_speed: episode.friction.slip_speed,
+            peak_force: episode.friction.peak,
+            peak_force_at: episode.friction.peak_at,
+            slip_peak: episode.friction.slip_peak,
+            impulse: episode.friction.impulse,
+            friction: episode.friction.work,
+            slid_off: false,
+        },
     })
 }

@@ -25,7 +25,7 @@ pub(in crate::stepping) struct RunState<'a> {
     /// Ground acceleration now and at the end of the tried step \[m/s²\].
     pub(in crate::stepping) ground: [Ground; 2],
     pub(in crate::stepping) phases: Vec<ContactPhase>,
-    /// Of contacts, then of links.
+    /// Of contacts, then of links, or of friction along contacts in the order of contacts.
     pub(in crate::stepping) trials: Vec<ContactTrial>,
     /// Into how many parts every contact divides the free-vibration step.
     pub(in crate::stepping) contact_division: Vec<u32>,
@@ -65,7 +65,10 @@ impl<'a> RunState<'a> {
             time: 0.0,
             ground: [ground, ground],
             phases: vec![ContactPhase::Open; contacts],
-            trials: vec![ContactTrial::default(); contacts + system.links.len()],
+            trials: vec![
+                ContactTrial::default();
+                contacts + system.links.len().max(system.frictions().count())
+            ],
             contact_division: vec![1; contacts],
             finest_in_contact: 0,
             strongest: vec![0.0; gaps.max().unwrap_or(0)],

@@ -1,6 +1,7 @@
 //! The interface between the runner and a stepper.
 
 use super::{ContactTrial, RunState};
+use crate::history::Extreme;
 use crate::motion::Ground;
 use crate::state::Episode;
 use crate::stepping::clock::{Clock, NextStep};
@@ -38,6 +39,30 @@ pub(in crate::stepping) trait Stepper {
 
     /// Rate of closing of a contact now \[m/s\].
     fn closing_rate(&self, run: &RunState<'_>, contact: usize) -> f64;
+
+    /// Slip along the face of a contact with friction and its rate now \[m, m/s\].
+    fn slip(&self, run: &RunState<'_>, contact: usize) -> [f64; 2] {
+        let _ = (run, contact);
+        [0.0; 2]
+    }
+
+    /// Brings the friction of a closed contact to the end of the accepted step with its start and length \[s\]; the contact
+    /// force has this peak in it.
+    fn follow_friction(
+        &mut self,
+        run: &RunState<'_>,
+        contact: usize,
+        episode: &mut Episode,
+        peak: Extreme,
+        span: [f64; 2],
+    ) {
+        let _ = (run, contact, episode, peak, span);
+    }
+
+    /// A sudden change of the friction along a contact \[N\].
+    fn change_friction(&mut self, contact: usize, change: f64) {
+        let _ = (contact, change);
+    }
 
     /// Into how many parts the free-vibration step is divided now.
     fn division(&self, run: &RunState<'_>) -> u32;
