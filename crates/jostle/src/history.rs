@@ -392,7 +392,8 @@ pub struct FaceImpact {
     pub peak_force: Extreme,
     /// Centre of pressure then, on the site \[m\].
     pub centre: [f64; 2],
-    /// Greatest total friction force along the face, either sign, at the end of a step, and its instant \[N\].
+    /// Greatest total friction force along the face, either sign, and its instant \[N\]: where slipping turns into sticking it
+    /// is read at the end of a step.
     pub peak_friction: Extreme,
 }
 

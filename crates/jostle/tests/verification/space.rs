@@ -338,6 +338,11 @@ fn friction_takes_energy_and_vanishes_with_its_coefficient() {
         assert!(impact.sliding.impulse.abs() <= 0.3 * impact.impulse * (1.0 + 1e-6));
         assert!(impact.sliding.friction >= -1e-6 * rough.energy.friction);
     }
+    let faces = rough.face_impacts.iter();
+    let most = faces
+        .map(|own| own.peak_friction.value / own.peak_force.value)
+        .fold(0.0, f64::max);
+    assert!(most > 0.1 && most <= 0.3 * (1.0 + 1e-9), "{most}");
     // Hardly any friction is close to none.
     for gap in &mut gaps {
         gap.in_plan.friction = 0.0;

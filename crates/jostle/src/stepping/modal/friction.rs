@@ -15,13 +15,9 @@ impl ModalStepper<'_> {
         episode: &mut Episode,
         peak: Extreme,
         [start, step]: [f64; 2],
-    ) {
-        let (Some(place), Some(friction)) = (
-            self.reduced.friction[contact],
-            &run.system.contacts[contact].friction,
-        ) else {
-            return;
-        };
+    ) -> Option<f64> {
+        let place = self.reduced.friction[contact]?;
+        let friction = run.system.contacts[contact].friction.as_ref()?;
         let trial = &run.trials[place];
         let own = &mut episode.friction;
         let bend = self.predicted[place].bend(own.force, trial.force);
@@ -48,6 +44,7 @@ impl ModalStepper<'_> {
         }
         own.origin = friction.origin(trial.indentation, trial.force);
         own.force = trial.force;
+        slid.then(|| friction.coefficient.copysign(trial.force))
     }
 
     /// Adds the rate of friction to the modal jerks, where its contact has this force and rate of force \[N, N/s\].

@@ -516,8 +516,8 @@ impl Stepper for ModalStepper<'_> {
         episode: &mut Episode,
         peak: Extreme,
         span: [f64; 2],
-    ) {
-        self.rub(run, contact, episode, peak, span);
+    ) -> Option<f64> {
+        self.rub(run, contact, episode, peak, span)
     }
 
     fn change_friction(&mut self, contact: usize, change: f64) {

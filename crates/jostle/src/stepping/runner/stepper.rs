@@ -47,7 +47,7 @@ pub(in crate::stepping) trait Stepper {
     }
 
     /// Brings the friction of a closed contact to the end of the accepted step with its start and length \[s\]; the contact
-    /// force has this peak in it.
+    /// force has this peak in it. Returns ±μ if it slipped all the time.
     fn follow_friction(
         &mut self,
         run: &RunState<'_>,
@@ -55,8 +55,9 @@ pub(in crate::stepping) trait Stepper {
         episode: &mut Episode,
         peak: Extreme,
         span: [f64; 2],
-    ) {
+    ) -> Option<f64> {
         let _ = (run, contact, episode, peak, span);
+        None
     }
 
     /// A sudden change of the friction along a contact \[N\].
