@@ -243,7 +243,7 @@ fn friction_has_its_keys_and_limits() {
     ));
     let input = input.expect("a sound model");
     let system = System::assemble(&input.model).expect("a sound model");
-    let own = |index: usize| system.contacts[index].friction.expect("friction");
+    let own = |index: usize| system.contacts[index].friction.expect("friction").law;
     let sum: f64 = (0..5).map(|index| own(index).stiffness).sum();
     assert!((sum / 180e6 - 1.0).abs() < 1e-12, "{sum}");
     assert_eq!(own(0).coefficient, 0.4);
@@ -255,7 +255,7 @@ fn friction_has_its_keys_and_limits() {
     let sum: f64 = system
         .contacts
         .iter()
-        .map(|contact| contact.friction.expect("friction").stiffness)
+        .map(|contact| contact.friction.expect("friction").law.stiffness)
         .sum();
     assert!((sum / 800e6 - 1.0).abs() < 1e-12, "{sum}");
     let system = System::assemble(&read(&gap("")).expect("a sound model").model);
@@ -277,9 +277,28 @@ fn friction_has_its_keys_and_limits() {
             "friction = 0.4\nlaw = \"restitution\"\n",
             "needs a contact force",
         ),
+        (
+            "friction = 0.4\nlaw = \"rubber\"\nstiffness = \"2 MN/m^2.65\"\nthickness = \"50 mm\"\n",
+            "has no usual value for rubber",
+        ),
     ] {
         assert!(said(&gap(more)).contains(expected), "{}", said(&gap(more)));
     }
+    let flat = |building: &str| {
+        building
+            .lines()
+            .filter(|line| !line.starts_with("plan"))
+            .collect::<Vec<_>>()
+            .join("\n")
+    };
+    let plane = "stiffness = \"90 MN/m\"";
+    let a = flat(A).replace("stiffness = { x = \"60 MN/m\", y = \"85 MN/m\" }", plane);
+    let a = a.replace("eccentricity = [\"1 m\", \"-0.5 m\"]", "");
+    let said = said(&format!("{a}\n{}\n{GAP}friction = 0.4\n", flat(B)));
+    assert!(
+        said.contains("gap[0].friction: is for buildings with a plan"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -435,8 +435,11 @@ fn energy(page: &Page) -> Facts {
     if energy.hysteretic_j != 0.0 {
         facts.push(("hysteretic", format::energy(energy.hysteretic_j)));
     }
+    facts.extend([("contact", format::energy(energy.contact_j))]);
+    if let Some(friction) = energy.friction_j {
+        facts.push(("friction", format::energy(friction)));
+    }
     facts.extend([
-        ("contact", format::energy(energy.contact_j)),
         ("imbalance", format::plain(energy.imbalance, 2)),
         ("worst imbalance", format::plain(energy.worst_imbalance, 2)),
     ]);

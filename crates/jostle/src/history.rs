@@ -366,8 +366,26 @@ pub struct Sliding {
     pub impulse: f64,
     /// Energy dissipated by friction \[J\].
     pub friction: f64,
-    /// Whether it ended because a corner slid off, with its force up.
-    pub slid_off: bool,
+}
+
+impl Sliding {
+    /// Together with what follows: greatest values and sums, and the slip speed of the first.
+    #[must_use]
+    pub(crate) fn and(self, next: &Self) -> Self {
+        let (peak_force, peak_force_at) = if next.peak_force > self.peak_force {
+            (next.peak_force, next.peak_force_at)
+        } else {
+            (self.peak_force, self.peak_force_at)
+        };
+        Self {
+            slip_speed: self.slip_speed,
+            peak_force,
+            peak_force_at,
+            slip_peak: self.slip_peak.max(next.slip_peak),
+            impulse: self.impulse + next.impulse,
+            friction: self.friction + next.friction,
+        }
+    }
 }
 
 impl Impact {
@@ -392,8 +410,7 @@ pub struct FaceImpact {
     pub peak_force: Extreme,
     /// Centre of pressure then, on the site \[m\].
     pub centre: [f64; 2],
-    /// Greatest total friction force along the face, either sign, and its instant \[N\]: where slipping turns into sticking it
-    /// is read at the end of a step.
+    /// Greatest total friction force along the face, either sign, and its instant \[N\].
     pub peak_friction: Extreme,
 }
 

@@ -1,8 +1,8 @@
 //! State of a run.
 
 use crate::contact::Memory;
+use crate::history::Extreme;
 use crate::hysteresis::HysteresisMemory;
-use crate::interface::FrictionMemory;
 use crate::structure::{Motion, StoreyForce};
 use crate::system::{BuildingSystem, System};
 
@@ -47,6 +47,27 @@ pub enum ContactPhase {
     Open,
     /// The contact is closed.
     Closed(Episode),
+}
+
+/// Friction of an episode of a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrictionMemory {
+    /// Slip of the face without force \[m\].
+    pub origin: f64,
+    /// Slip of the face when it touched \[m\].
+    pub touched_at: f64,
+    /// Slip speed then, along t \[m/s\].
+    pub slip_speed: f64,
+    /// Force now \[N\].
+    pub force: f64,
+    /// Greatest force so far, either sign, and its instant \[N, s\].
+    pub peak: Extreme,
+    /// Greatest slip since the touch, either sign \[m\].
+    pub slip_peak: f64,
+    /// Time integral of the force so far \[N·s\].
+    pub impulse: f64,
+    /// Work done so far \[J\].
+    pub work: f64,
 }
 
 /// Record since a contact closed.

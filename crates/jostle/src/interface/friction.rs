@@ -23,27 +23,34 @@ pub fn sticking_stiffness(law: &ContactLaw, effective_mass: f64) -> f64 {
     SLIDING_OVER_PRESSING * pressing
 }
 
-/// Friction along a face with a spring that sticks before it slips (theory, Eq. Z13).
-///
-/// At a slip s of the face, which grows where the first building moves along t, the force is T = k (s − s₀) while
-/// |T| ≤ μ F, and ±μ F beyond; s₀ then follows. T pushes the first building by −T t and the second by +T t.
+/// Friction along a face at one of its points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// Coefficient μ, between 0 and 1 \[–\].
-    pub coefficient: f64,
-    /// Stiffness k while it sticks \[N/m\].
-    pub stiffness: f64,
+    /// Its law.
+    pub law: Coulomb,
     /// Displacement along the face, the normal turned by +90°.
     pub ports: PortPair,
 }
 
-impl Friction {
-    /// Force at a slip, and whether it sticks, from the slip without force and the contact force \[N\].
+/// Coulomb friction with a spring that sticks before it slips (theory, Eq. Z13).
+///
+/// The slip s grows as the first building moves along t against the second. The force is T = k (s − s₀) while |T| ≤ μ F.
+/// Beyond that it is ±μ F, and s₀ = s − T/k follows the slip. T pushes the first building by −T t and the second by +T t.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coulomb {
+    /// Coefficient μ, at least 0 and below 1 \[–\].
+    pub coefficient: f64,
+    /// Stiffness k while it sticks, > 0 \[N/m\].
+    pub stiffness: f64,
+}
+
+impl Coulomb {
+    /// Force at a slip \[N\], and whether it sticks; from the slip s₀ without force \[m\] and the contact force \[N\].
     #[must_use]
     #[inline]
-    pub fn force(&self, slip: f64, origin: f64, normal: f64) -> (f64, bool) {
+    pub fn force(&self, slip: f64, origin: f64, pressed: f64) -> (f64, bool) {
         let (bound, tried) = (
-            self.coefficient * normal.max(0.0),
+            self.coefficient * pressed.max(0.0),
             self.stiffness * (slip - origin),
         );
         if tried.abs() <= bound {
@@ -53,7 +60,7 @@ impl Friction {
         }
     }
 
-    /// The slip without force after a slip under a force.
+    /// The slip s₀ without force where a slip has a force \[m\].
     #[must_use]
     #[inline]
     pub fn origin(&self, slip: f64, force: f64) -> f64 {
@@ -61,50 +68,27 @@ impl Friction {
     }
 }
 
-/// Friction of an episode of a contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FrictionMemory {
-    /// Slip of the face without force \[m\].
-    pub origin: f64,
-    /// Slip of the face when it touched \[m\].
-    pub touched_at: f64,
-    /// Slip speed then, along t \[m/s\].
-    pub slip_speed: f64,
-    /// Force now \[N\].
-    pub force: f64,
-    /// Greatest force so far, either sign, and its instant \[N, s\].
-    pub peak: f64,
-    /// See `peak`.
-    pub peak_at: f64,
-    /// Greatest slip since the touch, either sign \[m\].
-    pub slip_peak: f64,
-    /// Time integral of the force so far \[N·s\].
-    pub impulse: f64,
-    /// Work done so far \[J\].
-    pub work: f64,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const FRICTION: Coulomb = Coulomb {
+        coefficient: 0.5,
+        stiffness: 1e6,
+    };
 
     /// A slip forth and back under a constant force: sticks, slips, sticks while it turns, slips back; the loop encloses
     /// 4 μF (s_max − μF/k).
     #[test]
     fn a_loop_dissipates_what_coulomb_says() {
-        let friction = Friction {
-            coefficient: 0.5,
-            stiffness: 1e6,
-            ports: PortPair([None; 2]),
-        };
         let (mut origin, mut before, mut work) = (0.0, (0.0, 0.0), 0.0);
         let mut stuck = 0;
         let n = 40_000;
         for i in 1..=2 * n {
             // Two periods; the second begins on the loop.
             let slip = 3e-3 * (4.0 * std::f64::consts::PI * f64::from(i) / f64::from(2 * n)).sin();
-            let (force, sticks) = friction.force(slip, origin, 1e3);
-            origin = friction.origin(slip, force);
+            let (force, sticks) = FRICTION.force(slip, origin, 1e3);
+            origin = FRICTION.origin(slip, force);
             if i > n {
                 work += 0.5 * (force + before.1) * (slip - before.0);
                 stuck += u32::from(sticks);
@@ -122,12 +106,7 @@ mod tests {
 
     #[test]
     fn an_open_face_has_no_friction() {
-        let friction = Friction {
-            coefficient: 0.5,
-            stiffness: 1e6,
-            ports: PortPair([None; 2]),
-        };
-        assert_eq!(friction.force(1.0, 0.0, 0.0).0, 0.0);
-        assert_eq!(friction.force(-1.0, 0.0, -5.0).0, 0.0);
+        assert_eq!(FRICTION.force(1.0, 0.0, 0.0).0, 0.0);
+        assert_eq!(FRICTION.force(-1.0, 0.0, -5.0).0, 0.0);
     }
 }

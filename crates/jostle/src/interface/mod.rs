@@ -14,7 +14,7 @@ mod row;
 pub use contact::{Contact, PlanPlace};
 pub use contact_points::{UnmatchedFloors, floor_and_height};
 pub use dof_row::DofRow;
-pub use friction::{Friction, FrictionMemory, sticking_stiffness};
+pub use friction::{Coulomb, Friction, sticking_stiffness};
 pub(crate) use graph::InterfaceGraph;
 pub use link::LinkElement;
 pub use plan_contacts::PlanContactKind;

@@ -49,6 +49,7 @@ fn join(first: &mut Impact, next: &Impact) {
     first.finished = next.finished;
     first.impulse += next.impulse;
     first.dissipated += next.dissipated;
+    first.sliding = first.sliding.and(&next.sliding);
 }
 
 /// Poundings of a gap: intervals in which at least one of its contacts is in impact.
@@ -105,6 +106,7 @@ pub fn find_simultaneous(contacts: &mut [Vec<CountedImpact>]) -> Poundings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::history::Sliding;
 
     fn impact(contact: usize, start: f64, end: f64) -> Impact {
         Impact {
@@ -119,8 +121,34 @@ mod tests {
             finished: true,
             impulse: 10.0,
             dissipated: 2.0,
-            sliding: crate::history::Sliding::default(),
+            sliding: Sliding::default(),
         }
+    }
+
+    #[test]
+    fn friction_of_joined_impacts_is_joined() {
+        let rubbing = |start: f64, force: f64| Impact {
+            sliding: Sliding {
+                slip_speed: start,
+                peak_force: force,
+                peak_force_at: start + 0.05,
+                slip_peak: 1e-3 * force,
+                impulse: -2.0 * force,
+                friction: 3.0 * force,
+            },
+            ..impact(0, start, start + 0.1)
+        };
+        let found = counted(&[rubbing(1.0, 4.0), rubbing(1.2, 5.0)], 0.5);
+        assert_eq!(found.len(), 1);
+        let expected = Sliding {
+            slip_speed: 1.0,
+            peak_force: 5.0,
+            peak_force_at: 1.25,
+            slip_peak: 5e-3,
+            impulse: -18.0,
+            friction: 27.0,
+        };
+        assert_eq!(found[0].impact.sliding, expected);
     }
 
     #[test]

@@ -109,15 +109,14 @@ pub struct SlidingSummary {
 impl SlidingSummary {
     /// Of all impacts of a contact.
     pub(super) fn new<'a>(impacts: impl Iterator<Item = &'a Impact>) -> Self {
-        impacts.fold(Self::default(), |all, impact| {
-            let own = &impact.sliding;
-            Self {
-                tangential_peak_n: all.tangential_peak_n.max(own.peak_force),
-                tangential_impulse_n_s: all.tangential_impulse_n_s + own.impulse,
-                slip_peak_m: all.slip_peak_m.max(own.slip_peak),
-                friction_j: all.friction_j + own.friction,
-            }
-        })
+        let none = Sliding::default();
+        let all = impacts.fold(none, |all, impact| all.and(&impact.sliding));
+        Self {
+            tangential_peak_n: all.peak_force,
+            tangential_impulse_n_s: all.impulse,
+            slip_peak_m: all.slip_peak,
+            friction_j: all.friction,
+        }
     }
 }
 
@@ -231,20 +230,15 @@ pub(super) fn reported_impacts(system: &System, outcome: &Outcome) -> Vec<Impact
     outcome.face_impacts.iter().filter_map(whole).collect()
 }
 
-/// Of a face: the greatest total friction, the slip speed of the first point that touched, the greatest slip of any, and sums.
+/// Of a face: the greatest total friction, and the points together, from the first that touched.
 fn sliding_of(face: &FaceImpact, points: &[&Impact]) -> Sliding {
-    let sum = |of: fn(&Sliding) -> f64| points.iter().fold(0.0, |sum, p| sum + of(&p.sliding));
+    let all = points.iter().map(|point| point.sliding);
     Sliding {
-        slip_speed: points.first().map_or(0.0, |first| first.sliding.slip_speed),
         peak_force: face.peak_friction.value,
         peak_force_at: face.peak_friction.at,
-        slip_peak: points
-            .iter()
-            .map(|point| point.sliding.slip_peak)
-            .fold(0.0, f64::max),
-        impulse: sum(|own| own.impulse),
-        friction: sum(|own| own.friction),
-        slid_off: points.iter().any(|point| point.sliding.slid_off),
+        ..all
+            .reduce(|first, next| first.and(&next))
+            .unwrap_or_default()
     }
 }
 

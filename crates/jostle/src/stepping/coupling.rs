@@ -2,8 +2,8 @@
 
 use crate::contact::{ContactResponse, ForceLaw, Memory};
 use crate::history::Extreme;
-use crate::interface::Friction;
 use crate::linear::envelope::Envelope;
+use crate::stepping::step_friction::StepFriction;
 
 /// One closed contact, or one link, in the step to be solved.
 #[derive(Clone, Copy, Debug)]
@@ -27,39 +27,14 @@ pub(crate) struct Closed {
     /// Relative acceleration of the two points at the start of the step \[m/s²\].
     pub(crate) start_acceleration: f64,
     /// Friction along the face of a contact instead of the law.
-    pub(crate) friction: Option<Rubbing>,
-}
-
-/// Friction along a closed contact in the step to be solved; its indentation is the slip of the face.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Rubbing {
-    /// The contact, and its place among the closed ones.
-    pub(crate) contact: usize,
-    pub(crate) normal: usize,
-    pub(crate) friction: Friction,
-    /// Slip without force \[m\].
-    pub(crate) origin: f64,
-    /// Contact force that limits it \[N\].
-    pub(crate) pressed: f64,
-}
-
-impl Rubbing {
-    /// The force at a slip under a contact force \[N\].
-    pub(crate) fn respond(&self, slip: f64, pressed: f64) -> ContactResponse {
-        let (force, sticks) = self.friction.force(slip, self.origin, pressed);
-        ContactResponse {
-            force,
-            by_indentation: if sticks { self.friction.stiffness } else { 0.0 },
-            by_rate: 0.0,
-        }
-    }
+    pub(crate) friction: Option<StepFriction>,
 }
 
 impl Closed {
     /// The force at an indentation and its rate; friction is that under a known contact force.
     pub(crate) fn respond(&self, indentation: f64, rate: f64) -> ContactResponse {
         match &self.friction {
-            Some(rubbing) => rubbing.respond(indentation, rubbing.pressed),
+            Some(friction) => friction.respond(indentation, friction.pressed),
             None => self.law.follow(indentation, rate, &self.memory),
         }
     }

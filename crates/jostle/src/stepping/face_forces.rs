@@ -1,7 +1,8 @@
 //! Total force of the points of a face of two buildings in space, impact by impact.
 
 use super::gap_forces::{StepForce, peak_of_sum};
-use crate::history::{Extreme, FaceImpact};
+use super::step_friction::FrictionPath;
+use crate::history::FaceImpact;
 use crate::system::System;
 
 /// Impacts of every face: from the first of its points that touches to the last that parts.
@@ -14,8 +15,9 @@ pub(super) struct FaceForces {
     step: Vec<(usize, [f64; 2], StepForce)>,
     /// Those of one face.
     together: Vec<StepForce>,
-    /// Friction at the end of the step of every closed point of a face, and ±μ of those that slipped all through it.
-    rubbed: Vec<(usize, f64, Option<f64>)>,
+    /// Friction of closed points over the step just accepted, with their faces and coefficients; and that of one face.
+    friction: Vec<(usize, f64, FrictionPath)>,
+    friction_of_face: Vec<FrictionPath>,
 }
 
 impl FaceForces {
@@ -28,7 +30,8 @@ impl FaceForces {
             current: vec![None; faces],
             step: Vec::with_capacity(points),
             together: Vec::with_capacity(points),
-            rubbed: Vec::with_capacity(points),
+            friction: Vec::with_capacity(points),
+            friction_of_face: Vec::with_capacity(points),
         }
     }
 
@@ -37,29 +40,9 @@ impl FaceForces {
         self.step.push((face, at, force));
     }
 
-    /// Adds the friction of such a point at the end of the step \[N\], and ±μ if it slipped all through it.
-    pub(super) fn rub(&mut self, face: usize, force: f64, slipped: Option<f64>) {
-        self.rubbed.push((face, force, slipped));
-    }
-
-    /// Greatest total friction of a face in the step: at its end, or with the greatest contact force if all its points slip
-    /// the same way.
-    fn friction(&self, face: usize, pressed: Extreme, end: f64) -> Extreme {
-        let own = || self.rubbed.iter().filter(|(own, ..)| *own == face);
-        let sum: f64 = own().map(|(_, force, _)| force).sum();
-        let all = own()
-            .map(|(.., slipped)| *slipped)
-            .reduce(|a, b| if a == b { a } else { None });
-        match all.flatten() {
-            Some(share) if share.abs() * pressed.value > sum.abs() => Extreme {
-                value: share.abs() * pressed.value,
-                at: pressed.at,
-            },
-            _ => Extreme {
-                value: sum.abs(),
-                at: end,
-            },
-        }
+    /// Adds the friction of such a point over the step, with its coefficient \[–\].
+    pub(super) fn add_friction(&mut self, face: usize, coefficient: f64, path: FrictionPath) {
+        self.friction.push((face, coefficient, path));
     }
 
     /// Updates impacts after a step \[s\] that began at `start` \[s\].
@@ -77,11 +60,15 @@ impl FaceForces {
                 self.impacts.len() - 1
             });
             let peak = peak_of_sum(&self.together, start, step);
-            let friction = self.friction(face, peak, start + step);
             let impact = &mut self.impacts[index];
             impact.end = start + step;
-            if friction.value > impact.peak_friction.value {
-                impact.peak_friction = friction;
+            let own = || self.friction.iter().filter(|(own, ..)| *own == face);
+            self.friction_of_face.clear();
+            self.friction_of_face.extend(own().map(|(.., path)| *path));
+            if let Some((_, coefficient, _)) = own().next() {
+                let limit = coefficient * impact.peak_force.value.max(peak.value);
+                let paths = &self.friction_of_face;
+                impact.peak_friction.widen(paths, limit, [start, step]);
             }
             if peak.value <= impact.peak_force.value {
                 continue;
@@ -99,6 +86,6 @@ impl FaceForces {
             }
         }
         self.step.clear();
-        self.rubbed.clear();
+        self.friction.clear();
     }
 }

@@ -25,6 +25,7 @@ mod runner;
 mod sensitivity;
 mod settle;
 mod simulate;
+mod step_friction;
 
 pub use outcome::{Accuracy, Outcome, PlanPeaks, Pounding, Progress, RunEnd, Settings, StepError};
 pub use plan::{ContactSteps, Plan};

@@ -4,7 +4,7 @@ use super::{BuildingSystem, System, finite};
 use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean};
 use crate::interface::{
-    Contact, Friction, LinkElement, PlanPlace, Port, PortPair, Row, faces_of_gap,
+    Contact, Coulomb, Friction, LinkElement, PlanPlace, Port, PortPair, Row, faces_of_gap,
     sticking_stiffness,
 };
 use crate::model::{Model, ModelFault, PlanPoint, Structure, Tier};
@@ -211,8 +211,10 @@ fn plan_contacts(system: &System, model: &Model, index: usize, first: usize) -> 
                 ])
             };
             let friction = (gap.in_plan.friction > 0.0).then(|| Friction {
-                coefficient: gap.in_plan.friction,
-                stiffness: point.share * sticking,
+                law: Coulomb {
+                    coefficient: gap.in_plan.friction,
+                    stiffness: point.share * sticking,
+                },
                 ports: ports([-face.normal[1], face.normal[0]]),
             });
             let ports = ports(face.normal);

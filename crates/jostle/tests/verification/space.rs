@@ -313,7 +313,6 @@ fn the_order_of_buildings_does_not_matter() {
     same(&own, &other, [1, 2, 0], "in another order");
 }
 
-/// T = 2π √(m/k_x), 2π √(m/k_y) and 2π √(J/k_θ) without eccentricity.
 /// Friction takes energy, is bounded by μ times the contact force, and leaves nothing behind without a coefficient.
 #[test]
 fn friction_takes_energy_and_vanishes_with_its_coefficient() {
@@ -343,6 +342,22 @@ fn friction_takes_energy_and_vanishes_with_its_coefficient() {
         .map(|own| own.peak_friction.value / own.peak_force.value)
         .fold(0.0, f64::max);
     assert!(most > 0.1 && most <= 0.3 * (1.0 + 1e-9), "{most}");
+    let mut finer = model(buildings.clone(), gaps.clone());
+    finer.analysis.tolerance = 1e-6;
+    let (_, exact) = run(&finer, &motion);
+    let accelerations = |outcome: &Outcome| -> Vec<f64> {
+        let along = outcome.floors.iter().flatten();
+        let across = outcome.in_plan.iter().flat_map(|own| &own.across);
+        along
+            .chain(across)
+            .map(|own| own.total_acceleration)
+            .collect()
+    };
+    let (got, expected) = (accelerations(&rough), accelerations(&exact));
+    let most = expected.iter().copied().fold(0.0, f64::max);
+    for (got, expected) in got.iter().zip(&expected) {
+        close(*got, *expected, most, 1e-3, "acceleration");
+    }
     // Hardly any friction is close to none.
     for gap in &mut gaps {
         gap.in_plan.friction = 0.0;
@@ -356,6 +371,7 @@ fn friction_takes_energy_and_vanishes_with_its_coefficient() {
     assert!(rough.impacts.len() != smooth.impacts.len() || rough.impacts != smooth.impacts);
 }
 
+/// T = 2π √(m/k_x), 2π √(m/k_y) and 2π √(J/k_θ) without eccentricity.
 #[test]
 fn torsion_has_the_period_of_its_polar_mass() {
     let plan = rectangle(0.0, 0.0, 10.0, 6.0);

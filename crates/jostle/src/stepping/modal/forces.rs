@@ -247,7 +247,7 @@ impl ForceEquations {
                 && response.by_indentation == 0.0
                 && pressed > 0.0
             {
-                let share = own.friction.coefficient.copysign(response.force);
+                let share = own.law.coefficient.copysign(response.force);
                 self.matrix.set(row, own.normal, -share);
             }
         }
@@ -258,6 +258,8 @@ impl ForceEquations {
 mod tests {
     use super::*;
     use crate::contact::ForceLaw;
+    use crate::interface::Coulomb;
+    use crate::stepping::step_friction::StepFriction;
 
     /// A full matrix, row by row.
     fn filled(n: usize, entries: &[f64]) -> Envelope {
@@ -301,6 +303,53 @@ mod tests {
             ..ForceEquations::default()
         };
         assert!(equations.solve(&mut [closed(law, 1e-6, 0.4)]).is_none());
+    }
+
+    /// A contact and the friction along it, each of which moves the other: slipping has T = μF, and Newton's method knows that
+    /// both grow together.
+    #[test]
+    fn friction_slips_with_the_contact_force() {
+        let law = ForceLaw::Hertz {
+            stiffness: 2e9,
+            damping: 0.4,
+        };
+        let friction = StepFriction {
+            contact: 0,
+            normal: 0,
+            law: Coulomb {
+                coefficient: 0.4,
+                stiffness: 5e7,
+            },
+            origin: 0.0,
+            pressed: 0.0,
+        };
+        let solve = |slip: f64| {
+            let mut contacts = [closed(law, 5e-3, 0.3), closed(law, slip, 0.2)];
+            contacts[1].friction = Some(friction);
+            let mut equations = ForceEquations {
+                openings: [
+                    filled(2, &[2e-9, 1.5e-9, 1.5e-9, 3e-9]),
+                    filled(2, &[3e-6, 2e-6, 2e-6, 4e-6]),
+                ],
+                forces: vec![1e5, 0.0],
+                ..ForceEquations::default()
+            };
+            let rounds = equations.solve(&mut contacts).expect("it settles");
+            let [pressed, rubbed] = [0, 1].map(|row| equations.forces[row]);
+            let indentation = 5e-3 - 2e-9 * pressed - 1.5e-9 * rubbed;
+            let rate = 0.3 - 3e-6 * pressed - 2e-6 * rubbed;
+            let expected = law.follow(indentation, rate, &contacts[0].memory).force;
+            assert!((pressed / expected - 1.0).abs() < 1e-12, "{pressed}");
+            (rounds, pressed, rubbed)
+        };
+        for slip in [2e-2, -2e-2] {
+            let (rounds, pressed, rubbed) = solve(slip);
+            assert!((rubbed - 0.4_f64.copysign(slip) * pressed).abs() < 1e-9 * pressed);
+            assert!(rounds <= 7, "{rounds}");
+        }
+        let (_, pressed, stuck) = solve(1e-3);
+        let slip = 1e-3 - 1.5e-9 * pressed - 3e-9 * stuck;
+        assert!((stuck - 5e7 * slip).abs() < 1e-6 && stuck.abs() < 0.4 * pressed);
     }
 
     /// Three coupled contacts, one of which is open at the end: every force equals that of its law for the motion

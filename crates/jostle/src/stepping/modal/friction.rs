@@ -1,60 +1,58 @@
 //! Friction along closed contacts, in modal coordinates.
 
 use super::stepper::ModalStepper;
-use crate::history::Extreme;
 use crate::state::Episode;
+use crate::stepping::events::Cubic;
+use crate::stepping::gap_forces::StepForce;
 use crate::stepping::runner::RunState;
+use crate::stepping::step_friction::{FRICTION_PARTS, FrictionPath};
+
+/// Share of the limit from which friction counts as at its limit.
+const AT_LIMIT: f64 = 1.0 - 1e-9;
 
 impl ModalStepper<'_> {
-    /// Brings the friction of a contact to the end of an accepted step with its start and length \[s\], in which the contact
-    /// force peaks so.
-    pub(super) fn rub(
+    /// Brings the friction of a contact to the end of an accepted step with its start and length \[s\] and the contact force
+    /// over it. Returns the friction as predicted, with the end it has come to.
+    pub(super) fn finish_friction(
         &self,
         run: &RunState<'_>,
         contact: usize,
         episode: &mut Episode,
-        peak: Extreme,
+        pressed: &StepForce,
         [start, step]: [f64; 2],
-    ) -> Option<f64> {
+    ) -> Option<FrictionPath> {
         let place = self.reduced.friction[contact]?;
-        let friction = run.system.contacts[contact].friction.as_ref()?;
+        let law = run.system.contacts[contact].friction?.law;
         let trial = &run.trials[place];
         let own = &mut episode.friction;
         let bend = self.predicted[place].bend(own.force, trial.force);
         own.impulse += step * (0.5 * (own.force + trial.force) - bend / 6.0);
-        own.slip_peak = own
-            .slip_peak
-            .max((trial.indentation - own.touched_at).abs());
-        // What slips peaks with the contact force; what sticks is followed from step to step.
-        let slips = |force: f64, pressed: f64| {
-            force != 0.0 && force.abs() >= friction.coefficient * pressed * (1.0 - 1e-9)
-        };
-        let slid = slips(own.force, episode.force)
-            && slips(trial.force, run.trials[contact].force)
-            && own.force * trial.force > 0.0;
-        let at_peak = (slid && peak.at > start && peak.at < start + step)
-            .then_some((friction.coefficient * peak.value, peak.at));
-        for (force, at) in at_peak
-            .into_iter()
-            .chain([(trial.force.abs(), start + step)])
-        {
-            if force > own.peak {
-                (own.peak, own.peak_at) = (force, at);
-            }
+        // The buildings have moved on: what was is in the second list.
+        let [then, before] =
+            [&self.u[1], &self.rate[1]].map(|list| self.reduced.closing(place, list));
+        let slip = Cubic::new(then, before, trial.indentation, trial.rate, step);
+        for at in slip.turning_points().chain([1.0]) {
+            own.slip_peak = own.slip_peak.max((slip.value(at) - own.touched_at).abs());
         }
-        own.origin = friction.origin(trial.indentation, trial.force);
+        let greatest = pressed.ends[0].max(pressed.ends[1]).max(pressed.peak.value);
+        let mut path = self.friction_paths[place - run.phases.len()];
+        path.ends[FRICTION_PARTS - 1] = trial.force;
+        own.peak
+            .widen(&[path], law.coefficient * greatest, [start, step]);
+        own.origin = law.origin(trial.indentation, trial.force);
         own.force = trial.force;
-        slid.then(|| friction.coefficient.copysign(trial.force))
+        Some(path)
     }
 
-    /// Adds the rate of friction to the modal jerks, where its contact has this force and rate of force \[N, N/s\].
+    /// Adds the rate of friction to the modal jerks; it has this force, and its contact this force and rate of force \[N, N/s\].
+    ///
+    /// Within its limit μF friction grows as the slip does; at the limit no faster than that.
     pub(super) fn push_friction_slope(
         &mut self,
         run: &RunState<'_>,
         contact: usize,
-        pressed: f64,
-        episode: &Episode,
-        pressed_slope: f64,
+        force: f64,
+        [pressed, pressed_slope]: [f64; 2],
     ) {
         let (Some(place), Some(friction)) = (
             self.reduced.friction[contact],
@@ -62,20 +60,13 @@ impl ModalStepper<'_> {
         ) else {
             return;
         };
-        let [slip, rate] =
-            [&self.u[0], &self.rate[0]].map(|list| self.reduced.closing(place, list));
-        let (force, sticks) = friction.force(slip, episode.friction.origin, pressed);
-        let sticking = friction.stiffness * rate;
-        let bound = friction.coefficient * pressed_slope;
-        let slope = if sticks && sticking.abs() <= bound.abs().max(force.abs()) && force != 0.0 {
-            sticking
-        } else {
-            bound.copysign(if force == 0.0 {
-                rate
-            } else {
-                force * pressed_slope
-            })
-        };
+        let law = friction.law;
+        let rate = self.reduced.closing(place, &self.rate[0]);
+        let mut slope = law.stiffness * rate;
+        if force.abs() >= AT_LIMIT * law.coefficient * pressed.max(0.0) {
+            let sign = if force == 0.0 { rate } else { force }.signum();
+            slope = sign * (sign * slope).min(law.coefficient * pressed_slope);
+        }
         self.reduced.push_apart(place, slope, &mut self.jerk);
     }
 }

@@ -3,8 +3,9 @@
 use super::stepper::ModalStepper;
 use crate::contact::{ForceLaw, momentum};
 use crate::state::{ContactPhase, Episode};
-use crate::stepping::coupling::{Closed, Rubbing};
+use crate::stepping::coupling::Closed;
 use crate::stepping::runner::{Jump, RunState};
+use crate::stepping::step_friction::{FRICTION_PARTS, StepFriction};
 
 /// Fewest and most parts of a free step after velocities have jumped: dashpots and high modes answer at once, and soon no
 /// more.
@@ -17,8 +18,6 @@ const STEPS_PER_RADIAN: f64 = 2.0;
 pub(super) const AHEAD: f64 = 1e-3;
 /// Parts of a step in which a force sets in or ends.
 const CORNER_PARTS: u32 = 16;
-/// Parts of a step over which friction is predicted.
-const FRICTION_PARTS: u32 = 16;
 
 /// A contact force as it can be predicted at the start of a step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -57,13 +56,13 @@ impl Drift {
 }
 
 /// Friction of a closed contact, if it has any.
-fn rubbing(run: &RunState<'_>, contact: usize, episode: &Episode) -> Option<Rubbing> {
-    let friction = run.system.contacts[contact].friction?;
+fn friction_of(run: &RunState<'_>, contact: usize, episode: &Episode) -> Option<StepFriction> {
+    let law = run.system.contacts[contact].friction?.law;
     let mut closed = run.coupling.closed.iter();
-    Some(Rubbing {
+    Some(StepFriction {
         contact,
         normal: closed.position(|closed| closed.contact == contact)?,
-        friction,
+        law,
         origin: episode.friction.origin,
         pressed: episode.force,
     })
@@ -161,7 +160,7 @@ impl ModalStepper<'_> {
         self.bend.fill(0.0);
         run.coupling.clear();
         for (place, &index) in self.reduced.graph.order.iter().enumerate() {
-            let contact = self.contact_of(run, index);
+            let contact = self.reduced.contact_of[index];
             let ContactPhase::Closed(episode) = &run.phases[contact] else {
                 continue;
             };
@@ -169,11 +168,12 @@ impl ModalStepper<'_> {
                 let predicted = self.predict(run, index, episode, step);
                 (None, predicted, episode.force)
             } else {
-                let Some(rubbing) = rubbing(run, contact, episode) else {
+                let Some(mut own) = friction_of(run, contact, episode) else {
                     continue;
                 };
-                let predicted = self.predict_friction(run, index, &rubbing, episode, step);
-                (Some(rubbing), predicted, episode.friction.force)
+                let before = episode.friction.force;
+                let predicted = self.predict_friction(run, index, &mut own, before, step);
+                (Some(own), predicted, before)
             };
             let closed = Closed {
                 contact: index,
@@ -215,59 +215,34 @@ impl ModalStepper<'_> {
         }
     }
 
-    /// Friction over a step if the faces go on as they accelerate now: it may stick and slip by turns.
+    /// Friction over a step if the faces go on as they accelerate now.
     fn predict_friction(
-        &self,
+        &mut self,
         run: &RunState<'_>,
         index: usize,
-        rubbing: &Rubbing,
-        episode: &Episode,
+        own: &mut StepFriction,
+        before: f64,
         step: f64,
     ) -> PredictedForce {
-        let contact = &run.system.contacts[rubbing.contact];
-        let pressing = self.drift(run, rubbing.contact, step);
+        let ContactPhase::Closed(episode) = &run.phases[own.contact] else {
+            return PredictedForce::default();
+        };
+        let contact = &run.system.contacts[own.contact];
+        let pressing = self.drift(run, own.contact, step);
         let sliding = self.drift(run, index, step);
-        let own = &rubbing.friction;
-        let before = episode.friction.force;
-        let (mut origin, mut end, mut sum, mut first) = (rubbing.origin, before, before, before);
-        for part in 1..=FRICTION_PARTS {
-            let t = step * f64::from(part) / f64::from(FRICTION_PARTS);
-            let [closing, rate] = pressing.after(t);
-            let pressed = contact
-                .law
-                .follow(closing - contact.width, rate, &episode.memory);
-            let [slip, _] = sliding.after(t);
-            (end, _) = own.force(slip, origin, pressed.force);
-            origin = own.origin(slip, end);
-            // Simpson's rule.
-            sum += match part {
-                FRICTION_PARTS => end,
-                _ if part % 2 == 1 => 4.0 * end,
-                _ => 2.0 * end,
-            };
-            if part == 1 {
-                first = end;
-            }
-        }
-        let parts = f64::from(FRICTION_PARTS);
-        let mean = sum / (3.0 * parts);
+        let path = own.follow(before, |share| {
+            let [closing, rate] = pressing.after(share * step);
+            let indentation = closing - contact.width;
+            let pressed = contact.law.follow(indentation, rate, &episode.memory);
+            [sliding.after(share * step)[0], pressed.force]
+        });
+        self.friction_paths[index - run.phases.len()] = path;
+        let end = path.end();
         PredictedForce {
             end,
-            slope: (first - before) * parts / step,
-            rise: 6.0 * mean - 4.0 * before - 2.0 * end,
+            slope: (path.ends[0] - before) * FRICTION_PARTS as f64 / step,
+            rise: 6.0 * path.mean() - 4.0 * before - 2.0 * end,
         }
-    }
-
-    /// The contact whose force, or friction, has a place in the list of ports.
-    pub(super) fn contact_of(&self, run: &RunState<'_>, index: usize) -> usize {
-        let contacts = run.phases.len();
-        if index < contacts {
-            return index;
-        }
-        let own = self.reduced.friction.iter();
-        own.clone()
-            .position(|place| *place == Some(index))
-            .unwrap_or(index)
     }
 
     /// A contact force over a step if the faces go on as they accelerate now.

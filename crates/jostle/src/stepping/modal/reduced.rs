@@ -39,6 +39,8 @@ pub(super) struct Reduced {
     pub(super) ports: Vec<[Option<Shown>; 2]>,
     /// Of every contact, the place of its friction in the list of ports and in all that follow its order.
     pub(super) friction: Vec<Option<usize>>,
+    /// The contact of every entry of that order.
+    pub(super) contact_of: Vec<usize>,
     /// What a force at every contact makes of modal loads, then friction.
     pub(super) unit_forces: Vec<UnitForce>,
     /// Links of the system, then damping of buildings that couples their modes.
@@ -195,12 +197,14 @@ impl Reduced {
         bases: Vec<Arc<Basis>>,
         work: &mut Work,
     ) -> Result<Self, (usize, NotPositive)> {
-        let mut rubbing = system.contacts.len()..;
-        let friction = system
-            .contacts
-            .iter()
-            .map(|contact| contact.friction.and_then(|_| rubbing.next()));
-        let friction: Vec<Option<usize>> = friction.collect();
+        let mut contact_of: Vec<usize> = (0..system.contacts.len()).collect();
+        let mut friction = vec![None; system.contacts.len()];
+        for (index, contact) in system.contacts.iter().enumerate() {
+            if contact.friction.is_some() {
+                friction[index] = Some(contact_of.len());
+                contact_of.push(index);
+            }
+        }
         let mut reduced = Self {
             damping: Vec::new(),
             stiffness: Vec::new(),
@@ -209,8 +213,9 @@ impl Reduced {
             directions: Vec::new(),
             buildings: Vec::new(),
             arch: Arch::new(),
-            ports: vec![[None; 2]; rubbing.start],
+            ports: vec![[None; 2]; contact_of.len()],
             friction,
+            contact_of,
             unit_forces: Vec::new(),
             links: Vec::new(),
             graph: InterfaceGraph::default(),

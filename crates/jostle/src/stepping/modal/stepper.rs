@@ -14,17 +14,19 @@ use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
 use super::reduced::{Reduced, Table};
 use super::struck::{StruckStep, WithinStep};
 use super::turning::{Loads, StepMotion};
-use crate::history::{Energy, Extreme, Work};
+use crate::history::{Energy, Work};
 use crate::motion::{Ground, GroundMotion};
 use crate::state::{ContactPhase, Episode, State};
 use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::control::{Observed, next_division};
 use crate::stepping::events::Cubic;
+use crate::stepping::gap_forces::StepForce;
 use crate::stepping::member_ratios::MemberRatios;
 use crate::stepping::outcome::{Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
+use crate::stepping::step_friction::FrictionPath;
 use crate::system::System;
 
 /// Most rows of a history in a step of free vibration.
@@ -64,6 +66,8 @@ pub(super) struct ModalStepper<'a> {
     pub(super) equations: ForceEquations,
     /// Forces of closed contacts over the tried step as they could be predicted.
     pub(super) predicted: Vec<PredictedForce>,
+    /// Friction over the tried step as it could be predicted.
+    pub(super) friction_paths: Vec<FrictionPath>,
     pub(super) links: LinkMotion,
     pub(super) energy: Audit,
     pub(super) peaks: Peaks,
@@ -190,6 +194,7 @@ impl<'a> ModalStepper<'a> {
             open_steps: vec![0; contacts],
             equations: ForceEquations::default(),
             predicted: vec![PredictedForce::default(); reduced.ports.len()],
+            friction_paths: vec![FrictionPath::default(); reduced.ports.len() - contacts],
             links: LinkMotion::new(system, reduced),
             energy: Audit::default(),
             peaks,
@@ -436,7 +441,12 @@ impl<'a> ModalStepper<'a> {
                 self.reduced.push_apart(index, slope, &mut self.jerk);
             }
             if let ContactPhase::Closed(episode) = &run.phases[index] {
-                self.push_friction_slope(run, index, episode.force, episode, slope);
+                self.push_friction_slope(
+                    run,
+                    index,
+                    episode.friction.force,
+                    [episode.force, slope],
+                );
             }
         }
         self.show_accelerations();
@@ -514,10 +524,10 @@ impl Stepper for ModalStepper<'_> {
         run: &RunState<'_>,
         contact: usize,
         episode: &mut Episode,
-        peak: Extreme,
+        pressed: &StepForce,
         span: [f64; 2],
-    ) -> Option<f64> {
-        self.rub(run, contact, episode, peak, span)
+    ) -> Option<FrictionPath> {
+        self.finish_friction(run, contact, episode, pressed, span)
     }
 
     fn change_friction(&mut self, contact: usize, change: f64) {
@@ -648,7 +658,10 @@ impl Stepper for ModalStepper<'_> {
         };
         // Still the slope at the end when the contact opens there.
         self.reduced.push_apart(contact, slope, &mut self.jerk);
-        self.push_friction_slope(run, contact, trial.force, episode, slope);
+        if let Some(place) = self.reduced.friction[contact] {
+            let force = run.trials[place].force;
+            self.push_friction_slope(run, contact, force, [trial.force, slope]);
+        }
         slope
     }
 
@@ -676,8 +689,8 @@ impl Stepper for ModalStepper<'_> {
         let response = law.follow(trial.indentation, trial.rate, &episode.memory);
         let mut missed = (trial.force - self.predicted[index].end).abs();
         if let Some(place) = self.reduced.friction[index] {
-            let rubbed = run.trials[place].force - self.predicted[place].end;
-            missed = missed.max(rubbed.abs());
+            let friction = run.trials[place].force - self.predicted[place].end;
+            missed = missed.max(friction.abs());
         }
         let observed = Observed {
             step,

@@ -284,9 +284,9 @@ impl<S: Stepper> Runner<'_, S> {
                     // What presses may hold no more.
                     let own = &mut episode.friction;
                     let [slip, _] = self.stepper.slip(&self.run, index);
-                    let (force, _) = friction.force(slip, own.origin, episode.force);
+                    let (force, _) = friction.law.force(slip, own.origin, episode.force);
                     self.stepper.change_friction(index, force - own.force);
-                    (own.origin, own.force) = (friction.origin(slip, force), force);
+                    (own.origin, own.force) = (friction.law.origin(slip, force), force);
                 }
                 self.run.phases[index] = ContactPhase::Closed(episode);
                 self.stepper.change_force(&self.run, index, change);
@@ -310,7 +310,7 @@ impl<S: Stepper> Runner<'_, S> {
             let [slip, speed] = self.stepper.slip(&self.run, index);
             let own = &mut episode.friction;
             (own.origin, own.touched_at, own.slip_speed) = (slip, slip, speed);
-            own.peak_at = self.run.time;
+            own.peak.at = self.run.time;
         }
         // The division that the impact expected of this rate needs, in view of the strongest of the gap so far.
         let expected = contact.law.elastic_force(contact.effective_mass(), rate);
@@ -375,12 +375,11 @@ pub(super) fn impact_of(contact: usize, episode: &Episode, finished: bool) -> Op
         dissipated: episode.work,
         sliding: Sliding {
             slip_speed: episode.friction.slip_speed,
-            peak_force: episode.friction.peak,
-            peak_force_at: episode.friction.peak_at,
+            peak_force: episode.friction.peak.value,
+            peak_force_at: episode.friction.peak.at,
             slip_peak: episode.friction.slip_peak,
             impulse: episode.friction.impulse,
             friction: episode.friction.work,
-            slid_off: false,
         },
     })
 }

@@ -49,16 +49,14 @@ impl<S: Stepper> Runner<'_, S> {
                 .next_division(&self.run, closed, &episode, start, step);
             self.run.contact_division[index] = division;
             self.run.finest_in_contact = self.run.finest_in_contact.max(division);
-            let slipped = self.stepper.follow_friction(
-                &self.run,
-                index,
-                &mut episode,
-                force.peak,
-                [start, step],
-            );
-            if let (Some(place), Some(_)) = (contact.plan, contact.friction) {
-                let friction = episode.friction.force;
-                self.run.face_forces.rub(place.face, friction, slipped);
+            let path =
+                self.stepper
+                    .follow_friction(&self.run, index, &mut episode, &force, [start, step]);
+            if let (Some(place), Some(friction), Some(path)) =
+                (contact.plan, contact.friction, path)
+            {
+                let faces = &mut self.run.face_forces;
+                faces.add_friction(place.face, friction.law.coefficient, path);
             }
             self.run.phases[index] = if episode.advance(&contact.law, &trial, turn) {
                 self.run.report_impact(index, &episode, true);

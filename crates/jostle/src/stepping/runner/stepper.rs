@@ -1,12 +1,13 @@
 //! The interface between the runner and a stepper.
 
 use super::{ContactTrial, RunState};
-use crate::history::Extreme;
 use crate::motion::Ground;
 use crate::state::Episode;
 use crate::stepping::clock::{Clock, NextStep};
 use crate::stepping::events::Cubic;
+use crate::stepping::gap_forces::StepForce;
 use crate::stepping::outcome::StepError;
+use crate::stepping::step_friction::FrictionPath;
 
 /// What a sudden change of velocities by a momentum law does.
 #[derive(Clone, Copy, Debug)]
@@ -46,17 +47,17 @@ pub(in crate::stepping) trait Stepper {
         [0.0; 2]
     }
 
-    /// Brings the friction of a closed contact to the end of the accepted step with its start and length \[s\]; the contact
-    /// force has this peak in it. Returns ±μ if it slipped all the time.
+    /// Brings the friction of a closed contact to the end of the accepted step with its start and length \[s\] and the contact
+    /// force over it; returns the friction over the step.
     fn follow_friction(
         &mut self,
         run: &RunState<'_>,
         contact: usize,
         episode: &mut Episode,
-        peak: Extreme,
+        pressed: &StepForce,
         span: [f64; 2],
-    ) -> Option<f64> {
-        let _ = (run, contact, episode, peak, span);
+    ) -> Option<FrictionPath> {
+        let _ = (run, contact, episode, pressed, span);
         None
     }
 
