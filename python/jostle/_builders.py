@@ -193,7 +193,7 @@ class Shear(Part):
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
         base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …}``.
         hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
-            "post_yield": 0.05}``.
+            "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.

@@ -233,3 +233,40 @@ fn names_cannot_break_the_script() {
     assert_eq!(imports.count(), 1, "the driver's own");
     assert!(text.contains(r#""name": "x\" y""#));
 }
+
+/// Energy of damage refers to loading both sides to yield in jostle, and to the whole backbone in OpenSees.
+#[test]
+fn pinched_storeys_become_hysteretic() {
+    let text = r#"
+motion = { kind = "ricker", amplitude = "0.1 g", period = "0.5 s" }
+[[building]]
+kind = "shear"
+mass = ["40 t"]
+stiffness = ["60 MN/m"]
+hinges = { rule = "pinched", pinching = { deformation = 0.7, force = 0.3 }, unloading_exponent = 0.4, damage = { ductility = 0.01, energy = 0.02 }, cracking = "5 mm", yield = "20 mm", post_cracking = 0.3, post_yield = 0.02 }
+"#;
+    let exported = export(&model(text)).expect("it can be exported");
+    let line = exported
+        .text
+        .lines()
+        .find(|line| line.contains("\"Hysteretic\""))
+        .expect("the material");
+    let row = line.trim().trim_start_matches('(').trim_end_matches("),");
+    let numbers: Vec<f64> = row
+        .split(", ")
+        .filter_map(|word| {
+            word.trim_matches(|c| c == '[' || c == ']' || c == '(' || c == ')')
+                .parse()
+                .ok()
+        })
+        .collect();
+    let last = &numbers[numbers.len() - 5..];
+    let [far, force] = [200.0, 570e3 + 0.02 * 60e6 * (200.0 - 0.02)];
+    let to_yield = 0.5 * (300e3 * 0.005 + 870e3 * 0.015);
+    let whole = to_yield + 0.5 * (570e3 + force) * (far - 0.02);
+    assert_eq!([last[0], last[1], last[2], last[4]], [0.7, 0.3, 0.01, 0.4]);
+    assert!(
+        (last[3] / (0.02 * whole / to_yield) - 1.0).abs() < 1e-12,
+        "{last:?}"
+    );
+}

@@ -61,6 +61,10 @@ pub(crate) enum Section {
     BaseSliding,
     /// Inelastic storeys of a shear building.
     StoreyHinges,
+    /// Where pinched springs stiffen.
+    Pinching,
+    /// Growth of their peaks.
+    Damage,
     /// Reinforcement in rows.
     Bars,
     Gap,
@@ -477,6 +481,9 @@ pub(crate) const KEYS: &[Key] = &[
 
     required(S::Hinges, "rule", Choice(RULES), "Unloading and reloading rule of hinges."),
     default(S::Hinges, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    optional(S::Hinges, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
+    default(S::Hinges, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1."),
+    optional(S::Hinges, "damage", Kind::Table(S::Damage), "Growth of the peaks of pinched; without this table they stay."),
     default(S::Hinges, "initial", WordOr("rigid", D::Dimensionless), "100; \"rigid\" from sections", "Stiffness of a hinge before it cracks, in units of EI/L of its member."),
     optional(S::Hinges, "from", Choice(HINGE_SOURCES), "Computes the moments from the reinforcement of columns and beams."),
     default(S::Hinges, "method", Choice(HINGE_METHODS), "\"formula\"", "Published formulas, or fibre analysis."),
@@ -496,6 +503,9 @@ pub(crate) const KEYS: &[Key] = &[
 
     required(S::BaseRocking, "rule", Choice(RULES), "Unloading and reloading rule of the base."),
     default(S::BaseRocking, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    optional(S::BaseRocking, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
+    default(S::BaseRocking, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1."),
+    optional(S::BaseRocking, "damage", Kind::Table(S::Damage), "Growth of the peaks of pinched; without this table they stay."),
     optional(S::BaseRocking, "cracking", Quantity(D::Moment), "Moment at the first corner; not for bilinear."),
     optional(S::BaseRocking, "yield", Quantity(D::Moment), "Moment at yield."),
     optional(S::BaseRocking, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to rotational_stiffness."),
@@ -503,6 +513,9 @@ pub(crate) const KEYS: &[Key] = &[
 
     required(S::BaseSliding, "rule", Choice(RULES), "Unloading and reloading rule of the base."),
     default(S::BaseSliding, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    optional(S::BaseSliding, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
+    default(S::BaseSliding, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1."),
+    optional(S::BaseSliding, "damage", Kind::Table(S::Damage), "Growth of the peaks of pinched; without this table they stay."),
     optional(S::BaseSliding, "cracking", Quantity(D::Force), "Force at the first corner; not for bilinear."),
     optional(S::BaseSliding, "yield", Quantity(D::Force), "Force at yield."),
     optional(S::BaseSliding, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to horizontal_stiffness."),
@@ -510,10 +523,18 @@ pub(crate) const KEYS: &[Key] = &[
 
     required(S::StoreyHinges, "rule", Choice(RULES), "Unloading and reloading rule of storeys."),
     default(S::StoreyHinges, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    optional(S::StoreyHinges, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
+    default(S::StoreyHinges, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1."),
+    optional(S::StoreyHinges, "damage", Kind::Table(S::Damage), "Growth of the peaks of pinched; without this table they stay."),
     optional(S::StoreyHinges, "cracking", PerStorey(D::Length), "Storey displacement at cracking; not for bilinear."),
     optional(S::StoreyHinges, "yield", PerStorey(D::Length), "Storey displacement at yield."),
     optional(S::StoreyHinges, "post_cracking", PerStorey(D::Dimensionless), "Ratio of post-cracking to initial stiffness."),
     optional(S::StoreyHinges, "post_yield", PerStorey(D::Dimensionless), "Ratio of post-yield to initial stiffness."),
+
+    required(S::Pinching, "deformation", Quantity(D::Dimensionless), "Where the steep part of reloading starts: 0 at the end of unloading, 1 on the unloading line of the peak; 0.8 is usual."),
+    required(S::Pinching, "force", Quantity(D::Dimensionless), "Force there over the force at the peak, 0 to 1; 0.2 is usual."),
+    default(S::Damage, "ductility", Quantity(D::Dimensionless), "0", "Growth of the peak ahead per ductility of the side just left, beyond its first corner."),
+    default(S::Damage, "energy", Quantity(D::Dimensionless), "0", "Growth of the peak ahead per dissipated energy, over that of loading both sides to yield."),
 
     required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),
     optional(S::Gap, "width", PerContact(D::Length), "Width at rest, required except between plans with at: one value, or a list for the contacts in the order of floors, from the lowest contact up if floors are not listed."),

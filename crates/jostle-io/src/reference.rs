@@ -70,6 +70,16 @@ const TABLES: &[(Section, &str, &str)] = &[
     ),
     (Section::StoreyHinges, "`hinges` of a shear building", ""),
     (
+        Section::Pinching,
+        "`pinching` of hinges",
+        "With the rule `pinched`; see [Hysteresis](hysteresis.md#pinched).",
+    ),
+    (
+        Section::Damage,
+        "`damage` of hinges",
+        "With the rule `pinched`.",
+    ),
+    (
         Section::Gap,
         "`[[gap]]`",
         "One or more for each pair of neighbours, and for walls; see [Contacts and links](contacts-and-links.md).",

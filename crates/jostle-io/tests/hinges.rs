@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use jostle::hysteresis::{HysteresisRule, Side};
+use jostle::hysteresis::{HysteresisRule, Pinching, Side};
 use jostle::{FrameHinges, Hinges};
 use jostle_io::{Format, Input, read_model_text};
 
@@ -238,6 +238,41 @@ fn faults_name_the_number_and_what_to_do() {
             "between 0 and 1",
         ),
         (
+            shear(
+                r#"hinges = { rule = "pinched", cracking = "5 mm", yield = "20 mm", post_cracking = 0.3, post_yield = 0.02 }"#,
+            ),
+            "building[0].hinges.pinching",
+            "is missing",
+        ),
+        (
+            shear(
+                r#"hinges = { rule = "pinched", pinching = { deformation = 0.8 }, cracking = "5 mm", yield = "20 mm", post_cracking = 0.3, post_yield = 0.02 }"#,
+            ),
+            "building[0].hinges.pinching.force",
+            "is missing",
+        ),
+        (
+            shear(
+                r#"hinges = { rule = "pinched", pinching = { deformation = 1.8, force = 0.2 }, cracking = "5 mm", yield = "20 mm", post_cracking = 0.3, post_yield = 0.02 }"#,
+            ),
+            "building[0].hinges.pinching.deformation",
+            "between 0 and 1",
+        ),
+        (
+            shear(
+                r#"hinges = { rule = "pinched", pinching = { deformation = 0.8, force = 0.2 }, damage = { energy = -1 }, cracking = "5 mm", yield = "20 mm", post_cracking = 0.3, post_yield = 0.02 }"#,
+            ),
+            "building[0].hinges.damage.energy",
+            "between 0 and 10",
+        ),
+        (
+            shear(
+                r#"hinges = { rule = "normal", damage = { energy = 0.1 }, cracking = "5 mm", yield = "20 mm", post_cracking = 0.3, post_yield = 0.02 }"#,
+            ),
+            "building[0].hinges.damage",
+            "no meaning with the rule normal",
+        ),
+        (
             frame(
                 "",
                 "",
@@ -392,6 +427,23 @@ fn overload_and_soft_members_are_said_with_their_place() {
     );
     let found = faults(&soft);
     assert!(found[0].contains("raise stiffness_factor"), "{found:?}");
+}
+
+#[test]
+fn storeys_may_pinch() {
+    let hinges = r#"hinges = { rule = "pinched", pinching = { deformation = 0.7, force = 0.3 }, unloading_exponent = 0.4, damage = { ductility = 0.01 }, cracking = "5 mm", yield = "20 mm", post_cracking = 0.3, post_yield = 0.02 }"#;
+    let input = read(&shear(hinges)).unwrap_or_else(|error| panic!("{error}"));
+    let Some(Hinges::Storeys(storeys)) = &input.model.buildings[0].hinges else {
+        panic!("no storeys");
+    };
+    let expected = HysteresisRule::Pinched(Pinching {
+        deformation: 0.7,
+        force: 0.3,
+        unloading_exponent: 0.4,
+        ductility_damage: 0.01,
+        energy_damage: 0.0,
+    });
+    assert_eq!(storeys[0].rule(), expected);
 }
 
 #[test]

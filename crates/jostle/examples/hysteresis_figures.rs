@@ -1,6 +1,8 @@
 //! Draws the rules of `docs/hysteresis.md`: `cargo run -p jostle --example hysteresis_figures`.
 
-use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Side};
+use jostle::hysteresis::{
+    Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Pinching, Side,
+};
 
 const WIDTH: f64 = 360.0;
 const HEIGHT: f64 = 260.0;
@@ -21,6 +23,7 @@ fn main() -> std::io::Result<()> {
         (HysteresisRule::PeakOriented, corners),
         (HysteresisRule::Takeda { exponent: 0.4 }, corners),
         (HysteresisRule::DegradingTrilinear, corners),
+        (HysteresisRule::Pinched(Pinching::USUAL), corners),
     ];
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/figures");
     for (rule, corners) in rules {

@@ -1,7 +1,9 @@
 //! Hysteresis rules and contact laws as uniaxial materials of OpenSees.
 
 use jostle::contact::ForceLaw;
-use jostle::hysteresis::{Backbone, Hysteresis, HysteresisRule, Side};
+use jostle::hysteresis::{
+    Backbone, BackboneSide, Corner, Hysteresis, HysteresisRule, Side, energy_to_yield,
+};
 use jostle::interface::Contact;
 
 /// Materials of a script, numbered from 1, equal ones listed once.
@@ -17,6 +19,33 @@ const FAR: f64 = 1e4;
 const NO_GAP: f64 = 1e-12;
 /// A force that elastic-plastic contact never reaches \[N\].
 const NEVER: f64 = 1e30;
+
+/// Three points of one side of a backbone, as magnitudes.
+fn corners(curve: &BackboneSide) -> [Corner; 3] {
+    let limit = curve.yielding.deformation;
+    let deformations = if curve.cracking.deformation < limit {
+        [curve.cracking.deformation, limit, FAR * limit]
+    } else {
+        [limit, 2.0 * limit, FAR * limit]
+    };
+    deformations.map(|deformation| Corner {
+        deformation,
+        force: curve.force_at(deformation),
+    })
+}
+
+/// Area under both sides of the backbone, as OpenSees computes it \[J\].
+fn area(backbone: &Backbone) -> f64 {
+    let mut total = 0.0;
+    for side in Side::BOTH {
+        let mut last = Corner::default();
+        for corner in corners(backbone.side(side)) {
+            total += 0.5 * (corner.force + last.force) * (corner.deformation - last.deformation);
+            last = corner;
+        }
+    }
+    total
+}
 
 impl Materials {
     /// Every material: tag, name, arguments.
@@ -55,8 +84,24 @@ impl Materials {
         match hysteresis.rule() {
             HysteresisRule::Elastic => Ok(self.elastic(backbone.initial(), 0.0)),
             HysteresisRule::Bilinear | HysteresisRule::Normal => Ok(self.sliders(backbone)),
-            HysteresisRule::PeakOriented => Ok(self.peak_oriented(backbone)),
-            rule => Err(rule.name()),
+            HysteresisRule::PeakOriented => {
+                Ok(self.hysteretic(backbone, [1.0, 1.0, 0.0, 0.0, 0.0]))
+            }
+            HysteresisRule::Pinched(pinching) => {
+                // OpenSees relates dissipated energy to the area of the whole backbone.
+                let ratio = area(backbone) / energy_to_yield(backbone);
+                let parameters = [
+                    pinching.deformation,
+                    pinching.force,
+                    pinching.ductility_damage,
+                    pinching.energy_damage * ratio,
+                    pinching.unloading_exponent,
+                ];
+                Ok(self.hysteretic(backbone, parameters))
+            }
+            rule @ (HysteresisRule::Takeda { .. } | HysteresisRule::DegradingTrilinear) => {
+                Err(rule.name())
+            }
         }
     }
 
@@ -95,22 +140,16 @@ impl Materials {
         }
     }
 
-    /// `Hysteretic` with pinching 1, 1 and no damage.
-    fn peak_oriented(&mut self, backbone: &Backbone) -> usize {
+    /// `Hysteretic`; the parameters are pinching in deformation and force, damage by ductility and energy, and the
+    /// exponent of unloading.
+    fn hysteretic(&mut self, backbone: &Backbone, parameters: [f64; 5]) -> usize {
         let mut arguments = Vec::new();
         for (side, sign) in [(Side::Positive, 1.0), (Side::Negative, -1.0)] {
-            let curve = backbone.side(side);
-            let limit = curve.yielding.deformation;
-            let corners = if curve.cracking.deformation < limit {
-                [curve.cracking.deformation, limit, FAR * limit]
-            } else {
-                [limit, 2.0 * limit, FAR * limit]
-            };
-            for deformation in corners {
-                arguments.extend([sign * curve.force_at(deformation), sign * deformation]);
+            for Corner { deformation, force } in corners(backbone.side(side)) {
+                arguments.extend([sign * force, sign * deformation]);
             }
         }
-        arguments.extend([1.0, 1.0, 0.0, 0.0, 0.0]);
+        arguments.extend(parameters);
         self.add("Hysteretic", arguments)
     }
 

@@ -74,7 +74,7 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 refuse(
                     format!("building[{index}].{field}.rule"),
                     format!(
-                        "OpenSees has no rule \"{}\"; normal, bilinear and peak-oriented can be exported",
+                        "OpenSees has no rule \"{}\"; normal, bilinear, peak-oriented and pinched can be exported",
                         rule.name()
                     ),
                 );

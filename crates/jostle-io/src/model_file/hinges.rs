@@ -1,8 +1,8 @@
 //! `hinges`: where a building cracks and yields.
 
 use jostle::hysteresis::{
-    Backbone, Corners, DEFAULT_TAKEDA_EXPONENT, Hysteresis, HysteresisRule, Quantity, Side,
-    SpringFault,
+    Backbone, Corners, DEFAULT_TAKEDA_EXPONENT, GREATEST_DAMAGE, Hysteresis, HysteresisRule,
+    Pinching, Quantity, Side, SpringFault,
 };
 use jostle::{Frame, FrameHinges, Hinges, Shear};
 use jostle_section::formula::Member;
@@ -49,10 +49,90 @@ fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule>
         }
         None => DEFAULT_TAKEDA_EXPONENT,
     };
+    let pinching = read_pinching(reader, view, name);
     Some(match HysteresisRule::from_name(name?)? {
         HysteresisRule::Takeda { .. } => HysteresisRule::Takeda { exponent },
-        rule => rule,
+        HysteresisRule::Pinched(_) => HysteresisRule::Pinched(pinching?),
+        rule @ (HysteresisRule::Elastic
+        | HysteresisRule::Bilinear
+        | HysteresisRule::Normal
+        | HysteresisRule::PeakOriented
+        | HysteresisRule::DegradingTrilinear) => rule,
     })
+}
+
+/// Keys of the rule `pinched`, which have no meaning with another; `None` after a fault.
+fn read_pinching(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    name: Option<&'static str>,
+) -> Option<Pinching> {
+    for key in ["pinching", "unloading_exponent", "damage"] {
+        if let (Some(field), Some(name)) = (reader.get(view, key), name)
+            && name != "pinched"
+        {
+            *reader.bad(&field, format!("has no meaning with the rule {name}")) =
+                Some(format!("remove {key}, or set rule = \"pinched\""));
+        }
+    }
+    let exponent = match reader.get(view, "unloading_exponent") {
+        Some(field) => within(reader, &field, 1.0),
+        None => Some(0.0),
+    };
+    let table = reader.get(view, "pinching");
+    let table = table.and_then(|field| reader.open(&field, &[Section::Pinching]));
+    let pinching = table.map(|pinching| {
+        ["deformation", "force"].map(|key| match reader.get(&pinching, key) {
+            Some(field) => within(reader, &field, 1.0),
+            None => {
+                reader.missing(&pinching, key, format!("add {key} = {}", example(key)));
+                None
+            }
+        })
+    });
+    let table = reader.get(view, "damage");
+    let table = table.and_then(|field| reader.open(&field, &[Section::Damage]));
+    let damage = table.map_or([Some(0.0); 2], |damage| {
+        ["ductility", "energy"].map(|key| match reader.get(&damage, key) {
+            Some(field) => within(reader, &field, GREATEST_DAMAGE),
+            None => Some(0.0),
+        })
+    });
+    if name != Some("pinched") {
+        return None;
+    }
+    if pinching.is_none() && !view.has("pinching") {
+        reader.missing(
+            view,
+            "pinching",
+            "add pinching = { deformation = 0.8, force = 0.2 }",
+        );
+    }
+    let [deformation, force] = pinching?;
+    Some(Pinching {
+        deformation: deformation?,
+        force: force?,
+        unloading_exponent: exponent?,
+        ductility_damage: damage[0]?,
+        energy_damage: damage[1]?,
+    })
+}
+
+fn example(key: &str) -> &'static str {
+    if key == "deformation" { "0.8" } else { "0.2" }
+}
+
+/// A number from 0 to a limit.
+fn within(reader: &mut Reader<'_>, field: &Field<'_>, limit: f64) -> Option<f64> {
+    let value = reader.quantity(field, Dimension::Dimensionless)?;
+    if (0.0..=limit).contains(&value) {
+        return Some(value);
+    }
+    reader.bad(
+        field,
+        format!("must lie between 0 and {limit}, found {value}"),
+    );
+    None
 }
 
 /// Hinges of a frame. `members` are its reinforced members; `None` after faults elsewhere.

@@ -36,7 +36,7 @@ shear = { columns = "flexible" }
 base = { horizontal_stiffness = 1, horizontal_hinge = { rule = "normal" }, rotational_stiffness = 1, rotational_hinge = { rule = "normal" } }
 joint = { rotational_stiffness = 1 }
 damping = { ratio = 0.1 }
-hinges = { rule = "normal", column = { positive = {}, negative = {} } }
+hinges = { rule = "pinched", pinching = {}, damage = {}, column = { positive = {}, negative = {} } }
 [[building]]
 kind = "shear"
 codes = { importance = 1 }

@@ -20,6 +20,11 @@ pub struct HysteresisMemory {
     pub(super) turn: Corner,
     /// Start of the line towards a peak.
     pub(super) start: Corner,
+    /// Point at which a pinched spring stiffens on its way to a peak.
+    pub(super) knee: Corner,
+    /// Start of the present line of a pinched spring, and the work done until there.
+    pub(super) line: Corner,
+    pub(super) worked: f64,
     /// Slope of the last unloading.
     pub(super) unloading: f64,
     pub(super) branch: Branch,

@@ -26,9 +26,11 @@ mod backbone;
 mod degrading;
 mod memory;
 mod oriented;
+mod pinched;
 mod rule;
 mod sliders;
 
 pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
 pub use memory::{HysteresisMemory, Response, Stage};
+pub use pinched::{GREATEST_DAMAGE, Pinching, energy_to_yield};
 pub use rule::{DEFAULT_TAKEDA_EXPONENT, Hysteresis, HysteresisRule};

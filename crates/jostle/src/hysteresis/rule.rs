@@ -2,6 +2,7 @@
 
 use super::backbone::{Backbone, Quantity, Side, SpringFault};
 use super::memory::{HysteresisMemory, Response, Stage};
+use super::pinched::{self, Pinching};
 use super::{degrading, oriented, sliders};
 
 /// Exponent of the unloading stiffness of Takeda's rule after yield \[–\] (Takeda, Sozen and Nielsen, 1970).
@@ -28,17 +29,21 @@ pub enum HysteresisRule {
     /// Degrading trilinear (Fukada, 1969; Muto, 1973): between the peaks a bilinear loop whose stiffnesses are
     /// reduced by one factor, so that it connects both peaks.
     DegradingTrilinear,
+    /// Loads towards the peaks in two lines, the first one softer: timber, masonry, concrete that slips (OpenSees'
+    /// `Hysteretic`, Scott and Filippou).
+    Pinched(Pinching),
 }
 
 impl HysteresisRule {
     /// Every rule, those with parameters at their defaults, in the order of the documentation.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Normal,
         Self::PeakOriented,
         Self::Takeda {
             exponent: DEFAULT_TAKEDA_EXPONENT,
         },
         Self::DegradingTrilinear,
+        Self::Pinched(Pinching::USUAL),
         Self::Bilinear,
         Self::Elastic,
     ];
@@ -59,6 +64,7 @@ impl HysteresisRule {
             Self::PeakOriented => "peak-oriented",
             Self::Takeda { .. } => "takeda",
             Self::DegradingTrilinear => "d-tri",
+            Self::Pinched(_) => "pinched",
         }
     }
 }
@@ -98,6 +104,11 @@ impl Hysteresis {
                 None,
                 "has no place in a bilinear curve; leave it out, or use the rule normal".to_owned(),
             ),
+            HysteresisRule::Pinched(pinching) => {
+                if let Some(problem) = pinching.fault() {
+                    refuse(Quantity::Rule, None, problem);
+                }
+            }
             _ => {}
         }
         let one_second_slope = matches!(
@@ -109,7 +120,7 @@ impl Hysteresis {
                 Quantity::PostCracking,
                 Some(Side::Negative),
                 format!(
-                    "must be equal on both sides with the rule {name}; peak-oriented and takeda allow any"
+                    "must be equal on both sides with the rule {name}; peak-oriented, takeda and pinched allow any"
                 ),
             );
         }
@@ -119,7 +130,7 @@ impl Hysteresis {
                 Quantity::PostYield,
                 Some(Side::Negative),
                 format!(
-                    "must be equal on both sides with the rule {name}; peak-oriented and takeda allow any"
+                    "must be equal on both sides with the rule {name}; peak-oriented, takeda and pinched allow any"
                 ),
             );
         }
@@ -196,6 +207,9 @@ impl Hysteresis {
             HysteresisRule::DegradingTrilinear => {
                 degrading::respond(&self.backbone, memory, deformation)
             }
+            HysteresisRule::Pinched(pinching) => {
+                pinched::respond(&self.backbone, &pinching, memory, deformation)
+            }
         };
         let force = response.force;
         response.memory.stand_at(deformation, force, side);
@@ -246,6 +260,9 @@ impl Hysteresis {
             HysteresisRule::DegradingTrilinear => {
                 degrading::factor(&self.backbone, memory) * self.backbone.initial()
             }
+            HysteresisRule::Pinched(pinching) => {
+                pinched::unloading_stiffness(&self.backbone, &pinching, memory)
+            }
             _ => self.backbone.initial(),
         }
     }
@@ -274,6 +291,9 @@ impl Hysteresis {
             }
             HysteresisRule::DegradingTrilinear => {
                 degrading::next_corner(&self.backbone, memory, towards)
+            }
+            HysteresisRule::Pinched(pinching) => {
+                pinched::next_corner(&self.backbone, &pinching, memory, towards)
             }
         }
     }
@@ -319,6 +339,13 @@ mod tests {
     use super::super::backbone::Corners;
     use super::*;
 
+    const WORN: Pinching = Pinching {
+        unloading_exponent: 0.3,
+        ductility_damage: 0.01,
+        energy_damage: 0.01,
+        ..Pinching::USUAL
+    };
+
     /// The short functions give the same force and state as the long one, bit by bit, when sliding and reversing.
     #[test]
     fn answers_and_commits_are_those_of_whole_responses() {
@@ -341,6 +368,7 @@ mod tests {
             (HysteresisRule::PeakOriented, trilinear(180.0)),
             (HysteresisRule::Takeda { exponent }, trilinear(180.0)),
             (HysteresisRule::DegradingTrilinear, trilinear(250.0)),
+            (HysteresisRule::Pinched(WORN), trilinear(180.0)),
         ];
         for (rule, backbone) in rules {
             let spring = Hysteresis::new(rule, backbone.expect("sound")).expect("sound");

@@ -1,6 +1,8 @@
 //! One mass on a hysteretic spring: with iteration to convergence a Newmark step is of second order.
 
-use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule};
+use jostle::hysteresis::{
+    Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Pinching,
+};
 
 const MASS: f64 = 100.0;
 const DAMPING: f64 = 200.0;
@@ -82,6 +84,7 @@ fn iterated_steps_are_of_second_order() {
         HysteresisRule::PeakOriented,
         HysteresisRule::Takeda { exponent: 0.4 },
         HysteresisRule::DegradingTrilinear,
+        HysteresisRule::Pinched(Pinching::USUAL),
     ];
     for rule in rules {
         let spring = spring(rule);

@@ -1,10 +1,12 @@
 //! Springs and histories to try.
 
-use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Side};
+use jostle::hysteresis::{
+    Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Pinching, Side,
+};
 use proptest::prelude::*;
 
-/// Every rule, with some exponents for Takeda's.
-pub(crate) const RULES: [HysteresisRule; 8] = [
+/// Every rule, those with parameters several times.
+pub(crate) const RULES: [HysteresisRule; 13] = [
     HysteresisRule::Elastic,
     HysteresisRule::Bilinear,
     HysteresisRule::Normal,
@@ -13,7 +15,28 @@ pub(crate) const RULES: [HysteresisRule; 8] = [
     HysteresisRule::Takeda { exponent: 0.4 },
     HysteresisRule::Takeda { exponent: 1.0 },
     HysteresisRule::DegradingTrilinear,
+    HysteresisRule::Pinched(Pinching::USUAL),
+    pinched(0.5, 0.4, 0.5, 0.0, 0.0),
+    pinched(1.0, 0.0, 1.0, 0.0, 0.0),
+    pinched(0.0, 1.0, 0.3, 0.0, 0.0),
+    pinched(0.3, 0.3, 0.4, 0.02, 0.02),
 ];
+
+const fn pinched(
+    deformation: f64,
+    force: f64,
+    unloading_exponent: f64,
+    ductility_damage: f64,
+    energy_damage: f64,
+) -> HysteresisRule {
+    HysteresisRule::Pinched(Pinching {
+        deformation,
+        force,
+        unloading_exponent,
+        ductility_damage,
+        energy_damage,
+    })
+}
 
 /// A spring and deformations to lead it through, in units of its greater yield deformation.
 #[derive(Clone, Debug)]
