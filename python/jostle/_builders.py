@@ -338,7 +338,8 @@ class Gap(Part):
         width: width at rest, a length ≥ 0, or a list for the contacts in the order of ``floors``, from the lowest up
             if these are not listed.
         between: names of the left and the right neighbour, ``"wall"`` for a rigid wall at an end of the row; in order
-            by default.
+            by default. Between plans with ``at``, ``"all"`` of the last gap stands for all neighbours within reach
+            that have no gap of their own.
         floors: ``"common"`` (default), ``"all"`` for floors against floors or columns, pairs of floors or heights
             ``[[5, 5], [4, "12.8 m"]]``, or heights.
         level_tolerance: floors whose heights differ by no more than this can touch, 1 mm by default.
@@ -373,7 +374,7 @@ class Gap(Part):
         self,
         width: Quantities | None = None,
         *,
-        between: Sequence[str] | None = None,
+        between: Sequence[str] | Literal["all"] | None = None,
         floors: Floors | None = None,
         level_tolerance: Quantity | None = None,
         law: _Law | None = None,

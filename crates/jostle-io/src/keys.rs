@@ -536,7 +536,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Damage, "ductility", Quantity(D::Dimensionless), "0", "Growth of the peak ahead per ductility of the side just left, beyond its first corner."),
     default(S::Damage, "energy", Quantity(D::Dimensionless), "0", "Growth of the peak ahead per dissipated energy, over that of loading both sides to yield."),
 
-    required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),
+    required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row. Between buildings with plans and at, the last [[gap]] may say \"all\" or leave it out: it then holds for all neighbours within reach that have none of their own."),
     optional(S::Gap, "width", PerContact(D::Length), "Width at rest, required except between plans with at: one value, or a list for the contacts in the order of floors, from the lowest contact up if floors are not listed."),
     default(S::Gap, "floors", FloorPairs, "\"common\"", "Contact locations: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights."),
     default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can touch."),

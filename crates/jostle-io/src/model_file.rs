@@ -502,7 +502,9 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     };
     if model.is_in_space() {
         let fields = reader.get(&view, "gap").and_then(|field| field.entries());
-        plan::check_widths(reader, &mut model, &fields.unwrap_or_default());
+        let fields = fields.unwrap_or_default();
+        gap::for_all_neighbours(reader, &fields, &at, &mut model);
+        plan::check_widths(reader, &mut model, &fields);
     }
     capacity::fill(&mut model, &capacity, &reinforced);
     Some(Parts {
@@ -550,7 +552,14 @@ fn locate(root: &Node, path: &str) -> (Span, String) {
     for part in parts {
         match (&node.value, part.parse::<usize>()) {
             (Value::List(list), Ok(index)) if !lost => {
-                spelt = format!("{spelt}[{part}]");
+                // One gap may stand for several, of which it is the first.
+                let last = list.len().saturating_sub(1);
+                let index = if spelt == "gap" {
+                    index.min(last)
+                } else {
+                    index
+                };
+                spelt = format!("{spelt}[{index}]");
                 match list.get(index) {
                     Some(entry) => node = entry,
                     None => lost = true,
@@ -576,15 +585,18 @@ fn locate(root: &Node, path: &str) -> (Span, String) {
 /// Warnings about valid but unusual values.
 fn warnings(model: &Model, root: &Node) -> Vec<String> {
     let mut warnings = Vec::new();
-    for (left, pair) in model.buildings.windows(2).enumerate() {
-        if let [a, b] = pair
-            && !model.gaps.iter().any(|gap| gap.between[0] == Some(left))
-        {
-            warnings.push(format!(
-                "there is no gap between \"{}\" and \"{}\": they pass through each other; add a [[gap]]",
-                a.name, b.name
-            ));
-        }
+    let row = (1..model.buildings.len()).map(|right| [right - 1, right]);
+    let apart: Vec<[usize; 2]> = if model.is_in_space() {
+        gap::neighbours_without(model)
+    } else {
+        let has_gap = |left| model.gaps.iter().any(|gap| gap.between[0] == Some(left));
+        row.filter(|[left, _]| !has_gap(*left)).collect()
+    };
+    for [a, b] in apart {
+        warnings.push(format!(
+            "there is no gap between \"{}\" and \"{}\": they pass through each other; add a [[gap]]",
+            model.buildings[a].name, model.buildings[b].name
+        ));
     }
     warnings.extend(partial::warnings(model));
     let listed = match &root.value {

@@ -320,3 +320,101 @@ stiffness = "60 MN/m"
     let faults = faults.expect_err("a fault");
     assert_eq!(faults[0].path, "motion.angle");
 }
+
+/// A, B right of it and C behind both, all in their places.
+fn around() -> String {
+    let c = B.replace("\"B\"", "\"C\"");
+    format!(
+        "{A}at = [\"0 m\", \"0 m\"]\n{B}at = [\"20.02 m\", \"1 m\"]\n{c}at = [\"11 m\", \"12.03 m\"]\n"
+    )
+}
+
+#[test]
+fn one_gap_stands_for_all_neighbours() {
+    for between in ["", "between = \"all\"\n"] {
+        let input = read(&format!("{}[[gap]]\nfriction = 0.2\n{between}", around()));
+        let input = input.expect("a sound model");
+        let gaps = &input.model.gaps;
+        let pairs: Vec<_> = gaps.iter().map(|gap| gap.between).collect();
+        // B and C do not face each other: C stands behind A, and left of B's right edge but above it.
+        assert_eq!(pairs[0], [Some(0), Some(1)]);
+        assert_eq!(pairs[1], [Some(0), Some(2)]);
+        for (gap, width) in gaps.iter().zip([0.02, 0.03]) {
+            assert!((gap.width() - width).abs() < 1e-12, "{}", gap.width());
+            assert_eq!(gap.in_plan.friction, 0.2);
+        }
+        let silent = !input
+            .warnings
+            .iter()
+            .any(|text| text.contains("pass through"));
+        assert!(silent, "{:?}", input.warnings);
+    }
+    // A gap of its own counts more.
+    let own = "[[gap]]\nbetween = [\"C\", \"A\"]\nfriction = 0.5\n[[gap]]\n";
+    let input = read(&format!("{}{own}", around())).expect("a sound model");
+    let frictions: Vec<_> = input
+        .model
+        .gaps
+        .iter()
+        .map(|gap| gap.in_plan.friction)
+        .collect();
+    assert_eq!(frictions[..2], [0.5, 0.0]);
+    assert!(
+        !input.model.gaps[1..]
+            .iter()
+            .any(|gap| gap.between.contains(&Some(2)) && gap.between.contains(&Some(0)))
+    );
+}
+
+#[test]
+fn neighbours_without_a_gap_are_named() {
+    let only = "[[gap]]\nbetween = [\"A\", \"B\"]\n";
+    let input = read(&format!("{}{only}", around())).expect("a sound model");
+    let named = |a: &str, b: &str| format!("there is no gap between \"{a}\" and \"{b}\"");
+    assert!(
+        input
+            .warnings
+            .iter()
+            .any(|text| text.starts_with(&named("A", "C"))),
+        "{:?}",
+        input.warnings
+    );
+    assert!(
+        !input
+            .warnings
+            .iter()
+            .any(|text| text.starts_with(&named("A", "B")))
+    );
+}
+
+#[test]
+fn a_gap_for_all_neighbours_says_what_it_lacks() {
+    let wrong = |gaps: &str| said(&format!("{}{gaps}", around()));
+    let early = wrong("[[gap]]\n[[gap]]\nbetween = [\"A\", \"B\"]\n");
+    assert!(
+        early.contains("gap[0]: names no buildings, so it must be the last [[gap]]"),
+        "{early}"
+    );
+    let narrow = wrong("[[gap]]\nreach = \"5 mm\"\n");
+    assert!(
+        narrow.contains("gap[0]: finds no two buildings that face each other within 0.005 m"),
+        "{narrow}"
+    );
+    let width = wrong("[[gap]]\nwidth = \"20 mm\"\n");
+    assert!(
+        width.contains("gap[0].width: is 20.0 mm, but at and plan put the buildings 30.0 mm apart"),
+        "{width}"
+    );
+    let homeless = said(&format!("{A}{B}[[gap]]\nwidth = \"20 mm\"\n"));
+    assert!(
+        homeless.contains("give every building its at"),
+        "{homeless}"
+    );
+    let plane = said(
+        "[[building]]\nkind = \"shear\"\nname = \"A\"\nmass = \"1 t\"\nstiffness = \"1 MN/m\"\n[[gap]]\nwidth = \"20 mm\"\n",
+    );
+    assert!(
+        plane.contains("name the left and the right neighbour"),
+        "{plane}"
+    );
+}

@@ -43,6 +43,7 @@ fn impact(start: f64) -> ImpactSummary {
     ImpactSummary {
         sliding: None,
         centre_m: None,
+        ended: None,
         start_s: start,
         end_s: start + 0.25,
         peak_force_n: 1e6,

@@ -366,6 +366,8 @@ pub struct Sliding {
     pub impulse: f64,
     /// Energy dissipated by friction \[J\].
     pub friction: f64,
+    /// Whether it ended because a corner slid off the edge that it pressed.
+    pub slid_off: bool,
 }
 
 impl Sliding {
@@ -384,6 +386,7 @@ impl Sliding {
             slip_peak: self.slip_peak.max(next.slip_peak),
             impulse: self.impulse + next.impulse,
             friction: self.friction + next.friction,
+            slid_off: next.slid_off,
         }
     }
 }

@@ -97,6 +97,8 @@ pub struct Episode {
     pub work: f64,
     /// Friction along the face.
     pub friction: FrictionMemory,
+    /// Whether it ended because a corner slid off the edge that it pressed.
+    pub slid_off: bool,
 }
 
 impl Episode {
@@ -116,6 +118,7 @@ impl Episode {
             impulse: 0.0,
             work: 0.0,
             friction: FrictionMemory::default(),
+            slid_off: false,
         }
     }
 }

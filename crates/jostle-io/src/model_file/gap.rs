@@ -1,14 +1,17 @@
 //! `[[gap]]`: the gap between two neighbours, or beside a wall, and its contact law.
 
 use jostle::contact::ModifiedKelvin;
+use jostle::interface::narrowest_gap;
 use jostle::{
-    Building, ContactLaw, FloorPairs, Gap, LawKind, PlanContact, RestitutionIs, Structure,
+    Building, ContactLaw, FloorPairs, Gap, LawKind, Model, PlanContact, PlanPoint, RestitutionIs,
+    Structure,
 };
 
 use super::between::{MOST_CONTACTS, floors, neighbours, tolerance};
 use crate::keys::{LAW_VARIANTS, LAWS, RESTITUTION_IS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
+use crate::tree::Value;
 
 /// Law where none is named.
 const DEFAULT_LAW: LawKind = LawKind::HertzDamp;
@@ -23,6 +26,90 @@ const CONCRETE_RESTITUTION: f64 = 0.65;
 
 /// Most gaps.
 const MOST_GAPS: usize = 10_000;
+
+/// `between` of a gap for all neighbours.
+const ALL: &str = "all";
+/// Sides of a gap that names no buildings: it stands for all neighbours without one of their own.
+const ALL_NEIGHBOURS: [Option<usize>; 2] = [None, None];
+
+/// Puts a gap between every two buildings with plans that face each other within reach, in place of the one that names no
+/// buildings; the buildings are in their places.
+pub(super) fn for_all_neighbours(
+    reader: &mut Reader<'_>,
+    fields: &[Field<'_>],
+    at: &[Option<PlanPoint>],
+    model: &mut Model,
+) {
+    if !model.is_in_space() {
+        return;
+    }
+    let is_general = |gap: &Gap| gap.between == ALL_NEIGHBOURS;
+    let Some(place) = model.gaps.iter().position(is_general) else {
+        return;
+    };
+    let general = model.gaps[place].clone();
+    if let Some(field) = fields.get(place) {
+        if place + 1 != model.gaps.len() {
+            *reader.bad(field, "names no buildings, so it must be the last [[gap]]") =
+                Some("move it to the end, or add between = [\"A\", \"B\"]".into());
+        } else if at.iter().any(Option::is_none) {
+            *reader.bad(
+                field,
+                "is for all neighbours, but not all buildings say where they stand",
+            ) = Some("give every building its at, or add between = [\"A\", \"B\"]".into());
+        }
+    }
+    model.gaps.retain(|gap| !is_general(gap));
+    let found = facing(model, &general);
+    model.gaps.extend(found);
+    if model.gaps.len() == place
+        && let Some(field) = fields.get(place)
+    {
+        let reach = general.in_plan.reach;
+        *reader.bad(
+            field,
+            format!("finds no two buildings that face each other within {reach} m"),
+        ) = Some("check at and plan, raise reach, or leave it out".into());
+    }
+}
+
+/// Gaps like a general one between buildings with plans that face each other within its reach and have no gap.
+fn facing(model: &Model, general: &Gap) -> Vec<Gap> {
+    let count = model.buildings.len();
+    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [Some(a), Some(b)]));
+    let is_free = |[a, b]: &[Option<usize>; 2]| {
+        let mut gaps = model.gaps.iter();
+        !gaps.any(|gap| gap.between == [*a, *b] || gap.between == [*b, *a])
+    };
+    let all: Vec<Gap> = pairs
+        .filter(is_free)
+        .map(|between| Gap {
+            between,
+            ..general.clone()
+        })
+        .collect();
+    let tried = Model {
+        gaps: all,
+        ..model.clone()
+    };
+    let faces = (0..tried.gaps.len()).filter(|gap| narrowest_gap(&tried, *gap).is_some());
+    faces.map(|gap| tried.gaps[gap].clone()).collect()
+}
+
+/// Buildings with plans that face each other within the reach of a usual gap and have none.
+pub(super) fn neighbours_without(model: &Model) -> Vec<[usize; 2]> {
+    let usual = ContactLaw {
+        kind: DEFAULT_LAW,
+        stiffness: CONCRETE_STIFFNESS,
+        restitution: CONCRETE_RESTITUTION,
+        restitution_is: RestitutionIs::Input,
+    };
+    let found = facing(model, &Gap::between(ALL_NEIGHBOURS, 0.0, usual));
+    let pairs = found
+        .iter()
+        .filter_map(|gap| Some([gap.between[0]?, gap.between[1]?]));
+    pairs.collect()
+}
 
 /// Reads all gaps. Without buildings, names are unknown, and only the rest is checked.
 pub(super) fn read_all(
@@ -52,9 +139,16 @@ pub(super) fn read_all(
 
 fn read(reader: &mut Reader<'_>, field: &Field<'_>, buildings: Option<&[Building]>) -> Option<Gap> {
     let view = reader.open(field, &[Section::Gap])?;
-    let between = neighbours(reader, &view, buildings);
     let has_plan = |building: &Building| matches!(building.structure, Structure::Tiers(_));
     let in_space = buildings.is_some_and(|list| list.iter().any(has_plan));
+    let says_all = reader
+        .get(&view, "between")
+        .is_some_and(|field| matches!(&field.node.value, Value::Text(text) if text == ALL));
+    let between = if in_space && (says_all || !view.has("between")) {
+        Some(ALL_NEIGHBOURS)
+    } else {
+        neighbours(reader, &view, buildings)
+    };
     let widths = match reader.get(&view, "width") {
         Some(field) => widths(reader, &field),
         // Plans with their places say how wide the gap is.

@@ -353,7 +353,11 @@ pub(super) fn check_widths(reader: &mut Reader<'_>, model: &mut Model, gaps: &[F
     let narrowest: Vec<Option<f64>> = (0..model.gaps.len())
         .map(|gap| narrowest_gap(model, gap))
         .collect();
-    for ((gap, narrowest), field) in model.gaps.iter_mut().zip(narrowest).zip(gaps) {
+    // The last one may stand for several.
+    let fields = gaps
+        .iter()
+        .chain(std::iter::repeat_n(gaps.last(), model.gaps.len()).flatten());
+    for ((gap, narrowest), field) in model.gaps.iter_mut().zip(narrowest).zip(fields) {
         let Some(narrowest) = narrowest else {
             continue;
         };

@@ -1,4 +1,5 @@
-//! Where the plans of two floors can touch: faces, which are pairs of facing edges, and corners before edges.
+//! Where the plans of two floors can touch: faces, which are pairs of facing edges, corners before edges, and corners that
+//! pass each other.
 
 use std::f64::consts::PI;
 
@@ -16,7 +17,7 @@ pub(crate) const MOST_POINTS: usize = 9;
 pub enum PlanContactKind {
     /// Two edges that face each other.
     Face,
-    /// A corner before an edge.
+    /// A corner before an edge or before another corner.
     Corner,
 }
 
@@ -31,7 +32,7 @@ impl PlanContactKind {
     }
 }
 
-/// Two edges that face each other, or a corner before an edge.
+/// Two edges that face each other, or a corner with one of the normals along which it can be touched.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlanFace {
     pub(crate) kind: PlanContactKind,
@@ -42,6 +43,19 @@ pub(crate) struct PlanFace {
     /// Middle of the face, or the corner, midway across the gap \[m\].
     pub(crate) middle: PlanPoint,
     pub(crate) points: Vec<FacePoint>,
+    /// Ends of the edge beyond which a corner finds nothing to touch.
+    pub(crate) ends: Vec<FaceEnd>,
+}
+
+/// How far a corner is inside of an end of the edge before it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FaceEnd {
+    /// The distance grows as the first plan moves in this direction against the second.
+    pub(crate) direction: PlanPoint,
+    /// Distance at rest, negative for a corner that is beyond the end \[m\].
+    pub(crate) inside: f64,
+    /// Whether it is the indentation of another contact, so that it shrinks as the gap is made wider.
+    pub(crate) is_indentation: bool,
 }
 
 /// A point of a face.
@@ -99,6 +113,7 @@ pub(crate) fn plan_faces(
     }
     found.extend(corners(first, second, contact, 1.0));
     found.extend(corners(second, first, contact, -1.0));
+    found.extend(passing_corners(first, second, contact));
     found
 }
 
@@ -150,6 +165,7 @@ fn face(
         overlap,
         middle,
         points: points.collect(),
+        ends: Vec::new(),
     })
 }
 
@@ -186,6 +202,12 @@ fn corners(
             }
             let foot = [a[0] + place * along[0], a[1] + place * along[1]];
             let at = midway(corner, foot);
+            let end = |inside: f64, sign: f64| FaceEnd {
+                direction: along.map(|value| sign * value),
+                inside,
+                is_indentation: false,
+            };
+            let ends = [end(place, sign), end(length - place, -sign)];
             found.push(PlanFace {
                 kind: PlanContactKind::Corner,
                 normal: towards.map(|value| sign * value),
@@ -196,10 +218,104 @@ fn corners(
                     gap,
                     share: 1.0,
                 }],
+                ends: ends
+                    .into_iter()
+                    .filter(|end| end.inside <= contact.reach)
+                    .collect(),
             });
         }
     }
     found
+}
+
+/// Corners of two plans that are nearest to each other and can pass: one contact with two possible normals (theory, section
+/// 16), listed as two. Each holds only while the indentation along the normal of the other is positive.
+///
+/// Seen from one corner, the other moves into the angle in which the edges of both lie; the normals are those of the two edges
+/// that bound it. Edges that face each other count as one, with their mean normal.
+fn passing_corners(
+    first: &[PlanPoint],
+    second: &[PlanPoint],
+    contact: &PlanContact,
+) -> Vec<PlanFace> {
+    let mut found = Vec::new();
+    for own in Corner::all(first) {
+        for other in Corner::all(second) {
+            let apart = minus(other.at, own.at);
+            let distance = apart[0].hypot(apart[1]);
+            if !(0.0..=contact.reach).contains(&distance) || distance == 0.0 {
+                continue;
+            }
+            let inward = other.outward.map(|normal| normal.map(|value| -value));
+            let Some(lower) = nearer(own.outward[0], inward[0], apart, 1.0) else {
+                continue;
+            };
+            let Some(upper) = nearer(own.outward[1], inward[1], apart, -1.0) else {
+                continue;
+            };
+            if cross(lower, upper) <= FACING.sin() {
+                continue;
+            }
+            let normals = [lower, upper];
+            let gaps = normals.map(|normal| dot(normal, apart));
+            for (normal, beyond) in [(0, 1), (1, 0)] {
+                let at = midway(own.at, other.at);
+                found.push(PlanFace {
+                    kind: PlanContactKind::Corner,
+                    normal: normals[normal],
+                    overlap: 0.0,
+                    middle: at,
+                    points: vec![FacePoint {
+                        at,
+                        gap: gaps[normal],
+                        share: 1.0,
+                    }],
+                    ends: vec![FaceEnd {
+                        direction: normals[beyond],
+                        inside: -gaps[beyond],
+                        is_indentation: true,
+                    }],
+                });
+            }
+        }
+    }
+    found
+}
+
+/// A convex corner of a plan, with the outward normals of the edges before and after it.
+struct Corner {
+    at: PlanPoint,
+    outward: [PlanPoint; 2],
+}
+
+impl Corner {
+    fn all(plan: &[PlanPoint]) -> impl Iterator<Item = Self> {
+        let own: Vec<([PlanPoint; 2], PlanPoint)> = edges(plan).collect();
+        let before = own.clone().into_iter().cycle().skip(own.len() - 1);
+        let corners = own.into_iter().zip(before).map(|(after, before)| Self {
+            at: after.0[0],
+            outward: [before.1, after.1],
+        });
+        corners.filter(|corner| cross(corner.outward[0], corner.outward[1]) > 0.0)
+    }
+}
+
+/// Of two normals on the same side of the direction from corner to corner, the one nearer to it; their mean where they face
+/// each other. `None` where the direction lies beyond one of them, so that another pair of corners, or a corner and an edge,
+/// are nearer. `sign` is 1 for normals clockwise of the direction, −1 for the others.
+fn nearer(a: PlanPoint, b: PlanPoint, apart: PlanPoint, sign: f64) -> Option<PlanPoint> {
+    let facing = dot(a, b) > FACING.cos();
+    // Edges that overlap by less than the least of a face still leave the corners to each other.
+    let beyond = if facing { LEAST_OVERLAP } else { 0.0 };
+    let [side_a, side_b] = [a, b].map(|normal| sign * cross(normal, apart));
+    let is_beyond = |side: f64| if facing { side < -beyond } else { side <= 0.0 };
+    if is_beyond(side_a) || is_beyond(side_b) {
+        return None;
+    }
+    if facing {
+        return Some(unit([a[0] + b[0], a[1] + b[1]]));
+    }
+    Some(if sign * cross(a, b) > 0.0 { b } else { a })
 }
 
 /// Places in −1…1 and weights of the Gauss–Lobatto rule of n points: ±1 and the roots of P′ₙ₋₁; the weights
@@ -332,5 +448,62 @@ mod tests {
         let gaps: Vec<f64> = found[0].points.iter().map(|p| p.gap).collect();
         assert!(gaps.windows(2).all(|pair| pair[1] > pair[0]), "{gaps:?}");
         assert!((gaps[0] - 0.02).abs() < 1e-3 && (gaps[4] - 0.42).abs() < 0.02);
+    }
+
+    /// Rectangles that stand corner to corner have both normals; each holds only behind the other. Corners that are flush, or
+    /// turned away from each other, have none.
+    #[test]
+    fn corners_pass_each_other() {
+        let a = rectangle(0.0, 0.0, 10.0, 8.0);
+        let contact = PlanContact::default();
+        let found = plan_faces(&a, &rectangle(10.02, 8.004, 9.0, 9.0), &contact);
+        assert_eq!(found.len(), 2, "{found:?}");
+        for (face, (normal, gap, beyond, inside)) in found.iter().zip([
+            ([1.0, 0.0], 0.02, [0.0, 1.0], -0.004),
+            ([0.0, 1.0], 0.004, [1.0, 0.0], -0.02),
+        ]) {
+            assert_eq!((face.normal, face.ends[0].direction), (normal, beyond));
+            assert!((face.points[0].gap - gap).abs() < 1e-12);
+            assert!((face.ends[0].inside - inside).abs() < 1e-12);
+            assert!(face.ends[0].is_indentation);
+            assert!(
+                (face.middle[0] - 10.01).abs() < 1e-12 && (face.middle[1] - 8.002).abs() < 1e-12
+            );
+        }
+        // Flush: one face, nothing else.
+        let flush = plan_faces(&a, &rectangle(10.02, 0.0, 9.0, 8.0), &contact);
+        assert_eq!(flush.len(), 1, "{flush:?}");
+        // Too far along the diagonal.
+        assert!(plan_faces(&a, &rectangle(10.4, 8.4, 9.0, 9.0), &contact).is_empty());
+        // A square turned by 30° with its lowest corner before the corner of a rectangle: the normals are that of the
+        // rectangle's right edge or of the square's own edge, whichever is nearer to the direction from corner to corner.
+        let (sine, cosine) = 0.5_f64.sin_cos();
+        let turned: Vec<PlanPoint> = rectangle(0.0, 0.0, 5.0, 5.0)
+            .into_iter()
+            .map(|[x, y]| [10.01 + x * cosine - y * sine, 8.03 + x * sine + y * cosine])
+            .collect();
+        let found = plan_faces(&a, &turned, &contact);
+        assert_eq!(found.len(), 2, "{found:?}");
+        for normal in found.iter().map(|face| face.normal) {
+            let of_rectangle = normal == [0.0, 1.0];
+            let of_square = (normal[0] - cosine).abs() < 1e-12 && (normal[1] - sine).abs() < 1e-12;
+            assert!(of_rectangle || of_square, "{normal:?}");
+        }
+    }
+
+    /// A corner near the end of an edge can slide off there, not at the far end.
+    #[test]
+    fn edges_end_where_a_corner_slides_off() {
+        let wall = rectangle(5.0, -0.1, 1.0, 20.0);
+        let square = vec![[0.95, -4.0], [4.95, 0.0], [0.95, 4.0], [-3.05, 0.0]];
+        let contact = PlanContact::default();
+        for (first, second, sign) in [(&square, &wall, 1.0), (&wall, &square, -1.0)] {
+            let found = plan_faces(first, second, &contact);
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert_eq!(found[0].ends.len(), 1);
+            let end = found[0].ends[0];
+            // It comes further inside as the square moves up, or the wall down.
+            assert!((end.inside - 0.1).abs() < 1e-12 && (end.direction[1] - sign).abs() < 1e-12);
+        }
     }
 }

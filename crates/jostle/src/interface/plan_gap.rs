@@ -41,7 +41,19 @@ pub(crate) fn faces_of_gap(model: &Model, gap: &Gap) -> Option<Vec<([usize; 2], 
 /// Least distance of the plans at the contact points of a gap \[m\]; `None` if it has none.
 #[must_use]
 pub fn narrowest_gap(model: &Model, gap: usize) -> Option<f64> {
-    let faces = faces_of_gap(model, model.gaps.get(gap)?)?;
-    let points = faces.iter().flat_map(|(_, face)| &face.points);
-    points.map(|point| point.gap).min_by(f64::total_cmp)
+    narrowest(&faces_of_gap(model, model.gaps.get(gap)?)?)
+}
+
+/// Least distance of faces and corners \[m\]. Of two corners that pass each other one may already be behind the other; then
+/// the distance along the other normal counts.
+pub(crate) fn narrowest(faces: &[([usize; 2], PlanFace)]) -> Option<f64> {
+    let of_face = |face: &PlanFace| {
+        let is_behind = face.ends.iter().any(|end| end.is_indentation);
+        let points = face.points.iter().map(|point| point.gap);
+        points
+            .filter(|gap| !is_behind || *gap >= 0.0)
+            .min_by(f64::total_cmp)
+    };
+    let gaps = faces.iter().filter_map(|(_, face)| of_face(face));
+    gaps.min_by(f64::total_cmp)
 }

@@ -135,6 +135,7 @@ mod tests {
                 slip_peak: 1e-3 * force,
                 impulse: -2.0 * force,
                 friction: 3.0 * force,
+                slid_off: false,
             },
             ..impact(0, start, start + 0.1)
         };
@@ -147,6 +148,7 @@ mod tests {
             slip_peak: 5e-3,
             impulse: -18.0,
             friction: 27.0,
+            slid_off: false,
         };
         assert_eq!(found[0].impact.sliding, expected);
     }

@@ -224,7 +224,10 @@ pub(super) fn reported_impacts(system: &System, outcome: &Outcome) -> Vec<Impact
             finished: points.iter().all(|point| point.finished),
             impulse: points.iter().fold(0.0, |sum, point| sum + point.impulse),
             dissipated: points.iter().fold(0.0, |sum, point| sum + point.dissipated),
-            sliding: sliding_of(face, &points),
+            sliding: Sliding {
+                slid_off: last.sliding.slid_off,
+                ..sliding_of(face, &points)
+            },
         })
     };
     outcome.face_impacts.iter().filter_map(whole).collect()

@@ -396,6 +396,10 @@ fn contact_summary(
             .iter()
             .map(|counted| ImpactSummary {
                 centre_m: centre_of(&counted.impact, outcome),
+                ended: contact.plan.map(|_| match counted.impact.sliding.slid_off {
+                    true => "off",
+                    false => "open",
+                }),
                 sliding: contact.friction.map(|_| ImpactSliding {
                     slip_speed_m_s: counted.impact.sliding.slip_speed,
                     tangential_impulse_n_s: counted.impact.sliding.impulse,
@@ -424,6 +428,7 @@ impl From<&CountedImpact> for ImpactSummary {
             touches: counted.touches,
             simultaneous: counted.simultaneous,
             centre_m: None,
+            ended: None,
             sliding: None,
         }
     }

@@ -4,8 +4,8 @@ use super::{BuildingSystem, System, finite};
 use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean};
 use crate::interface::{
-    Contact, Coulomb, Friction, LinkElement, PlanPlace, Port, PortPair, Row, faces_of_gap,
-    sticking_stiffness,
+    Contact, Coulomb, EdgeEnd, Friction, LinkElement, PlanPlace, Port, PortPair, Row, faces_of_gap,
+    narrowest, sticking_stiffness,
 };
 use crate::model::{Model, ModelFault, PlanPoint, Structure, Tier};
 use crate::structure::Discretization;
@@ -74,6 +74,7 @@ impl System {
         let mut system = Self {
             buildings: self.buildings.clone(),
             contacts: Vec::new(),
+            edge_ends: Vec::new(),
             links: Vec::new(),
             members_followed: Vec::new(),
             ratings: Vec::new(),
@@ -94,8 +95,9 @@ impl System {
             if model.is_in_space() {
                 let first = self.contacts.last().and_then(|last| last.plan);
                 let first = first.map_or(0, |place| place.face + 1);
-                self.contacts
-                    .extend(plan_contacts(self, model, index, first));
+                let (contacts, ends) = plan_contacts(self, model, index, first);
+                self.contacts.extend(contacts);
+                self.edge_ends.extend(ends);
                 continue;
             }
             for (entry, pair) in joined.pairs.iter().enumerate() {
@@ -155,23 +157,27 @@ impl System {
 /// The width of the gap is that of its narrowest point; all others are as much wider as the plans say. The stiffness of a
 /// face is shared by its points. So is the mass of a side, 1/(1/m + ((c − o) × n)²/J) at the middle of the face, so that
 /// dashpots of a face add up to that of the whole.
-fn plan_contacts(system: &System, model: &Model, index: usize, first: usize) -> Vec<Contact> {
+fn plan_contacts(
+    system: &System,
+    model: &Model,
+    index: usize,
+    first: usize,
+) -> (Vec<Contact>, Vec<EdgeEnd>) {
     let gap = &model.gaps[index];
     let [Some(a), Some(b)] = gap.between else {
-        return Vec::new();
+        return Default::default();
     };
     let tiers = |building: usize| match &model.buildings[building].structure {
         Structure::Tiers(tiers) => Some(tiers),
         _ => None,
     };
     let (Some(own), Some(other)) = (tiers(a), tiers(b)) else {
-        return Vec::new();
+        return Default::default();
     };
     let found = faces_of_gap(model, gap).unwrap_or_default();
-    let points = found.iter().flat_map(|(_, face)| &face.points);
-    let narrowest = points.map(|point| point.gap).fold(f64::INFINITY, f64::min);
+    let narrowest = narrowest(&found).unwrap_or_default();
     let wider = gap.width() - narrowest;
-    let mut contacts = Vec::new();
+    let (mut contacts, mut ends) = (Vec::new(), Vec::new());
     for (number, ([i, j], face)) in found.iter().enumerate() {
         let moving = |tier: &Tier| {
             let arm = [
@@ -210,6 +216,11 @@ fn plan_contacts(system: &System, model: &Model, index: usize, first: usize) -> 
                     port(b, *j, masses[1], direction),
                 ])
             };
+            ends.extend(face.ends.iter().map(|end| EdgeEnd {
+                contact: system.contacts.len() + contacts.len(),
+                ports: ports(end.direction),
+                inside: end.inside - if end.is_indentation { wider } else { 0.0 },
+            }));
             let friction = (gap.in_plan.friction > 0.0).then(|| Friction {
                 law: Coulomb {
                     coefficient: gap.in_plan.friction,
@@ -240,7 +251,7 @@ fn plan_contacts(system: &System, model: &Model, index: usize, first: usize) -> 
             });
         }
     }
-    contacts
+    (contacts, ends)
 }
 
 fn ports(

@@ -6,7 +6,7 @@ mod finite;
 mod members;
 mod rating;
 
-use crate::interface::{Contact, DofRow, Friction, LinkElement, Port, PortPair};
+use crate::interface::{Contact, DofRow, EdgeEnd, Friction, LinkElement, Port, PortPair};
 use crate::model::LEVEL_TOLERANCE;
 
 pub use building::{BuildingSystem, Corner, Direction, Floor, Track};
@@ -32,6 +32,8 @@ pub struct System {
     pub buildings: Vec<BuildingSystem>,
     /// Contacts, gap by gap, from the lowest up.
     pub contacts: Vec<Contact>,
+    /// Ends of the edges that corners of buildings in space touch, contact by contact.
+    pub edge_ends: Vec<EdgeEnd>,
     /// Springs and dashpots between buildings, link by link, from the lowest up.
     pub links: Vec<LinkElement>,
     /// Members whose forces are recorded over time: building, and member of its
@@ -62,6 +64,7 @@ impl System {
         Self {
             buildings,
             contacts: Vec::new(),
+            edge_ends: Vec::new(),
             links: Vec::new(),
             members_followed: Vec::new(),
             ratings: Vec::new(),

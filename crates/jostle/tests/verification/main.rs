@@ -4,6 +4,7 @@ mod a_row_of_three_buildings;
 mod bad_models_are_refused;
 mod base_gravity_and_shifted_equilibrium;
 mod contact_laws;
+mod corners;
 mod direct_runs_refine_their_steps;
 mod energy_balances;
 mod extremes_are_survived;

@@ -163,6 +163,9 @@ pub struct ImpactSummary {
     /// Centre of pressure at the greatest force, on the site; absent in one plane \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre_m: Option<[f64; 2]>,
+    /// How it ended: `"open"`, or `"off"` where a corner slid off the edge that it pressed; absent in one plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ended: Option<&'static str>,
     /// Friction along the face; absent without.
     #[serde(flatten)]
     pub sliding: Option<ImpactSliding>,

@@ -39,6 +39,9 @@ pub(super) struct Reduced {
     pub(super) ports: Vec<[Option<Shown>; 2]>,
     /// Of every contact, the place of its friction in the list of ports and in all that follow its order.
     pub(super) friction: Vec<Option<usize>>,
+    /// Where the two sides of every end of an edge show, and the ends of every contact.
+    pub(super) edge_ends: Vec<[Option<Shown>; 2]>,
+    pub(super) ends_of: Vec<Range<usize>>,
     /// The contact of every entry of that order.
     pub(super) contact_of: Vec<usize>,
     /// What a force at every contact makes of modal loads, then friction.
@@ -215,6 +218,8 @@ impl Reduced {
             arch: Arch::new(),
             ports: vec![[None; 2]; contact_of.len()],
             friction,
+            edge_ends: vec![[None; 2]; system.edge_ends.len()],
+            ends_of: ends_of_contacts(system),
             contact_of,
             unit_forces: Vec::new(),
             links: Vec::new(),
@@ -301,7 +306,9 @@ impl Reduced {
         } = Watched::new(system, index);
         let corners = corners.start + self.watched()..corners.end + self.watched();
         let watching = self.watched();
-        for (ports, pair) in self.ports.iter_mut().zip(system.contact_ports()) {
+        let ends = system.edge_ends.iter().map(|end| &end.ports);
+        let all = self.ports.iter_mut().zip(system.contact_ports());
+        for (ports, pair) in all.chain(self.edge_ends.iter_mut().zip(ends)) {
             for (shown, port) in ports.iter_mut().zip(&pair.0) {
                 let Some(port) = port.filter(|port| port.building == index) else {
                     continue;
@@ -503,7 +510,12 @@ impl Reduced {
     /// Left minus right of monitored values of a contact; a wall has zero.
     #[inline]
     pub(super) fn closing(&self, contact: usize, values: &[f64]) -> f64 {
-        let [left, right] = self.ports[contact];
+        Self::apart(self.ports[contact], values)
+    }
+
+    /// Left minus right of monitored values; a wall has zero.
+    #[inline]
+    pub(super) fn apart([left, right]: [Option<Shown>; 2], values: &[f64]) -> f64 {
         let at = |port: Option<Shown>| port.map_or(0.0, |shown| values[shown.watched]);
         at(left) - at(right)
     }
@@ -543,6 +555,15 @@ impl Reduced {
     }
 }
 
+/// Ends of edges of every contact.
+fn ends_of_contacts(system: &System) -> Vec<Range<usize>> {
+    let ends = &system.edge_ends;
+    let first = |contact: usize| ends.partition_point(|end| end.contact < contact);
+    (0..system.contacts.len())
+        .map(|contact| first(contact)..first(contact + 1))
+        .collect()
+}
+
 /// Monitored displacements of a building: its floors from the ground up, its corners in plan, then other points of contacts, links and
 /// dashpots; and those of contacts, links and dashpots.
 struct Watched {
@@ -565,7 +586,8 @@ impl Watched {
         let mut ports = Vec::new();
         let contacts = system.contact_ports().map(|ports| ports.0);
         let links = system.links.iter().map(|link| link.ports.0);
-        let all = contacts.chain(links).flatten().flatten();
+        let ends = system.edge_ends.iter().map(|end| end.ports.0);
+        let all = contacts.chain(links).chain(ends).flatten().flatten();
         let joined = all.filter(|port| port.building == index);
         let damped = own_dashpots(building).into_iter();
         let damped = damped.flat_map(|(dofs, _)| dofs).flatten();

@@ -519,6 +519,17 @@ impl Stepper for ModalStepper<'_> {
         })
     }
 
+    fn edge_ends(&self, contact: usize) -> std::ops::Range<usize> {
+        self.reduced.ends_of[contact].clone()
+    }
+
+    fn edge_end(&self, run: &RunState<'_>, end: usize, tried: bool) -> [f64; 2] {
+        let ports = self.reduced.edge_ends[end];
+        let [moved, rate] =
+            [&self.u, &self.rate].map(|lists| Reduced::apart(ports, &lists[usize::from(tried)]));
+        [run.system.edge_ends[end].inside + moved, rate]
+    }
+
     fn follow_friction(
         &mut self,
         run: &RunState<'_>,

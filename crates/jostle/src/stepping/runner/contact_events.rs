@@ -20,6 +20,8 @@ pub(in crate::stepping) struct ContactTrial {
 pub(super) struct Event {
     pub(super) contact: usize,
     pub(super) crossing: Crossing,
+    /// The end of an edge that a corner slides off; `None` where the indentation itself crosses zero.
+    pub(super) end: Option<usize>,
     /// Share of the step.
     pub(super) at: f64,
 }
@@ -56,6 +58,11 @@ impl<S: Stepper> Runner<'_, S> {
         }
         let mut first: Option<Event> = None;
         for contact in 0..self.run.phases.len() {
+            if let Some(event) = self.first_sliding_off(contact, step)
+                && first.is_none_or(|first| event.at < first.at)
+            {
+                first = Some(event);
+            }
             let Some(crossing) = self.awaited(contact) else {
                 continue;
             };
@@ -66,14 +73,61 @@ impl<S: Stepper> Runner<'_, S> {
                 let event = Event {
                     contact,
                     crossing,
+                    end: None,
                     at,
                 };
-                if !self.undoes_a_touch(&event, step) {
+                if !self.undoes_a_touch(&event, step) && self.finds_its_edge(&event, step) {
                     first = Some(event);
                 }
             }
         }
         first
+    }
+
+    /// Where a closed contact of a corner slides off its edge in the tried step.
+    fn first_sliding_off(&self, contact: usize, step: f64) -> Option<Event> {
+        let ends = self.stepper.edge_ends(contact);
+        if ends.is_empty() || self.run.is_open(contact) {
+            return None;
+        }
+        let crossing = Crossing::Downwards;
+        let of_end = |end: usize| {
+            let at = self.edge_end_curve(end, step).first_crossing(crossing)?;
+            Some(Event {
+                contact,
+                crossing,
+                end: Some(end),
+                at,
+            })
+        };
+        ends.filter_map(of_end).min_by(|a, b| a.at.total_cmp(&b.at))
+    }
+
+    /// Whether the corner of a contact is before its edge at an event that closes it. One that was behind the edge without
+    /// touching it is no touch as it comes back.
+    fn finds_its_edge(&self, event: &Event, step: f64) -> bool {
+        let mut ends = self.stepper.edge_ends(event.contact);
+        if ends.is_empty() || event.crossing == Crossing::Downwards {
+            return true;
+        }
+        let width = self.run.system.contacts[event.contact].width;
+        self.stepper.closing(&self.run, event.contact) - width <= TOGETHER
+            && ends.all(|end| self.edge_end_curve(end, step).value(event.at) > 0.0)
+    }
+
+    /// How far the corner of a contact is inside of an end of its edge over the tried step.
+    fn edge_end_curve(&self, end: usize, step: f64) -> Cubic {
+        let [now, then] = [false, true].map(|tried| self.stepper.edge_end(&self.run, end, tried));
+        Cubic::new(now[0], now[1], then[0], then[1], step)
+    }
+
+    /// What crosses zero at an event, at the end of the tried step, and its rate \[m, m/s\].
+    fn crossed(&self, event: &Event) -> [f64; 2] {
+        let trial = self.run.trials[event.contact];
+        match event.end {
+            Some(end) => self.stepper.edge_end(&self.run, end, true),
+            None => [trial.indentation, trial.rate],
+        }
     }
 
     /// Direction of the crossing that would end the step at a contact.
@@ -118,10 +172,10 @@ impl<S: Stepper> Runner<'_, S> {
         let mut length = event.at * next.length;
         for _ in 0..MOST_CORRECTIONS {
             self.try_length(length)?;
-            if let Some(other) = self
-                .first_event(length)
-                .filter(|other| other.contact != event.contact && other.at < 1.0 - 1e-9)
-            {
+            if let Some(other) = self.first_event(length).filter(|other| {
+                let is_same = other.contact == event.contact && other.end == event.end;
+                !is_same && other.at < 1.0 - 1e-9
+            }) {
                 if other.at * length <= self.shortest_step(&other) {
                     // It happens before anything moves: no step so short could be taken.
                     self.read_contacts();
@@ -132,24 +186,19 @@ impl<S: Stepper> Runner<'_, S> {
                 length *= other.at;
                 continue;
             }
-            let trial = self.run.trials[event.contact];
-            let corrected = length - trial.indentation / trial.rate;
-            let wrong_way = (event.crossing == Crossing::Upwards) != (trial.rate > 0.0);
-            if trial.indentation.abs() <= TOUCH
-                || wrong_way
-                || !(corrected > 0.0 && corrected < next.length)
-            {
+            let [value, rate] = self.crossed(&event);
+            let corrected = length - value / rate;
+            let wrong_way = (event.crossing == Crossing::Upwards) != (rate > 0.0);
+            if value.abs() <= TOUCH || wrong_way || !(corrected > 0.0 && corrected < next.length) {
                 break;
             }
             length = corrected;
             self.run.work.repeated_steps += 1;
         }
-        let ContactTrial {
-            indentation, rate, ..
-        } = self.run.trials[event.contact];
+        let [value, rate] = self.crossed(&event);
         let reached = match event.crossing {
-            Crossing::Upwards => indentation >= -TOGETHER && rate > 0.0,
-            Crossing::Downwards => indentation <= TOGETHER && rate < 0.0,
+            Crossing::Upwards => value >= -TOGETHER && rate > 0.0,
+            Crossing::Downwards => value <= TOGETHER && rate < 0.0,
         };
         // The step that was last tried, should the corrections not have come to an end.
         let tried = self.stepper.length(0);
@@ -189,7 +238,7 @@ impl<S: Stepper> Runner<'_, S> {
     /// Closes or opens contacts at the present instant, whose indentations and rates stand in the trials.
     pub(super) fn apply_event(&mut self, event: Event) {
         if event.crossing == Crossing::Downwards {
-            self.release(event.contact);
+            self.release(event.contact, event.end.is_some());
         } else {
             let struck = self.apply_momentum_laws(event.contact);
             for index in 0..self.run.phases.len() {
@@ -201,8 +250,8 @@ impl<S: Stepper> Runner<'_, S> {
         self.stepper.after_event(&self.run);
     }
 
-    /// A contact opens with a jump of its force.
-    fn release(&mut self, contact: usize) {
+    /// A contact opens with a jump of its force; `slid_off`: because its corner slid off the edge.
+    fn release(&mut self, contact: usize, slid_off: bool) {
         let ContactPhase::Closed(mut episode) = self.run.phases[contact] else {
             return;
         };
@@ -215,6 +264,7 @@ impl<S: Stepper> Runner<'_, S> {
         }
         episode.end = self.run.time;
         episode.separation_speed = -self.run.trials[contact].rate;
+        episode.slid_off = slid_off;
         self.run.report_impact(contact, &episode, true);
         self.run.phases[contact] = ContactPhase::Open;
         self.stepper.after_release(contact);
@@ -223,7 +273,13 @@ impl<S: Stepper> Runner<'_, S> {
     /// Whether an open contact touches and closes now.
     fn is_closing(&self, index: usize) -> bool {
         let trial = &self.run.trials[index];
-        self.run.is_open(index) && trial.indentation >= -TOGETHER && trial.rate > 0.0
+        if !self.run.is_open(index) || trial.indentation < -TOGETHER || trial.rate <= 0.0 {
+            return false;
+        }
+        let mut ends = self.stepper.edge_ends(index);
+        ends.is_empty()
+            || (trial.indentation <= TOGETHER
+                && ends.all(|end| self.stepper.edge_end(&self.run, end, false)[0] > TOGETHER))
     }
 
     /// Lets momentum laws act on a contact and on all others that touch and close, one after the other, until none
@@ -380,6 +436,7 @@ pub(super) fn impact_of(contact: usize, episode: &Episode, finished: bool) -> Op
             slip_peak: episode.friction.slip_peak,
             impulse: episode.friction.impulse,
             friction: episode.friction.work,
+            slid_off: episode.slid_off,
         },
     })
 }

@@ -47,6 +47,18 @@ pub(in crate::stepping) trait Stepper {
         [0.0; 2]
     }
 
+    /// Ends of the edge that the corner of a contact touches, by their index in [`crate::System::edge_ends`].
+    fn edge_ends(&self, contact: usize) -> std::ops::Range<usize> {
+        let _ = contact;
+        0..0
+    }
+
+    /// How far a corner is inside of such an end, and its rate \[m, m/s\]: now, or at the end of the tried step.
+    fn edge_end(&self, run: &RunState<'_>, end: usize, tried: bool) -> [f64; 2] {
+        let _ = (run, end, tried);
+        [f64::INFINITY, 0.0]
+    }
+
     /// Brings the friction of a closed contact to the end of the accepted step with its start and length \[s\] and the contact
     /// force over it; returns the friction over the step.
     fn follow_friction(
