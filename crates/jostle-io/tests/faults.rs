@@ -118,7 +118,7 @@ model.toml:14:12: building[0].concrete: "C33" is not known; available: C20, C25,
      |            ^^^^^
   help: did you mean "C30"?
 
-model.toml:16:19: building[0].hinges.rule: "norml" is not known; available: normal, peak-oriented, takeda, d-tri, bilinear, elastic
+model.toml:16:19: building[0].hinges.rule: "norml" is not known; available: normal, peak-oriented, takeda, d-tri, pinched, bilinear, elastic
   16 | hinges = { rule = "norml", column = { yield = "400 kN" } }
      |                   ^^^^^^^
   help: did you mean "normal"?
