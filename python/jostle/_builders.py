@@ -421,14 +421,22 @@ class Gap(Part):
 
 
 class Link(Part):
-    """Springs and dampers between floors of two neighbours, or of a building and a wall; they act in both directions.
+    """Springs, dampers and sliders between floors of two neighbours, of a building and a wall, or of one building.
 
     Args:
-        between: names of the left and the right neighbour, ``"wall"`` for a rigid wall at an end of the row.
+        between: names of the left and the right neighbour, ``"wall"`` for a rigid wall at an end of the row; one building
+            twice for links between its own floors.
         floors: points that are joined, as for a gap; every pair of floors at equal height by default.
         level_tolerance: floors whose heights differ by no more than this can be joined, 1 mm by default.
-        stiffness: force per change of length, of each link, ≥ 0; 0 by default.
-        damping: force per rate of change of length, of each link, ≥ 0; 0 by default.
+        law: ``"linear"`` by default, ``"viscous"``, ``"maxwell"``, ``"friction"``, ``"yielding"``, ``"cable"`` or ``"stopper"``.
+        stiffness: force per change of length, of each link, ≥ 0; in series for viscous and maxwell.
+        damping: force per rate of change of length, of each link, ≥ 0; for viscous as in ``"150 kN.(s/m)^0.35"``.
+        exponent: viscous: exponent of the rate, 0.1 to 2; 1 by default.
+        slip_force: friction: force at which it slips, > 0.
+        stick_stiffness: friction: stiffness while it sticks, > 0.
+        hinge: yielding: rule and corners, as ``{"rule": "bilinear", "yield": "120 kN", "post_yield": 0.05}``.
+        slack: cable: lengthening at which it becomes taut, ≥ 0; 0 by default.
+        gap: stopper: shortening at which it is touched, ≥ 0; 0 by default.
         **units: the same with units in names, as in ``damping_kn_s_m=500``.
 
     Raises:
@@ -443,8 +451,15 @@ class Link(Part):
         *,
         floors: Floors | None = None,
         level_tolerance: Quantity | None = None,
+        law: str | None = None,
         stiffness: Quantity | None = None,
         damping: Quantity | None = None,
+        exponent: float | None = None,
+        slip_force: Quantity | None = None,
+        stick_stiffness: Quantity | None = None,
+        hinge: Table | None = None,
+        slack: Quantity | None = None,
+        gap: Quantity | None = None,
         **units: Unpack[LinkUnits],
     ) -> None:
         super().__init__(
@@ -452,8 +467,15 @@ class Link(Part):
                 "between": between,
                 "floors": floors,
                 "level_tolerance": level_tolerance,
+                "law": law,
                 "stiffness": stiffness,
                 "damping": damping,
+                "exponent": exponent,
+                "slip_force": slip_force,
+                "stick_stiffness": stick_stiffness,
+                "hinge": hinge,
+                "slack": slack,
+                "gap": gap,
             },
             units,
         )

@@ -115,6 +115,18 @@ class LinkUnits(TypedDict, total=False):
     damping_n_s_m: float
     damping_kn_s_m: float
     damping_mn_s_m: float
+    slip_force_n: float
+    slip_force_kn: float
+    slip_force_mn: float
+    stick_stiffness_n_m: float
+    stick_stiffness_kn_m: float
+    stick_stiffness_mn_m: float
+    slack_m: float
+    slack_cm: float
+    slack_mm: float
+    gap_m: float
+    gap_cm: float
+    gap_mm: float
 
 
 class GapUnits(TypedDict, total=False):

@@ -69,6 +69,8 @@ pub(crate) enum Section {
     Bars,
     Gap,
     Link,
+    /// Yielding of a link.
+    LinkHinge,
     Analysis,
     /// What results should hold beyond the usual.
     Output,
@@ -119,6 +121,8 @@ pub(crate) enum Kind {
     Quantities(Dimension),
     /// Stiffness of a contact: its unit depends on the law.
     ContactStiffness,
+    /// Coefficient of a dashpot: its unit depends on the exponent.
+    LinkDamping,
     /// One count, or one per span.
     CountPerSpan,
     /// One or two mode numbers.
@@ -195,6 +199,8 @@ pub(crate) const MATRIX_UNITS: &[&str] =
 /// Spellings of the contact laws.
 pub const LAW_NAMES: [&str; LawKind::NAMES.len()] = LawKind::NAMES;
 pub(crate) const LAWS: &[&str] = &LAW_NAMES;
+/// Spellings of the laws of links.
+pub(crate) const LINK_LAWS: &[&str] = &jostle::LinkLaw::NAMES;
 pub(crate) const LAW_VARIANTS: &[&str] = names!(ModifiedKelvin);
 pub(crate) const SOLVERS: &[&str] = &[
     "auto",
@@ -300,9 +306,9 @@ const fn default(
 use Dimension as D;
 use Kind::{
     Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FlagOrChoices,
-    FlagOrTexts, FloorPairs, GradeOr, Modes, Neighbours, NumberOrTable, PerContact, PerStorey,
-    Quantities, Quantity, TablePerStorey, Tables, Text, TextOrTable, TextOrTexts, WordOr,
-    WordOrTable,
+    FlagOrTexts, FloorPairs, GradeOr, LinkDamping, Modes, Neighbours, NumberOrTable, PerContact,
+    PerStorey, Quantities, Quantity, TablePerStorey, Tables, Text, TextOrTable, TextOrTexts,
+    WordOr, WordOrTable,
 };
 use Section as S;
 
@@ -313,7 +319,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "motion", Kind::Table(S::Motion), "The ground motion."),
     required(S::Root, "building", Tables(&[S::Building, S::Frame, S::Shear, S::Given]), "The buildings, from left to right."),
     optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps between neighbours, and between the ends of the row and walls there."),
-    optional(S::Root, "link", Tables(&[S::Link]), "Springs and dampers that join neighbours."),
+    optional(S::Root, "link", Tables(&[S::Link]), "Springs, dampers and sliders that join neighbours, or floors of one building."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
     optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
@@ -557,11 +563,28 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Gap, "tangential_stiffness", Quantity(D::Stiffness), "Between plans with friction: stiffness of a whole face against sliding while it sticks; without it, 0.89 times that against pressing."),
     default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact closer in time than this count as one."),
 
-    required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row."),
-    default(S::Link, "floors", FloorPairs, "\"common\"", "Points that are joined, as for gaps."),
+    required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row. One building twice: links between its own floors."),
+    default(S::Link, "floors", FloorPairs, "\"common\"", "Points that are joined, as for gaps. Inside one building: pairs of its floors, such as [[0, 1], [1, 2]]; 0 is its base."),
     default(S::Link, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can be joined."),
-    default(S::Link, "stiffness", Quantity(D::Stiffness), "0", "Force per change of length, of each link."),
-    default(S::Link, "damping", Quantity(D::Damping), "0", "Force per rate of change of length, of each link."),
+    default(S::Link, "law", Choice(LINK_LAWS), "\"linear\"", "linear, spring and dashpot side by side; viscous, F = c v^α against the motion, with a spring in series if stiffness is given; maxwell, spring and dashpot in series; friction, a slider; yielding, a hysteresis rule; cable, tension only; stopper, compression only. All but linear need solver = \"riccati\"."),
+    optional(S::Link, "stiffness", Quantity(D::Stiffness), "Force per change of length, of each link; of the spring in series for viscous and maxwell; before the first corner for yielding. Not for friction."),
+    optional(S::Link, "damping", LinkDamping, "Force per rate of change of length, of each link; for viscous per its power, in N.(s/m)^exponent. Not for friction, yielding and cable."),
+    default(S::Link, "exponent", Quantity(D::Dimensionless), "1", "viscous: exponent α of the rate, 0.1 to 2."),
+    optional(S::Link, "slip_force", Quantity(D::Force), "friction: force at which it slips."),
+    optional(S::Link, "stick_stiffness", Quantity(D::Stiffness), "friction: stiffness while it sticks."),
+    optional(S::Link, "hinge", Kind::Table(S::LinkHinge), "yielding: rule and corners."),
+    default(S::Link, "slack", Quantity(D::Length), "0", "cable: lengthening at which it becomes taut."),
+    default(S::Link, "gap", Quantity(D::Length), "0", "stopper: shortening at which it is touched."),
+
+    required(S::LinkHinge, "rule", Choice(RULES), "Unloading and reloading rule of the link."),
+    default(S::LinkHinge, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    optional(S::LinkHinge, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
+    default(S::LinkHinge, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1."),
+    optional(S::LinkHinge, "damage", Kind::Table(S::Damage), "Growth of the peaks of pinched; without this table they stay."),
+    optional(S::LinkHinge, "cracking", Quantity(D::Force), "Force at the first corner; not for bilinear."),
+    optional(S::LinkHinge, "yield", Quantity(D::Force), "Force at yield."),
+    optional(S::LinkHinge, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to the stiffness of the link."),
+    optional(S::LinkHinge, "post_yield", Quantity(D::Dimensionless), "Ratio of the stiffness after yield to the stiffness of the link."),
 
     default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step of free vibration."),
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),

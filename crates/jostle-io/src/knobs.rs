@@ -215,6 +215,7 @@ fn dimension(kind: &Kind) -> Option<Dimension> {
         | Kind::WordOr(_, dimension)
         | Kind::PerContact(dimension) => Some(*dimension),
         Kind::ContactStiffness => Some(Dimension::HertzStiffness),
+        Kind::LinkDamping => Some(Dimension::Damping),
         Kind::NumberOrTable(_) => Some(Dimension::Dimensionless),
         _ => None,
     }

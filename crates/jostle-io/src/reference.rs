@@ -87,8 +87,9 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Link,
         "`[[link]]`",
-        "Springs and dampers between neighbours, acting both ways at all times.",
+        "Springs, dampers and sliders between neighbours, or between floors of one building; see [Dampers between two towers](how-to/dampers-between-towers.md).",
     ),
+    (Section::LinkHinge, "`hinge` of a link", ""),
     (Section::Analysis, "`[analysis]`", ""),
     (
         Section::Output,
@@ -242,6 +243,7 @@ fn value(key: &Key) -> String {
         }
         Kind::Quantities(dimension) => format!("list: {}", quantity(dimension)),
         Kind::ContactStiffness => "`\"2e9 N/m^1.5\"` or `\"500 MN/m\"`, by the law".into(),
+        Kind::LinkDamping => "`\"2 MN.s/m\"`; for viscous `\"150 kN.(s/m)^0.35\"`".into(),
         Kind::CountPerSpan => "whole number, or one per span".into(),
         Kind::Modes => "one or two mode numbers".into(),
         Kind::Choice(choices) | Kind::Word(choices) => words(choices),

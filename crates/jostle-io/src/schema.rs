@@ -129,6 +129,11 @@ fn kind(kind: Kind) -> Value {
             schema["examples"] = json!(["2e9 N/m^1.5", "500 MN/m"]);
             schema
         }
+        Kind::LinkDamping => {
+            let mut schema = quantity(Dimension::Damping);
+            schema["examples"] = json!(["2 MN.s/m", "150 kN.(s/m)^0.35"]);
+            schema
+        }
         Kind::CountPerSpan => one_or_list(count),
         Kind::Modes => {
             json!({ "anyOf": [{ "const": "all" }, one_or_list(count)] })

@@ -115,12 +115,18 @@ fn summary() -> Summary {
             closing_without_contact_m: None,
         }],
         links: vec![LinkSummary {
+            law: "linear".to_owned(),
+            exponent: 1.0,
+            force_peak_n: 0.0,
+            stroke_peak_m: 0.0,
+            speed_peak_m_s: 0.0,
             between: ["A, west".into(), "B".into()],
             stiffness_n_m: 1e6,
             damping_n_s_m: 1e5,
             peak_force_n: 2e5,
             dissipated_j: 1e3,
             floors: vec![LinkFloorSummary {
+                peak_speed_m_s: 0.0,
                 floors: [Some(2), Some(2)],
                 height_m: 6.0,
                 peak_force_n: -2e5,

@@ -58,6 +58,7 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             .map(|element| json!({ "floors": element.ports.floors(), "height_m": element.height }));
         json!({
             "between": names(model, link.between),
+            "law": link.law.name(),
             "stiffness_n_m": link.stiffness,
             "damping_n_s_m": link.damping,
             "floors": own.collect::<Vec<_>>(),

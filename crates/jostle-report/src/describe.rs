@@ -1,7 +1,9 @@
 //! The model, the analysis and the energy balance of the run as text and small tables.
 
 use jostle::contact::RestitutionIs;
-use jostle::model::{Building, Damping, FloorPairs, Frame, Gap, Link, Shear, Solver, Structure};
+use jostle::model::{
+    Building, Damping, FloorPairs, Frame, Gap, Link, LinkLaw, Shear, Solver, Structure,
+};
 use jostle::motion::Wave;
 use jostle::results::summary::{BuildingSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
@@ -236,6 +238,9 @@ fn places(floors: &FloorPairs) -> String {
 fn link(link: &Link, summary: &LinkSummary) -> Facts {
     let stroke = summary.floors.iter().map(|floor| floor.peak_stroke_m);
     let mut facts: Facts = vec![("joins", places(&link.floors))];
+    if link.law != LinkLaw::Linear {
+        facts.push(("law", summary.law.clone()));
+    }
     if link.stiffness > 0.0 {
         facts.push((
             "stiffness of each",
@@ -243,9 +248,14 @@ fn link(link: &Link, summary: &LinkSummary) -> Facts {
         ));
     }
     if link.damping > 0.0 {
+        let unit = if summary.exponent == 1.0 {
+            "N·s/m".to_owned()
+        } else {
+            format!("N·(s/m)^{}", summary.exponent)
+        };
         facts.push((
             "damping of each",
-            format!("{} N·s/m", format::plain(link.damping, 3)),
+            format!("{} {unit}", format::plain(link.damping, 3)),
         ));
     }
     facts.push(("peak force", format::force(summary.peak_force_n)));

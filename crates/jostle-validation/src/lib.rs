@@ -10,6 +10,7 @@ pub mod closed_forms;
 pub mod collisions;
 pub mod document;
 pub mod frames;
+pub mod links;
 pub mod loops;
 pub mod modes;
 pub mod oscillators;
@@ -52,7 +53,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 14] = [
+const FAMILIES: [(&str, &str, Make); 15] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -88,6 +89,13 @@ const FAMILIES: [(&str, &str, Make); 14] = [
          offset in plan at 30°, three buildings around a corner. Expected values: modes in free flight, an integrator of \
          eighth order in contact, every touch and opening located; checked by fixed steps of 2 µs.",
         |_| space::rows(),
+    ),
+    (
+        "Links that are not linear",
+        "Two shear buildings joined by viscous dampers with exponents 1 and 0.35, Maxwell and friction links, without and with \
+         impacts. Expected values: an integrator of eighth order, every slip and touch located; that of the pure dashpot comes \
+         from fixed steps and is good to 1.6·10⁻⁴.",
+        |_| links::rows(),
     ),
     (
         "Textbook",

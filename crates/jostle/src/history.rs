@@ -533,6 +533,8 @@ pub struct LinkTotals {
     pub peak_force: Extreme,
     /// Greatest change of length, either sign \[m\].
     pub peak_shortening: f64,
+    /// Greatest rate of change of length, either sign \[m/s\].
+    pub peak_rate: f64,
     /// Work done on it, recoverable energy of its spring included \[J\].
     pub work: f64,
 }

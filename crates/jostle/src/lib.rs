@@ -114,7 +114,7 @@ pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Given, Gravity,
-    Hinges, Integrator, Joint, Level, Link, MemberRequest, Model, ModelFault, PlanArea,
+    Hinges, Integrator, Joint, Level, Link, LinkLaw, MemberRequest, Model, ModelFault, PlanArea,
     PlanContact, PlanPoint, Section, Shear, Solver, Structure, Tier, TierStorey, Tiers,
 };
 pub use motion::{Bearing, GroundMotion, Wave};

@@ -3,6 +3,7 @@
 use crate::contact::Memory;
 use crate::history::Extreme;
 use crate::hysteresis::HysteresisMemory;
+use crate::interface::{LinkElement, LinkMemory};
 use crate::structure::{Motion, StoreyForce};
 use crate::system::{BuildingSystem, System};
 
@@ -36,6 +37,8 @@ pub struct State {
     pub acceleration: Vec<f64>,
     /// Springs that yield, of all buildings from left to right.
     pub springs: Vec<HysteresisMemory>,
+    /// Links, in the order of the system; empty if all of them are linear.
+    pub links: Vec<LinkMemory>,
     /// Contacts, in the order of the system.
     pub contacts: Vec<ContactPhase>,
 }
@@ -165,8 +168,19 @@ impl State {
             velocity: vec![0.0; n],
             acceleration,
             springs,
+            links: if system.links.iter().all(LinkElement::is_linear) {
+                Vec::new()
+            } else {
+                vec![LinkMemory::default(); system.links.len()]
+            },
             contacts: vec![ContactPhase::Open; system.contacts.len()],
         }
+    }
+
+    /// Memories of all links; those of linear ones are empty.
+    pub(crate) fn link_memories(&self) -> impl Iterator<Item = LinkMemory> {
+        let linear = std::iter::repeat(LinkMemory::default());
+        self.links.iter().copied().chain(linear)
     }
 }
 

@@ -309,6 +309,7 @@ fn every_joint_and_struck_point_is_in_equilibrium() {
         damping: 2e5,
         floors: FloorPairs::Listed(vec![[Level::Height(7.7), Level::Floor(2)]]),
         level_tolerance: 1e-3,
+        law: jostle::LinkLaw::Linear,
     });
     let models = [
         ("plain", neighbours()),

@@ -68,6 +68,7 @@ fn blows_and_links_allocate_nothing_either() {
         level_tolerance: 1e-3,
         stiffness: 1e6,
         damping: 5e4,
+        law: jostle::LinkLaw::Linear,
     }];
     never_more_often(&model);
 }

@@ -13,11 +13,13 @@ pub(super) const MOST_CONTACTS: usize = 10_000;
 /// How a file names a rigid wall.
 const WALL: &str = "wall";
 
-/// Indices of the left and the right neighbour under `between`; `None` inside is a wall.
+/// Indices of the left and the right neighbour under `between`; `None` inside is a wall. `or_one`: one building may be named
+/// twice.
 pub(super) fn neighbours(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     buildings: Option<&[Building]>,
+    or_one: bool,
 ) -> Option<[Option<usize>; 2]> {
     let Some(field) = reader.get(view, "between") else {
         reader.missing(
@@ -56,6 +58,9 @@ pub(super) fn neighbours(
     let left_index = left_name.and_then(|name| index(left, &name));
     let right_index = right_name.and_then(|name| index(right, &name));
     let between = [left_index?, right_index?];
+    if or_one && between[0].is_some() && between[0] == between[1] {
+        return Some(between);
+    }
     let last = buildings.len().checked_sub(1);
     let in_space = |building: &Building| matches!(building.structure, Structure::Tiers(_));
     if buildings.iter().any(in_space) {

@@ -147,7 +147,7 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, buildings: Option<&[Building
     let between = if in_space && (says_all || !view.has("between")) {
         Some(ALL_NEIGHBOURS)
     } else {
-        neighbours(reader, &view, buildings)
+        neighbours(reader, &view, buildings, false)
     };
     let widths = match reader.get(&view, "width") {
         Some(field) => widths(reader, &field),

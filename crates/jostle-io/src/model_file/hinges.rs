@@ -554,11 +554,22 @@ pub(super) fn read_base(
         Dimension::Moment => &[Section::BaseRocking],
         _ => &[Section::BaseSliding],
     };
-    let view = reader.open(&field, sections)?;
     if !base.has(keys[1]) {
         *reader.bad(&field, "yields nowhere on a rigid base") =
             Some(format!("add {}, or remove {}", keys[1], keys[0]));
     }
+    read_spring(reader, &field, sections, stiffness, force)
+}
+
+/// A rule on a curve that is equal on both sides; `None` after faults here or in the initial stiffness.
+pub(super) fn read_spring(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    sections: &'static [Section],
+    stiffness: Option<f64>,
+    force: Dimension,
+) -> Option<Hysteresis> {
+    let view = reader.open(field, sections)?;
     let rule = read_rule(reader, &view);
     let bilinear = rule == Some(HysteresisRule::Bilinear);
     let elastic = rule == Some(HysteresisRule::Elastic);
@@ -608,7 +619,7 @@ pub(super) fn read_base(
             let of_one_side = |fault: &SpringFault| fault.side != Some(Side::Negative);
             for fault in faults.into_iter().filter(of_one_side) {
                 let given = key_of(fault.quantity).and_then(|key| reader.get(&view, key));
-                reader.bad(given.as_ref().unwrap_or(&field), fault.problem);
+                reader.bad(given.as_ref().unwrap_or(field), fault.problem);
             }
             None
         }

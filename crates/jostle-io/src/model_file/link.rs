@@ -1,11 +1,13 @@
-//! `[[link]]`: springs and dampers that join neighbours.
+//! `[[link]]`: springs, dampers and sliders that join neighbours, or floors of one building.
 
-use jostle::{Building, FloorPairs, Link};
+use jostle::{Building, FloorPairs, Link, LinkLaw};
 
 use super::between::{floors, neighbours, tolerance};
-use crate::keys::Section;
-use crate::quantity::Dimension;
-use crate::reader::{Field, Reader};
+use super::hinges::read_spring;
+use crate::keys::{LINK_LAWS, Section};
+use crate::quantity::{Dimension, check_magnitude, split_number};
+use crate::reader::{Field, Reader, View};
+use crate::unit::Unit;
 
 /// Most links.
 const MOST_LINKS: usize = 10_000;
@@ -42,26 +44,213 @@ fn read(
     buildings: Option<&[Building]>,
 ) -> Option<Link> {
     let view = reader.open(field, &[Section::Link])?;
-    let between = neighbours(reader, &view, buildings);
+    let between = neighbours(reader, &view, buildings, true);
     let floors = floors(reader, &view);
     let level_tolerance = tolerance(reader, &view);
-    let stiffness = reader.get(&view, "stiffness");
-    let damping = reader.get(&view, "damping");
-    if stiffness.is_none() && damping.is_none() {
-        reader.missing(
-            &view,
-            "damping",
-            "add damping = \"500 kN.s/m\" for a damper, stiffness = \"20 MN/m\" for a spring, or both",
-        );
-        return None;
-    }
-    let stiffness = stiffness.map(|field| reader.quantity(&field, Dimension::Stiffness));
-    let damping = damping.map(|field| reader.quantity(&field, Dimension::Damping));
+    let name = match reader.get(&view, "law") {
+        Some(field) => reader.choice(&field, LINK_LAWS, &[])?,
+        None => LinkLaw::Linear.name(),
+    };
+    let Parameters {
+        law,
+        stiffness,
+        damping,
+    } = parameters(reader, &view, name)?;
     Some(Link {
         between: between?,
         floors: floors.unwrap_or(FloorPairs::Common),
         level_tolerance,
-        stiffness: stiffness.unwrap_or(Some(0.0))?,
-        damping: damping.unwrap_or(Some(0.0))?,
+        stiffness,
+        damping,
+        law,
     })
+}
+
+/// A law with its numbers.
+struct Parameters {
+    law: LinkLaw,
+    stiffness: f64,
+    damping: f64,
+}
+
+/// Keys of the parameters, with the laws that know them.
+const KEYS: [(&str, &[&str]); 8] = [
+    (
+        "stiffness",
+        &[
+            "linear", "viscous", "maxwell", "yielding", "cable", "stopper",
+        ],
+    ),
+    ("damping", &["linear", "viscous", "maxwell", "stopper"]),
+    ("exponent", &["viscous"]),
+    ("slip_force", &["friction"]),
+    ("stick_stiffness", &["friction"]),
+    ("hinge", &["yielding"]),
+    ("slack", &["cable"]),
+    ("gap", &["stopper"]),
+];
+
+/// The law of a name; `None` after faults.
+fn parameters(reader: &mut Reader<'_>, view: &View<'_>, name: &str) -> Option<Parameters> {
+    for (key, laws) in KEYS {
+        if laws.contains(&name) {
+            continue;
+        }
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, format!("has no meaning for law = \"{name}\"")) = Some(format!(
+                "remove {key}, or set law = \"{}\"",
+                laws.join("\" or \"")
+            ));
+        }
+    }
+    let with = |law, stiffness, damping| Parameters {
+        law,
+        stiffness,
+        damping,
+    };
+    let stiff = Dimension::Stiffness;
+    match name {
+        "viscous" => {
+            let exponent = value(reader, view, "exponent", Dimension::Dimensionless, None);
+            let exponent = exponent.unwrap_or(Some(1.0));
+            let damping = viscous_damping(reader, view, exponent);
+            let stiffness = value(reader, view, "stiffness", stiff, None).unwrap_or(Some(0.0));
+            let law = LinkLaw::Viscous {
+                exponent: exponent?,
+            };
+            Some(with(law, stiffness?, damping?))
+        }
+        "maxwell" => {
+            let stiffness = value(reader, view, "stiffness", stiff, Some("\"20 MN/m\"")).flatten();
+            let damping = Dimension::Damping;
+            let damping = value(reader, view, "damping", damping, Some("\"800 kN.s/m\"")).flatten();
+            Some(with(LinkLaw::Maxwell, stiffness?, damping?))
+        }
+        "friction" => {
+            let force = Dimension::Force;
+            let slip = value(reader, view, "slip_force", force, Some("\"120 kN\"")).flatten();
+            let stick = Some("\"120 MN/m\"");
+            let stick = value(reader, view, "stick_stiffness", stiff, stick).flatten();
+            let law = LinkLaw::Friction {
+                slip_force: slip?,
+                stick_stiffness: stick?,
+            };
+            Some(with(law, 0.0, 0.0))
+        }
+        "yielding" => {
+            let stiffness = value(reader, view, "stiffness", stiff, Some("\"80 MN/m\"")).flatten();
+            if let Some(field) = reader.get(view, "stiffness")
+                && stiffness.is_some_and(|stiffness| stiffness <= 0.0)
+            {
+                reader.bad(&field, "must be greater than 0 for law = \"yielding\"");
+            }
+            let Some(field) = reader.get(view, "hinge") else {
+                reader.missing(
+                    view,
+                    "hinge",
+                    "add hinge = { rule = \"bilinear\", yield = \"120 kN\", post_yield = 0.05 }",
+                );
+                return None;
+            };
+            let sections = &[Section::LinkHinge];
+            let spring = read_spring(reader, &field, sections, stiffness, Dimension::Force)?;
+            Some(with(LinkLaw::Yielding(spring), 0.0, 0.0))
+        }
+        "cable" => {
+            let stiffness = value(reader, view, "stiffness", stiff, Some("\"50 MN/m\"")).flatten();
+            let slack = value(reader, view, "slack", Dimension::Length, None).unwrap_or(Some(0.0));
+            Some(with(LinkLaw::Cable { slack: slack? }, stiffness?, 0.0))
+        }
+        "stopper" => {
+            let stiffness = value(reader, view, "stiffness", stiff, Some("\"200 MN/m\"")).flatten();
+            let damping = value(reader, view, "damping", Dimension::Damping, None);
+            let gap = value(reader, view, "gap", Dimension::Length, None).unwrap_or(Some(0.0));
+            let law = LinkLaw::Stopper { gap: gap? };
+            Some(with(law, stiffness?, damping.unwrap_or(Some(0.0))?))
+        }
+        _ => {
+            if !view.has("stiffness") && !view.has("damping") {
+                reader.missing(
+                    view,
+                    "damping",
+                    "add damping = \"500 kN.s/m\" for a damper, stiffness = \"20 MN/m\" for a spring, or both",
+                );
+                return None;
+            }
+            let stiffness = value(reader, view, "stiffness", stiff, None);
+            let damping = value(reader, view, "damping", Dimension::Damping, None);
+            let law = LinkLaw::Linear;
+            Some(with(
+                law,
+                stiffness.unwrap_or(Some(0.0))?,
+                damping.unwrap_or(Some(0.0))?,
+            ))
+        }
+    }
+}
+
+/// `None` for a key that is absent, which is a fault if there is an example; `Some(None)` for one that cannot be read.
+fn value(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    dimension: Dimension,
+    example: Option<&str>,
+) -> Option<Option<f64>> {
+    match (reader.get(view, key), example) {
+        (Some(field), _) => Some(reader.quantity(&field, dimension)),
+        (None, Some(example)) => {
+            reader.missing(view, key, format!("add {key} = {example}"));
+            None
+        }
+        (None, None) => None,
+    }
+}
+
+/// `damping` in N·(s/m)^α, whose unit must have the exponent of the law.
+fn viscous_damping(reader: &mut Reader<'_>, view: &View<'_>, exponent: Option<f64>) -> Option<f64> {
+    let shown = exponent.unwrap_or(1.0);
+    let Some(field) = reader.get(view, "damping") else {
+        let unit = if shown == 1.0 {
+            "kN.s/m".to_owned()
+        } else {
+            format!("kN.(s/m)^{shown}")
+        };
+        reader.missing(view, "damping", format!("add damping = \"150 {unit}\""));
+        return None;
+    };
+    let exponent = exponent?;
+    let text = match field.as_text().and_then(split_number) {
+        Some((number, unit)) if !unit.trim().is_empty() => Some((number, unit)),
+        // Bare numbers, and texts whose fault the usual reader describes.
+        _ => None,
+    };
+    let parsed = text.and_then(|(number, unit)| Some((number, Unit::parse(unit).ok()?)));
+    let Some((number, unit)) = parsed else {
+        return reader.quantity(&field, Dimension::Damping);
+    };
+    let dimension = |exponent: f64| [1.0 - exponent, 1.0, exponent - 2.0];
+    if unit.has_dimension(dimension(exponent)) {
+        let value = number * unit.factor;
+        return check_magnitude(value, Dimension::Damping)
+            .map_err(|error| reader.bad(&field, error.to_string()))
+            .ok();
+    }
+    // The exponent that the unit would have.
+    let other = unit.exponents[2] + 2.0;
+    if unit.has_dimension(dimension(other)) && other != 0.0 {
+        let other = (other * 1e9).round() / 1e9;
+        *reader.bad(
+            &field,
+            format!("has a unit of exponent {other}, but the exponent of the link is {exponent}"),
+        ) = Some(format!(
+            "write N.(s/m)^{exponent}, or set exponent = {other}"
+        ));
+    } else {
+        *reader.bad(
+            &field,
+            format!("expected a dashpot coefficient in N.(s/m)^{exponent} (such as \"150 kN.(s/m)^{exponent}\")"),
+        ) = Some("the unit of c in F = c |v|^exponent is N.(s/m)^exponent".into());
+    }
+    None
 }

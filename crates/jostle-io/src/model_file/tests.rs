@@ -45,6 +45,19 @@ hinges = { rule = "normal" }
 [[gap]]
 [[link]]
 stiffness = 1
+[[link]]
+law = "viscous"
+damping = 1
+exponent = 1
+[[link]]
+law = "friction"
+[[link]]
+law = "yielding"
+hinge = { rule = "normal" }
+[[link]]
+law = "cable"
+[[link]]
+law = "stopper"
 [analysis]
 integrator = { method = "hht" }
 [output]

@@ -6,7 +6,7 @@ use super::plan::check_plan_gap;
 use super::{Faults, each};
 use crate::contact::{ContactLaw, LawKind};
 use crate::interface::contact_points::{crowded, point_pairs};
-use crate::model::{FloorPairs, Gap, Link, Model};
+use crate::model::{FloorPairs, Gap, Level, Link, LinkLaw, Model};
 
 pub(super) fn check_neighbours(faults: &mut Faults, model: &Model) {
     for (index, (path, gap)) in each(&model.gaps, "gap").enumerate() {
@@ -33,6 +33,7 @@ fn check_room(faults: &mut Faults, model: &Model) {
     let gaps = each(&model.gaps, "gap")
         .map(|(path, gap)| (path, gap.between, &gap.floors, gap.level_tolerance));
     let links = each(&model.links, "link")
+        .filter(|(_, link)| !link.is_inside())
         .map(|(path, link)| (path, link.between, &link.floors, link.level_tolerance));
     let mut met: BTreeMap<(usize, usize), Vec<f64>> = BTreeMap::new();
     for (path, between, floors, tolerance) in gaps.chain(links) {
@@ -147,15 +148,13 @@ fn check_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
 }
 
 fn check_link(faults: &mut Faults, path: &str, link: &Link, model: &Model) {
-    faults.not_negative(link.stiffness, format!("{path}.stiffness"), "N/m");
-    faults.not_negative(link.damping, format!("{path}.damping"), "N.s/m");
-    faults.require(
-        link.stiffness != 0.0 || link.damping != 0.0,
-        format!("{path}.stiffness"),
-        || "and damping are both zero: nothing links the buildings; give one of them".into(),
-    );
+    check_link_law(faults, path, link);
     faults.positive(link.level_tolerance, format!("{path}.level_tolerance"), "m");
-    if check_between(faults, path, link.between, model) {
+    if let [Some(one), Some(other)] = link.between
+        && one == other
+    {
+        check_inside(faults, path, one, link, model);
+    } else if check_between(faults, path, link.between, model) {
         check_floors(
             faults,
             path,
@@ -164,6 +163,116 @@ fn check_link(faults: &mut Faults, path: &str, link: &Link, model: &Model) {
             link.level_tolerance,
             model,
         );
+    }
+}
+
+/// Least and greatest exponent of viscous dampers \[–\].
+const EXPONENTS: [f64; 2] = [0.1, 2.0];
+
+/// Parameters of the law of a link.
+fn check_link_law(faults: &mut Faults, path: &str, link: &Link) {
+    let name = link.law.name();
+    let at = |key: &str| format!("{path}.{key}");
+    let none = |faults: &mut Faults, key: &str, value: f64| {
+        faults.require(value == 0.0, at(key), || {
+            format!("has no meaning for law = \"{name}\"; leave it out")
+        });
+    };
+    let needed = |faults: &mut Faults, key: &str, value: f64, unit: &str| {
+        faults.require(value.is_finite() && value > 0.0, at(key), || {
+            format!("must be greater than 0 for law = \"{name}\", found {value} {unit}")
+        });
+    };
+    match &link.law {
+        LinkLaw::Linear => {
+            faults.not_negative(link.stiffness, at("stiffness"), "N/m");
+            faults.not_negative(link.damping, at("damping"), "N.s/m");
+            faults.require(
+                link.stiffness != 0.0 || link.damping != 0.0,
+                at("stiffness"),
+                || {
+                    "and damping are both zero: nothing links the buildings; give one of them"
+                        .into()
+                },
+            );
+        }
+        LinkLaw::Viscous { exponent } => {
+            let [least, most] = EXPONENTS;
+            faults.require((least..=most).contains(exponent), at("exponent"), || {
+                format!("must lie between {least} and {most}, found {exponent}")
+            });
+            needed(faults, "damping", link.damping, "N.(s/m)^exponent");
+            faults.not_negative(link.stiffness, at("stiffness"), "N/m");
+        }
+        LinkLaw::Maxwell => {
+            needed(faults, "stiffness", link.stiffness, "N/m");
+            needed(faults, "damping", link.damping, "N.s/m");
+        }
+        LinkLaw::Friction {
+            slip_force,
+            stick_stiffness,
+        } => {
+            needed(faults, "slip_force", *slip_force, "N");
+            needed(faults, "stick_stiffness", *stick_stiffness, "N/m");
+            none(faults, "stiffness", link.stiffness);
+            none(faults, "damping", link.damping);
+        }
+        LinkLaw::Yielding(_) => {
+            none(faults, "stiffness", link.stiffness);
+            none(faults, "damping", link.damping);
+        }
+        LinkLaw::Cable { slack } => {
+            needed(faults, "stiffness", link.stiffness, "N/m");
+            none(faults, "damping", link.damping);
+            faults.not_negative(*slack, at("slack"), "m");
+        }
+        LinkLaw::Stopper { gap } => {
+            needed(faults, "stiffness", link.stiffness, "N/m");
+            faults.not_negative(link.damping, at("damping"), "N.s/m");
+            faults.not_negative(*gap, at("gap"), "m");
+        }
+    }
+}
+
+/// A link between two floors of one building.
+fn check_inside(faults: &mut Faults, path: &str, building: usize, link: &Link, model: &Model) {
+    let Some(building) = model.buildings.get(building) else {
+        faults.add(format!("{path}.between"), "names no building");
+        return;
+    };
+    let name = &building.name;
+    let FloorPairs::Listed(pairs) = &link.floors else {
+        faults.add(
+            format!("{path}.floors"),
+            format!(
+                "must list pairs of floors for a link inside \"{name}\", such as [[0, 1], [1, 2]]; 0 is its base"
+            ),
+        );
+        return;
+    };
+    faults.require(!pairs.is_empty(), format!("{path}.floors"), || {
+        "is empty; list pairs of floors, such as [[0, 1]]".into()
+    });
+    let roof = building.floors();
+    for (entry, pair) in pairs.iter().enumerate() {
+        let field = format!("{path}.floors[{entry}]");
+        let [Level::Floor(low), Level::Floor(high)] = *pair else {
+            faults.add(
+                field,
+                "must name two floors by their numbers; 0 is the base",
+            );
+            continue;
+        };
+        let highest = low.max(high);
+        faults.require(highest <= roof, field.clone(), || {
+            format!("floor {highest} does not exist: \"{name}\" has floors 1 to {roof}, and 0 is its base")
+        });
+        faults.require(low != high, field.clone(), || {
+            "names the same floor twice; a link needs two".into()
+        });
+        faults.require(!pairs[..entry].contains(pair), field, || {
+            "is listed twice; keep one".into()
+        });
     }
 }
 

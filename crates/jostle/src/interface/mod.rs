@@ -18,7 +18,7 @@ pub use dof_row::DofRow;
 pub use edge_end::EdgeEnd;
 pub use friction::{Coulomb, Friction, sticking_stiffness};
 pub(crate) use graph::InterfaceGraph;
-pub use link::LinkElement;
+pub use link::{LinkElement, LinkMemory};
 pub use plan_contacts::PlanContactKind;
 pub use plan_gap::narrowest_gap;
 pub(crate) use plan_gap::{faces_of_gap, narrowest};

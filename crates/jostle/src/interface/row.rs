@@ -23,13 +23,21 @@ impl Row {
             between,
             pairs: point_pairs(floors, model.neighbours(between), tolerance).unwrap_or_default(),
         };
+        // Links inside a building join floors, which are points already.
+        let inside = |between| Joined {
+            between,
+            pairs: Vec::new(),
+        };
         let (gaps, links) = (model.gaps.iter(), model.links.iter());
         Self {
             gaps: gaps
                 .map(|gap| joined(gap.between, &gap.floors, gap.level_tolerance))
                 .collect(),
             links: links
-                .map(|link| joined(link.between, &link.floors, link.level_tolerance))
+                .map(|link| match link.is_inside() {
+                    true => inside(link.between),
+                    false => joined(link.between, &link.floors, link.level_tolerance),
+                })
                 .collect(),
         }
     }

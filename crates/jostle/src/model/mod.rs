@@ -7,6 +7,7 @@ mod capacity;
 mod gap;
 mod given;
 mod integrator;
+mod link_law;
 mod members;
 mod tiers;
 
@@ -18,6 +19,7 @@ pub use capacity::{
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
+pub use link_law::LinkLaw;
 pub use members::MemberRequest;
 pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
 
@@ -417,12 +419,11 @@ pub enum Damping {
     },
 }
 
-/// Linear springs and dashpots that join floors of two neighbours, or of a building and a rigid wall, and act in
-/// both directions. They have no force while the buildings are at rest. Rayleigh damping of the buildings does not
-/// act on them.
+/// Springs, dashpots and sliders that join floors of two neighbours, of a building and a rigid wall, or of one building.
+/// They have no force while the buildings are at rest. Rayleigh damping of the buildings does not act on them.
 ///
 /// ```
-/// use jostle::{FloorPairs, Link};
+/// use jostle::{FloorPairs, Link, LinkLaw};
 ///
 /// let damper = Link {
 ///     between: [Some(0), Some(1)],
@@ -430,12 +431,14 @@ pub enum Damping {
 ///     level_tolerance: 1e-3,
 ///     stiffness: 0.0,
 ///     damping: 400e3, // N·s/m
+///     law: LinkLaw::Linear,
 /// };
 /// assert_eq!(damper.floors, FloorPairs::listed(&[(3, 3)]));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// Left and right building, or a wall, as in [`Gap::between`].
+    /// Left and right building, or a wall, as in [`Gap::between`]; or one building twice: then every pair of
+    /// [`FloorPairs::Listed`] names two of its floors, 0 being its base.
     pub between: [Option<usize>; 2],
     /// Points that are joined.
     pub floors: FloorPairs,
@@ -443,8 +446,18 @@ pub struct Link {
     pub level_tolerance: f64,
     /// Force per relative displacement of every link, ≥ 0 \[N/m\].
     pub stiffness: f64,
-    /// Force per relative velocity of every link, ≥ 0 \[N·s/m\].
+    /// Force per relative velocity of every link, ≥ 0; of viscous links per its power \[N·s/m, N·(s/m)^α\].
     pub damping: f64,
+    /// How the force follows from the change of length.
+    pub law: LinkLaw,
+}
+
+impl Link {
+    /// Whether it joins two floors of one building.
+    #[must_use]
+    pub fn is_inside(&self) -> bool {
+        matches!(self.between, [Some(one), Some(other)] if one == other)
+    }
 }
 
 /// Standard gravity \[m/s²\].

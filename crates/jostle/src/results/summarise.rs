@@ -7,8 +7,9 @@ use super::in_plan::{
 use crate::contact::{LawKind, RestitutionIs};
 use crate::history::Impact;
 use crate::hysteresis::{Side, Stage};
+use crate::interface::LinkElement;
 use crate::model::WALL;
-use crate::model::{Gap, Model};
+use crate::model::{Gap, LinkLaw, Model};
 use crate::motion::GroundMotion;
 use crate::results::capacity;
 use crate::results::members::members_of;
@@ -315,31 +316,65 @@ pub(super) fn names(between: [Option<usize>; 2], system: &System) -> [String; 2]
     })
 }
 
+/// Floors of a link; 0 is the base of its own building.
+fn floors_of(element: &LinkElement) -> [Option<usize>; 2] {
+    let floors = element.ports.floors();
+    if element.inside {
+        floors.map(|floor| floor.or(Some(0)))
+    } else {
+        floors
+    }
+}
+
 fn link_summary(index: usize, run: &Run) -> LinkSummary {
     let (system, outcome, link) = (run.system, run.outcome, &run.model.links[index]);
     let own = system.links.iter().zip(&outcome.links);
     let floors: Vec<LinkFloorSummary> = own
-        .filter(|(element, _)| element.link == index)
-        .map(|(element, totals)| {
+        .zip(outcome.state.link_memories())
+        .filter(|((element, _), _)| element.link == index)
+        .map(|((element, totals), memory)| {
             let shortening = element.shortening(&outcome.state.displacement);
             LinkFloorSummary {
-                floors: element.ports.floors(),
+                floors: floors_of(element),
                 height_m: element.height,
                 peak_force_n: totals.peak_force.value,
                 peak_force_at_s: totals.peak_force.at,
                 peak_stroke_m: totals.peak_shortening,
-                dissipated_j: totals.work - element.strain(shortening),
+                peak_speed_m_s: totals.peak_rate,
+                dissipated_j: totals.work - element.recoverable(shortening, &memory),
             }
         })
         .collect();
+    let greatest = |of: fn(&LinkFloorSummary) -> f64| floors.iter().map(of).fold(0.0, f64::max);
+    let peak_force_n = greatest(|floor| floor.peak_force_n.abs());
     LinkSummary {
         between: names(link.between, system),
-        stiffness_n_m: link.stiffness,
+        law: link.law.name().to_owned(),
+        stiffness_n_m: match &link.law {
+            LinkLaw::Friction {
+                stick_stiffness, ..
+            } => *stick_stiffness,
+            LinkLaw::Yielding(hysteresis) => hysteresis.backbone().initial(),
+            LinkLaw::Linear
+            | LinkLaw::Viscous { .. }
+            | LinkLaw::Maxwell
+            | LinkLaw::Cable { .. }
+            | LinkLaw::Stopper { .. } => link.stiffness,
+        },
         damping_n_s_m: link.damping,
-        peak_force_n: floors
-            .iter()
-            .map(|floor| floor.peak_force_n.abs())
-            .fold(0.0, f64::max),
+        exponent: match link.law {
+            LinkLaw::Viscous { exponent } => exponent,
+            LinkLaw::Linear
+            | LinkLaw::Maxwell
+            | LinkLaw::Friction { .. }
+            | LinkLaw::Yielding(_)
+            | LinkLaw::Cable { .. }
+            | LinkLaw::Stopper { .. } => 1.0,
+        },
+        peak_force_n,
+        force_peak_n: peak_force_n,
+        stroke_peak_m: greatest(|floor| floor.peak_stroke_m),
+        speed_peak_m_s: greatest(|floor| floor.peak_speed_m_s),
         dissipated_j: floors
             .iter()
             .fold(0.0, |sum, floor| sum + floor.dissipated_j),

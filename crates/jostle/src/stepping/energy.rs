@@ -13,8 +13,10 @@ pub(crate) struct EnergyAudit {
     pub(crate) contact: f64,
     /// Work done on yielding springs, recoverable energy included.
     pub(crate) springs: f64,
-    /// Work done on links, recoverable energy of their springs included.
+    /// Work done on links with springs and dashpots, recoverable energy of their springs included.
     pub(crate) links: f64,
+    /// The same of links that slip or yield.
+    pub(crate) yielding_links: f64,
     initial: f64,
     imbalance: Imbalance,
 }
@@ -46,6 +48,8 @@ struct Stored {
     /// Of springs that yield.
     springs: f64,
     links: f64,
+    /// Of links that slip or yield.
+    yielding_links: f64,
 }
 
 fn stored(system: &System, state: &State) -> Stored {
@@ -63,14 +67,21 @@ fn stored(system: &System, state: &State) -> Stored {
     let recoverable = springs
         .zip(&state.springs)
         .map(|(spring, memory)| spring.hysteresis.recoverable_energy(memory));
-    let links = system.links.iter();
+    let (mut links, mut yielding_links) = (0.0, 0.0);
+    for (link, memory) in system.links.iter().zip(state.link_memories()) {
+        let energy = link.recoverable(link.shortening(displacement), &memory);
+        *(if link.law.is_hysteretic() {
+            &mut yielding_links
+        } else {
+            &mut links
+        }) += energy;
+    }
     Stored {
         kinetic,
         strain,
         springs: recoverable.sum(),
-        links: links
-            .map(|link| link.strain(link.shortening(displacement)))
-            .sum(),
+        links,
+        yielding_links,
     }
 }
 
@@ -79,9 +90,14 @@ impl EnergyAudit {
     pub(crate) fn starting_from(system: &System, state: &State) -> Self {
         let stored = stored(system, state);
         Self {
-            initial: stored.kinetic + stored.strain + stored.springs + stored.links,
+            initial: stored.kinetic
+                + stored.strain
+                + stored.springs
+                + stored.links
+                + stored.yielding_links,
             springs: stored.springs,
             links: stored.links,
+            yielding_links: stored.yielding_links,
             ..Self::default()
         }
     }
@@ -90,7 +106,7 @@ impl EnergyAudit {
     pub(crate) fn balance(&mut self, system: &System, state: &State) -> Energy {
         let stored = stored(system, state);
         let kinetic = stored.kinetic;
-        let strain = stored.strain + stored.springs + stored.links;
+        let strain = stored.strain + stored.springs + stored.links + stored.yielding_links;
         let links = self.links - stored.links;
         self.imbalance.watch(Energy {
             input: self.input + self.initial,
@@ -98,7 +114,7 @@ impl EnergyAudit {
             strain,
             damped: self.damped + links,
             links,
-            hysteretic: self.springs - stored.springs,
+            hysteretic: self.springs - stored.springs + self.yielding_links - stored.yielding_links,
             contact: self.contact,
             friction: 0.0,
             worst_imbalance: 0.0,

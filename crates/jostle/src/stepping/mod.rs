@@ -26,6 +26,7 @@ mod sensitivity;
 mod settle;
 mod simulate;
 mod step_friction;
+mod step_link;
 
 pub use outcome::{Accuracy, Outcome, PlanPeaks, Pounding, Progress, RunEnd, Settings, StepError};
 pub use plan::{ContactSteps, Plan};

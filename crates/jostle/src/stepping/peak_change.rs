@@ -1,7 +1,7 @@
 //! Difference of the reported peaks of two runs of one system.
 
 use super::outcome::Outcome;
-use crate::history::{FloorPeaks, Impact};
+use crate::history::{FloorPeaks, Impact, LinkTotals};
 use crate::system::System;
 
 /// Weight of differences between parts of runs, which are usually larger than those of the peaks.
@@ -47,6 +47,12 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             worst = worst.max(relative(pairs));
         }
     }
+    if system.links.iter().any(|link| !link.is_linear()) {
+        let models = system.links.iter().map(|link| link.link + 1).max();
+        for model in 0..models.unwrap_or(0) {
+            worst = worst.max(change_of_link(system, [a, b], model));
+        }
+    }
     let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
     for gap in 0..gaps {
         let contacts = 0..system.contacts.len();
@@ -57,6 +63,24 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         worst = worst.max(relative(both(impulse)));
     }
     worst
+}
+
+/// Greatest difference of the peaks of a link of the model.
+fn change_of_link(system: &System, [a, b]: [&Outcome; 2], model: usize) -> f64 {
+    let kinds: [fn(&LinkTotals) -> f64; 3] = [
+        |link| link.peak_force.value.abs(),
+        |link| link.peak_shortening,
+        |link| link.peak_rate,
+    ];
+    let pairs = |kind: fn(&LinkTotals) -> f64| {
+        let both = a.links.iter().zip(&b.links).zip(&system.links);
+        let own = both.filter(move |(_, link)| link.link == model);
+        own.map(move |((a, b), _)| [kind(a), kind(b)])
+    };
+    kinds
+        .into_iter()
+        .map(|kind| relative(pairs(kind)))
+        .fold(0.0, f64::max)
 }
 
 fn relative(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {

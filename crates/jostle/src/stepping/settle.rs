@@ -1,6 +1,7 @@
 //! Contact forces if Newton's method fails: one contact after the other, each by bisection.
 
 use super::coupling::{Closed, ContactEquations};
+use super::step_link::StepLink;
 
 /// Rounds over all contacts.
 const ROUNDS: u64 = 4000;
@@ -25,7 +26,7 @@ impl ContactEquations {
                     .compliance
                     .times(i, |j| if j == i { 0.0 } else { self.closed[j].force });
                 let before = self.closed[i].force;
-                settle_one(&mut self.closed[i], own, others);
+                settle_one(&mut self.closed[i], &self.links, own, others);
                 let force = self.closed[i].force;
                 change = change.max((force - before).abs());
                 greatest = greatest.max(force.abs());
@@ -42,12 +43,17 @@ impl ContactEquations {
 }
 
 /// The zero of δ + w F(δ) − (δ_free − others), which increases with δ.
-fn settle_one(closed: &mut Closed, own_compliance: f64, opened_by_others: f64) {
+fn settle_one(closed: &mut Closed, links: &[StepLink], own_compliance: f64, opened_by_others: f64) {
+    if let Some(link) = closed.forced(links) {
+        closed.force = force_of(closed, link, own_compliance, opened_by_others);
+        closed.indentation = closed.free + closed.change_for(link, closed.force)[0];
+        return;
+    }
     let free = closed.free - opened_by_others;
     let start = *closed;
     let force = |indentation: f64| {
         let rate = start.free_rate + start.rate_gain * (indentation - start.free);
-        start.respond(indentation, rate).force
+        start.respond(links, indentation, rate).force
     };
     // The force cannot be greater than at `free`, so the indentation cannot be less than this.
     let other = free - own_compliance * force(free);
@@ -71,6 +77,26 @@ fn settle_one(closed: &mut Closed, own_compliance: f64, opened_by_others: f64) {
     };
 }
 
+/// The zero of δ(F) − δ_free + others + w F, which increases with F.
+fn force_of(closed: &Closed, link: &StepLink, own_compliance: f64, opened_by_others: f64) -> f64 {
+    let missing =
+        |force: f64| closed.change_for(link, force)[0] + opened_by_others + own_compliance * force;
+    let other = -missing(0.0) / own_compliance;
+    let (mut low, mut high) = (other.min(0.0), other.max(0.0));
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if missing(middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    high
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,6 +116,7 @@ mod tests {
             turn: None,
             start_acceleration: 0.0,
             friction: None,
+            link: None,
         }
     }
 

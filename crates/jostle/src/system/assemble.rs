@@ -7,8 +7,8 @@ use crate::interface::{
     Contact, Coulomb, EdgeEnd, Friction, LinkElement, PlanPlace, Port, PortPair, Row, faces_of_gap,
     narrowest, sticking_stiffness,
 };
-use crate::model::{Model, ModelFault, PlanPoint, Structure, Tier};
-use crate::structure::Discretization;
+use crate::model::{FloorPairs, Level, Link, Model, ModelFault, PlanPoint, Structure, Tier};
+use crate::structure::{Discretization, Support};
 
 impl System {
     /// Assembles a model.
@@ -123,15 +123,24 @@ impl System {
         for (index, (link, joined)) in model.links.iter().zip(&row.links).enumerate() {
             let mut pairs = joined.pairs.clone();
             pairs.sort_by(|a, b| mean(a).total_cmp(&mean(b)));
-            for pair in &pairs {
-                match ports(self, joined.between, pair) {
+            let inside = link.is_inside();
+            let ends: Vec<_> = if inside {
+                ports_inside(self, link)
+            } else {
+                let ends = |pair| ports(self, joined.between, pair);
+                pairs.iter().map(ends).collect()
+            };
+            for ends in ends {
+                match ends {
                     Ok(ports) => {
                         let element = LinkElement {
                             link: index,
                             ports,
+                            inside,
                             height: ports.height(),
                             stiffness: link.stiffness,
                             damping: link.damping,
+                            law: link.law,
                             closing_at_rest: closing_at_rest(self, &ports),
                         };
                         self.links.push(element);
@@ -279,6 +288,41 @@ fn ports(
         ports[side] = Some(system.port(building, node)?);
     }
     Ok(PortPair(ports))
+}
+
+/// Ends of the links between floors of one building, from the lowest up. A base that does not move is the ground.
+fn ports_inside(system: &System, link: &Link) -> Vec<Result<PortPair, String>> {
+    let (Some(building), FloorPairs::Listed(pairs)) = (link.between[0], &link.floors) else {
+        return Vec::new();
+    };
+    let own = &system.buildings[building];
+    let nodes = &own.discretization.stick_model.nodes;
+    let port = |level: Level| {
+        let Level::Floor(floor) = level else {
+            return Ok(None);
+        };
+        let node = match floor.checked_sub(1) {
+            Some(index) => {
+                let height = own.floors[index].height;
+                let mut face = own.discretization.right_face.iter().copied();
+                face.find(|&node| (nodes[node].y - height).abs() <= 2.0 * SAME)
+            }
+            None => nodes
+                .iter()
+                .rposition(|node| node.y == 0.0 && node.support != Support::Fixed),
+        };
+        node.map(|node| system.port(building, node)).transpose()
+    };
+    let mut found: Vec<_> = pairs
+        .iter()
+        .map(|[one, other]| Ok(PortPair([port(*one)?, port(*other)?])))
+        .collect();
+    found.sort_by(|a: &Result<PortPair, String>, b| {
+        let height =
+            |ports: &Result<PortPair, String>| ports.as_ref().map_or(0.0, PortPair::height);
+        height(a).total_cmp(&height(b))
+    });
+    found
 }
 
 /// What gravity alone closes \[m\].

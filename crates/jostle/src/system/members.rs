@@ -75,7 +75,12 @@ impl System {
             };
             let contacts = self.contacts.iter().map(|contact| &contact.ports);
             form.contacts = positions(contacts, pushes);
-            form.links = positions(self.links.iter().map(|link| &link.ports), pushes);
+            // Links inside a building end on its right face.
+            let links = self.links.iter().enumerate();
+            form.links = links
+                .filter(|(_, link)| !link.inside && pushes(&link.ports))
+                .map(|(link, _)| link)
+                .collect();
         }
         forces
     }

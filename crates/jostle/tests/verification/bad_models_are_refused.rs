@@ -38,6 +38,7 @@ fn link(stiffness: f64, damping: f64) -> Link {
         level_tolerance: 1e-3,
         stiffness,
         damping,
+        law: jostle::LinkLaw::Linear,
     }
 }
 

@@ -40,6 +40,7 @@ fn link(between: [Option<usize>; 2], floors: &[(usize, usize)], of: [f64; 2]) ->
         level_tolerance: 1e-3,
         stiffness: of[0],
         damping: of[1],
+        law: jostle::LinkLaw::Linear,
     }
 }
 

@@ -6,8 +6,8 @@ use jostle::contact::ForceLaw;
 use jostle::interface::PortPair;
 use jostle::interface::{Contact, LinkElement};
 use jostle::{
-    Column, ContactLaw, FloorPairs, Gap, LawKind, Link, Model, Outcome, Plan, RestitutionIs,
-    Solver, State, Structure, System,
+    Column, ContactLaw, FloorPairs, Gap, LawKind, Link, LinkLaw, Model, Outcome, Plan,
+    RestitutionIs, Solver, State, Structure, System,
 };
 
 use crate::support::{
@@ -31,11 +31,13 @@ fn linked(mut system: System, between: [Option<usize>; 2], stiffness: f64, dampi
     let ports = PortPair(between.map(|side| side.map(|b| system.port(b, 1).expect("it has mass"))));
     system.links.push(LinkElement {
         link: 0,
+        inside: false,
         ports,
         height: ports.height(),
         stiffness,
         damping,
         closing_at_rest: 0.0,
+        law: LinkLaw::Linear,
     });
     system
 }
@@ -47,6 +49,7 @@ fn link(between: [Option<usize>; 2], stiffness: f64, damping: f64) -> Link {
         level_tolerance: 1e-3,
         stiffness,
         damping,
+        law: LinkLaw::Linear,
     }
 }
 
@@ -353,4 +356,135 @@ fn a_blow_jerks_the_dashpots_beside_it() {
     let order = (errors[0] / errors[2]).log2() / 2.0;
     assert!(order > 1.6, "order {order}: {errors:?}");
     assert!(exact.energy.worst_imbalance < 1e-9);
+}
+
+/// A mass before a wall, with a link of a law.
+fn with_law(mass: f64, stiffness: f64, damping: f64, law: LinkLaw) -> System {
+    let system = System::of_buildings(vec![slider("mass", mass, None)]);
+    let mut system = linked(system, [Some(0), None], stiffness, damping);
+    system.links[0].law = law;
+    system
+}
+
+/// A free mass with a pure dashpot of exponent α slows down as v^(1−α) = v₀^(1−α) − (1 − α) c t/m.
+#[test]
+fn a_viscous_link_slows_a_mass_as_its_closed_form() {
+    let (mass, damping, speed): (f64, f64, f64) = (3e4, 6e4, 0.4);
+    for (exponent, limit) in [(0.35, 2e-5), (0.7, 2e-5), (1.6, 2e-5), (2.0, 2e-5)] {
+        let system = with_law(mass, 0.0, damping, LinkLaw::Viscous { exponent });
+        let mut start = moving(&system, &[0.0], &[speed]);
+        start.acceleration[0] = -damping * speed.powf(exponent) / mass;
+        let time = 0.1;
+        let outcome = run_from(&system, &still(time), &steps(2e-4, 1), start);
+        let power = 1.0 - exponent;
+        let expected = speed.powf(power) - power * damping * time / mass;
+        let expected = expected.max(0.0).powf(power.recip());
+        let got = outcome.state.velocity[0];
+        assert!(
+            (got - expected).abs() < limit * speed,
+            "{exponent}: {got} against {expected}"
+        );
+        let lost = 0.5 * mass * (speed * speed - got * got);
+        assert!(
+            (outcome.energy.links / lost - 1.0).abs() < 1e-9,
+            "{exponent}"
+        );
+        assert!(outcome.energy.worst_imbalance < 1e-9);
+    }
+}
+
+/// A stopper is a contact without tension, a cable one of the other sign.
+#[test]
+fn a_stopper_and_a_cable_are_contacts_without_tension() {
+    let (mass, gap, k, c, speed) = (3e4, 0.004, 1e8, 4e5, 0.4);
+    let law = ForceLaw::Kelvin {
+        stiffness: k,
+        damping: c,
+        tension: false,
+    };
+    let contact = before_a_wall(mass, gap, law);
+    let start = moving(&contact, &[0.0], &[speed]);
+    let fine = run_from(&contact, &still(0.1), &steps(1e-3, 1000), start);
+    let mut errors = Vec::new();
+    for step in [2e-4, 1e-4] {
+        let system = with_law(mass, k, c, LinkLaw::Stopper { gap });
+        let start = moving(&system, &[0.0], &[speed]);
+        let own = run_from(&system, &still(0.1), &steps(step, 1), start);
+        let apart = (own.state.velocity[0] / fine.state.velocity[0] - 1.0).abs();
+        let force = (own.links[0].peak_force.value / fine.impacts[0].peak_force - 1.0).abs();
+        assert!(own.energy.worst_imbalance < 1e-9);
+        assert!(force < 1e-3, "{force:e}");
+        errors.push(apart);
+    }
+    assert!(
+        errors[1] < 1e-4 && errors[1] < 0.5 * errors[0],
+        "{errors:?}"
+    );
+    // Half a period of mass and spring, after which it flies back as fast.
+    let system = with_law(mass, k, 0.0, LinkLaw::Cable { slack: gap });
+    let start = moving(&system, &[0.0], &[-speed]);
+    let own = run_from(&system, &still(0.1), &steps(1e-4, 1), start);
+    assert!((own.state.velocity[0] / speed - 1.0).abs() < 1e-5);
+    let greatest = -speed * (k * mass).sqrt();
+    assert!((own.links[0].peak_force.value / greatest - 1.0).abs() < 1e-4);
+}
+
+/// Friction takes the work F_s times the way that is slipped.
+#[test]
+fn a_friction_link_stops_a_mass_over_its_way() {
+    // Steps must resolve the 5 ms until it slips.
+    let (mass, slip, stick, speed) = (3e4, 2e4, 1e7, 0.4);
+    let law = LinkLaw::Friction {
+        slip_force: slip,
+        stick_stiffness: stick,
+    };
+    let system = with_law(mass, 0.0, 0.0, law);
+    let start = moving(&system, &[0.0], &[speed]);
+    let outcome = run_from(&system, &still(1.0), &steps(2e-4, 1), start);
+    let way = 0.5 * mass * speed * speed / slip + 0.5 * slip / stick;
+    let stroke = outcome.links[0].peak_shortening;
+    assert!((stroke / way - 1.0).abs() < 1e-5, "{stroke} against {way}");
+    assert!(outcome.energy.hysteretic > 0.0 && outcome.energy.links == 0.0);
+    // Rounding of a mass that nothing else holds: 16 times as much with every halving of the step.
+    assert!(outcome.energy.worst_imbalance < 1e-9);
+}
+
+/// A spring inside a shear building adds to the stiffness of its storey.
+#[test]
+fn a_link_inside_a_building_stiffens_its_storeys() {
+    let spring = 2e7;
+    let braced = |floors: &[(usize, usize)]| {
+        let mut model = row(
+            vec![tower("a", 3, 3e4, 0.5)],
+            0.0,
+            law(LawKind::Linear, 1.0),
+        );
+        model.gaps.clear();
+        model.links = vec![Link {
+            floors: FloorPairs::listed(floors),
+            ..link([Some(0), Some(0)], spring, 0.0)
+        }];
+        model
+    };
+    let mut model = braced(&[(0, 1), (1, 2)]);
+    let linked = assembled(&model);
+    model.links.clear();
+    if let Structure::Shear(shear) = &mut model.buildings[0].structure {
+        for storey in 0..2 {
+            shear.stiffness[storey] += spring;
+        }
+    }
+    let alpha_only = jostle::Damping::Rayleigh {
+        alpha: 0.3,
+        beta: 0.0,
+    };
+    let mut with = braced(&[(0, 1), (1, 2)]);
+    (model.buildings[0].damping, with.buildings[0].damping) = (alpha_only.clone(), alpha_only);
+    assert_eq!(linked.links.len(), 2);
+    let [stiff, linked] = [assembled(&model), assembled(&with)].map(|system| {
+        let start = moving(&system, &[0.01, -0.02, 0.03], &[0.1, 0.2, -0.1]);
+        run_from(&system, &still(2.0), &steps(1e-3, 1), start)
+    });
+    let apart = difference(&linked.state.displacement, &stiff.state.displacement);
+    assert!(apart < 1e-9, "{apart:e}");
 }

@@ -51,6 +51,7 @@ fn towers(count: usize) -> Model {
             level_tolerance: 1e-3,
             stiffness: 2e6,
             damping: 1e5,
+            law: jostle::LinkLaw::Linear,
         })
         .collect();
     model
@@ -142,6 +143,7 @@ fn frames_of_unequal_storeys_equal_one_system_of_full_matrices() {
         level_tolerance: 1.0,
         stiffness: 1e6,
         damping: 2e5,
+        law: jostle::LinkLaw::Linear,
     });
     let system = assembled(&model);
     let heights: Vec<(usize, [Option<usize>; 2], f64)> = system
@@ -209,6 +211,7 @@ fn the_cost_of_a_step_grows_with_the_number_of_buildings_only_once() {
                 level_tolerance: 1e-3,
                 stiffness: 1e6,
                 damping: 1e5,
+                law: jostle::LinkLaw::Linear,
             })
             .collect();
         let work = run(&assembled(&model), &shaking(0.5), &steps(1e-3, 1)).work;

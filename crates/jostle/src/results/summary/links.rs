@@ -4,18 +4,28 @@ use serde::Serialize;
 
 use crate::quantity::{Quantity, Unit};
 
-/// Springs and dashpots between two neighbours.
+/// Links between two neighbours, or inside one building.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct LinkSummary {
     /// Names of the left and the right building; `wall` is a rigid wall.
     pub between: [String; 2],
-    /// Stiffness of each \[N/m\].
+    /// Name of the law.
+    pub law: String,
+    /// Stiffness of each; of links that slip or yield, that before \[N/m\].
     pub stiffness_n_m: f64,
-    /// Damping of each \[N·s/m\].
+    /// Damping of each; with an exponent α in N·(s/m)^α \[N·s/m\].
     pub damping_n_s_m: f64,
+    /// α of viscous links, otherwise 1 \[–\].
+    pub exponent: f64,
     /// Greatest force of any of them, either sign \[N\].
     pub peak_force_n: f64,
-    /// Energy dissipated in their dashpots \[J\].
+    /// The same, under the name of the other peaks \[N\].
+    pub force_peak_n: f64,
+    /// Greatest change of length of any of them, either sign \[m\].
+    pub stroke_peak_m: f64,
+    /// Greatest rate of change of length of any of them, either sign \[m/s\].
+    pub speed_peak_m_s: f64,
+    /// Energy dissipated in their dashpots and sliders \[J\].
     pub dissipated_j: f64,
     /// One by one, from the lowest up.
     pub floors: Vec<LinkFloorSummary>,
@@ -25,17 +35,21 @@ pub struct LinkSummary {
 impl LinkSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("stiffness_n_m", Unit::N_PER_M, "stiffness of each spring", |l| l.stiffness_n_m),
-        Quantity::<Self>::real("damping_n_s_m", Unit::NS_PER_M, "damping of each dashpot", |l| l.damping_n_s_m),
+        Quantity::<Self>::real("stiffness_n_m", Unit::N_PER_M, "stiffness of each spring; of links that slip or yield, that before", |l| l.stiffness_n_m),
+        Quantity::<Self>::real("damping_n_s_m", Unit::NS_PER_M, "damping of each dashpot; with an exponent α in N·(s/m)^α", |l| l.damping_n_s_m),
+        Quantity::<Self>::real("exponent", Unit::NONE, "exponent α of viscous links, otherwise 1", |l| l.exponent),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any of them", |l| l.peak_force_n),
-        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in the dashpots", |l| l.dissipated_j),
+        Quantity::<Self>::real("force_peak_n", Unit::N, "the same, under the name of the other peaks", |l| l.force_peak_n),
+        Quantity::<Self>::real("stroke_peak_m", Unit::M, "greatest change of length of any of them", |l| l.stroke_peak_m),
+        Quantity::<Self>::real("speed_peak_m_s", Unit::M_S, "greatest rate of change of length of any of them", |l| l.speed_peak_m_s),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in dashpots and sliders", |l| l.dissipated_j),
     ];
 }
 
-/// One spring and dashpot between two points.
+/// One link between two points.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 pub struct LinkFloorSummary {
-    /// Left and right floor, from 1; `null` for a point between floors, and for a wall.
+    /// Left and right floor, from 1; `null` for a point between floors, and for a wall. Inside a building 0 is its base.
     pub floors: [Option<usize>; 2],
     /// Height above the base \[m\].
     pub height_m: f64,
@@ -45,7 +59,9 @@ pub struct LinkFloorSummary {
     pub peak_force_at_s: f64,
     /// Greatest change of length, either sign \[m\].
     pub peak_stroke_m: f64,
-    /// Energy dissipated in its dashpot \[J\].
+    /// Greatest rate of change of length, either sign \[m/s\].
+    pub peak_speed_m_s: f64,
+    /// Energy dissipated in its dashpot or slider \[J\].
     pub dissipated_j: f64,
 }
 
@@ -57,6 +73,7 @@ impl LinkFloorSummary {
         Quantity::<Self>::real("peak_force_n", Unit::N, "force of greatest magnitude, positive in compression", |l| l.peak_force_n),
         Quantity::<Self>::real("peak_force_at_s", Unit::S, "its instant", |l| l.peak_force_at_s),
         Quantity::<Self>::real("peak_stroke_m", Unit::M, "greatest change of length", |l| l.peak_stroke_m),
-        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in the dashpot", |l| l.dissipated_j),
+        Quantity::<Self>::real("peak_speed_m_s", Unit::M_S, "greatest rate of change of length", |l| l.peak_speed_m_s),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in the dashpot or the slider", |l| l.dissipated_j),
     ];
 }

@@ -3,11 +3,14 @@
 use super::Direct;
 use crate::contact::ForceLaw;
 use crate::history::{Extreme, LinkTotals};
-use crate::interface::LinkElement;
+use crate::interface::{LinkElement, LinkMemory};
 use crate::linear::envelope::Envelope;
+use crate::model::LinkLaw;
 use crate::state::State;
 use crate::stepping::coupling::{Closed, scaled_compliance};
-use crate::stepping::runner::RunState;
+use crate::stepping::events::{Crossing, Cubic};
+use crate::stepping::runner::{LinkTouch, RunState};
+use crate::stepping::step_link::StepLink;
 use crate::structure::StepEquations;
 use crate::system::System;
 
@@ -44,20 +47,24 @@ pub(super) struct Links {
 
 impl Links {
     pub(super) fn starting_from(system: &System, state: &State) -> Self {
-        let start = |link: &LinkElement| {
+        let start = |(link, memory): (&LinkElement, LinkMemory)| {
             let shortening = link.shortening(&state.displacement);
-            let force = link.force(shortening, link.ports.closing(&state.velocity));
+            let rate = link.ports.closing(&state.velocity);
+            let force = link.force_now(shortening, rate, &memory);
             let totals = LinkTotals {
                 peak_force: Extreme {
                     value: force,
                     at: state.time,
                 },
                 peak_shortening: shortening.abs(),
-                work: link.strain(shortening),
+                peak_rate: rate.abs(),
+                work: link.recoverable(shortening, &memory),
             };
             (force, totals)
         };
-        let (forces, totals) = system.links.iter().map(start).unzip();
+        let memories = state.link_memories();
+        let links = system.links.iter().zip(memories);
+        let (forces, totals) = links.map(start).unzip();
         Self {
             forces,
             totals,
@@ -84,9 +91,26 @@ impl<E: StepEquations> Direct<E> {
     }
 
     /// A link at the end of the tried step, as if nothing pushed.
-    pub(super) fn link_in_step(&self, run: &RunState<'_>, index: usize, rate_gain: f64) -> Closed {
-        let link = &run.system.links[index - self.joints.contacts];
+    pub(super) fn link_in_step(
+        &self,
+        run: &mut RunState<'_>,
+        index: usize,
+        rate_gain: f64,
+        step: f64,
+    ) -> Closed {
+        let own = index - self.joints.contacts;
+        let link = &run.system.links[own];
         let trial = &run.trials[index];
+        let nonlinear = (!link.is_linear()).then(|| {
+            let start = link.shortening(&self.state.displacement);
+            let memory = LinkMemory {
+                force: self.links.forces[own],
+                ..self.state.links[own]
+            };
+            let links = &mut run.coupling.links;
+            links.push(StepLink::new(link, &memory, start, step));
+            links.len() - 1
+        });
         let law = law_of(link);
         Closed {
             contact: index,
@@ -101,6 +125,7 @@ impl<E: StepEquations> Direct<E> {
             turn: None,
             start_acceleration: 0.0,
             friction: None,
+            link: nonlinear,
         }
     }
 
@@ -119,7 +144,12 @@ impl<E: StepEquations> Direct<E> {
             links
                 .roots
                 .extend(closed.iter().map(|link| slope(link).sqrt()));
-            scaled_compliance(&run.coupling.compliance, &links.roots, &mut links.scaled);
+            scaled_compliance(
+                &run.coupling.compliance,
+                &links.roots,
+                |_| 1.0,
+                &mut links.scaled,
+            );
             run.coupling.operations += links.scaled.factorize();
             links.known = true;
         }
@@ -145,9 +175,9 @@ impl<E: StepEquations> Direct<E> {
             let start = link.shortening(&self.state.displacement);
             let before = self.links.forces[index];
             let work = 0.5 * (before + trial.force) * (trial.indentation - start);
-            self.audit.links += work;
             let totals = &mut self.links.totals[index];
             totals.work += work;
+            totals.peak_rate = totals.peak_rate.max(trial.rate.abs());
             totals.peak_shortening = totals.peak_shortening.max(trial.indentation.abs());
             if trial.force.abs() > totals.peak_force.value.abs() {
                 totals.peak_force = Extreme {
@@ -156,6 +186,95 @@ impl<E: StepEquations> Direct<E> {
                 };
             }
             self.links.forces[index] = trial.force;
+            if link.law.is_hysteretic() {
+                self.audit.yielding_links += work;
+            } else {
+                self.audit.links += work;
+            }
+        }
+        for closed in &run.coupling.closed {
+            if let Some(link) = closed.link {
+                let trial = run.trials[closed.contact];
+                let memory = run.coupling.links[link].committed(trial.indentation, trial.force);
+                self.state.links[closed.contact - self.joints.contacts] = memory;
+            }
+        }
+    }
+
+    /// The first link whose gap or slack closes or opens within the tried step.
+    pub(super) fn first_link_touch(&self, run: &RunState<'_>, step: f64) -> Option<LinkTouch> {
+        let mut first: Option<LinkTouch> = None;
+        for (index, link) in run.system.links.iter().enumerate() {
+            let start = link.shortening(&self.state.displacement);
+            let Some((start, sign)) = link.overlap(start) else {
+                continue;
+            };
+            let [end, rate] = self.overlap_at_end(run, index);
+            let crossing = match start > 0.0 {
+                true if end < 0.0 => Crossing::Downwards,
+                false if end > 0.0 || rate < 0.0 => Crossing::Upwards,
+                true | false => continue,
+            };
+            let start_rate = sign * link.ports.closing(&self.state.velocity);
+            let curve = Cubic::new(start, start_rate, end, rate, step);
+            if let Some(at) = curve.first_crossing(crossing)
+                && first.is_none_or(|first| at < first.at)
+            {
+                first = Some(LinkTouch {
+                    link: index,
+                    crossing,
+                    at,
+                });
+            }
+        }
+        first
+    }
+
+    /// By how much a gap or slack is closed at the end of the tried step, and its rate \[m, m/s\].
+    pub(super) fn overlap_at_end(&self, run: &RunState<'_>, index: usize) -> [f64; 2] {
+        let trial = run.trials[self.joints.contacts + index];
+        let overlap = run.system.links[index].overlap(trial.indentation);
+        overlap.map_or([0.0; 2], |(overlap, sign)| [overlap, sign * trial.rate])
+    }
+
+    /// Gives a stopper that touches now the force of its dashpot, which changes the accelerations of both ends; whether
+    /// it had no force.
+    pub(super) fn begin_dashpot(&mut self, run: &RunState<'_>, index: usize) -> bool {
+        let link = &run.system.links[index];
+        let rate = link.ports.closing(&self.state.velocity);
+        let dashpot = match link.law {
+            LinkLaw::Stopper { .. } => link.damping * rate.max(0.0),
+            LinkLaw::Linear
+            | LinkLaw::Viscous { .. }
+            | LinkLaw::Maxwell
+            | LinkLaw::Friction { .. }
+            | LinkLaw::Yielding(_)
+            | LinkLaw::Cable { .. } => 0.0,
+        };
+        let jump = dashpot - self.links.forces[index];
+        if dashpot == 0.0 || self.links.forces[index] != 0.0 {
+            return false;
+        }
+        self.links.forces[index] = dashpot;
+        let totals = &mut self.links.totals[index];
+        if dashpot > totals.peak_force.value.abs() {
+            totals.peak_force = Extreme {
+                value: dashpot,
+                at: run.time,
+            };
+        }
+        self.accelerate_ends(run.system, index, jump);
+        true
+    }
+
+    /// A sudden change of the force of a link changes the accelerations of both ends.
+    fn accelerate_ends(&mut self, system: &System, index: usize, jump: f64) {
+        for (end, sign) in system.links[index].ports.sides() {
+            let own = &system.buildings[end.building];
+            for &(dof, share) in end.row.entries() {
+                let mass = own.equations.mass[dof - own.offset];
+                self.state.acceleration[dof] += share * sign * jump / mass;
+            }
         }
     }
 
@@ -163,24 +282,25 @@ impl<E: StepEquations> Direct<E> {
     /// both ends.
     pub(super) fn jerk_links(&mut self, system: &System, building: usize) {
         let offset = system.buildings[building].offset;
-        for (link, force) in system.links.iter().zip(&mut self.links.forces) {
+        for (index, link) in system.links.iter().enumerate() {
             for (port, sign) in link.ports.sides() {
                 if port.building != building {
                     continue;
                 }
-                let change = port.row.moved_down(offset).value(&self.jump.velocity);
-                let jump = -sign * link.damping * change;
+                let jump = if link.is_linear() {
+                    let change = port.row.moved_down(offset).value(&self.jump.velocity);
+                    -sign * link.damping * change
+                } else {
+                    let shortening = link.shortening(&self.state.displacement);
+                    let rate = link.ports.closing(&self.state.velocity);
+                    link.force_now(shortening, rate, &self.state.links[index])
+                        - self.links.forces[index]
+                };
                 if jump == 0.0 {
                     continue;
                 }
-                *force += jump;
-                for (end, sign) in link.ports.sides() {
-                    let own = &system.buildings[end.building];
-                    for &(dof, share) in end.row.entries() {
-                        let mass = own.equations.mass[dof - own.offset];
-                        self.state.acceleration[dof] += share * sign * jump / mass;
-                    }
-                }
+                self.links.forces[index] += jump;
+                self.accelerate_ends(system, index, jump);
             }
         }
     }

@@ -27,7 +27,7 @@ use crate::stepping::outcome::{
 };
 use crate::stepping::plan::Plan;
 use crate::stepping::recorder::{Instant, Recorder};
-use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
+use crate::stepping::runner::{ContactTrial, Jump, LinkTouch, RunState, Runner, Stepper};
 use crate::structure::StepEquations;
 use crate::system::System;
 use factors::StepFactors;
@@ -373,6 +373,18 @@ impl<E: StepEquations> Stepper for Direct<E> {
         end: Clock,
     ) -> Result<(), StepError> {
         self.solve_step(run, slot, end)
+    }
+
+    fn link_touch(&self, run: &RunState<'_>, step: f64) -> Option<LinkTouch> {
+        self.first_link_touch(run, step)
+    }
+
+    fn link_overlap(&self, run: &RunState<'_>, link: usize) -> [f64; 2] {
+        self.overlap_at_end(run, link)
+    }
+
+    fn begin_link_force(&mut self, run: &RunState<'_>, link: usize) -> bool {
+        self.begin_dashpot(run, link)
     }
 
     fn before_step(&mut self, run: &mut RunState<'_>, _: f64) {

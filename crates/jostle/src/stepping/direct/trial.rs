@@ -149,10 +149,11 @@ impl<E: StepEquations> Direct<E> {
     /// Lists the closed contacts and the links, with the indentations they would have if none pushed.
     fn list_closed(&mut self, run: &mut RunState<'_>, slot: usize) {
         run.coupling.clear();
-        let rate_gain = self.factors[slot].coefficients.c;
+        let coefficients = &self.factors[slot].coefficients;
+        let (rate_gain, step) = (coefficients.c, coefficients.step);
         for (place, &index) in self.joints.graph.order.iter().enumerate() {
             let closed = if self.joints.is_link(index) {
-                self.link_in_step(run, index, rate_gain)
+                self.link_in_step(run, index, rate_gain, step)
             } else if let ContactPhase::Closed(episode) = &run.phases[index] {
                 let trial = &run.trials[index];
                 Closed {
@@ -168,6 +169,7 @@ impl<E: StepEquations> Direct<E> {
                     turn: None,
                     start_acceleration: 0.0,
                     friction: None,
+                    link: None,
                 }
             } else {
                 continue;
@@ -179,7 +181,7 @@ impl<E: StepEquations> Direct<E> {
 
     /// Solves for the forces of closed contacts and links and lets them push (theory, Eqs. P1–P5, L2).
     fn find_forces(&mut self, run: &mut RunState<'_>, slot: usize) -> Result<(), StepError> {
-        if run.in_contact() {
+        if run.in_contact() || !run.coupling.links.is_empty() {
             self.fill_compliance(run, slot);
             let time = run.time;
             let closed = run.coupling.closed.len();

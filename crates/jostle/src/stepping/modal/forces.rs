@@ -285,6 +285,7 @@ mod tests {
             turn: None,
             start_acceleration: 0.0,
             friction: None,
+            link: None,
         }
     }
 

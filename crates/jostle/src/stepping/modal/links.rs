@@ -478,6 +478,10 @@ impl ModalStepper<'_> {
                 let [begin, end] = [then, now].map(|[x, rate, _]| (sign * x, sign * rate));
                 let most = greatest_in_step(begin, end, start, step).value;
                 totals.peak_shortening = totals.peak_shortening.max(most);
+                let [begin, end] =
+                    [then, now].map(|[_, rate, change]| (sign * rate, sign * change));
+                let most = greatest_in_step(begin, end, start, step).value;
+                totals.peak_rate = totals.peak_rate.max(most);
             }
         }
         self.read_link_forces();

@@ -369,6 +369,7 @@ mod tests {
             level_tolerance: 1e-3,
             stiffness: 2e7,
             damping: 1e5,
+            law: crate::LinkLaw::Linear,
         };
         let beta = Damping::Rayleigh {
             alpha: 0.2,

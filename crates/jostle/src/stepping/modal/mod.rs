@@ -61,6 +61,13 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
             ));
         }
     }
+    if let Some(link) = system.links.iter().find(|link| !link.is_linear()) {
+        reasons.push(format!(
+            "link[{}] is {}: only linear links act on modes; leave out the solver, or make the link linear",
+            link.link,
+            link.law.name()
+        ));
+    }
     if integrator != Integrator::default() {
         reasons.push("modes are advanced exactly: leave out the integrator".to_owned());
     }

@@ -188,6 +188,7 @@ impl ModalStepper<'_> {
                 start_slope: predicted.slope,
                 turn: None,
                 start_acceleration: 0.0,
+                link: None,
             };
             let bend = predicted.bend(start, 0.0);
             self.reduced.push_apart(index, bend, &mut self.bend);

@@ -3,11 +3,13 @@
 mod contact_events;
 mod corners;
 mod episodes;
+mod link_touches;
 mod run_state;
 mod stepper;
 
 use contact_events::Landing;
 pub(super) use contact_events::{ContactTrial, TOGETHER};
+pub(super) use link_touches::LinkTouch;
 pub(super) use run_state::RunState;
 pub(super) use stepper::{Jump, Stepper};
 
@@ -78,6 +80,12 @@ impl<S: Stepper> Runner<'_, S> {
                         Landing::AtStart => continue,
                     }
                 }
+            }
+            let before = event.map_or(1.0, |event| event.at);
+            match self.end_at_link_touch(&next, before)? {
+                Some(Landing::Later) => return Ok(()),
+                Some(Landing::AtStart) => continue,
+                None => {}
             }
             let Some(event) = event else {
                 let coarse = self.stepper.unresolved_contact(&self.run, next.length);

@@ -1,5 +1,6 @@
 //! The interface between the runner and a stepper.
 
+use super::link_touches::LinkTouch;
 use super::{ContactTrial, RunState};
 use crate::motion::Ground;
 use crate::state::Episode;
@@ -108,6 +109,24 @@ pub(in crate::stepping) trait Stepper {
     fn contact_that_opens_unseen(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
         let _ = (run, step);
         None
+    }
+
+    /// The first link with a gap or slack that closes or opens within the tried step.
+    fn link_touch(&self, run: &RunState<'_>, step: f64) -> Option<LinkTouch> {
+        let _ = (run, step);
+        None
+    }
+
+    /// By how much such a link is closed at the end of the tried step, and its rate \[m, m/s\].
+    fn link_overlap(&self, run: &RunState<'_>, link: usize) -> [f64; 2] {
+        let _ = (run, link);
+        [0.0; 2]
+    }
+
+    /// Gives a link that touches now the force of its dashpot; whether it had none.
+    fn begin_link_force(&mut self, run: &RunState<'_>, link: usize) -> bool {
+        let _ = (run, link);
+        false
     }
 
     /// A step is about to be accepted.
