@@ -100,6 +100,7 @@ class Frame(Part):
         joint: elastic hinges at the beam ends, ``{"rotational_stiffness": "2e8 N.m/rad"}``.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
         base: springs and dashpots under every column: ``"fixed"`` (default) or ``{"rotational_stiffness": …}``.
+        isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``.
         hinges: plastic hinges at the member ends; without them the frame is elastic:
             ``{"rule": "peak-oriented", "from": "section"}`` or
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
@@ -139,6 +140,7 @@ class Frame(Part):
         joint: Table | None = None,
         damping: Table | None = None,
         base: Literal["fixed"] | Table | None = None,
+        isolation: Table | None = None,
         hinges: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
@@ -169,6 +171,7 @@ class Frame(Part):
                 "joint": joint,
                 "damping": damping,
                 "base": base,
+                "isolation": isolation,
                 "hinges": hinges,
                 "gravity": gravity,
                 "p_delta": p_delta,
@@ -192,6 +195,7 @@ class Shear(Part):
         storey_height: one length, or a list from the ground up; 3 m by default.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
         base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …}``.
+        isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``.
         hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
             "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
@@ -224,6 +228,7 @@ class Shear(Part):
         storey_height: Quantities | None = None,
         damping: Table | None = None,
         base: Literal["fixed"] | Table | None = None,
+        isolation: Table | None = None,
         hinges: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
@@ -247,6 +252,7 @@ class Shear(Part):
                 "stiffness": stiffness,
                 "damping": damping,
                 "base": base,
+                "isolation": isolation,
                 "hinges": hinges,
                 "gravity": gravity,
                 "p_delta": p_delta,
@@ -478,6 +484,33 @@ class Link(Part):
                 "gap": gap,
             },
             units,
+        )
+
+
+class Wall(Part):
+    """A wall that gaps and links can name: rigid, or a mass on a spring and a dashpot.
+
+    Args:
+        name: name by which gaps and links know it.
+        stiffness: force per displacement where it is struck, > 0; without it the wall is rigid.
+        damping: force per velocity, ≥ 0; 0 by default.
+        mass: mass that moves where it is struck, > 0; required with a stiffness.
+
+    Raises:
+        TypeError: an unknown keyword, with the nearest known one.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        stiffness: Quantity | None = None,
+        damping: Quantity | None = None,
+        mass: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            {"name": name, "stiffness": stiffness, "damping": damping, "mass": mass},
+            {},
         )
 
 

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from . import _jostle
-from ._builders import Building, Gap, Link, Part, Table
+from ._builders import Building, Gap, Link, Part, Table, Wall
 from ._errors import MissingFileError, ModelError, ModelWarning
 from ._motion import Motion
 from ._tree import text_of
@@ -34,6 +34,7 @@ class Model:
         gaps: one for each pair of neighbours, or one for all of them. ``between`` may be omitted from all. Walls need
             it, and so do several gaps of one pair.
         links: springs and dampers that join neighbours.
+        walls: walls that gaps and links can name.
         motion: a :class:`Motion`, the name or path of a record, or ``[motion]`` of the model file.
         title: printed on summaries and reports.
         analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
@@ -54,6 +55,7 @@ class Model:
         gaps: Gap | Table | Sequence[Gap | Table] = (),
         *,
         links: Link | Table | Sequence[Link | Table] = (),
+        walls: Wall | Table | Sequence[Wall | Table] = (),
         motion: Motion | str | os.PathLike[str] | Table | None = None,
         title: str | None = None,
         analysis: Table | None = None,
@@ -65,6 +67,9 @@ class Model:
         tree["gap"] = _gaps(gaps, tree["building"])
         joined = [links] if isinstance(links, (Part, Mapping)) else links
         tree["link"] = [_table(link) for link in joined]
+        if walls:
+            listed = [walls] if isinstance(walls, (Part, Mapping)) else walls
+            tree["wall"] = [_table(wall) for wall in listed]
         if title is not None:
             tree["title"] = title
         if analysis is not None:

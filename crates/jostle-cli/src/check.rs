@@ -86,7 +86,7 @@ fn records(opened: &Opened) -> Result<String, Failure> {
 
 fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Result {
     writeln!(text, "{}\n", styled(BOLD, &model.title))?;
-    for (index, building) in system.buildings.iter().enumerate() {
+    for (index, building) in system.structures().iter().enumerate() {
         let kind = match &model.buildings[index].structure {
             Structure::Frame(frame) => format!(
                 "frame, {}, {}",
@@ -112,6 +112,9 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         describe_building(text, building, damping, &kind)?;
         for line in special(&model.buildings[index]) {
             writeln!(text, "  {line}")?;
+        }
+        if let Some(mat) = building.discretization.mat {
+            describe_bearings(text, &mat)?;
         }
         if let Some(hinges) = &model.buildings[index].hinges {
             describe_hinges(text, hinges)?;
@@ -144,7 +147,13 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             .collect();
         let heights: Vec<String> = contacts
             .iter()
-            .map(|contact| height(contact.height, contact.ports.floors(), &gap.between))
+            .map(|contact| {
+                height(
+                    contact.height,
+                    system.floors_of(&contact.ports),
+                    &model.buildings_beside(gap.between),
+                )
+            })
             .collect();
         let [left, right] = names(system, gap.between);
         writeln!(text, "{}", styled(BOLD, &format!("{left} ↔ {right}")))?;
@@ -204,7 +213,13 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
     for (index, link) in model.links.iter().enumerate() {
         let own = system.links.iter().filter(|element| element.link == index);
         let heights: Vec<String> = own
-            .map(|element| height(element.height, element.ports.floors(), &link.between))
+            .map(|element| {
+                height(
+                    element.height,
+                    system.floors_of(&element.ports),
+                    &model.buildings_beside(link.between),
+                )
+            })
             .collect();
         let [left, right] = names(system, link.between);
         writeln!(text, "{}", styled(BOLD, &format!("{left} — {right}")))?;
@@ -269,12 +284,38 @@ fn describe_faces(text: &mut String, contacts: &[&jostle::interface::Contact]) -
     writeln!(text)
 }
 
+/// Amplitude at which the equivalent linear bearings are given, where there is no limit \[m\].
+const AMPLITUDE: f64 = 0.1;
+
+/// Bearings, and the linear ones that take their place at an amplitude (theory, Eq. B7).
+fn describe_bearings(text: &mut String, mat: &jostle::structure::Mat) -> std::fmt::Result {
+    let isolation = &mat.isolation;
+    let amplitude = isolation.limit.unwrap_or(AMPLITUDE);
+    writeln!(
+        text,
+        "  {} bearings under a mat of {:.1} t, with a weight of {:.0} kN",
+        isolation.isolator.name(),
+        isolation.mat_mass * 1e-3,
+        mat.weight * 1e-3
+    )?;
+    if let Some([stiffness, ratio]) = isolation.isolator.equivalent(mat.weight, amplitude) {
+        let mass = mat.weight / jostle_io::STANDARD_GRAVITY;
+        let omega = (stiffness / mass).sqrt();
+        writeln!(
+            text,
+            "  at {:.0} mm as linear bearings of {} N/m with {:.1} % damping: a period of {:.2} s",
+            amplitude * 1e3,
+            short(stiffness),
+            100.0 * (ratio + mat.dashpot / (2.0 * mass * omega)),
+            std::f64::consts::TAU / omega
+        )?;
+    }
+    Ok(())
+}
+
 /// Names of both sides.
 fn names(system: &System, between: [Option<usize>; 2]) -> [&str; 2] {
-    between.map(|side| match side {
-        Some(building) => system.buildings[building].name.as_str(),
-        None => "wall",
-    })
+    between.map(|side| system.side_name(side))
 }
 
 /// The height of a point, and which side is hit between its floors.
@@ -321,16 +362,23 @@ fn describe_building(
         Damping::AllModes { ratio } => format!("damping {} % in every mode", percent(*ratio)),
         Damping::Rayleigh { .. } => "Rayleigh damping".to_owned(),
         Damping::Ratio { ratio, modes } => {
+            let is_isolated = building.discretization.mat.is_some();
             let named = match &modes[..] {
+                [] if is_isolated => &[1],
                 [] => usual_damping_modes(lateral),
                 modes => modes,
             };
             let modes: Vec<String> = named.iter().map(usize::to_string).collect();
             let plural = if modes.len() == 1 { "" } else { "s" };
             format!(
-                "Rayleigh damping {} % in lateral mode{plural} {}:",
+                "Rayleigh damping {} % in lateral mode{plural} {}{}:",
                 percent(*ratio),
-                modes.join(" and ")
+                modes.join(" and "),
+                if is_isolated {
+                    " of the building fixed on its mat"
+                } else {
+                    ""
+                }
             )
         }
     };
@@ -371,7 +419,7 @@ fn special(building: &Building) -> Vec<String> {
         known.collect::<Vec<_>>().join(", ")
     };
     let base = &building.base;
-    if !base.is_fixed() {
+    if !base.is_fixed() && base.isolation.is_none() {
         let springs = list(&[
             ("rotation", base.rotational_stiffness, "N.m/rad"),
             ("sideways", base.horizontal_stiffness, "N/m"),

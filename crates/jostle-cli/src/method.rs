@@ -37,7 +37,7 @@ pub(crate) fn method(args: &MethodArgs) -> Result<(), Failure> {
 
 /// Surveys every building.
 pub(crate) fn survey(system: &System) -> Result<Vec<MethodSurvey>, Failure> {
-    let surveys = system.buildings.iter().map(MethodSurvey::new);
+    let surveys = system.structures().iter().map(MethodSurvey::new);
     let surveys: Result<Vec<_>, _> = surveys.collect();
     surveys.map_err(|error| Failure::Analysis(error.to_string()))
 }

@@ -20,7 +20,7 @@ const RESULTS: &str = "jostle-out";
 pub(crate) fn pushover(args: &PushoverArgs) -> Result<(), Failure> {
     let drift = drift(&args.drift)?;
     let opened = open(args.model.as_deref(), &Overrides::default(), false)?;
-    let buildings = chosen_buildings(&opened.system.buildings, args.building.as_deref())?;
+    let buildings = chosen_buildings(opened.system.structures(), args.building.as_deref())?;
     let directions: &[PushDirection] = match args.direction {
         Push::Right => &[PushDirection::Right],
         Push::Left => &[PushDirection::Left],

@@ -26,12 +26,17 @@ pub struct BuildingMatrices {
 pub fn export(export: &Export<'_>) -> Result<Vec<BuildingMatrices>, Vec<ModelFault>> {
     let mut faults = Vec::new();
     let mut found = Vec::new();
-    for (index, building) in export.system.buildings.iter().enumerate() {
+    for (index, building) in export.system.structures().iter().enumerate() {
         let refused = [
             (
                 !building.equations.springs.is_empty(),
                 "hinges",
                 "yields; matrices are elastic: leave out its hinges",
+            ),
+            (
+                building.support.is_some(),
+                "isolation",
+                "stands on bearings, which matrices do not hold; leave it out",
             ),
             (
                 !building.rest.displacement.is_empty(),

@@ -47,6 +47,14 @@ pub(crate) enum Section {
     ShearBase,
     /// Further ones under the columns of a frame.
     FrameBase,
+    /// Bearings and mat under a building.
+    Isolation,
+    /// Friction of bearings that changes with speed.
+    IsolationFriction,
+    /// Stops of a mat.
+    IsolationStop,
+    /// The stop of one side.
+    StopSide,
     Integrator,
     Damping,
     /// Hinges of a frame.
@@ -69,6 +77,8 @@ pub(crate) enum Section {
     Bars,
     Gap,
     Link,
+    /// A wall that gaps and links can name.
+    Wall,
     /// Yielding of a link.
     LinkHinge,
     Analysis,
@@ -303,6 +313,9 @@ const fn default(
     }
 }
 
+/// Kinds of bearings.
+pub(crate) const ISOLATORS: &[&str] = &["linear", "lead-rubber", "friction-pendulum"];
+
 use Dimension as D;
 use Kind::{
     Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FlagOrChoices,
@@ -320,6 +333,7 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::Root, "building", Tables(&[S::Building, S::Frame, S::Shear, S::Given]), "The buildings, from left to right."),
     optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps between neighbours, and between the ends of the row and walls there."),
     optional(S::Root, "link", Tables(&[S::Link]), "Springs, dampers and sliders that join neighbours, or floors of one building."),
+    optional(S::Root, "wall", Tables(&[S::Wall]), "Walls that gaps and links can name, anywhere beside a building."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
     optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
@@ -374,6 +388,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Building, "p_delta", Flag, "false", "Include P-Delta from the weight above."),
 
     default(S::Frame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
+    optional(S::Frame, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base; in one plane."),
     required(S::Frame, "spans", Quantities(D::Length), "Widths of the bays from left to right."),
     required(S::Frame, "column", TablePerStorey(S::Column), "Column section: one, or a list from the ground up."),
     required(S::Frame, "beam", TablePerStorey(S::Beam), "Beam section: one, or a list from the ground up."),
@@ -392,6 +407,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame is elastic."),
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
+    optional(S::Shear, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base; in one plane."),
     required(S::Shear, "mass", PerStorey(D::Mass), "Floor masses from the ground up. A weight is converted."),
     optional(S::Shear, "stiffness", Kind::PlanStiffness, "Storey stiffnesses from the ground up; required without elements. With a plan also { x, y, torsion }: a bare value is along x, y is then the same, and torsion that of stiffness spread evenly over the plan."),
     optional(S::Shear, "plan", Kind::Plan, "Plan of the floors: width along x and depth across, corners counter-clockwise, or a list of { size } or { corners } from the ground up. The building then moves in both directions and turns."),
@@ -464,6 +480,32 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::ShearDeformation, "columns", Choice(AXIAL), "\"rigid\"", "Shear deformation of columns."),
     default(S::ShearDeformation, "beams", Choice(AXIAL), "\"rigid\"", "Shear deformation of beams."),
+
+    required(S::Isolation, "kind", Choice(ISOLATORS), "Kind of the bearings, all of them together."),
+    required(S::Isolation, "mat_mass", Quantity(D::Mass), "Mass of the mat between the bearings and the building. The mat is floor 0."),
+    optional(S::Isolation, "stiffness", Quantity(D::Stiffness), "linear: stiffness. lead-rubber: initial stiffness."),
+    optional(S::Isolation, "yield", Quantity(D::Force), "lead-rubber: force at which the lead yields."),
+    optional(S::Isolation, "post_yield", Quantity(D::Dimensionless), "lead-rubber: ratio of post-yield to initial stiffness, at least 0 and below 1."),
+    optional(S::Isolation, "radius", Quantity(D::Length), "friction-pendulum: radius of the sliding surface."),
+    optional(S::Isolation, "friction", NumberOrTable(S::IsolationFriction), "friction-pendulum: coefficient of friction, or its change with speed."),
+    default(S::Isolation, "slip_displacement", Quantity(D::Length), "\"1 mm\"", "friction-pendulum: displacement at which friction is fully mobilised."),
+    default(S::Isolation, "damping", Quantity(D::Damping), "0", "Dashpot beside the bearings."),
+    optional(S::Isolation, "damping_ratio", Quantity(D::Dimensionless), "linear: ratio of critical damping of the whole mass on the bearings, instead of damping."),
+    optional(S::Isolation, "stop", Kind::Table(S::IsolationStop), "Elastic stops of the mat, or hardening of the bearings."),
+    optional(S::Isolation, "limit", Quantity(D::Length), "Displacement that the bearings allow. A run that exceeds it warns."),
+    default(S::Isolation, "weight", Quantity(D::Force), "(building + mat) · 9.80665 m/s2", "Weight on the bearings."),
+
+    required(S::IsolationFriction, "slow", Quantity(D::Dimensionless), "Coefficient of friction at rest."),
+    required(S::IsolationFriction, "fast", Quantity(D::Dimensionless), "Coefficient of friction at high speed."),
+    required(S::IsolationFriction, "rate", Quantity(D::Slowness), "How fast it rises: fast − (fast − slow)·exp(−rate·speed)."),
+
+    optional(S::IsolationStop, "at", Quantity(D::Length), "Displacement of the mat at which the stops of both sides are reached."),
+    optional(S::IsolationStop, "stiffness", Quantity(D::Stiffness), "Stiffness of each."),
+    optional(S::IsolationStop, "left", Kind::Table(S::StopSide), "A stop on the left only, instead of both."),
+    optional(S::IsolationStop, "right", Kind::Table(S::StopSide), "A stop on the right only, instead of both."),
+
+    required(S::StopSide, "at", Quantity(D::Length), "Displacement of the mat at which it is reached."),
+    required(S::StopSide, "stiffness", Quantity(D::Stiffness), "Stiffness."),
 
     default(S::ShearBase, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal spring to the ground."),
     default(S::ShearBase, "horizontal_damping", Quantity(D::Damping), "0", "Dashpot parallel to the horizontal spring."),
@@ -542,7 +584,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Damage, "ductility", Quantity(D::Dimensionless), "0", "Growth of the peak ahead per ductility of the side just left, beyond its first corner."),
     default(S::Damage, "energy", Quantity(D::Dimensionless), "0", "Growth of the peak ahead per dissipated energy, over that of loading both sides to yield."),
 
-    required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row. Between buildings with plans and at, the last [[gap]] may say \"all\" or leave it out: it then holds for all neighbours within reach that have none of their own."),
+    required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour: buildings, or one of [[wall]]; \"wall\" is a rigid wall at an end of the row. Between buildings with plans and at, the last [[gap]] may say \"all\" or leave it out: it then holds for all neighbours within reach that have none of their own."),
     optional(S::Gap, "width", PerContact(D::Length), "Width at rest, required except between plans with at: one value, or a list for the contacts in the order of floors, from the lowest contact up if floors are not listed."),
     default(S::Gap, "floors", FloorPairs, "\"common\"", "Contact locations: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights."),
     default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can touch."),
@@ -585,6 +627,11 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::LinkHinge, "yield", Quantity(D::Force), "Force at yield."),
     optional(S::LinkHinge, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to the stiffness of the link."),
     optional(S::LinkHinge, "post_yield", Quantity(D::Dimensionless), "Ratio of the stiffness after yield to the stiffness of the link."),
+
+    required(S::Wall, "name", Text, "Name by which gaps and links know it."),
+    optional(S::Wall, "stiffness", Quantity(D::Stiffness), "Force per displacement where it is struck, soil included; without it the wall is rigid."),
+    default(S::Wall, "damping", Quantity(D::Damping), "0", "Dashpot of the wall, such as that of the soil behind it."),
+    optional(S::Wall, "mass", Quantity(D::Mass), "Mass that moves where it is struck; required with a stiffness. 33/140 of a cantilever struck at its top."),
 
     default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step of free vibration."),
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),

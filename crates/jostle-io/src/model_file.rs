@@ -14,6 +14,7 @@ mod frame;
 mod gap;
 mod given;
 mod hinges;
+mod isolation;
 mod link;
 mod matching;
 mod motion;
@@ -26,6 +27,7 @@ mod shear;
 #[cfg(test)]
 mod tests;
 mod unusual_results;
+mod wall;
 
 pub use capacity::CapacityRequest;
 pub use floor_spectra::FloorSpectraRequest;
@@ -461,17 +463,21 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
             None
         }
     };
+    let walls = match reader.get(&view, "wall") {
+        Some(field) => wall::read_all(reader, &field).unwrap_or_default(),
+        None => Vec::new(),
+    };
     let gaps = match reader.get(&view, "gap") {
         Some(field) => {
             let buildings = buildings.as_ref().map(|read| &read.buildings[..]);
-            gap::read_all(reader, &field, buildings)
+            gap::read_all(reader, &field, buildings, &walls)
         }
         None => Vec::new(),
     };
     let links = match reader.get(&view, "link") {
         Some(field) => {
             let buildings = buildings.as_ref().map(|read| &read.buildings[..]);
-            link::read_all(reader, &field, buildings)
+            link::read_all(reader, &field, buildings, &walls)
         }
         None => Vec::new(),
     };
@@ -498,6 +504,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         buildings,
         gaps,
         links,
+        walls,
         analysis,
     };
     if model.is_in_space() {

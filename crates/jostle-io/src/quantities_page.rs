@@ -108,6 +108,7 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
         Column::ContactForce { contact: 0 },
         Column::Closing { contact: 0 },
         Column::LinkForce { link: 0 },
+        Column::SupportForce { building: 0 },
     ];
     let energies = EnergyTerm::ALL.into_iter().map(Column::Energy);
     writeln!(
@@ -121,6 +122,7 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
             "floor" => "J1.floor3.",
             "contact" => "J1-J2.floor5-5.",
             "link" => "J1-J2.link5-5.",
+            "isolation" => "J1.isolation.",
             "energy" => "energy_",
             _ => "",
         };

@@ -45,6 +45,8 @@ pub enum Dimension {
     Frequency,
     /// Mass moment of inertia \[kg·m²\].
     PolarMass,
+    /// Inverse of a speed \[s/m\].
+    Slowness,
     /// Linear stiffness per length \[N/m/m\].
     StiffnessPerLength,
     /// Stiffness of a Hertz contact per length \[N/m^1.5/m\].
@@ -55,7 +57,7 @@ pub enum Dimension {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::Length,
         Self::Mass,
         Self::Time,
@@ -74,6 +76,7 @@ impl Dimension {
         Self::FlexuralRigidity,
         Self::Frequency,
         Self::PolarMass,
+        Self::Slowness,
         Self::StiffnessPerLength,
         Self::HertzStiffnessPerLength,
         Self::Dimensionless,
@@ -101,6 +104,7 @@ impl Dimension {
             Self::FlexuralRigidity => ("a flexural rigidity", "150 MN.m2", "N.m2", [3.0, 1.0, -2.0]),
             Self::Frequency => ("a frequency", "2 Hz", "1/s", [0.0, 0.0, -1.0]),
             Self::PolarMass => ("a polar mass", "1e7 kg.m2", "kg.m2", [2.0, 1.0, 0.0]),
+            Self::Slowness => ("an inverse speed", "50 s/m", "s/m", [-1.0, 0.0, 1.0]),
             Self::StiffnessPerLength => ("a stiffness per length", "20 MN/m/m", "N/m/m", [-1.0, 1.0, -2.0]),
             Self::HertzStiffnessPerLength => ("a Hertz contact stiffness per length", "2e8 N/m^1.5/m", "N/m^1.5/m", [-1.5, 1.0, -2.0]),
             Self::Dimensionless => ("a number without unit", "0.05", "1", [0.0; 3]),

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use jostle::history::MemberHistory;
+use jostle::hysteresis::Side;
 use jostle::quantity::Read;
 use jostle::results::summary::{
     ContactSummary, ImpactSummary, MemberSummary, RatioPlace, RatioSummary, SectionSummary,
@@ -224,7 +225,7 @@ pub fn write_hinges_parquet(
 ) -> Result<(), OutputError> {
     type Row<'a> = (&'a str, Option<SpringPlace>, SpringSummary);
     let mut rows: Vec<Row<'_>> = Vec::new();
-    for building in &system.buildings {
+    for building in system.structures() {
         for spring in springs_of(building, outcome) {
             let places = &building.discretization.spring_places;
             rows.push((&building.name, places.get(spring.index).copied(), spring));
@@ -485,6 +486,14 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
             };
             ("base", Some(0), Some(line), motion)
         }
+        Some(SpringPlace::Bearings) => ("isolation", Some(0), None, "bearings"),
+        Some(SpringPlace::Stop { side }) => {
+            let side = match side {
+                Side::Negative => "left stop",
+                Side::Positive => "right stop",
+            };
+            ("isolation", Some(0), None, side)
+        }
         None => ("", None, None, ""),
     }
 }
@@ -529,6 +538,7 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
         let name = names.get(index).cloned();
         name.unwrap_or_else(|| format!("{what}{}", index + 1)) + "."
     };
+    let recorded = column.recorded();
     let place = match column {
         Column::Time | Column::GroundAcceleration | Column::GroundAccelerationAcross => {
             String::new()
@@ -542,16 +552,32 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
         | Column::Rotation { .. }
         | Column::RotationRate { .. }
         | Column::RotationAcceleration { .. } => {
+            if let Some(wall) = wall_behind(model, index) {
+                return format!("{}.{}{}", plain(wall), recorded.name, recorded.unit.suffix);
+            }
             let name = model.buildings.get(index).map(|b| plain(&b.name));
             let name = name.unwrap_or_else(|| format!("B{}", index + 1));
             format!("{name}.floor{floor}.")
         }
         Column::ContactForce { .. } | Column::Closing { .. } => joint(contacts, "contact"),
         Column::LinkForce { .. } => joint(links, "link"),
+        Column::SupportForce { .. } => match wall_behind(model, index) {
+            Some(wall) => format!("{}.", plain(wall)),
+            None => {
+                let name = model.buildings.get(index).map(|b| plain(&b.name));
+                format!("{}.isolation.", name.unwrap_or_default())
+            }
+        },
         Column::Energy(_) => "energy_".to_owned(),
     };
-    let recorded = column.recorded();
     place + recorded.name + recorded.unit.suffix
+}
+
+/// The name of the wall that is this building of a system: those that are not rigid follow the buildings.
+fn wall_behind(model: &Model, building: usize) -> Option<&str> {
+    let mut moving = model.walls.iter().filter(|wall| !wall.is_rigid());
+    let index = building.checked_sub(model.buildings.len())?;
+    moving.nth(index).map(|wall| &wall.name[..])
 }
 
 /// A name without the characters that split or end column names elsewhere.

@@ -100,6 +100,12 @@ pub(crate) const RANGES: &[Range] = &[
     GAP,
     of(&[S::Gap, S::Link], "level_tolerance", "a tolerance of levels", D::Length, [0.0, 1.0], [0.0, 20.0], LENGTHS),
     of(&[S::Gap], "thickness", "a bumper thickness", D::Length, [0.001, 1.0], [0.0, 10.0], LENGTHS),
+    of(&[S::Isolation], "mat_mass", "a mass of a mat", D::Mass, [100.0, 1e9], NO_LIMIT, &["t", "kg"]),
+    of(&[S::Isolation], "stiffness", "a stiffness of bearings", D::Stiffness, [1e3, 1e13], NO_LIMIT, &["MN/m", "kN/m", "N/m"]),
+    of(&[S::Isolation], "radius", "a radius of a pendulum", D::Length, [0.1, 20.0], NO_LIMIT, LENGTHS),
+    of(&[S::Isolation], "limit", "a displacement of bearings", D::Length, [0.01, 3.0], NO_LIMIT, LENGTHS),
+    of(&[S::Wall], "stiffness", "a stiffness of a wall", D::Stiffness, [1e3, 1e13], NO_LIMIT, &["MN/m", "kN/m", "N/m"]),
+    of(&[S::Wall], "mass", "a mass of a wall", D::Mass, [10.0, 1e8], NO_LIMIT, &["t", "kg"]),
     of(&[S::Link], "stiffness", "a link stiffness", D::Stiffness, [1e3, 1e16], NO_LIMIT, &["MN/m", "kN/m"]),
     of(&[S::Link], "damping", "a dashpot coefficient", D::Damping, [1e2, 1e12], NO_LIMIT, &["kN.s/m", "MN.s/m"]),
 ];

@@ -135,6 +135,7 @@ fn summary() -> Summary {
                 dissipated_j: 1e3,
             }],
         }],
+        walls: Vec::new(),
         energy: EnergySummary::default(),
         promise: Default::default(),
         work: WorkSummary::default(),

@@ -37,13 +37,13 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             .filter(|contact| contact.gap == index);
         let contacts = contacts.map(|contact| {
             json!({
-                "floors": contact.ports.floors(),
+                "floors": system.floors_of(&contact.ports),
                 "height_m": contact.height,
                 "width_m": contact.width,
             })
         });
         json!({
-            "between": names(model, gap.between),
+            "between": names(system, gap.between),
             "width_m": gap.width(),
             "law": gap.law.kind.name(),
             "stiffness": gap.law.stiffness,
@@ -55,9 +55,9 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let own = system.links.iter().filter(|element| element.link == index);
         let own = own
-            .map(|element| json!({ "floors": element.ports.floors(), "height_m": element.height }));
+            .map(|element| json!({ "floors": system.floors_of(&element.ports), "height_m": element.height }));
         json!({
-            "between": names(model, link.between),
+            "between": names(system, link.between),
             "law": link.law.name(),
             "stiffness_n_m": link.stiffness,
             "damping_n_s_m": link.damping,
@@ -73,9 +73,6 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
 }
 
 /// Names of both sides.
-fn names(model: &Model, between: [Option<usize>; 2]) -> [&str; 2] {
-    between.map(|side| match side {
-        Some(building) => model.buildings[building].name.as_str(),
-        None => "wall",
-    })
+fn names(system: &System, between: [Option<usize>; 2]) -> [&str; 2] {
+    between.map(|side| system.side_name(side))
 }

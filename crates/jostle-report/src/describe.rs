@@ -73,7 +73,14 @@ fn building(
         }
     }
     let rayleigh = summary.map(|s| (s.rayleigh_alpha_per_s, s.rayleigh_beta_s));
-    facts.push(("damping", damping(&building.damping, rayleigh)));
+    let mut said = damping(&building.damping, rayleigh);
+    if building.base.isolation.is_some() {
+        said = said.replace(
+            "the first and third lateral modes, as far as they exist",
+            "the first lateral mode of the building fixed on its mat",
+        );
+    }
+    facts.push(("damping", said));
     if let Some(summary) = summary {
         facts.push(("vibrating mass", format::tonnes(summary.mass_kg)));
         facts.push((

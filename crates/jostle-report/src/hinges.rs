@@ -29,7 +29,7 @@ pub(crate) struct Place {
 
 /// Every spring of the model that can yield, from the left building on.
 pub(crate) fn places(model: &Model) -> Vec<Place> {
-    let mut places = Vec::new();
+    let (mut places, mut count) = (Vec::new(), 0);
     for (index, building) in model.buildings.iter().enumerate() {
         if !building.may_yield() {
             continue;
@@ -38,11 +38,13 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
             if let Some(hysteresis) = hysteresis_of(building, at) {
                 places.push(Place {
                     building: index,
-                    spring: places.len(),
+                    spring: count,
                     at,
                     hysteresis,
                 });
             }
+            // Springs of bearings count, but are shown elsewhere.
+            count += 1;
         }
     }
     places
@@ -91,6 +93,7 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         SpringPlace::Base { line, motion } => {
             ('f', 0, line, usize::from(motion == BaseMotion::Sliding))
         }
+        SpringPlace::Bearings | SpringPlace::Stop { .. } => ('i', 0, 0, 0),
     }
 }
 

@@ -113,7 +113,7 @@ fn sources(required: &Requirements) -> Markup {
 
 /// Height of the lower of two neighbours; `None` beside a wall, for which codes have no rule.
 fn lower_height(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
-    let [left, right] = between;
+    let [left, right] = page.model.buildings_beside(between);
     let buildings = [left?, right?].map(|building| page.model.buildings.get(building));
     buildings
         .into_iter()
@@ -123,8 +123,9 @@ fn lower_height(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
 
 /// Two neighbours as rules see them. Between floors, and beside walls, only rules of heights apply.
 fn neighbours(page: &Page, summary: &GapSummary, gap: &Gap, envelopes: &[Envelope]) -> Neighbours {
-    let sides = gap.between.map(|building| {
-        let building = building.filter(|_| gap.between.iter().all(Option::is_some))?;
+    let between = page.model.buildings_beside(gap.between);
+    let sides = between.map(|building| {
+        let building = building.filter(|_| between.iter().all(Option::is_some))?;
         let own = page.model.buildings.get(building)?;
         let heights = own.floor_heights();
         Some(Side {

@@ -315,7 +315,7 @@ fn gaps(page: &Page) -> Vec<GapData> {
     let mut index = 0;
     page.gaps()
         .map(|(summary, gap)| GapData {
-            between: gap.between,
+            between: page.model.buildings_beside(gap.between),
             width: gap.width(),
             contacts: summary
                 .contacts
@@ -340,7 +340,7 @@ fn gaps(page: &Page) -> Vec<GapData> {
 fn links(page: &Page) -> Vec<LinkData> {
     let all = page.links().flat_map(|(summary, link)| {
         summary.floors.iter().map(|floor| LinkData {
-            between: link.between,
+            between: page.model.buildings_beside(link.between),
             height: floor.height_m,
             spring: link.stiffness > 0.0,
             dashpot: link.damping > 0.0,

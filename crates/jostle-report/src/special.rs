@@ -40,6 +40,12 @@ fn base(base: &Base) -> Facts {
     if base.is_fixed() {
         return Vec::new();
     }
+    if let Some(isolation) = &base.isolation {
+        return vec![
+            ("bearings", isolation.isolator.name().to_owned()),
+            ("mat", format::tonnes(isolation.mat_mass)),
+        ];
+    }
     let mut facts: Facts = vec![(
         "base",
         springs(&[

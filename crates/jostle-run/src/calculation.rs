@@ -28,7 +28,7 @@ impl Prepared {
 
 fn shapes(system: &System) -> Vec<Vec<(f64, Vec<f64>)>> {
     let of = |mode: &Mode| (mode.period(), floor_shape(mode));
-    let buildings = system.buildings.iter();
+    let buildings = system.structures().iter();
     buildings
         .map(|building| building.lateral_modes().take(SHAPES).map(of).collect())
         .collect()

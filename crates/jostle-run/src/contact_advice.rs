@@ -176,7 +176,7 @@ fn of_contact(known: &Known, model: &Model, system: &System, gap: usize) -> Opti
     let contact = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()))?;
     let names = model.gaps[gap]
         .between
-        .map(|building| building.map_or("wall".to_owned(), |b| model.buildings[b].name.clone()));
+        .map(|side| system.side_name(side).to_owned());
     // Points of a face share its mass.
     let share = contact.plan.map_or(1.0, |place| place.share);
     let masses = contact

@@ -389,8 +389,9 @@ impl Search<'_> {
         };
         let bracket = one.bracket(settings.tolerance)?;
         // A wall has no period, and so no double difference.
-        let neighbours = self.model.gaps[gap]
-            .between
+        let neighbours = self
+            .model
+            .buildings_beside(self.model.gaps[gap].between)
             .map(|side| side.map(|building| &apart.system.buildings[building]));
         let periods = neighbours.map(|building| {
             let first = building.and_then(|building| building.lateral_modes().next());
@@ -462,7 +463,7 @@ impl Search<'_> {
             }
         });
         let of_gap = &self.model.gaps[gap];
-        let sides = of_gap.between.map(|building| {
+        let sides = self.model.buildings_beside(of_gap.between).map(|building| {
             let building = building?;
             let assembled = &apart.system.buildings[building];
             Some(Side {
@@ -507,7 +508,15 @@ struct Bracket {
 
 /// Greatest displacement of a building at a height, in either direction; between floors by linear interpolation.
 fn peak_at(run: &Tried, building: usize, height: f64) -> f64 {
-    let floors = run.summary.buildings[building].floors.iter();
+    let Some(own) = run.summary.buildings.get(building) else {
+        // Walls follow the buildings.
+        let peaks = run.outcome.supports.get(building);
+        return peaks.map_or(0.0, |peaks| {
+            let [max, min] = [peaks.displacement_max, peaks.displacement_min];
+            max.value.max(-min.value)
+        });
+    };
+    let floors = own.floors.mat.iter().chain(&own.floors.above);
     let peaks = floors.map(|floor| (floor.height_m, floor.response.displacement_peak_m()));
     peak_at_height(peaks, height)
 }

@@ -15,7 +15,7 @@ pub type ListedModes<'a> = Vec<(&'a BuildingSystem, Vec<Mode>)>;
 /// # Errors
 /// Names the building whose modes were not found, and why.
 pub fn list_modes(system: &System, count: usize) -> Result<ListedModes<'_>, RunError> {
-    let modes = system.buildings.iter().map(|building| {
+    let modes = system.structures().iter().map(|building| {
         let modes = eigen::modes(building, count).map_err(|problem| {
             RunError::Analysis(format!("no modes of \"{}\": {problem}", building.name))
         })?;

@@ -21,7 +21,7 @@ pub fn pushover_json(
     drift: f64,
 ) -> Result<String, RunError> {
     let drift = checked_drift(drift, &drift.to_string())?;
-    let buildings = chosen_buildings(&system.buildings, building)?;
+    let buildings = chosen_buildings(system.structures(), building)?;
     let pattern = match pattern {
         "first-mode" => LoadPattern::FirstMode,
         "uniform" => LoadPattern::Uniform,

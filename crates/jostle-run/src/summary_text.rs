@@ -55,6 +55,7 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     }
     write_buildings(text, &summary.buildings)?;
     write_in_plan(text, &summary.buildings)?;
+    write_isolation(text, summary)?;
     write_hinges(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
     for gap in &summary.gaps {
@@ -234,6 +235,36 @@ fn changes(building: &BuildingSummary) -> [Option<Extremes>; 3] {
 }
 
 /// One line for every building that can crack and yield.
+/// Bearings and walls, one line each.
+fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
+    for building in &summary.buildings {
+        let Some(own) = &building.isolation else {
+            continue;
+        };
+        let stop = own.stop_force_peak_n.map_or_else(String::new, |force| {
+            format!(", {:.0} kN on a stop", force * 1e-3)
+        });
+        writeln!(
+            text,
+            "\nmat of {}: {:.1} mm, {:.0} kN in the bearings{stop}, {:.1} mm at the end",
+            building.name,
+            own.displacement_peak_m() * 1e3,
+            own.force_peak_n * 1e-3,
+            own.residual_m * 1e3
+        )?;
+    }
+    for wall in &summary.walls {
+        writeln!(
+            text,
+            "wall {}: {:.1} mm, {:.0} kN of contact",
+            wall.name,
+            wall.displacement_peak_m * 1e3,
+            wall.force_peak_n * 1e-3
+        )?;
+    }
+    Ok(())
+}
+
 fn write_hinges(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     let mut between = "\n";
     for building in buildings
@@ -502,7 +533,8 @@ mod tests {
             floor(1, [0.01, 8e5, 2.0], [0.02, 1e6, 4.0]),
             floor(2, [0.03, 6e5, 9.0], [0.02, 5e5, 2.0]),
             floor(3, [0.01, 3e5, 3.0], [0.01, 3e5, 0.0]),
-        ];
+        ]
+        .into();
         // Without a run without contact there is nothing to compare.
         let mut two = building("B", HingeSummary::default());
         two.floors = one.floors.clone();

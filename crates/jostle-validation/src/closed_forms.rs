@@ -65,6 +65,7 @@ fn building(
     };
     let discretization = Discretization {
         foot: None,
+        mat: None,
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),

@@ -10,6 +10,7 @@ pub mod closed_forms;
 pub mod collisions;
 pub mod document;
 pub mod frames;
+pub mod ground;
 pub mod links;
 pub mod loops;
 pub mod modes;
@@ -53,7 +54,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 15] = [
+const FAMILIES: [(&str, &str, Make); 16] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -89,6 +90,13 @@ const FAMILIES: [(&str, &str, Make); 15] = [
          offset in plan at 30°, three buildings around a corner. Expected values: modes in free flight, an integrator of \
          eighth order in contact, every touch and opening located; checked by fixed steps of 2 µs.",
         |_| space::rows(),
+    ),
+    (
+        "Isolation and walls",
+        "Five storeys on lead-rubber and sliding bearings under El Centro, alone and before a moat wall with a mass; a block on \
+         bearings whose friction rises with speed. Expected values: an event-driven integrator of eighth order at a relative \
+         tolerance of 10⁻¹².",
+        |_| ground::rows(),
     ),
     (
         "Links that are not linear",

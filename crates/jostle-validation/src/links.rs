@@ -138,6 +138,7 @@ fn model(inputs: &Value, tolerance: f64) -> Model {
         buildings: list(inputs, "/buildings").iter().map(building).collect(),
         gaps: gap.into_iter().collect(),
         links: vec![link(at(inputs, "/links"))],
+        walls: Vec::new(),
         analysis: Analysis {
             tolerance,
             ..Analysis::default()

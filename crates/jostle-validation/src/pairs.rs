@@ -111,6 +111,7 @@ pub(crate) fn pair(seed: u64, tolerance: f64) -> (Model, GroundMotion) {
         buildings,
         gaps: vec![Gap::after(0, random.between(0.002, 0.04), law)],
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             tolerance,
             ..Analysis::default()

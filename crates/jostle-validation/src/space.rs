@@ -171,6 +171,7 @@ fn model(inputs: &Value, tolerance: f64) -> Model {
         buildings,
         gaps,
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             tolerance,
             ..Analysis::default()
@@ -636,6 +637,7 @@ fn polygons() -> Vec<Row> {
             buildings: names.iter().map(|name| tower(name)).collect(),
             gaps: vec![gap],
             links: Vec::new(),
+            walls: Vec::new(),
             analysis: Analysis::default(),
         };
         let found = System::assemble(&model)

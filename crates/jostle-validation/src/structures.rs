@@ -62,6 +62,7 @@ pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
     let right_face = joints.iter().map(|floor| floor[floor.len() - 1]).collect();
     let discretization = Discretization {
         foot: None,
+        mat: None,
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),
@@ -99,6 +100,7 @@ fn single_mass(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem 
     };
     let discretization = Discretization {
         foot: None,
+        mat: None,
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),

@@ -75,6 +75,7 @@ fn row(buildings: usize, storeys: usize) -> Model {
             .map(|right| Gap::after(right - 1, 0.02, law))
             .collect(),
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             step: Some(2e-3),
             ..Analysis::default()

@@ -47,7 +47,7 @@ pub enum Column {
     Time,
     /// Ground acceleration \[m/s²\].
     GroundAcceleration,
-    /// Displacement of a floor relative to the ground \[m\]; floors count from 1.
+    /// Displacement of a floor relative to the ground \[m\]; floors count from 1, and 0 is a mat or a wall.
     Displacement {
         /// Building index.
         building: usize,
@@ -128,6 +128,11 @@ pub enum Column {
         /// Link index.
         link: usize,
     },
+    /// Force of the bearings of a building or of the spring and dashpot of a wall on the ground \[N\].
+    SupportForce {
+        /// Building index; walls are counted on from the buildings.
+        building: usize,
+    },
     /// A term of the energy balance \[J\].
     Energy(EnergyTerm),
 }
@@ -135,7 +140,7 @@ pub enum Column {
 /// What a column of a history records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Recorded {
-    /// Whose it is: `run`, `floor`, `contact`, `link` or `energy`.
+    /// Whose it is: `run`, `floor`, `contact`, `link`, `isolation` or `energy`.
     pub owner: &'static str,
     /// Name without unit.
     pub name: &'static str,
@@ -167,6 +172,7 @@ impl Column {
             Self::ContactForce { .. } => of("contact", "force", Unit::N, "contact force, positive in compression"),
             Self::Closing { .. } => of("contact", "closing", Unit::M, "closing; only of contacts on a column between floors"),
             Self::LinkForce { .. } => of("link", "force", Unit::N, "force of the link, positive in compression"),
+            Self::SupportForce { .. } => of("isolation", "force", Unit::N, "force of bearings, stops not included; of a wall, that of its spring and dashpot"),
             Self::Energy(EnergyTerm::Input) => of("energy", "input", Unit::J, "work of the ground motion until then"),
             Self::Energy(EnergyTerm::Kinetic) => of("energy", "kinetic", Unit::J, "kinetic energy relative to the ground"),
             Self::Energy(EnergyTerm::Strain) => of("energy", "strain", Unit::J, "strain energy of members, and recoverable energy of hinges"),
@@ -195,6 +201,7 @@ impl Column {
             | Self::RotationAcceleration { building, floor } => [building, floor],
             Self::ContactForce { contact } | Self::Closing { contact } => [contact, 0],
             Self::LinkForce { link } => [link, 0],
+            Self::SupportForce { building } => [building, 0],
         }
     }
 }
@@ -455,6 +462,21 @@ pub struct FloorPeaks {
     pub storey_shear: f64,
     /// Greatest overturning moment about the base of the storey below, either sign \[N·m\].
     pub overturning_moment: f64,
+}
+
+/// Peak response of what a building or a wall stands on: its bearings, or its spring and dashpot.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SupportPeaks {
+    /// Greatest displacement to the right \[m\].
+    pub displacement_max: Extreme,
+    /// Greatest displacement to the left, ≤ 0 \[m\].
+    pub displacement_min: Extreme,
+    /// Greatest total acceleration, either sign \[m/s²\].
+    pub total_acceleration: f64,
+    /// Greatest force of springs, friction and dashpot together, without stops, either sign \[N\].
+    pub force: f64,
+    /// Energy dissipated in the dashpot \[J\].
+    pub damped: f64,
 }
 
 /// Energies \[J\] and the greatest error of their balance so far.

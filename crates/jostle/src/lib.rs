@@ -41,6 +41,7 @@
 //!     buildings: vec![tower("soft", 3, 40e3, 20e6), tower("stiff", 3, 60e3, 90e6)],
 //!     gaps: vec![Gap::after(0, 0.02, law)], // 20 mm, right of building 0
 //!     links: Vec::new(),
+//!     walls: Vec::new(),
 //!     analysis: Analysis::default(),
 //! };
 //! // A record: ground acceleration [m/s²] at equal steps, here five seconds of a sine of 0.7 s.
@@ -114,8 +115,9 @@ pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Given, Gravity,
-    Hinges, Integrator, Joint, Level, Link, LinkLaw, MemberRequest, Model, ModelFault, PlanArea,
-    PlanContact, PlanPoint, Section, Shear, Solver, Structure, Tier, TierStorey, Tiers,
+    Hinges, Integrator, Isolation, Isolator, IsolatorDamping, Joint, Level, Link, LinkLaw,
+    MemberRequest, Model, ModelFault, PlanArea, PlanContact, PlanPoint, Section, Shear, Solver,
+    SpeedFriction, Stop, Structure, Tier, TierStorey, Tiers, Wall,
 };
 pub use motion::{Bearing, GroundMotion, Wave};
 pub use quantity::{Quantity, Unit};

@@ -197,6 +197,21 @@ impl BuildingSystem {
         elastic + yielding.sum::<f64>()
     }
 
+    /// Force of bearings, or of the spring and dashpot of a wall, on the ground, positive when the mat or the wall is to the
+    /// right; stops are not included, and zero where there is no support of that kind \[N\].
+    #[must_use]
+    pub fn support_force(&self, state: &State) -> f64 {
+        let Some(support) = &self.support else {
+            return 0.0;
+        };
+        let yielding = support.spring.map_or(0.0, |spring| {
+            state.springs[self.spring_offset + spring].force()
+        });
+        support.stiffness * state.displacement[support.dof]
+            + support.damping * state.velocity[support.dof]
+            + yielding
+    }
+
     /// Calls `take` with every force of columns and beams that is followed, in the order of
     /// [`MemberForces::forms`](crate::structure::MemberForces::forms) \[N, N·m\]. `links`: forces of the links of the
     /// system \[N\]; `ground`: ground acceleration \[m/s²\].

@@ -53,6 +53,7 @@ fn model(members: MemberRequest) -> Model {
         buildings: vec![building("J1", 5), building("J2", 10)],
         gaps: vec![Gap::after(0, 0.03, law)],
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             members,
             ..Analysis::default()

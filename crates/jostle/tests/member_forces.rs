@@ -86,6 +86,7 @@ fn neighbours() -> Model {
             ..Gap::after(0, 0.005, law())
         }],
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()
@@ -363,6 +364,7 @@ fn portal(columns: f64, beam: f64, height: f64, span: f64) -> System {
         buildings: vec![building("P", frame)],
         gaps: vec![wall([None, Some(0)]), wall([Some(0), None])],
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()
@@ -588,6 +590,7 @@ fn columns_carry_the_overturning_moment() {
         buildings: vec![building("A", frame(4, &spans))],
         gaps: Vec::new(),
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()

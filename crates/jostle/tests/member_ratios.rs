@@ -128,6 +128,7 @@ fn model() -> Model {
             )
         }],
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             members,
             ..Analysis::default()

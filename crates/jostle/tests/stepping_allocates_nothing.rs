@@ -34,6 +34,7 @@ fn towers() -> Model {
         buildings: vec![tower("soft", 4e4, 2e7), tower("stiff", 6e4, 9e7)],
         gaps: vec![Gap::after(0, 0.03, law)],
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis::default(),
     }
 }

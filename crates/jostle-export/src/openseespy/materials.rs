@@ -99,9 +99,10 @@ impl Materials {
                 ];
                 Ok(self.hysteretic(backbone, parameters))
             }
-            rule @ (HysteresisRule::Takeda { .. } | HysteresisRule::DegradingTrilinear) => {
-                Err(rule.name())
-            }
+            rule @ (HysteresisRule::Takeda { .. }
+            | HysteresisRule::DegradingTrilinear
+            | HysteresisRule::Sliding { .. }
+            | HysteresisRule::Stop { .. }) => Err(rule.name()),
         }
     }
 

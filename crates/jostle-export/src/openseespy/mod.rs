@@ -46,7 +46,19 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 .into(),
         );
     }
+    if !model.walls.is_empty() {
+        refuse(
+            "wall".into(),
+            "walls with names are not exported yet; leave them and their gaps out".into(),
+        );
+    }
     for (index, building) in model.buildings.iter().enumerate() {
+        if building.base.isolation.is_some() {
+            refuse(
+                format!("building[{index}].isolation"),
+                "is not exported yet; describe lead-rubber bearings as base with a horizontal_hinge of the rule bilinear".into(),
+            );
+        }
         let of_members = match &building.hinges {
             None => None,
             Some(Hinges::Frame(hinges)) => {

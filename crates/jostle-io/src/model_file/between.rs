@@ -1,7 +1,7 @@
 //! Common parts of gaps and links: two neighbours and pairs of points.
 
 use jostle::model::LEVEL_TOLERANCE;
-use jostle::{Building, FloorPairs, Level, Structure};
+use jostle::{Building, FloorPairs, Level, Structure, Wall};
 
 use crate::keys::nearest;
 use crate::quantity::{Dimension, shorten};
@@ -13,12 +13,13 @@ pub(super) const MOST_CONTACTS: usize = 10_000;
 /// How a file names a rigid wall.
 const WALL: &str = "wall";
 
-/// Indices of the left and the right neighbour under `between`; `None` inside is a wall. `or_one`: one building may be named
-/// twice.
+/// Indices of the left and the right neighbour under `between`; `None` inside is a rigid wall, and walls with names are counted
+/// on from the buildings. `or_one`: one building may be named twice.
 pub(super) fn neighbours(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     buildings: Option<&[Building]>,
+    walls: &[Wall],
     or_one: bool,
 ) -> Option<[Option<usize>; 2]> {
     let Some(field) = reader.get(view, "between") else {
@@ -43,9 +44,13 @@ pub(super) fn neighbours(
         if name == WALL {
             return Some(None);
         }
-        let found = buildings.iter().position(|building| building.name == name);
+        let names = || {
+            let walls = walls.iter().map(|wall| wall.name.as_str());
+            let buildings = buildings.iter().map(|building| building.name.as_str());
+            buildings.chain(walls)
+        };
+        let found = names().position(|own| own == name);
         if found.is_none() {
-            let names = || buildings.iter().map(|building| building.name.as_str());
             let remedy = match nearest(name, names().chain([WALL])) {
                 Some(name) => format!("did you mean \"{name}\"?"),
                 None => format!("the buildings are {}", listed(names())),
@@ -65,6 +70,16 @@ pub(super) fn neighbours(
     let in_space = |building: &Building| matches!(building.structure, Structure::Tiers(_));
     if buildings.iter().any(in_space) {
         return in_any_order(reader, &field, between);
+    }
+    let is_wall = between.map(|side| side.is_some_and(|index| index >= buildings.len()));
+    let is_building = between.map(|side| side.is_some_and(|index| index < buildings.len()));
+    if is_wall[0] && is_building[1] || is_building[0] && is_wall[1] {
+        return Some(between);
+    }
+    if is_wall.contains(&true) {
+        *reader.bad(&field, "names no building") =
+            Some("a wall stands beside a building: name one on the other side".into());
+        return None;
     }
     let problem = match between {
         [Some(left), Some(right)] if right == left + 1 => return Some(between),

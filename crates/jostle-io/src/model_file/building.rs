@@ -7,7 +7,7 @@ use jostle::{Analysis, Base, Building, Damping, Gravity, Model, PlanPoint, Struc
 use std::path::Path;
 
 use super::reinforced::{self, ReinforcedMember};
-use super::{codes, frame, given, hinges, plan, shear};
+use super::{codes, frame, given, hinges, isolation, plan, shear};
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -161,6 +161,14 @@ fn read(
     let is_shear = kind == Kind::Shear;
     if kind != Kind::Given {
         building.base = read_base(reader, &view, is_shear);
+        building.base.isolation = isolation::read(reader, &view);
+    }
+    if building.base.isolation.is_some() {
+        // A base beside it is a fault already.
+        building.base = Base {
+            isolation: building.base.isolation,
+            ..Base::default()
+        };
     }
     let mut flag = |key| {
         reader
@@ -263,6 +271,7 @@ fn is_sound(building: &Building) -> bool {
         buildings: vec![building.clone()],
         gaps: Vec::new(),
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis::default(),
     };
     alone.check().is_ok()

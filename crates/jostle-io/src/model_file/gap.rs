@@ -4,7 +4,7 @@ use jostle::contact::ModifiedKelvin;
 use jostle::interface::narrowest_gap;
 use jostle::{
     Building, ContactLaw, FloorPairs, Gap, LawKind, Model, PlanContact, PlanPoint, RestitutionIs,
-    Structure,
+    Structure, Wall,
 };
 
 use super::between::{MOST_CONTACTS, floors, neighbours, tolerance};
@@ -116,6 +116,7 @@ pub(super) fn read_all(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     buildings: Option<&[Building]>,
+    walls: &[Wall],
 ) -> Vec<Gap> {
     let Some(entries) = field.entries() else {
         let found = field.node.describe();
@@ -133,11 +134,16 @@ pub(super) fn read_all(
     }
     entries
         .iter()
-        .filter_map(|entry| read(reader, entry, buildings))
+        .filter_map(|entry| read(reader, entry, buildings, walls))
         .collect()
 }
 
-fn read(reader: &mut Reader<'_>, field: &Field<'_>, buildings: Option<&[Building]>) -> Option<Gap> {
+fn read(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    buildings: Option<&[Building]>,
+    walls: &[Wall],
+) -> Option<Gap> {
     let view = reader.open(field, &[Section::Gap])?;
     let has_plan = |building: &Building| matches!(building.structure, Structure::Tiers(_));
     let in_space = buildings.is_some_and(|list| list.iter().any(has_plan));
@@ -147,7 +153,7 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, buildings: Option<&[Building
     let between = if in_space && (says_all || !view.has("between")) {
         Some(ALL_NEIGHBOURS)
     } else {
-        neighbours(reader, &view, buildings, false)
+        neighbours(reader, &view, buildings, walls, false)
     };
     let widths = match reader.get(&view, "width") {
         Some(field) => widths(reader, &field),

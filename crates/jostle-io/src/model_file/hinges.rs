@@ -58,6 +58,8 @@ fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule>
         | HysteresisRule::Normal
         | HysteresisRule::PeakOriented
         | HysteresisRule::DegradingTrilinear) => rule,
+        // Those of bearings have no name among the rules.
+        HysteresisRule::Sliding { .. } | HysteresisRule::Stop { .. } => return None,
     })
 }
 

@@ -1,6 +1,6 @@
 //! `[[link]]`: springs, dampers and sliders that join neighbours, or floors of one building.
 
-use jostle::{Building, FloorPairs, Link, LinkLaw};
+use jostle::{Building, FloorPairs, Link, LinkLaw, Wall};
 
 use super::between::{floors, neighbours, tolerance};
 use super::hinges::read_spring;
@@ -17,6 +17,7 @@ pub(super) fn read_all(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     buildings: Option<&[Building]>,
+    walls: &[Wall],
 ) -> Vec<Link> {
     let Some(entries) = field.entries() else {
         let found = field.node.describe();
@@ -34,7 +35,7 @@ pub(super) fn read_all(
     }
     entries
         .iter()
-        .filter_map(|entry| read(reader, entry, buildings))
+        .filter_map(|entry| read(reader, entry, buildings, walls))
         .collect()
 }
 
@@ -42,9 +43,10 @@ fn read(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     buildings: Option<&[Building]>,
+    walls: &[Wall],
 ) -> Option<Link> {
     let view = reader.open(field, &[Section::Link])?;
-    let between = neighbours(reader, &view, buildings, true);
+    let between = neighbours(reader, &view, buildings, walls, true);
     let floors = floors(reader, &view);
     let level_tolerance = tolerance(reader, &view);
     let name = match reader.get(&view, "law") {

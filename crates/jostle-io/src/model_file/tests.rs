@@ -36,15 +36,19 @@ shear = { columns = "flexible" }
 base = { horizontal_stiffness = 1, horizontal_hinge = { rule = "normal" }, rotational_stiffness = 1, rotational_hinge = { rule = "normal" } }
 joint = { rotational_stiffness = 1 }
 damping = { ratio = 0.1 }
+isolation = { kind = "friction-pendulum", friction = { slow = 0.03 }, stop = { left = { at = 1 } } }
 hinges = { rule = "pinched", pinching = {}, damage = {}, column = { positive = {}, negative = {} } }
 [[building]]
 kind = "shear"
 codes = { importance = 1 }
 base = { mass = 1 }
+isolation = { kind = "linear", stop = {} }
 hinges = { rule = "normal" }
 [[gap]]
 [[link]]
 stiffness = 1
+[[wall]]
+name = "moat"
 [[link]]
 law = "viscous"
 damping = 1

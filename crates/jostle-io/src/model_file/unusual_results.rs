@@ -58,7 +58,7 @@ fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
         let modes = system.buildings.get(building)?.modes.first()?;
         Some(modes.period())
     };
-    for (index, building) in system.buildings.iter().enumerate() {
+    for (index, building) in system.structures().iter().enumerate() {
         let Some(period) = first_period(index) else {
             continue;
         };

@@ -166,7 +166,9 @@ fn gap_mark(
     ground: f64,
 ) -> Markup {
     let width = gap.widths.iter().copied().fold(f64::INFINITY, f64::min);
-    let [left, right] = gap.between;
+    let [left, right] = gap
+        .between
+        .map(|side| side.filter(|index| *index < outlines.len()));
     let at = match (left, right) {
         (Some(left), _) => places[left] + scale * outlines[left].width() + 0.5 * BESIDE,
         (None, Some(right)) => places[right] - 0.5 * BESIDE,

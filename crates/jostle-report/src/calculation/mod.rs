@@ -4,7 +4,7 @@
 mod elevation;
 mod words;
 
-use jostle::{GroundMotion, Wave};
+use jostle::{Building, GroundMotion, Wave};
 use jostle_motion::{Accelerogram, Reading, TargetSpectrum, response_spectrum, spaced_periods};
 use maud::{Markup, html};
 
@@ -130,25 +130,28 @@ pub(crate) fn model_figures(page: &Page) -> Markup {
         div.static-plots.shapes {
             @for (index, building) in page.model.buildings.iter().enumerate() {
                 @if let Some(shapes) = calculation.shapes.get(index).filter(|shapes| !shapes.is_empty()) {
-                    (shape_plot(&building.name, &building.floor_heights(), shapes).figure())
+                    (shape_plot(building, shapes).figure())
                 }
             }
         }
     }
 }
 
-fn shape_plot(name: &str, heights: &[f64], shapes: &[(f64, Vec<f64>)]) -> Plot {
+fn shape_plot(building: &Building, shapes: &[(f64, Vec<f64>)]) -> Plot {
+    let heights = building.floor_heights();
+    // A mat moves; its displacement is not among those of floors.
+    let ground = building.base.isolation.is_none().then_some([0.0, 0.0]);
     let lines = shapes.iter().enumerate().map(|(index, (period, shape))| {
-        let floors = shape.iter().zip(heights).map(|(x, y)| [*x, *y]);
+        let floors = shape.iter().zip(&heights).map(|(x, y)| [*x, *y]);
         Line {
             name: format!("T{} = {} s", index + 1, format::fixed(*period, 3)),
-            points: std::iter::once([0.0, 0.0]).chain(floors).collect(),
+            points: ground.into_iter().chain(floors).collect(),
             colour: index,
             dashed: index == 2,
         }
     });
     Plot {
-        title: format!("{}, {name}", WORDS.mode_shapes),
+        title: format!("{}, {}", WORDS.mode_shapes, building.name),
         x_label: WORDS.shape.into(),
         y_label: format!("{} [m]", WORDS.height),
         logarithmic: false,

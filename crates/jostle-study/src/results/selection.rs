@@ -360,5 +360,5 @@ fn structures_of(
         });
         (building.name.clone(), periods.collect())
     };
-    Ok(system.buildings.iter().map(of).collect())
+    Ok(system.structures().iter().map(of).collect())
 }

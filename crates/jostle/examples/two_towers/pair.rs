@@ -18,6 +18,7 @@ pub(crate) fn pair(gap: f64) -> Model {
         buildings: vec![tower("soft", 40e3, 20e6), tower("stiff", 60e3, 90e6)],
         gaps: vec![Gap::after(0, gap, law)],
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis::default(),
     }
 }

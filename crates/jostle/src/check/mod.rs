@@ -1,6 +1,7 @@
 //! Collects all faults of a model at once.
 
 mod given;
+mod isolation;
 mod members;
 mod neighbours;
 mod plan;
@@ -87,6 +88,7 @@ fn check(model: &Model) -> Result<(), Vec<ModelFault>> {
             )
         });
     }
+    isolation::check_walls(&mut faults, model);
     plan::check_space(&mut faults, model);
     check_neighbours(&mut faults, model);
     check_analysis(&mut faults, model);
@@ -124,6 +126,7 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
         &building.base,
         !matches!(building.structure, Structure::Frame(_)),
     );
+    isolation::check_isolation(faults, path, building);
     if let Some(hinges) = &building.hinges {
         check_hinges(
             faults,

@@ -63,7 +63,11 @@ fn check_between(
     model: &Model,
 ) -> bool {
     let last = model.buildings.len().wrapping_sub(1);
+    let walls = between.map(|side| model.wall(side).is_some());
+    let inside = |side: Option<usize>| side.is_some_and(|building| building <= last);
     let problem = match between {
+        [_, other] if walls[0] && inside(other) => return true,
+        [other, _] if walls[1] && inside(other) => return true,
         [Some(left), Some(right)] if right == left + 1 && right <= last => return true,
         [None, Some(0)] if !model.buildings.is_empty() => return true,
         [Some(left), None] if left == last => return true,

@@ -79,7 +79,7 @@ impl Search<'_> {
         }
         for spring in &equations.springs {
             for dof in spring.dofs.into_iter().flatten() {
-                held[dof] += spring.hysteresis.backbone().initial();
+                held[dof] += spring.hysteresis.initial_tangent();
             }
         }
         let slowest = self

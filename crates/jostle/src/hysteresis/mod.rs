@@ -24,6 +24,7 @@
 
 mod backbone;
 mod degrading;
+mod friction;
 mod memory;
 mod oriented;
 mod pinched;
@@ -31,6 +32,7 @@ mod rule;
 mod sliders;
 
 pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
+pub use friction::Rates;
 pub use memory::{HysteresisMemory, Response, Stage};
 pub use pinched::{GREATEST_DAMAGE, Pinching, energy_to_yield};
 pub use rule::{DEFAULT_TAKEDA_EXPONENT, Hysteresis, HysteresisRule};

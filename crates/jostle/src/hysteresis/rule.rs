@@ -1,6 +1,7 @@
 //! A rule on a backbone: the restoring force as a pure function of memory and deformation.
 
-use super::backbone::{Backbone, Quantity, Side, SpringFault};
+use super::backbone::{Backbone, Corners, Quantity, Side, SpringFault};
+use super::friction::{Rates, Strength};
 use super::memory::{HysteresisMemory, Response, Stage};
 use super::pinched::{self, Pinching};
 use super::{degrading, oriented, sliders};
@@ -29,13 +30,27 @@ pub enum HysteresisRule {
     /// Degrading trilinear (Fukada, 1969; Muto, 1973): between the peaks a bilinear loop whose stiffnesses are
     /// reduced by one factor, so that it connects both peaks.
     DegradingTrilinear,
+    /// Friction behind a spring, with a strength that rises from `slow` at rest to the yield force at high speed;
+    /// [`Hysteresis::sliding`] makes it.
+    Sliding {
+        /// Strength at rest \[N\].
+        slow: f64,
+        /// Rate of the rise \[s/m\].
+        rate: f64,
+    },
+    /// An elastic stop: without force up to its yield deformation, which is the clearance, and on the other side;
+    /// [`Hysteresis::stop`] makes it.
+    Stop {
+        /// Where it stands.
+        side: Side,
+    },
     /// Loads towards the peaks in two lines, the first one softer: timber, masonry, concrete that slips (OpenSees'
     /// `Hysteretic`, Scott and Filippou).
     Pinched(Pinching),
 }
 
 impl HysteresisRule {
-    /// Every rule, those with parameters at their defaults, in the order of the documentation.
+    /// Every rule of hinges and storeys, those with parameters at their defaults, in the order of the documentation.
     pub const ALL: [Self; 7] = [
         Self::Normal,
         Self::PeakOriented,
@@ -64,6 +79,8 @@ impl HysteresisRule {
             Self::PeakOriented => "peak-oriented",
             Self::Takeda { .. } => "takeda",
             Self::DegradingTrilinear => "d-tri",
+            Self::Sliding { .. } => "friction",
+            Self::Stop { .. } => "stop",
             Self::Pinched(_) => "pinched",
         }
     }
@@ -155,6 +172,72 @@ impl Hysteresis {
         }
     }
 
+    /// Friction behind a spring of this stiffness \[N/m\], with strengths at rest and at high speed \[N\], and the rate of the
+    /// rise between them \[s/m\].
+    ///
+    /// # Errors
+    /// Numbers that are not positive, or a strength at rest above that at high speed.
+    pub fn sliding(
+        stiffness: f64,
+        strength: [f64; 2],
+        rate: f64,
+    ) -> Result<Self, Vec<SpringFault>> {
+        let [slow, fast] = strength;
+        let corners = Corners::bilinear(fast, 0.0);
+        let backbone = Backbone::from_forces(stiffness, corners, corners)?;
+        if slow > 0.0 && slow <= fast && rate.is_finite() && rate >= 0.0 {
+            let rule = HysteresisRule::Sliding { slow, rate };
+            Ok(Self { rule, backbone })
+        } else {
+            Err(vec![SpringFault {
+                quantity: Quantity::Rule,
+                side: None,
+                problem: format!(
+                    "needs 0 < strength at rest <= strength at high speed and a rate of at least zero, found {slow}, {fast} and {rate}"
+                ),
+            }])
+        }
+    }
+
+    /// An elastic stop of this stiffness \[N/m\] behind a clearance \[m\] on a side.
+    ///
+    /// # Errors
+    /// Numbers that are not positive.
+    pub fn stop(stiffness: f64, clearance: f64, side: Side) -> Result<Self, Vec<SpringFault>> {
+        let corners = Corners::bilinear(clearance, 1.0);
+        let backbone = Backbone::from_deformations(stiffness, corners, corners)?;
+        let rule = HysteresisRule::Stop { side };
+        Ok(Self { rule, backbone })
+    }
+
+    /// Slope at the origin \[N·m/rad or N/m\].
+    #[must_use]
+    pub fn initial_tangent(&self) -> f64 {
+        match self.rule {
+            HysteresisRule::Stop { .. } => 0.0,
+            HysteresisRule::Elastic
+            | HysteresisRule::Bilinear
+            | HysteresisRule::Normal
+            | HysteresisRule::PeakOriented
+            | HysteresisRule::Takeda { .. }
+            | HysteresisRule::DegradingTrilinear
+            | HysteresisRule::Pinched(_)
+            | HysteresisRule::Sliding { .. } => self.backbone.initial(),
+        }
+    }
+
+    /// Whether the force depends on velocities too.
+    #[must_use]
+    pub fn depends_on_speed(&self) -> bool {
+        matches!(self.rule, HysteresisRule::Sliding { .. })
+    }
+
+    /// Strength of friction.
+    fn strength(&self, slow: f64, rate: f64) -> Strength {
+        let fast = self.backbone.yield_force();
+        Strength { slow, fast, rate }
+    }
+
     /// The rule.
     #[must_use]
     pub fn rule(&self) -> HysteresisRule {
@@ -170,8 +253,14 @@ impl Hysteresis {
     /// The same spring seen from its other end: sides exchanged.
     #[must_use]
     pub fn mirrored(&self) -> Self {
+        let rule = match self.rule {
+            HysteresisRule::Stop { side } => HysteresisRule::Stop {
+                side: side.opposite(),
+            },
+            rule => rule,
+        };
         Self {
-            rule: self.rule,
+            rule,
             backbone: self.backbone.mirrored(),
         }
     }
@@ -180,6 +269,8 @@ impl Hysteresis {
     ///
     /// Without motion the committed force is returned with the unloading tangent. It is the right one for the start
     /// of a step, since only the step itself can show that loading continues.
+    ///
+    /// Friction that depends on speed has its strength at rest here: motion without haste.
     #[must_use]
     #[inline]
     pub fn respond(&self, memory: &HysteresisMemory, deformation: f64) -> Response {
@@ -207,6 +298,10 @@ impl Hysteresis {
             HysteresisRule::DegradingTrilinear => {
                 degrading::respond(&self.backbone, memory, deformation)
             }
+            HysteresisRule::Sliding { slow, rate } => {
+                self.slide_slowly(self.strength(slow, rate), memory, deformation)
+            }
+            HysteresisRule::Stop { side } => stop(&self.backbone, side, memory, deformation),
             HysteresisRule::Pinched(pinching) => {
                 pinched::respond(&self.backbone, &pinching, memory, deformation)
             }
@@ -216,11 +311,43 @@ impl Hysteresis {
         response
     }
 
+    /// Friction on a path so slow that its strength is that at rest.
+    fn slide_slowly(
+        &self,
+        strength: Strength,
+        memory: &HysteresisMemory,
+        deformation: f64,
+    ) -> Response {
+        let rates = Rates::default();
+        let [force, tangent] =
+            strength.answer(self.backbone.initial(), memory, deformation, &rates);
+        let change = deformation - memory.deformation;
+        // The elastic part of the path, then the part that slides.
+        let elastic = (force - memory.force) / self.backbone.initial();
+        Response {
+            force,
+            tangent,
+            work: 0.5 * (memory.force + force) * elastic + force * (change - elastic),
+            memory: *memory,
+        }
+    }
+
     /// Force \[N·m or N\] and tangent \[N·m/rad or N/m\] of [`Hysteresis::respond`] alone, for trials that may be
-    /// rejected: no state is copied.
+    /// rejected: no state is copied. Friction follows the motion over the step.
     #[inline]
-    pub(crate) fn answer(&self, memory: &HysteresisMemory, deformation: f64) -> [f64; 2] {
+    pub(crate) fn answer(
+        &self,
+        memory: &HysteresisMemory,
+        deformation: f64,
+        rates: &Rates,
+    ) -> [f64; 2] {
         match self.rule {
+            HysteresisRule::Sliding { slow, rate } => self.strength(slow, rate).answer(
+                self.backbone.initial(),
+                memory,
+                deformation,
+                rates,
+            ),
             HysteresisRule::Bilinear | HysteresisRule::Normal
                 if deformation != memory.deformation =>
             {
@@ -234,10 +361,14 @@ impl Hysteresis {
         }
     }
 
-    /// Updates the committed state in place, as [`Hysteresis::respond`] does.
+    /// Updates the committed state in place, as [`Hysteresis::respond`] does. Friction takes the force of the step.
     #[inline]
-    pub(crate) fn commit(&self, memory: &mut HysteresisMemory, deformation: f64) {
+    pub(crate) fn commit(&self, memory: &mut HysteresisMemory, deformation: f64, force: f64) {
         match self.rule {
+            HysteresisRule::Sliding { .. } => {
+                let side = Side::from_change(deformation - memory.deformation);
+                memory.stand_at(deformation, force, side);
+            }
             HysteresisRule::Bilinear | HysteresisRule::Normal => {
                 let change = deformation - memory.deformation;
                 if change != 0.0 {
@@ -260,10 +391,16 @@ impl Hysteresis {
             HysteresisRule::DegradingTrilinear => {
                 degrading::factor(&self.backbone, memory) * self.backbone.initial()
             }
+            HysteresisRule::Stop { .. } if memory.force == 0.0 => 0.0,
+            HysteresisRule::Elastic
+            | HysteresisRule::Bilinear
+            | HysteresisRule::Normal
+            | HysteresisRule::PeakOriented
+            | HysteresisRule::Sliding { .. }
+            | HysteresisRule::Stop { .. } => self.backbone.initial(),
             HysteresisRule::Pinched(pinching) => {
                 pinched::unloading_stiffness(&self.backbone, &pinching, memory)
             }
-            _ => self.backbone.initial(),
         }
     }
 
@@ -271,6 +408,9 @@ impl Hysteresis {
     /// this energy is dissipated.
     #[must_use]
     pub fn recoverable_energy(&self, memory: &HysteresisMemory) -> f64 {
+        if memory.force == 0.0 {
+            return 0.0;
+        }
         0.5 * memory.force * memory.force / self.unloading_stiffness(memory)
     }
 
@@ -292,6 +432,23 @@ impl Hysteresis {
             HysteresisRule::DegradingTrilinear => {
                 degrading::next_corner(&self.backbone, memory, towards)
             }
+            HysteresisRule::Sliding { slow, .. } => {
+                let reach = (slow - towards.sign() * memory.force) / self.backbone.initial();
+                if reach > 0.0 {
+                    memory.deformation + towards.sign() * reach
+                } else {
+                    towards.sign() * f64::INFINITY
+                }
+            }
+            HysteresisRule::Stop { side } => {
+                let clearance = side.sign() * self.backbone.side(side).yielding.deformation;
+                let ahead = towards.sign() * (clearance - memory.deformation) > 0.0;
+                if ahead {
+                    clearance
+                } else {
+                    towards.sign() * f64::INFINITY
+                }
+            }
             HysteresisRule::Pinched(pinching) => {
                 pinched::next_corner(&self.backbone, &pinching, memory, towards)
             }
@@ -304,10 +461,13 @@ impl Hysteresis {
         memory.greatest(side) / self.backbone.side(side).yielding.deformation
     }
 
-    /// Largest loading stage so far, on either side. Elastic springs never crack.
+    /// Largest loading stage so far, on either side. Elastic springs and stops never crack.
     #[must_use]
     pub fn stage(&self, memory: &HysteresisMemory) -> Stage {
-        if self.rule == HysteresisRule::Elastic {
+        if matches!(
+            self.rule,
+            HysteresisRule::Elastic | HysteresisRule::Stop { .. }
+        ) {
             return Stage::Uncracked;
         }
         let of = |side: Side| {
@@ -330,6 +490,20 @@ fn elastic(backbone: &Backbone, memory: &HysteresisMemory, deformation: f64) -> 
         force,
         tangent: backbone.initial(),
         work: 0.5 * (force + memory.force) * (deformation - memory.deformation),
+        memory: *memory,
+    }
+}
+
+/// Only the part of the path beyond the clearance does work.
+fn stop(backbone: &Backbone, side: Side, memory: &HysteresisMemory, deformation: f64) -> Response {
+    let clearance = backbone.side(side).yielding.deformation;
+    let into = (side.sign() * deformation - clearance).max(0.0);
+    let stiffness = backbone.initial();
+    let force = side.sign() * stiffness * into;
+    Response {
+        force,
+        tangent: if into > 0.0 { stiffness } else { 0.0 },
+        work: 0.5 * (force * force - memory.force * memory.force) / stiffness,
         memory: *memory,
     }
 }
@@ -383,11 +557,11 @@ mod tests {
                     4e-5 * x * (0.9 * x).sin()
                 };
                 let response = spring.respond(&known, at);
-                let answer = spring.answer(&kept, at);
+                let answer = spring.answer(&kept, at, &Rates::default());
                 assert_eq!(answer, [response.force, response.tangent], "{rule:?}, {i}");
                 if i % 3 != 0 {
                     known = response.memory;
-                    spring.commit(&mut kept, at);
+                    spring.commit(&mut kept, at, answer[0]);
                     assert_eq!(kept, known, "{rule:?}, {i}");
                 }
                 furthest = furthest.max(spring.ductility(&known, Side::Negative));

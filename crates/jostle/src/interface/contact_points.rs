@@ -58,6 +58,11 @@ impl Side<'_> {
             .filter(|floor| level(*floor, height, tolerance))
     }
 
+    /// Whether its lowest point is a mat that moves.
+    fn has_mat(&self) -> bool {
+        self.building.base.isolation.is_some()
+    }
+
     fn has_columns(&self) -> bool {
         matches!(self.building.structure, Structure::Frame(_))
     }
@@ -91,6 +96,11 @@ impl Side<'_> {
 
     fn level(&self, level: Level) -> Result<f64, String> {
         match level {
+            Level::Floor(0) if self.has_mat() => Ok(0.0),
+            Level::Floor(0) => Err(format!(
+                "floor 0 is the mat of an isolated building, and \"{}\" has no isolation; its floors count from 1",
+                self.building.name
+            )),
             Level::Floor(floor) => {
                 let found = floor
                     .checked_sub(1)
@@ -103,6 +113,7 @@ impl Side<'_> {
                     )
                 })
             }
+            Level::Height(height) if self.has_mat() && height.abs() <= LEVEL_TOLERANCE => Ok(0.0),
             Level::Height(height) => self.point(height, LEVEL_TOLERANCE),
             Level::Wall => Err(format!(
                 "names the wall where \"{}\" stands",

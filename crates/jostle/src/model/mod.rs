@@ -7,9 +7,11 @@ mod capacity;
 mod gap;
 mod given;
 mod integrator;
+mod isolation;
 mod link_law;
 mod members;
 mod tiers;
+mod wall;
 
 use crate::hysteresis::Hysteresis;
 
@@ -19,9 +21,11 @@ pub use capacity::{
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
+pub use isolation::{Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop};
 pub use link_law::LinkLaw;
 pub use members::MemberRequest;
 pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
+pub use wall::Wall;
 
 /// Buildings in a row, gaps and links between them, and the settings of the analysis.
 ///
@@ -46,6 +50,7 @@ pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
 ///     }],
 ///     gaps: Vec::new(),
 ///     links: Vec::new(),
+///     walls: Vec::new(),
 ///     analysis: Analysis::default(),
 /// };
 /// let faults = model.check().expect_err("the stiffness is missing");
@@ -61,6 +66,8 @@ pub struct Model {
     pub gaps: Vec<Gap>,
     /// Springs and dashpots that join them.
     pub links: Vec<Link>,
+    /// Walls that gaps and links can name. In [`Gap::between`] and [`Link::between`] they are counted on from the buildings.
+    pub walls: Vec<Wall>,
     /// Step sizes, tolerance and solver.
     pub analysis: Analysis,
 }
@@ -108,6 +115,7 @@ impl Building {
         self.hinges.is_some()
             || self.base.rotational_hinge.is_some()
             || self.base.horizontal_hinge.is_some()
+            || self.base.isolation.is_some_and(|own| !own.is_linear())
     }
 }
 
@@ -145,6 +153,8 @@ pub struct Base {
     pub rotational_hinge: Option<Hysteresis>,
     /// Hysteresis of the horizontal spring; its initial stiffness is `horizontal_stiffness`.
     pub horizontal_hinge: Option<Hysteresis>,
+    /// Bearings and a mat under the whole building, instead of all of the above.
+    pub isolation: Option<Isolation>,
 }
 
 impl Base {
@@ -154,6 +164,7 @@ impl Base {
         self.rotational_stiffness.is_none()
             && self.horizontal_stiffness.is_none()
             && self.vertical_stiffness.is_none()
+            && self.isolation.is_none()
     }
 }
 
@@ -206,6 +217,7 @@ pub struct Gravity {
 ///     buildings: vec![building],
 ///     gaps: Vec::new(),
 ///     links: Vec::new(),
+///     walls: Vec::new(),
 ///     analysis: Analysis::default(),
 /// };
 /// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;
@@ -598,13 +610,25 @@ pub struct ModelFault {
 pub(crate) const WALL: &str = "wall";
 
 impl Model {
-    /// The buildings on both sides of a gap or a link; `None` is a wall.
+    /// The buildings on both sides of a gap or a link; `None` is a wall of any kind.
     pub(crate) fn neighbours(&self, between: [Option<usize>; 2]) -> [Option<&Building>; 2] {
         between.map(|side| side.and_then(|building| self.buildings.get(building)))
     }
 }
 
 impl Model {
+    /// The wall of a side of a gap or a link, if it is one of [`Model::walls`].
+    #[must_use]
+    pub fn wall(&self, side: Option<usize>) -> Option<&Wall> {
+        self.walls.get(side?.checked_sub(self.buildings.len())?)
+    }
+
+    /// The buildings on both sides of a gap or a link; `None` is a wall of any kind.
+    #[must_use]
+    pub fn buildings_beside(&self, between: [Option<usize>; 2]) -> [Option<usize>; 2] {
+        between.map(|side| side.filter(|building| *building < self.buildings.len()))
+    }
+
     /// Whether its buildings stand in space, with plans, rather than in one plane.
     #[must_use]
     pub fn is_in_space(&self) -> bool {

@@ -172,7 +172,7 @@ fn impact_at(building: usize, time: f64, run: &Run) -> Option<ImpactPlace> {
     let contact = &run.system.contacts[impact.contact];
     Some(ImpactPlace {
         between: names(run.model.gaps[contact.gap].between, run.system),
-        floors: contact.ports.floors(),
+        floors: run.system.floors_of(&contact.ports),
         height_m: contact.height,
         start_s: impact.start,
     })

@@ -8,8 +8,9 @@ use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
     AcceptanceSummary, AxialFailureSummary, BuildingSummary, CapacitySummary, ContactSummary,
     EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, GapSummary, HingeSummary,
-    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, RatioPlace,
-    RatioSummary, SectionSummary, SpringSummary, StruckSummary, Summary, WorkSummary,
+    ImpactSummary, IsolationSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary,
+    RatioPlace, RatioSummary, SectionSummary, SpringSummary, StruckSummary, Summary, WallSummary,
+    WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -64,6 +65,7 @@ pub fn owners() -> Vec<Owner> {
         owner("Buildings in plan", "buildings[]", None, "", &[entries(BuildingInPlan::QUANTITIES)]),
         owner("Floors", "buildings[].floors[]", Some("floors.parquet"), "J1.floor3.", &[entries(FloorSummary::QUANTITIES), entries(FloorResponse::QUANTITIES)]),
         owner("Floors in plan", "buildings[].floors[]", None, "", &[entries(FloorInPlan::QUANTITIES)]),
+        owner("Bearings", "buildings[].isolation", None, "", &[entries(IsolationSummary::QUANTITIES)]),
         owner("Hinges of a building", "buildings[].hinges", None, "", &[entries(HingeSummary::QUANTITIES)]),
         owner("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries(SpringSummary::QUANTITIES)]),
         owner("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries(SectionSummary::QUANTITIES)]),
@@ -80,6 +82,7 @@ pub fn owners() -> Vec<Owner> {
         owner("Impacts", "gaps[].contacts[].impacts[]", Some("impacts.parquet"), "", &[entries(ImpactSummary::QUANTITIES)]),
         owner("Links", "links[]", None, "", &[entries(LinkSummary::QUANTITIES)]),
         owner("Linked floors", "links[].floors[]", None, "", &[entries(LinkFloorSummary::QUANTITIES)]),
+        owner("Walls", "walls[]", None, "", &[entries(WallSummary::QUANTITIES)]),
         owner("Floor spectra", "floor_spectra", None, "", &[entries(FloorSpectra::QUANTITIES)]),
         owner("Filter of floor accelerations", "floor_spectra.filter", None, "", &[entries(FilterSummary::QUANTITIES)]),
         owner("Floors with spectra", "floor_spectra.floors[]", None, "", &[entries(FloorSpectrum::QUANTITIES), entries(floor_spectra::FloorResponse::QUANTITIES)]),

@@ -8,16 +8,16 @@ use crate::contact::{LawKind, RestitutionIs};
 use crate::history::Impact;
 use crate::hysteresis::{Side, Stage};
 use crate::interface::LinkElement;
-use crate::model::WALL;
 use crate::model::{Gap, LinkLaw, Model};
 use crate::motion::GroundMotion;
 use crate::results::capacity;
+use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
 use crate::results::members::members_of;
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
 };
 use crate::results::summary::{
-    BuildingSummary, ContactSummary, EnergySummary, FloorSummary, GapSummary, HingeSummary,
+    BuildingSummary, ContactSummary, EnergySummary, FloorSummary, Floors, GapSummary, HingeSummary,
     ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SpringSummary,
     Summary, WorkSummary,
 };
@@ -91,10 +91,10 @@ impl Summary {
             outcome,
             ..
         } = *run;
-        let buildings = (0..system.buildings.len())
+        let buildings = (0..system.structures().len())
             .map(|index| building_summary(index, run))
             .collect();
-        let gaps = model
+        let gaps: Vec<GapSummary> = model
             .gaps
             .iter()
             .enumerate()
@@ -112,6 +112,7 @@ impl Summary {
                 duration_s: motion.duration,
             },
             buildings,
+            walls: wall_summaries(run, &gaps),
             gaps,
             links: (0..model.links.len())
                 .map(|index| link_summary(index, run))
@@ -160,6 +161,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
                 .map(|without| Amplification::new(FloorResponse::QUANTITIES, &response, &without)),
         }
     });
+    let floors: Vec<FloorSummary> = floors.collect();
     let members = members_of(index, run);
     BuildingSummary {
         capacity: capacity::of_building(index, &members, run),
@@ -172,7 +174,11 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
             .collect(),
         rayleigh_alpha_per_s: building.equations.alpha,
         rayleigh_beta_s: building.equations.beta,
-        floors: floors.collect(),
+        isolation: isolation_summary(index, building, run.outcome),
+        floors: Floors {
+            mat: mat_summary(index, &floors, run),
+            above: floors,
+        },
         response,
         in_plan: building_in_plan(index, run.outcome),
         without_contact,
@@ -183,7 +189,15 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
 }
 
 fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
-    let all = springs_of(building, outcome);
+    let places = &building.discretization.spring_places;
+    let all: Vec<SpringSummary> = springs_of(building, outcome)
+        .into_iter()
+        .filter(|spring| {
+            !places
+                .get(spring.index)
+                .is_some_and(SpringPlace::is_isolation)
+        })
+        .collect();
     let mut summary = HingeSummary {
         total: all.len(),
         cracked: all.iter().filter(|s| s.cracked_s.is_some()).count(),
@@ -310,10 +324,7 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
 
 /// Names of both sides.
 pub(super) fn names(between: [Option<usize>; 2], system: &System) -> [String; 2] {
-    between.map(|side| match side {
-        Some(building) => system.buildings[building].name.clone(),
-        None => WALL.to_owned(),
-    })
+    between.map(|side| system.side_name(side).to_owned())
 }
 
 /// Floors of a link; 0 is the base of its own building.
@@ -410,7 +421,7 @@ fn contact_summary(
     let closing = closing.max_by(|a, b| a.value.total_cmp(&b.value));
     let closing = closing.unwrap_or_default();
     ContactSummary {
-        floors: contact.ports.floors(),
+        floors: system.floors_of(&contact.ports),
         height_m: contact.height,
         in_plan: contact
             .plan
@@ -545,6 +556,22 @@ fn warnings(run: &Run) -> Vec<String> {
     } else {
         "compare with a run at another tolerance"
     };
+    for (index, building) in run.system.structures().iter().enumerate() {
+        let Some(mat) = building.discretization.mat else {
+            continue;
+        };
+        let own = isolation_summary(index, building, run.outcome);
+        if let (Some(own), Some(limit)) = (own, mat.isolation.limit)
+            && own.limit_exceeded
+        {
+            warnings.push(format!(
+                "the mat of \"{}\" moves {:.0} mm, beyond the {:.0} mm that its bearings allow",
+                building.name,
+                1e3 * own.displacement_peak_m(),
+                1e3 * limit
+            ));
+        }
+    }
     let accuracy = run.outcome.accuracy.iter();
     warnings.extend(accuracy.flat_map(|accuracy| accuracy_warnings(accuracy, remedy)));
     warnings

@@ -89,7 +89,7 @@ impl EquilibriumPath {
         let springs = equations.springs.iter();
         let yielding: f64 = springs
             .filter(|spring| spring.dofs.contains(&Some(dof)))
-            .map(|spring| spring.hysteresis.backbone().initial())
+            .map(|spring| spring.hysteresis.initial_tangent())
             .sum();
         Self::new(
             building,

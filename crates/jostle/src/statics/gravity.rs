@@ -137,7 +137,8 @@ fn with_p_delta(building: &AssembledBuilding) -> Result<AssembledBuilding, Colla
     for spring in &mut stick_model.springs {
         let [a, b] = spring.ends.map(|end| nodes[end].y);
         // The spring of a base has no height, so no P-Delta.
-        if (a - b).abs() > SAME_LINE {
+        let carries = spring.hysteresis.is_some() || spring.stiffness > 0.0;
+        if carries && (a - b).abs() > SAME_LINE {
             let above = nodes.iter().filter(|node| node.y > a.max(b) - SAME_LINE);
             let weight = STANDARD_GRAVITY * above.map(|node| node.mass).sum::<f64>();
             spring.softening = weight / (a - b).abs();

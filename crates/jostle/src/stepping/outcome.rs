@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use super::member_ratios::MemberRatios;
 use crate::history::{
     Energy, Extreme, FaceImpact, FloorPeaks, History, Impact, LinkTotals, MemberHistory,
-    SectionRatio, SpringEvent, SpringHistory, SpringTotals, Work, WorstInstant,
+    SectionRatio, SpringEvent, SpringHistory, SpringTotals, SupportPeaks, Work, WorstInstant,
 };
 use crate::linear::NotPositive;
 use crate::state::State;
@@ -90,6 +90,8 @@ pub struct Outcome {
     pub floors: Vec<Vec<FloorPeaks>>,
     /// Further peaks of buildings in space, building by building; empty lists in one plane.
     pub in_plan: Vec<PlanPeaks>,
+    /// Peaks of the bearings of every building and of the springs of walls; zero where there are none.
+    pub supports: Vec<SupportPeaks>,
     /// Greatest closing u_left − u_right of every contact \[m\].
     pub closing: Vec<Extreme>,
     /// Greatest sum of the contact forces of a gap at one instant, for each gap up to the last one with a contact \[N\].
@@ -281,6 +283,7 @@ impl Outcome {
             impacts: Vec::new(),
             floors: system.buildings.iter().map(floors).collect(),
             in_plan: vec![PlanPeaks::default(); system.buildings.len()],
+            supports: vec![SupportPeaks::default(); system.buildings.len()],
             closing: vec![Extreme::default(); system.contacts.len()],
             gap_forces: Vec::new(),
             face_impacts: Vec::new(),

@@ -4,7 +4,9 @@ use super::acceleration_parts::AccelerationParts;
 use super::energy::EnergyAudit;
 use super::events::Cubic;
 use super::member_peaks::MemberPeaks;
-use crate::history::{Column, Energy, EnergyTerm, Extreme, FloorPeaks, History, SpringHistory};
+use crate::history::{
+    Column, Energy, EnergyTerm, Extreme, FloorPeaks, History, SpringHistory, SupportPeaks,
+};
 use crate::state::{ContactPhase, State};
 use crate::system::System;
 
@@ -18,6 +20,7 @@ pub(crate) struct Recorder {
     pub(crate) floors: Vec<Vec<FloorPeaks>>,
     pub(crate) closing: Vec<Extreme>,
     pub(crate) base_shear: Vec<f64>,
+    pub(crate) supports: Vec<SupportPeaks>,
     pub(crate) parts: AccelerationParts,
     pub(crate) members: MemberPeaks,
     /// Displacement and velocity of every floor, and closing and rate of every contact, at the start of the step.
@@ -41,7 +44,7 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
     if system.is_in_space() {
         columns.push(Column::GroundAccelerationAcross);
     }
-    for (building, properties) in system.buildings.iter().enumerate() {
+    for (building, properties) in system.structures().iter().enumerate() {
         for floor in 1..=properties.floors.len() {
             columns.extend([
                 Column::Displacement { building, floor },
@@ -74,6 +77,16 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
             .map(|contact| Column::Closing { contact }),
     );
     columns.extend((0..system.links.len()).map(|link| Column::LinkForce { link }));
+    let supported = system.buildings.iter().enumerate();
+    for (building, _) in supported.filter(|(_, own)| own.support.is_some()) {
+        let floor = 0;
+        columns.extend([
+            Column::Displacement { building, floor },
+            Column::Velocity { building, floor },
+            Column::TotalAcceleration { building, floor },
+            Column::SupportForce { building },
+        ]);
+    }
     columns.extend(EnergyTerm::ALL.map(Column::Energy));
     columns
 }
@@ -84,7 +97,8 @@ impl Recorder {
     pub(crate) fn new(system: &System, duration: f64, interval: Option<f64>) -> Self {
         let buildings = system.buildings.iter();
         let floors: usize = buildings.map(|building| building.floors.len()).sum();
-        let tracked = floors + system.contacts.len();
+        let supports = system.buildings.iter().filter(|own| own.support.is_some());
+        let tracked = floors + system.contacts.len() + supports.count();
         Self {
             history: interval.map(|_| History::new(columns(system))),
             springs: interval
@@ -103,6 +117,7 @@ impl Recorder {
                 .collect(),
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
+            supports: vec![SupportPeaks::default(); system.buildings.len()],
             parts: AccelerationParts::new(floors, duration),
             members: MemberPeaks::new(system, interval.is_some()),
             before: Vec::with_capacity(tracked),
@@ -139,6 +154,9 @@ impl Recorder {
             let ports = &contact.ports;
             self.before.push((ports.closing(u), ports.closing(v)));
         }
+        for support in system.buildings.iter().filter_map(|own| own.support) {
+            self.before.push((u[support.dof], v[support.dof]));
+        }
     }
 
     /// Updates peaks with the step that ended in `state`.
@@ -153,17 +171,12 @@ impl Recorder {
             for (peaks, floor) in self.floors[index].iter_mut().zip(&building.floors) {
                 let now = (u[floor.dof], v[floor.dof]);
                 if let Some(&then) = before.next() {
-                    let greatest = greatest_in_step(then, now, start, step);
-                    if greatest.value > peaks.displacement_max.value {
-                        peaks.displacement_max = greatest;
-                    }
-                    let least = greatest_in_step((-then.0, -then.1), (-now.0, -now.1), start, step);
-                    if -least.value < peaks.displacement_min.value {
-                        peaks.displacement_min = Extreme {
-                            value: -least.value,
-                            at: least.at,
-                        };
-                    }
+                    take_extremes(
+                        [&mut peaks.displacement_max, &mut peaks.displacement_min],
+                        [then, now],
+                        start,
+                        step,
+                    );
                 }
                 let total = (state.acceleration[floor.dof] + ground).abs();
                 peaks.total_acceleration = peaks.total_acceleration.max(total);
@@ -191,6 +204,26 @@ impl Recorder {
                     *closing = greatest;
                 }
             }
+        }
+        for (peaks, building) in self.supports.iter_mut().zip(&system.buildings) {
+            let Some(support) = building.support else {
+                continue;
+            };
+            if let Some(&then) = before.next() {
+                let now = (u[support.dof], v[support.dof]);
+                let moved = now.0 - then.0;
+                peaks.damped += support.damping * moved * moved / step;
+                take_extremes(
+                    [&mut peaks.displacement_max, &mut peaks.displacement_min],
+                    [then, now],
+                    start,
+                    step,
+                );
+            }
+            let total = (state.acceleration[support.dof] + ground).abs();
+            peaks.total_acceleration = peaks.total_acceleration.max(total);
+            let force = building.support_force(state);
+            peaks.force = peaks.force.max(force.abs());
         }
     }
 
@@ -242,7 +275,7 @@ impl Recorder {
         put(state.time);
         put(ground);
         for floor in system
-            .buildings
+            .structures()
             .iter()
             .flat_map(|building| &building.floors)
         {
@@ -257,6 +290,14 @@ impl Recorder {
             .filter(|contact| contact.is_between_floors())
             .for_each(|contact| put(contact.ports.closing(&state.displacement)));
         links.iter().for_each(|force| put(*force));
+        for building in &system.buildings {
+            if let Some(support) = &building.support {
+                put(state.displacement[support.dof]);
+                put(state.velocity[support.dof]);
+                put(state.acceleration[support.dof] + ground);
+                put(building.support_force(state));
+            }
+        }
         let Energy {
             input,
             kinetic,
@@ -270,6 +311,26 @@ impl Recorder {
             .into_iter()
             .for_each(put);
         debug_assert!(row.next().is_none(), "every column has a value");
+    }
+}
+
+/// Updates the extremes of a displacement with a step between (value, slope) at its ends.
+fn take_extremes(
+    [max, min]: [&mut Extreme; 2],
+    [then, now]: [(f64, f64); 2],
+    start: f64,
+    step: f64,
+) {
+    let greatest = greatest_in_step(then, now, start, step);
+    if greatest.value > max.value {
+        *max = greatest;
+    }
+    let least = greatest_in_step((-then.0, -then.1), (-now.0, -now.1), start, step);
+    if -least.value < min.value {
+        *min = Extreme {
+            value: -least.value,
+            at: least.at,
+        };
     }
 }
 

@@ -1,6 +1,7 @@
 //! A link that is not linear, over one step (theory, Eqs. B9 to B12).
 
 use crate::contact::ContactResponse;
+use crate::hysteresis::Rates;
 use crate::interface::{LinkElement, LinkMemory};
 use crate::model::LinkLaw;
 
@@ -114,7 +115,9 @@ impl StepLink {
                 )
             }
             LinkLaw::Yielding(hysteresis) => {
-                let [force, slope] = hysteresis.answer(&self.memory.hysteresis, shortening);
+                let [force, slope] =
+                    // No rule of a link depends on rates.
+                    hysteresis.answer(&self.memory.hysteresis, shortening, &Rates::default());
                 by_indentation(force, slope)
             }
             LinkLaw::Cable { slack } => {
@@ -188,7 +191,7 @@ impl StepLink {
             ..self.memory
         };
         if let LinkLaw::Yielding(hysteresis) = &self.element.law {
-            hysteresis.commit(&mut memory.hysteresis, shortening);
+            hysteresis.commit(&mut memory.hysteresis, shortening, force);
         }
         memory
     }

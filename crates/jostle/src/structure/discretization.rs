@@ -5,9 +5,9 @@ use super::member_forces::{FrameMember, MemberPlace};
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
 use super::stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Support};
 use super::tiers::discretize_tiers;
-use crate::hysteresis::Hysteresis;
+use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
-    Base, Building, Frame, FrameHinges, Given, Hinges, Joint, Section, Shear, Structure,
+    Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, Section, Shear, Structure,
 };
 
 /// A stick model and where its floors and faces are.
@@ -17,6 +17,8 @@ pub struct Discretization {
     pub stick_model: StickModel,
     /// The lowest node of the first column line, fixed or not.
     pub foot: Option<usize>,
+    /// The mat of an isolated building; it is its foot too.
+    pub mat: Option<Mat>,
     /// Reference node of every floor, from the ground up: the joint of the first column line.
     pub floors: Vec<usize>,
     /// Contact nodes of the left side, from the ground up.
@@ -31,6 +33,21 @@ pub struct Discretization {
     pub centres: Vec<[f64; 2]>,
 }
 
+/// A mat on bearings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mat {
+    /// Its node, at height zero.
+    pub node: usize,
+    /// Its bearings.
+    pub isolation: Isolation,
+    /// Weight on the bearings \[N\].
+    pub weight: f64,
+    /// Elastic stiffness of the bearings, beside what yields or slides \[N/m\].
+    pub stiffness: f64,
+    /// Coefficient of the dashpot beside them \[N·s/m\].
+    pub dashpot: f64,
+}
+
 impl Discretization {
     /// Lumped masses, massless members and hinges of a building.
     #[must_use]
@@ -43,7 +60,7 @@ impl Discretization {
     /// segment; otherwise a mass is added.
     #[must_use]
     pub fn with_points(building: &Building, points: [&[f64]; 2]) -> Self {
-        match &building.structure {
+        let mut discretization = match &building.structure {
             Structure::Frame(frame) => {
                 let hinges = match &building.hinges {
                     Some(Hinges::Frame(hinges)) => hinges,
@@ -60,7 +77,132 @@ impl Discretization {
             }
             Structure::Given(given) => discretize_given(given),
             Structure::Tiers(tiers) => discretize_tiers(tiers, building.gravity),
+        };
+        if let Some(isolation) = &building.base.isolation {
+            discretization.put_on_bearings(isolation);
         }
+        discretization
+    }
+
+    /// A wall on its spring and dashpot, as a building of one floor.
+    #[must_use]
+    pub(crate) fn of_wall(stiffness: f64, damping: f64, mass: f64) -> Self {
+        let mut stick_model = StickModel::default();
+        let ground = stick_model.add_node(0.0, 0.0);
+        stick_model.nodes[ground].support = Support::Fixed;
+        // One metre up, so that it has a drift ratio, which nobody asks for.
+        let wall = stick_model.add_node(0.0, 1.0);
+        stick_model.nodes[wall].support = Support::Guided;
+        stick_model.nodes[wall].mass = mass;
+        stick_model.springs.push(Spring {
+            dashpot: damping,
+            proportional_damping: false,
+            ..Spring::elastic([ground, wall], stiffness)
+        });
+        Self {
+            stick_model,
+            foot: Some(ground),
+            mat: None,
+            floors: vec![wall],
+            left_face: vec![wall],
+            right_face: vec![wall],
+            spring_places: Vec::new(),
+            members: Vec::new(),
+            centres: Vec::new(),
+        }
+    }
+
+    /// Adds mass-proportional damping of the motion relative to the mat, for a building whose equations have the same on its
+    /// motion relative to the ground: C = Tᵀ α M T, T = \[−1 I\] (theory, Eq. B6).
+    ///
+    /// Dashpots α m between every mass and the mat take the place of those to the ground, which have −α m here.
+    pub(crate) fn damp_relative_to_mat(&mut self, alpha: f64) {
+        let (Some(mat), true) = (self.mat, alpha > 0.0) else {
+            return;
+        };
+        let sticks = &mut self.stick_model;
+        let Some(ground) =
+            (0..sticks.nodes.len()).find(|&n| sticks.nodes[n].support == Support::Fixed)
+        else {
+            return;
+        };
+        for node in 0..sticks.nodes.len() {
+            let mass = sticks.nodes[node].mass;
+            if mass == 0.0 || node == ground {
+                continue;
+            }
+            let dashpot = |from: usize, dashpot: f64| Spring {
+                dashpot,
+                proportional_damping: false,
+                ..Spring::elastic([from, node], 0.0)
+            };
+            sticks.springs.push(dashpot(ground, -alpha * mass));
+            // Feet of the same mat move with it.
+            if sticks.nodes[node].y > 0.0 {
+                sticks.springs.push(dashpot(mat.node, alpha * mass));
+            }
+        }
+    }
+
+    /// Puts the feet of the building, which are fixed so far, on a mat that moves sideways on bearings.
+    fn put_on_bearings(&mut self, isolation: &Isolation) {
+        let Some(mat) = self.foot else { return };
+        let sticks = &mut self.stick_model;
+        let feet: Vec<usize> = (0..sticks.nodes.len())
+            .filter(|&node| sticks.nodes[node].support == Support::Fixed)
+            .collect();
+        for &foot in &feet {
+            sticks.nodes[foot].support = Support::Guided;
+        }
+        // The mat keeps its length, so that all feet move as one.
+        for ends in feet.windows(2) {
+            sticks.members.push(Member {
+                ends: [ends[0], ends[1]],
+                flexural_rigidity: 1.0,
+                axial_rigidity: None,
+                shear_rigidity: None,
+                compression: 0.0,
+            });
+        }
+        sticks.nodes[mat].mass += isolation.mat_mass;
+        let mass = sticks.nodes.iter().map(|node| node.mass).sum();
+        let weight = isolation.weight_of(mass);
+        let ground = sticks.add_node(0.0, 0.0);
+        sticks.nodes[ground].support = Support::Fixed;
+        let (elastic, yielding) = isolation.isolator.springs(weight);
+        let dashpot = isolation.dashpot(mass);
+        let spring = |hysteresis: Option<Hysteresis>| Spring {
+            hysteresis,
+            proportional_damping: false,
+            ..Spring::elastic([ground, mat], 0.0)
+        };
+        sticks.springs.push(Spring {
+            stiffness: elastic,
+            dashpot,
+            ..spring(None)
+        });
+        if let Some(yielding) = yielding {
+            sticks.springs.push(spring(Some(yielding)));
+            self.spring_places.push(SpringPlace::Bearings);
+        }
+        for (side, stop) in [Side::Negative, Side::Positive]
+            .into_iter()
+            .zip(isolation.stops)
+        {
+            if let Some(stop) = stop.and_then(|stop| stop.spring(side)) {
+                sticks.springs.push(spring(Some(stop)));
+                self.spring_places.push(SpringPlace::Stop { side });
+            }
+        }
+        self.left_face.insert(0, mat);
+        self.right_face.insert(0, feet[feet.len() - 1]);
+        self.mat = Some(Mat {
+            node: mat,
+            isolation: *isolation,
+            weight,
+            stiffness: elastic,
+            dashpot,
+        });
     }
 }
 
@@ -161,7 +303,7 @@ impl StickModel {
     fn add_foot(&mut self, x: f64, base: &Base) -> usize {
         let ground = self.add_node(x, 0.0);
         self.nodes[ground].support = Support::Fixed;
-        if base.is_fixed() {
+        if base.is_fixed() || base.isolation.is_some() {
             return ground;
         }
         let foot = self.add_node(x, 0.0);
@@ -213,6 +355,7 @@ fn discretize_frame(
     let mut discretization = Discretization {
         stick_model: StickModel::default(),
         foot: Some(below[0]),
+        mat: None,
         floors: Vec::new(),
         left_face: Vec::new(),
         right_face: Vec::new(),
@@ -406,6 +549,7 @@ fn discretize_given(given: &Given) -> Discretization {
         members: Vec::new(),
         centres: Vec::new(),
         foot: Some(ground),
+        mat: None,
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,
@@ -479,6 +623,7 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
     Discretization {
         stick_model,
         foot: Some(foot),
+        mat: None,
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,

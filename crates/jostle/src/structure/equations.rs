@@ -163,7 +163,7 @@ impl Equations {
     pub fn initial_tangents(&self) -> Vec<f64> {
         let springs = self.springs.iter();
         springs
-            .map(|spring| spring.hysteresis.backbone().initial())
+            .map(|spring| spring.hysteresis.initial_tangent())
             .collect()
     }
 

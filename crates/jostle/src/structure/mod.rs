@@ -16,7 +16,7 @@ pub(crate) mod testkit;
 mod tiers;
 
 pub use assembled_building::AssembledBuilding;
-pub use discretization::Discretization;
+pub use discretization::{Discretization, Mat};
 pub use equations::{Equations, YieldingSpring};
 pub(crate) use member_end::{ductility, end_stiffnesses};
 pub(crate) use member_forces::Motion;

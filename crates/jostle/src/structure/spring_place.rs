@@ -1,5 +1,7 @@
 //! Places of the springs of a building that yield.
 
+use crate::hysteresis::Side;
+
 /// Which end of a member a hinge is at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MemberEnd {
@@ -43,6 +45,21 @@ pub enum SpringPlace {
         /// Which way it gives.
         motion: BaseMotion,
     },
+    /// The bearings of an isolated building, all together.
+    Bearings,
+    /// A stop of its mat.
+    Stop {
+        /// The direction of motion in which it is reached: right is positive.
+        side: Side,
+    },
+}
+
+impl SpringPlace {
+    /// Whether it belongs to the isolation of a building rather than to its structure.
+    #[must_use]
+    pub fn is_isolation(&self) -> bool {
+        matches!(self, Self::Bearings | Self::Stop { .. })
+    }
 }
 
 /// Which way a base gives.
@@ -79,6 +96,13 @@ impl std::fmt::Display for SpringPlace {
                 };
                 write!(formatter, "base {line}, {motion}")
             }
+            Self::Bearings => formatter.write_str("bearings"),
+            Self::Stop {
+                side: Side::Positive,
+            } => formatter.write_str("right stop"),
+            Self::Stop {
+                side: Side::Negative,
+            } => formatter.write_str("left stop"),
         }
     }
 }

@@ -50,6 +50,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
     Discretization {
         stick_model,
         foot: None,
+        mat: None,
         left_face: Vec::new(),
         right_face: Vec::new(),
         centres: tiers.floors.iter().map(|floor| floor.centre).collect(),

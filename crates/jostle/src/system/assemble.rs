@@ -1,13 +1,15 @@
 //! From a model to a system.
 
-use super::{BuildingSystem, System, finite};
+use super::{BuildingSystem, SpringSupport, System, WallPlace, finite};
 use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean};
 use crate::interface::{
-    Contact, Coulomb, EdgeEnd, Friction, LinkElement, PlanPlace, Port, PortPair, Row, faces_of_gap,
-    narrowest, sticking_stiffness,
+    Contact, Coulomb, DofRow, EdgeEnd, Friction, LinkElement, PlanPlace, Port, PortPair, Row,
+    faces_of_gap, narrowest, sticking_stiffness,
 };
-use crate::model::{FloorPairs, Level, Link, Model, ModelFault, PlanPoint, Structure, Tier};
+use crate::model::{
+    Base, Building, Damping, FloorPairs, Level, Link, Model, ModelFault, PlanPoint, Structure, Tier,
+};
 use crate::structure::{Discretization, Support};
 
 impl System {
@@ -23,8 +25,25 @@ impl System {
         let mut faults = Vec::new();
         for (index, building) in model.buildings.iter().enumerate() {
             let points = row.points_between_floors(index);
-            let discretization =
-                Discretization::with_points(building, points.each_ref().map(|points| &points[..]));
+            let points = points.each_ref().map(|points| &points[..]);
+            let damping = match building.base.isolation {
+                Some(_) => fixed_on_mat(building, points),
+                None => Ok(building.damping.clone()),
+            };
+            let damping = match damping {
+                Ok(damping) => damping,
+                Err((field, problem)) => {
+                    faults.push(ModelFault {
+                        path: format!("building[{index}].{field}"),
+                        problem,
+                    });
+                    continue;
+                }
+            };
+            let mut discretization = Discretization::with_points(building, points);
+            if let Damping::Rayleigh { alpha, .. } = damping {
+                discretization.damp_relative_to_mat(alpha);
+            }
             let mut assembled = BuildingSystem::new(&building.name, discretization);
             if let Err(problem) = assembled.put_under_gravity(building.gravity) {
                 faults.push(ModelFault {
@@ -42,7 +61,7 @@ impl System {
                     tiers.floors.iter().map(|floor| &floor.plan[..]).collect();
                 assembled.place_corners(&plans);
             }
-            if let Err(problem) = assembled.damp(&building.damping) {
+            if let Err(problem) = assembled.damp(&damping) {
                 faults.push(ModelFault {
                     path: format!("building[{index}].damping.modes"),
                     problem,
@@ -53,7 +72,27 @@ impl System {
         if !faults.is_empty() {
             return Err(faults);
         }
+        let mut walls = Vec::new();
+        for wall in &model.walls {
+            let place = wall.stiffness.map(|stiffness| {
+                let sticks = Discretization::of_wall(stiffness, wall.damping, wall.mass);
+                let mut own = BuildingSystem::new(&wall.name, sticks);
+                own.support = Some(SpringSupport {
+                    dof: 0,
+                    stiffness,
+                    damping: wall.damping,
+                    spring: None,
+                });
+                buildings.push(own);
+                buildings.len() - 1
+            });
+            walls.push(WallPlace {
+                name: wall.name.clone(),
+                building: place,
+            });
+        }
         let mut system = Self::of_buildings(buildings);
+        system.walls = walls;
         system.join(&row, model)?;
         system.follow_members(&model.analysis.members);
         let faults = finite::of_contacts(&system);
@@ -78,6 +117,7 @@ impl System {
             links: Vec::new(),
             members_followed: Vec::new(),
             ratings: Vec::new(),
+            walls: self.walls.clone(),
         };
         system.join(&Row::new(model), model)?;
         system.follow_members(&model.analysis.members);
@@ -158,6 +198,32 @@ impl System {
             Err(faults)
         }
     }
+}
+
+/// The damping coefficients of a building on a mat: those of the same building fixed there (theory, Eq. B6).
+///
+/// # Errors
+/// The field of the building, and what is wrong with it.
+fn fixed_on_mat(
+    building: &Building,
+    points: [&[f64]; 2],
+) -> Result<Damping, (&'static str, String)> {
+    let fixed = Building {
+        base: Base::default(),
+        ..building.clone()
+    };
+    let mut assembled =
+        BuildingSystem::new(&fixed.name, Discretization::with_points(&fixed, points));
+    assembled
+        .put_under_gravity(fixed.gravity)
+        .map_err(|problem| (problem.field(), problem.to_string()))?;
+    assembled
+        .damp_as(&fixed.damping, true)
+        .map_err(|problem| ("damping.modes", problem))?;
+    Ok(Damping::Rayleigh {
+        alpha: assembled.equations.alpha,
+        beta: assembled.equations.beta,
+    })
 }
 
 /// Contacts of a gap between two buildings with plans, from the lowest floor up, face by face; faces are numbered from
@@ -271,6 +337,19 @@ fn ports(
     let mut ports: [Option<Port>; 2] = [None; 2];
     for side in 0..2 {
         let (Some(building), Some(height)) = (between[side], pair[side]) else {
+            let structures = system.structures().len();
+            let wall = between[side].and_then(|index| index.checked_sub(structures));
+            let wall = wall.and_then(|wall| system.walls[wall].building);
+            ports[side] = wall.map(|building| {
+                let own = &system.buildings[building];
+                Port {
+                    building,
+                    row: DofRow::single(own.offset),
+                    mass: own.equations.mass[0],
+                    floor: None,
+                    height: mean(pair),
+                }
+            });
             continue;
         };
         let discretization = &system.buildings[building].discretization;

@@ -9,7 +9,7 @@ use crate::model::{Damping, Gravity, PlanPoint, usual_damping_modes};
 use crate::motion::Ground;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::motion_at;
-use crate::structure::{AssembledBuilding, Discretization, MemberForces};
+use crate::structure::{AssembledBuilding, Discretization, MemberForces, SpringPlace};
 use crate::transfer::riccati::RiccatiSweep;
 
 /// One building of a system: its equations, and where they stand among those of the others.
@@ -35,6 +35,8 @@ pub struct BuildingSystem {
     /// Degree of freedom of the foot of the first column line in the vectors of a [`crate::State`], where the base
     /// gives way sideways.
     pub foot: Option<usize>,
+    /// What moves it as a whole, where results are wanted of it.
+    pub support: Option<SpringSupport>,
     /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
     pub modal_damping: Option<f64>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
@@ -44,6 +46,19 @@ pub struct BuildingSystem {
     pub members: MemberForces,
     /// The recursion through its equations, shared by all runs.
     pub(crate) sweep: Arc<RiccatiSweep>,
+}
+
+/// Spring, friction and dashpot between the ground and a mat or a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringSupport {
+    /// Degree of freedom of the mat or the wall in the vectors of a [`crate::State`].
+    pub dof: usize,
+    /// Elastic stiffness \[N/m\].
+    pub stiffness: f64,
+    /// Coefficient of the dashpot \[N·s/m\].
+    pub damping: f64,
+    /// The spring that yields or slides, among those of the building.
+    pub spring: Option<usize>,
 }
 
 /// A floor of a building.
@@ -140,6 +155,7 @@ impl BuildingSystem {
         let tracks = tracks(&structure, &floors);
         let foot = structure.discretization.foot;
         let foot = foot.and_then(|node| structure.equations.horizontal(node));
+        let support = spring_support(&structure);
         let modes = if structure.discretization.stick_model.in_plan {
             modes_dense(&structure, |lower| {
                 let (values, vectors) = symmetric::eigen(lower);
@@ -158,6 +174,7 @@ impl BuildingSystem {
             corners: Vec::new(),
             rest: Settled::default(),
             spring_offset: 0,
+            support,
             modal_damping: None,
             modes,
             members: MemberForces::default(),
@@ -198,6 +215,15 @@ impl BuildingSystem {
     /// # Errors
     /// A message when a lateral mode of that number does not exist.
     pub fn damp(&mut self, damping: &Damping) -> Result<(), String> {
+        self.damp_as(damping, false)
+    }
+
+    /// The same for a building that stands fixed here and will stand on a mat: a single mode is damped in proportion to
+    /// stiffness, and the first mode alone unless others are named.
+    ///
+    /// # Errors
+    /// As [`BuildingSystem::damp`].
+    pub(super) fn damp_as(&mut self, damping: &Damping, on_mat: bool) -> Result<(), String> {
         self.modal_damping = match damping {
             Damping::AllModes { ratio } => Some(*ratio),
             _ => None,
@@ -222,8 +248,15 @@ impl BuildingSystem {
                     })
                 };
                 let usual = usual_damping_modes(lateral.len());
-                let modes = if modes.is_empty() { usual } else { modes };
+                let asked = &modes[..];
+                let modes = if modes.is_empty() { usual } else { asked };
+                let modes = if on_mat && asked.is_empty() {
+                    &[1]
+                } else {
+                    modes
+                };
                 match modes.iter().map(frequency).collect::<Result<Vec<_>, _>>()?[..] {
+                    [single] if on_mat => (0.0, 2.0 * ratio / single),
                     [single] => (2.0 * ratio * single, 0.0),
                     [low, high] => (
                         2.0 * ratio * low * high / (low + high),
@@ -310,6 +343,20 @@ impl BuildingSystem {
     pub fn range(&self) -> std::ops::Range<usize> {
         self.offset..self.offset + self.equations.len()
     }
+}
+
+/// Of the mat of an isolated building.
+fn spring_support(structure: &AssembledBuilding) -> Option<SpringSupport> {
+    let mat = structure.discretization.mat?;
+    let places = &structure.discretization.spring_places;
+    Some(SpringSupport {
+        dof: structure.equations.horizontal(mat.node)?,
+        stiffness: mat.stiffness,
+        damping: mat.dashpot,
+        spring: places
+            .iter()
+            .position(|place| *place == SpringPlace::Bearings),
+    })
 }
 
 /// Displacements of the floors whose peaks are reported.

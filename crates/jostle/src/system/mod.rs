@@ -7,9 +7,9 @@ mod members;
 mod rating;
 
 use crate::interface::{Contact, DofRow, EdgeEnd, Friction, LinkElement, Port, PortPair};
-use crate::model::LEVEL_TOLERANCE;
+use crate::model::{LEVEL_TOLERANCE, WALL};
 
-pub use building::{BuildingSystem, Corner, Direction, Floor, Track};
+pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Track};
 pub use rating::MemberRating;
 
 /// Buildings in a row and what stands between them, ready to be stepped.
@@ -28,7 +28,7 @@ pub use rating::MemberRating;
 /// ```
 #[derive(Clone, Debug)]
 pub struct System {
-    /// Buildings from left to right.
+    /// Buildings from left to right, then walls that are not rigid, as buildings of one floor.
     pub buildings: Vec<BuildingSystem>,
     /// Contacts, gap by gap, from the lowest up.
     pub contacts: Vec<Contact>,
@@ -41,6 +41,17 @@ pub struct System {
     pub members_followed: Vec<[usize; 2]>,
     /// Members whose demand is compared with their capacity.
     pub ratings: Vec<MemberRating>,
+    /// Walls of the model, in its order.
+    pub walls: Vec<WallPlace>,
+}
+
+/// A wall of a system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallPlace {
+    /// Its name.
+    pub name: String,
+    /// Its index in [`System::buildings`], behind those of the model; `None` is rigid.
+    pub building: Option<usize>,
 }
 
 impl System {
@@ -58,6 +69,9 @@ impl System {
                 track.dof = track.dof - building.offset + offset;
             }
             building.foot = building.foot.map(|dof| dof - building.offset + offset);
+            if let Some(support) = &mut building.support {
+                support.dof = support.dof - building.offset + offset;
+            }
             building.offset = offset;
             offset += building.equations.len();
         }
@@ -68,7 +82,40 @@ impl System {
             links: Vec::new(),
             members_followed: Vec::new(),
             ratings: Vec::new(),
+            walls: Vec::new(),
         }
+    }
+
+    /// The buildings of the model, without walls.
+    #[must_use]
+    pub fn structures(&self) -> &[BuildingSystem] {
+        let walls = self.walls.iter().filter(|wall| wall.building.is_some());
+        &self.buildings[..self.buildings.len() - walls.count()]
+    }
+
+    /// Name of a side of a gap or a link of the model, `buildings` being the number of those: that of a building or a wall.
+    #[must_use]
+    pub fn side_name(&self, side: Option<usize>) -> &str {
+        let Some(index) = side else { return WALL };
+        let structures = self.structures();
+        match structures.get(index) {
+            Some(building) => &building.name,
+            None => {
+                let wall = self.walls.get(index - structures.len());
+                wall.map_or(WALL, |wall| &wall.name)
+            }
+        }
+    }
+
+    /// Floors of a pair of points as results number them: 0 is a mat; `None` is between floors or a wall.
+    #[must_use]
+    pub fn floors_of(&self, ports: &PortPair) -> [Option<usize>; 2] {
+        ports.0.map(|port| {
+            let port = port?;
+            let own = self.structures().get(port.building)?;
+            let on_mat = own.discretization.mat.is_some() && port.height == 0.0;
+            if on_mat { Some(0) } else { port.floor }
+        })
     }
 
     /// Contacts with friction along their faces.

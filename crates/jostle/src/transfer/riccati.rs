@@ -53,6 +53,7 @@ use crate::structure::StepEquations;
 ///     buildings: vec![building],
 ///     gaps: Vec::new(),
 ///     links: Vec::new(),
+///     walls: Vec::new(),
 ///     analysis: Analysis::default(),
 /// };
 /// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;

@@ -83,6 +83,7 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
 pub(crate) fn assembled(stick_model: StickModel, floors: Vec<usize>) -> BuildingSystem {
     let discretization = Discretization {
         foot: None,
+        mat: None,
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),

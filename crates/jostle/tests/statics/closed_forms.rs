@@ -244,6 +244,7 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
     let discretization = Discretization {
         stick_model,
         foot: None,
+        mat: None,
         floors: Vec::new(),
         left_face: Vec::new(),
         right_face: Vec::new(),

@@ -517,7 +517,7 @@ const CASES: &[Case] = &[
     (
         |m| m.gaps[0].floors = FloorPairs::listed(&[(0, 1)]),
         "gap[0].floors[0]",
-        "floor 0 does not exist",
+        "floor 0 is the mat of an isolated building, and \"frame\" has no isolation",
     ),
     (
         |m| m.gaps[0].floors = FloorPairs::listed(&[(1, 2)]),

@@ -96,6 +96,7 @@ fn run(buildings: Vec<Building>, gaps: Vec<Gap>, site: Site, tolerance: f64) -> 
         buildings,
         gaps,
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             solver: Some(Solver::Modal),
             tolerance,

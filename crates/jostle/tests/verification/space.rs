@@ -80,6 +80,7 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         buildings,
         gaps,
         links: Vec::new(),
+        walls: Vec::new(),
         analysis: Analysis {
             solver: Some(Solver::Modal),
             ..Analysis::default()

@@ -164,6 +164,7 @@ pub(crate) fn row(buildings: Vec<Building>, width: f64, law: ContactLaw) -> Mode
             .map(|left| Gap::after(left, width, law))
             .collect(),
         links: Vec::new(),
+        walls: Vec::new(),
         buildings,
         analysis: Analysis::default(),
     }
@@ -304,6 +305,7 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
     };
     let discretization = Discretization {
         foot: None,
+        mat: None,
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),

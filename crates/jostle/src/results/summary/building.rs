@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::capacity::CapacitySummary;
 use super::hinges::HingeSummary;
+use super::isolation::{Floors, IsolationSummary};
 use super::members::MemberSummary;
 use crate::quantity::{Quantity, Unit};
 use crate::results::in_plan::{BuildingInPlan, FloorInPlan};
@@ -22,8 +23,11 @@ pub struct BuildingSummary {
     pub rayleigh_alpha_per_s: f64,
     /// Rayleigh damping in use: stiffness coefficient \[s\].
     pub rayleigh_beta_s: f64,
-    /// Floors from the ground up.
-    pub floors: Vec<FloorSummary>,
+    /// Floors from the ground up; the mat of an isolated building is floor 0.
+    pub floors: Floors,
+    /// Its bearings; absent if it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub isolation: Option<IsolationSummary>,
     /// Its peaks, and what is left at the end.
     #[serde(flatten)]
     pub response: BuildingResponse,
@@ -58,7 +62,7 @@ impl BuildingSummary {
 /// One floor.
 #[derive(Clone, Debug, Default, Serialize, PartialEq)]
 pub struct FloorSummary {
-    /// Floor, from 1.
+    /// Floor, from 1; 0 is the mat of an isolated building.
     pub floor: usize,
     /// Height above the base \[m\].
     pub height_m: f64,
@@ -78,7 +82,7 @@ pub struct FloorSummary {
 impl FloorSummary {
     /// Where it is.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("floor", "floor, from 1", |f| f.floor),
+        Quantity::<Self>::whole("floor", "floor, from 1; 0 is the mat of an isolated building", |f| f.floor),
         Quantity::<Self>::real("height_m", Unit::M, "height above the base", |f| f.height_m),
     ];
 }

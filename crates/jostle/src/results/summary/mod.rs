@@ -7,6 +7,7 @@ mod capacity;
 mod energy;
 mod gaps;
 mod hinges;
+mod isolation;
 mod links;
 mod members;
 
@@ -19,6 +20,7 @@ pub use capacity::{
 pub use energy::EnergySummary;
 pub use gaps::{ContactSummary, GapSummary, ImpactSummary};
 pub use hinges::{HingeSummary, SpringSummary};
+pub use isolation::{Floors, IsolationSummary, WallSummary};
 pub use links::{LinkFloorSummary, LinkSummary};
 pub use members::{ForcesSummary, MemberSummary, SectionSummary, StruckSummary};
 
@@ -70,6 +72,9 @@ pub struct Summary {
     pub gaps: Vec<GapSummary>,
     /// Links, in the order of the model.
     pub links: Vec<LinkSummary>,
+    /// Walls with names, in the order of the model; absent if there is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub walls: Vec<WallSummary>,
     /// Energies at the end.
     pub energy: EnergySummary,
     /// Whether the errors of reported peaks are within the tolerance.

@@ -7,7 +7,7 @@
 
 use super::Direct;
 use crate::history::{SpringEvent, SpringTotals};
-use crate::hysteresis::{HysteresisMemory, Stage};
+use crate::hysteresis::{HysteresisMemory, Rates, Stage};
 use crate::state::State;
 use crate::stepping::outcome::StepError;
 use crate::stepping::runner::RunState;
@@ -23,6 +23,8 @@ pub(super) struct SpringTrial {
     tangent: f64,
     /// What the committed velocity and acceleration take from the change of deformation (theory, Eq. Y2) \[rad or m\].
     rate_term: f64,
+    /// Rates of the deformation; that at the end belongs to no change of deformation.
+    rates: Rates,
     /// Force with which the solution before was balanced there.
     balance: f64,
     /// Result of the solution: deformation, force on the line, and response of the rule.
@@ -36,6 +38,16 @@ impl SpringTrial {
     /// Difference of the rule from the line, as a fraction of the yield force.
     fn misfit(&self, yield_force: f64) -> f64 {
         (self.answer - self.on_line).abs() / yield_force.max(self.answer.abs())
+    }
+
+    /// Motion over the step if it ends at a deformation.
+    #[inline]
+    fn rates_to(&self, memory: &HysteresisMemory, deformation: f64) -> Rates {
+        let change = deformation - memory.deformation();
+        Rates {
+            after: self.rates.after + self.rates.per_deformation * change,
+            ..self.rates
+        }
     }
 
     /// Whether it is on the line within rounding.
@@ -166,8 +178,15 @@ impl<E: StepEquations> Direct<E> {
             );
             let trials = &mut self.yielding.trials[building.spring_range()];
             for (spring, trial) in building.equations.springs.iter().zip(trials) {
-                let rate_term = k.d_v * spring.deformation(v) + k.d_a * spring.deformation(a);
+                let rate = spring.deformation(v);
+                let rate_term = k.d_v * rate + k.d_a * spring.deformation(a);
                 trial.rate_term = own.shift * rate_term;
+                trial.rates = Rates {
+                    before: rate,
+                    after: rate + rate_term,
+                    per_deformation: k.c,
+                    step: k.step,
+                };
             }
         }
         for (trial, tangent) in self.yielding.trials.iter_mut().zip(&self.yielding.tangents) {
@@ -232,8 +251,9 @@ impl<E: StepEquations> Direct<E> {
                 let change = spring.deformation(increment) - trial.rate_term;
                 trial.reached = memory.deformation() + change;
                 trial.on_line = trial.force + trial.tangent * (trial.reached - trial.deformation);
+                let rates = trial.rates_to(memory, trial.reached);
                 [trial.answer, trial.next_tangent] =
-                    spring.hysteresis.answer(memory, trial.reached);
+                    spring.hysteresis.answer(memory, trial.reached, &rates);
                 all_fit &= trial.fits(spring.hysteresis.backbone().yield_force());
             }
         }
@@ -256,7 +276,8 @@ impl<E: StepEquations> Direct<E> {
                     let way = trial.reached - trial.deformation;
                     let at = trial.deformation + share * way;
                     let balance = trial.balance + share * (trial.on_line - trial.balance);
-                    way * (spring.hysteresis.answer(memory, at)[0] - balance)
+                    let rates = trial.rates_to(memory, at);
+                    way * (spring.hysteresis.answer(memory, at, &rates)[0] - balance)
                 })
                 .sum()
         };
@@ -283,7 +304,9 @@ impl<E: StepEquations> Direct<E> {
         for (spring, (trial, memory)) in springs.zip(known) {
             trial.reached = trial.deformation + high * (trial.reached - trial.deformation);
             trial.on_line = trial.balance + high * (trial.on_line - trial.balance);
-            [trial.answer, trial.next_tangent] = spring.hysteresis.answer(memory, trial.reached);
+            let rates = trial.rates_to(memory, trial.reached);
+            [trial.answer, trial.next_tangent] =
+                spring.hysteresis.answer(memory, trial.reached, &rates);
         }
     }
 
@@ -300,7 +323,9 @@ impl<E: StepEquations> Direct<E> {
             let change = trial.reached - memory.deformation();
             let work = 0.5 * (self.yielding.balanced[index] + trial.on_line) * change;
             self.audit.springs += work;
-            spring.hysteresis.commit(memory, trial.reached);
+            spring
+                .hysteresis
+                .commit(memory, trial.reached, trial.answer);
             self.yielding.balanced[index] = trial.on_line;
             self.yielding.tangents[index] = trial.next_tangent;
             let known = &mut self.yielding.stages[index];

@@ -447,6 +447,7 @@ mod tests {
             ],
             gaps: vec![Gap::after(0, 0.02, law), Gap::after(1, 0.04, law)],
             links: Vec::new(),
+            walls: Vec::new(),
             analysis: Analysis {
                 solver: Some(Solver::Modal),
                 ..Analysis::default()

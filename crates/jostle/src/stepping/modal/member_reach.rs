@@ -344,6 +344,7 @@ mod tests {
             ],
             gaps: vec![gap],
             links,
+            walls: Vec::new(),
             analysis: Analysis {
                 solver: Some(Solver::Modal),
                 members: MemberRequest::all(),

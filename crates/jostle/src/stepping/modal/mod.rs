@@ -54,6 +54,11 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
         if !building.equations.springs.is_empty() {
             reasons.push(format!("\"{name}\" can yield: leave out its hinges"));
         }
+        if building.support.is_some() {
+            reasons.push(format!(
+                "\"{name}\" stands on bearings, or is a wall that gives way"
+            ));
+        }
         reasons.extend(links::refusal(building));
         if !building.rest.displacement.is_empty() {
             reasons.push(format!(

@@ -14,7 +14,7 @@ use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
 use super::reduced::{Reduced, Table};
 use super::struck::{StruckStep, WithinStep};
 use super::turning::{Loads, StepMotion};
-use crate::history::{Energy, Work};
+use crate::history::{Energy, SupportPeaks, Work};
 use crate::motion::{Ground, GroundMotion};
 use crate::state::{ContactPhase, Episode, State};
 use crate::stepping::acceleration_parts::AccelerationParts;
@@ -253,6 +253,7 @@ impl<'a> ModalStepper<'a> {
             acceleration_parts: AccelerationParts::default(),
             floors,
             in_plan,
+            supports: vec![SupportPeaks::default(); run.system.buildings.len()],
             closing: std::mem::take(&mut self.peaks.closing),
             gap_forces: run.gap_forces.peaks,
             face_impacts: run.face_forces.impacts,

@@ -1,0 +1,210 @@
+//! `[building.isolation]`: bearings under a building, and the mat on them.
+
+use jostle::{Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop};
+
+use crate::keys::{ISOLATORS, Section};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+use crate::tree::Value;
+
+/// Displacement at which sliding bearings slip, where none is given \[m\].
+const SLIP: f64 = 1e-3;
+
+/// Reads the isolation of a building; `None` after a fault, or if it has none.
+pub(super) fn read(reader: &mut Reader<'_>, building: &View<'_>) -> Option<Isolation> {
+    let field = reader.get(building, "isolation")?;
+    if let Some(base) = reader.get(building, "base") {
+        *reader.bad(&base, "cannot stand beside isolation") =
+            Some("the bearings are the base; leave out base".into());
+    }
+    let view = reader.open(&field, &[Section::Isolation])?;
+    let kind = match reader.get(&view, "kind") {
+        Some(field) => reader.choice(&field, ISOLATORS, &[]),
+        None => {
+            reader.missing(
+                &view,
+                "kind",
+                "add kind = \"lead-rubber\", \"friction-pendulum\" or \"linear\"",
+            );
+            None
+        }
+    };
+    let mat_mass = needed(reader, &view, "mat_mass", Dimension::Mass, "\"150 t\"");
+    let isolator = kind.and_then(|kind| {
+        refuse_keys_of_others(reader, &view, kind);
+        match kind {
+            "linear" => Some(Isolator::Linear {
+                stiffness: needed(
+                    reader,
+                    &view,
+                    "stiffness",
+                    Dimension::Stiffness,
+                    "\"8 MN/m\"",
+                )?,
+            }),
+            "lead-rubber" => lead_rubber(reader, &view),
+            _ => pendulum(reader, &view),
+        }
+    });
+    let (damping, ratio) = (
+        given(reader, &view, "damping", Dimension::Damping),
+        given(reader, &view, "damping_ratio", Dimension::Dimensionless),
+    );
+    if let (Some(_), Some(ratio)) = (
+        reader.get(&view, "damping"),
+        reader.get(&view, "damping_ratio"),
+    ) {
+        *reader.bad(&ratio, "cannot be combined with damping") =
+            Some("keep either damping or damping_ratio".into());
+    }
+    let damping = match ratio {
+        Some(ratio) => IsolatorDamping::Ratio(ratio),
+        None => IsolatorDamping::Coefficient(damping.unwrap_or(0.0)),
+    };
+    let stops = stops(reader, &view);
+    let limit = given(reader, &view, "limit", Dimension::Length);
+    let weight = given(reader, &view, "weight", Dimension::Force);
+    Some(Isolation {
+        isolator: isolator?,
+        mat_mass: mat_mass?,
+        damping,
+        stops,
+        limit,
+        weight,
+    })
+}
+
+/// Keys of one kind of bearings, which mean nothing under another.
+fn refuse_keys_of_others(reader: &mut Reader<'_>, view: &View<'_>, kind: &'static str) {
+    for (key, kinds) in [
+        ("stiffness", &["linear", "lead-rubber"][..]),
+        ("yield", &["lead-rubber"]),
+        ("post_yield", &["lead-rubber"]),
+        ("radius", &["friction-pendulum"]),
+        ("friction", &["friction-pendulum"]),
+        ("slip_displacement", &["friction-pendulum"]),
+        ("damping_ratio", &["linear"]),
+    ] {
+        if kinds.contains(&kind) {
+            continue;
+        }
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, format!("is not a key of kind = \"{kind}\"")) = Some(format!(
+                "it belongs to {}; leave it out",
+                kinds.join(" and ")
+            ));
+        }
+    }
+}
+
+fn lead_rubber(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {
+    let stiffness = needed(
+        reader,
+        view,
+        "stiffness",
+        Dimension::Stiffness,
+        "\"42 MN/m\"",
+    );
+    let yield_force = needed(reader, view, "yield", Dimension::Force, "\"400 kN\"");
+    let post_yield = needed(reader, view, "post_yield", Dimension::Dimensionless, "0.1");
+    Some(Isolator::LeadRubber {
+        stiffness: stiffness?,
+        yield_force: yield_force?,
+        post_yield: post_yield?,
+    })
+}
+
+fn pendulum(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {
+    let radius = needed(reader, view, "radius", Dimension::Length, "\"1.5 m\"");
+    let friction = match reader.get(view, "friction") {
+        Some(field) => friction(reader, &field),
+        None => {
+            reader.missing(view, "friction", "add friction = 0.05");
+            None
+        }
+    };
+    let slip = given(reader, view, "slip_displacement", Dimension::Length);
+    Some(Isolator::Pendulum {
+        radius: radius?,
+        friction: friction?,
+        slip_displacement: slip.unwrap_or(SLIP),
+    })
+}
+
+/// One coefficient, or its change with speed.
+fn friction(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<SpeedFriction> {
+    if !matches!(field.node.value, Value::Table(_)) {
+        let coefficient = reader.quantity(field, Dimension::Dimensionless)?;
+        return Some(SpeedFriction::constant(coefficient));
+    }
+    let view = reader.open(field, &[Section::IsolationFriction])?;
+    let slow = needed(reader, &view, "slow", Dimension::Dimensionless, "0.03");
+    let fast = needed(reader, &view, "fast", Dimension::Dimensionless, "0.06");
+    let rate = needed(reader, &view, "rate", Dimension::Slowness, "\"50 s/m\"");
+    Some(SpeedFriction {
+        slow: slow?,
+        fast: fast?,
+        rate: rate?,
+    })
+}
+
+/// Stops on the left and on the right: one table for both, or one each.
+fn stops(reader: &mut Reader<'_>, view: &View<'_>) -> [Option<Stop>; 2] {
+    let none = [None; 2];
+    let Some(field) = reader.get(view, "stop") else {
+        return none;
+    };
+    let Some(view) = reader.open(&field, &[Section::IsolationStop]) else {
+        return none;
+    };
+    if view.has("left") || view.has("right") {
+        if view.has("at") || view.has("stiffness") {
+            *reader.bad(&field, "mixes one stop for both sides with left and right") =
+                Some("keep either at and stiffness, or left and right".into());
+        }
+        return ["left", "right"].map(|side| {
+            let field = reader.get(&view, side)?;
+            let view = reader.open(&field, &[Section::StopSide])?;
+            stop(reader, &view)
+        });
+    }
+    [stop(reader, &view); 2]
+}
+
+fn stop(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Stop> {
+    let at = needed(reader, view, "at", Dimension::Length, "\"90 mm\"");
+    let stiffness = needed(
+        reader,
+        view,
+        "stiffness",
+        Dimension::Stiffness,
+        "\"60 MN/m\"",
+    );
+    Some(Stop {
+        at: at?,
+        stiffness: stiffness?,
+    })
+}
+
+fn given(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    dimension: Dimension,
+) -> Option<f64> {
+    let field = reader.get(view, key)?;
+    reader.quantity(&field, dimension)
+}
+
+fn needed(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    dimension: Dimension,
+    example: &str,
+) -> Option<f64> {
+    if !view.has(key) {
+        reader.missing(view, key, format!("add {key} = {example}"));
+    }
+    given(reader, view, key, dimension)
+}

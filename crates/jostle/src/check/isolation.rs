@@ -1,0 +1,163 @@
+//! Faults of isolation and of walls.
+
+use super::{Faults, each};
+use crate::model::{
+    Base, Building, Damping, Isolation, Isolator, IsolatorDamping, Model, Structure, WALL,
+};
+
+/// Faults of the isolation of a building.
+pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Building) {
+    let Some(isolation) = &building.base.isolation else {
+        return;
+    };
+    let own = format!("{path}.isolation");
+    let plain = Base {
+        isolation: Some(*isolation),
+        ..Base::default()
+    };
+    faults.require(building.base == plain, own.as_str(), || {
+        "cannot stand beside base: the bearings are the base; leave out base".into()
+    });
+    let stands = matches!(
+        building.structure,
+        Structure::Frame(_) | Structure::Shear(_)
+    );
+    faults.require(stands, own.as_str(), || {
+        "is for frames and shear buildings in one plane; leave it out".into()
+    });
+    faults.require(
+        !matches!(building.damping, Damping::AllModes { .. }),
+        format!("{path}.damping.modes"),
+        || "\"all\" is not possible for an isolated building; name one or two modes of the building fixed on its mat".into(),
+    );
+    faults.positive(isolation.mat_mass, format!("{own}.mat_mass"), "kg");
+    if let Some(weight) = isolation.weight {
+        faults.positive(weight, format!("{own}.weight"), "N");
+    }
+    check_isolator(faults, &own, isolation);
+    if let Some(limit) = isolation.limit {
+        faults.positive(limit, format!("{own}.limit"), "m");
+    }
+    for (side, stop) in ["left", "right"].into_iter().zip(isolation.stops) {
+        let Some(stop) = stop else { continue };
+        faults.positive(stop.at, format!("{own}.stop.{side}.at"), "m");
+        faults.positive(
+            stop.stiffness,
+            format!("{own}.stop.{side}.stiffness"),
+            "N/m",
+        );
+        if let Some(limit) = isolation.limit {
+            faults.require(stop.at < limit, format!("{own}.stop.{side}.at"), || {
+                format!(
+                    "must be less than limit ({limit} m), found {} m: the stop would never be reached within the limit",
+                    stop.at
+                )
+            });
+        }
+    }
+}
+
+fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {
+    match isolation.damping {
+        IsolatorDamping::Coefficient(damping) => {
+            faults.not_negative(damping, format!("{own}.damping"), "N.s/m");
+        }
+        IsolatorDamping::Ratio(ratio) => {
+            faults.require(
+                (0.0..1.0).contains(&ratio),
+                format!("{own}.damping_ratio"),
+                || format!("must lie between 0 and 1 (0.15 is 15 % of critical), found {ratio}"),
+            );
+            let linear = matches!(isolation.isolator, Isolator::Linear { .. });
+            faults.require(linear, format!("{own}.damping_ratio"), || {
+                "is for kind = \"linear\": other bearings have no single stiffness; give damping in N.s/m".into()
+            });
+        }
+    }
+    match isolation.isolator {
+        Isolator::Linear { stiffness } => {
+            faults.positive(stiffness, format!("{own}.stiffness"), "N/m");
+        }
+        Isolator::LeadRubber {
+            stiffness,
+            yield_force,
+            post_yield,
+        } => {
+            faults.positive(stiffness, format!("{own}.stiffness"), "N/m");
+            faults.positive(yield_force, format!("{own}.yield"), "N");
+            faults.require(
+                (0.0..1.0).contains(&post_yield),
+                format!("{own}.post_yield"),
+                || format!("must be at least 0 and less than 1, found {post_yield}"),
+            );
+        }
+        Isolator::Pendulum {
+            radius,
+            friction,
+            slip_displacement,
+        } => {
+            faults.positive(radius, format!("{own}.radius"), "m");
+            faults.positive(slip_displacement, format!("{own}.slip_displacement"), "m");
+            let field = format!("{own}.friction");
+            faults.require(
+                friction.slow > 0.0 && friction.slow.is_finite(),
+                field.as_str(),
+                || format!("must be greater than zero, found {}", friction.slow),
+            );
+            faults.require(
+                friction.fast >= friction.slow && friction.fast < 1.0,
+                field.as_str(),
+                || {
+                    format!(
+                        "must lie between slow and 1 at high speed, found slow = {} and fast = {}",
+                        friction.slow, friction.fast
+                    )
+                },
+            );
+            faults.not_negative(friction.rate, format!("{field}.rate"), "s/m");
+        }
+    }
+}
+
+/// Faults of the walls of a model.
+pub(super) fn check_walls(faults: &mut Faults, model: &Model) {
+    for (index, (path, wall)) in each(&model.walls, "wall").enumerate() {
+        let name = format!("{path}.name");
+        faults.require(!wall.name.trim().is_empty(), name.as_str(), || {
+            "must not be empty".into()
+        });
+        faults.require(wall.name != WALL, name.as_str(), || {
+            format!(
+                "\"{WALL}\" stands for a rigid wall in gaps and links; give the wall another name"
+            )
+        });
+        let taken = model.buildings.iter().any(|other| other.name == wall.name)
+            || model.walls[..index]
+                .iter()
+                .any(|other| other.name == wall.name);
+        faults.require(!taken, name.as_str(), || {
+            format!(
+                "a building or another wall is called \"{}\" too; give every one its own name",
+                wall.name
+            )
+        });
+        faults.not_negative(wall.damping, format!("{path}.damping"), "N.s/m");
+        faults.not_negative(wall.mass, format!("{path}.mass"), "kg");
+        match wall.stiffness {
+            Some(stiffness) => {
+                faults.positive(stiffness, format!("{path}.stiffness"), "N/m");
+                faults.require(wall.mass > 0.0, format!("{path}.mass"), || {
+                    "is needed, because a force acts on it at once; a cantilever of mass m struck at its top has 33 m/140".into()
+                });
+            }
+            None => faults.require(
+                wall.damping == 0.0 && wall.mass == 0.0,
+                format!("{path}.stiffness"),
+                || "is needed for a wall with damping or mass; without it the wall is rigid".into(),
+            ),
+        }
+        faults.require(!model.is_in_space(), path.as_str(), || {
+            "cannot stand among buildings with a plan yet; leave it out".into()
+        });
+    }
+}

@@ -1,0 +1,140 @@
+//! Bearings and walls.
+
+use std::ops::{Deref, DerefMut};
+
+use serde::{Serialize, Serializer};
+
+use super::building::FloorSummary;
+use crate::quantity::{Quantity, Unit};
+
+/// Floors of a building from the ground up. They are the list of the floors above the ground or the mat; `summary.json` has the
+/// mat before them, as floor 0.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Floors {
+    /// The mat of an isolated building.
+    pub mat: Option<FloorSummary>,
+    /// Floors above the ground or the mat.
+    pub above: Vec<FloorSummary>,
+}
+
+impl Deref for Floors {
+    type Target = Vec<FloorSummary>;
+
+    fn deref(&self) -> &Vec<FloorSummary> {
+        &self.above
+    }
+}
+
+impl DerefMut for Floors {
+    fn deref_mut(&mut self) -> &mut Vec<FloorSummary> {
+        &mut self.above
+    }
+}
+
+impl From<Vec<FloorSummary>> for Floors {
+    fn from(above: Vec<FloorSummary>) -> Self {
+        Self { mat: None, above }
+    }
+}
+
+impl FromIterator<FloorSummary> for Floors {
+    fn from_iter<I: IntoIterator<Item = FloorSummary>>(floors: I) -> Self {
+        Self::from(floors.into_iter().collect::<Vec<_>>())
+    }
+}
+
+impl<'a> IntoIterator for &'a mut Floors {
+    type Item = &'a mut FloorSummary;
+    type IntoIter = std::slice::IterMut<'a, FloorSummary>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.above.iter_mut()
+    }
+}
+
+impl<'a> IntoIterator for &'a Floors {
+    type Item = &'a FloorSummary;
+    type IntoIter = std::slice::Iter<'a, FloorSummary>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.above.iter()
+    }
+}
+
+impl Serialize for Floors {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.mat.iter().chain(&self.above))
+    }
+}
+
+/// Bearings of a building, all together.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct IsolationSummary {
+    /// Kind of the bearings, as a model file spells it.
+    pub kind: &'static str,
+    /// Weight on the bearings \[N\].
+    pub weight_n: f64,
+    /// Greatest displacement of the mat to the right \[m\].
+    pub displacement_max_m: f64,
+    /// Greatest displacement of the mat to the left \[m\].
+    pub displacement_min_m: f64,
+    /// Greatest force of bearings and dashpot, without stops, either sign \[N\].
+    pub force_peak_n: f64,
+    /// Displacement of the mat at the end \[m\].
+    pub residual_m: f64,
+    /// Energy dissipated by yielding or friction \[J\].
+    pub hysteretic_j: f64,
+    /// Energy dissipated in the dashpot \[J\].
+    pub damped_j: f64,
+    /// Greatest force of a stop; `None` without stops \[N\].
+    pub stop_force_peak_n: Option<f64>,
+    /// Whether the mat moved beyond the limit of the bearings; false without a limit.
+    pub limit_exceeded: bool,
+}
+
+impl IsolationSummary {
+    /// Greatest displacement of the mat, either sign \[m\].
+    #[must_use]
+    pub fn displacement_peak_m(&self) -> f64 {
+        self.displacement_max_m.max(-self.displacement_min_m)
+    }
+}
+
+#[rustfmt::skip]
+impl IsolationSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("weight_n", Unit::N, "weight on the bearings", |i| i.weight_n),
+        Quantity::<Self>::real("displacement_max_m", Unit::M, "greatest displacement of the mat to the right", |i| i.displacement_max_m),
+        Quantity::<Self>::real("displacement_min_m", Unit::M, "greatest displacement of the mat to the left", |i| i.displacement_min_m),
+        Quantity::<Self>::real("force_peak_n", Unit::N, "greatest force of bearings and dashpot, without stops", |i| i.force_peak_n),
+        Quantity::<Self>::real("residual_m", Unit::M, "displacement of the mat at the end", |i| i.residual_m),
+        Quantity::<Self>::real("hysteretic_j", Unit::J, "energy dissipated by yielding or friction", |i| i.hysteretic_j),
+        Quantity::<Self>::real("damped_j", Unit::J, "energy dissipated in the dashpot", |i| i.damped_j),
+        Quantity::<Self>::optional("stop_force_peak_n", Unit::N, "greatest force of a stop; absent without stops", |i| i.stop_force_peak_n),
+        Quantity::<Self>::real("limit_exceeded", Unit::NONE, "whether the mat moved beyond the limit of the bearings", |i| f64::from(u8::from(i.limit_exceeded))),
+    ];
+}
+
+/// A wall with a name.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct WallSummary {
+    /// Name.
+    pub name: String,
+    /// Greatest displacement, either sign; zero for a rigid wall \[m\].
+    pub displacement_peak_m: f64,
+    /// Greatest total force of the contacts of a gap on it \[N\].
+    pub force_peak_n: f64,
+    /// Energy dissipated in its dashpot \[J\].
+    pub dissipated_j: f64,
+}
+
+#[rustfmt::skip]
+impl WallSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("displacement_peak_m", Unit::M, "greatest displacement, either sign", |w| w.displacement_peak_m),
+        Quantity::<Self>::real("force_peak_n", Unit::N, "greatest total force of the contacts of a gap on it", |w| w.force_peak_n),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in its dashpot", |w| w.dissipated_j),
+    ];
+}
