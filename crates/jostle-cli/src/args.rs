@@ -103,7 +103,7 @@ pub(crate) struct RunArgs {
 /// Equations that advance a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum SolverName {
-    /// Modal for elastic buildings with automatic steps, otherwise Riccati
+    /// With automatic steps modal for elastic buildings and series for shear buildings that yield, otherwise Riccati
     Auto,
     /// Riccati transfer recursion
     Riccati,
@@ -113,6 +113,8 @@ pub(crate) enum SolverName {
     Product,
     /// Mode superposition, for elastic buildings
     Modal,
+    /// Power series in time, for shear buildings that yield
+    Series,
 }
 
 #[derive(Debug, clap::Args)]

@@ -545,14 +545,14 @@ fn describe_work(
     plan: &Plan,
     duration: f64,
 ) -> std::fmt::Result {
-    let modal = plan.solver == Solver::Modal;
-    if modal {
-        writeln!(
-            text,
-            "  modal stepping, exact between the points of the record"
-        )?;
-    } else {
-        writeln!(text, "  {}, {}", plan.solver.name(), plan.integrator)?;
+    let exact = match plan.solver {
+        Solver::Modal => Some("modal stepping, exact between the points of the record"),
+        Solver::Series => Some("power series in time, exact between changes of stiffness"),
+        Solver::Riccati | Solver::Stiffness | Solver::Product => None,
+    };
+    match exact {
+        Some(words) => writeln!(text, "  {words}")?,
+        None => writeln!(text, "  {}, {}", plan.solver.name(), plan.integrator)?,
     }
     let steps = (duration / plan.step).ceil() as u64;
     writeln!(
@@ -560,9 +560,13 @@ fn describe_work(
         "  {} steps of {} ms through {duration:.2} s, more during contact{}",
         grouped(steps),
         decimals(plan.step * 1e3, 4),
-        if modal { " and for history output" } else { "" }
+        if exact.is_some() {
+            " and for history output"
+        } else {
+            ""
+        }
     )?;
-    if modal {
+    if exact.is_some() {
         return writeln!(text);
     }
     let sweeps = system

@@ -33,6 +33,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             SolverName::Stiffness => Some(Solver::Stiffness),
             SolverName::Product => Some(Solver::Product),
             SolverName::Modal => Some(Solver::Modal),
+            SolverName::Series => Some(Solver::Series),
         };
     }
     if args.members || !args.capacity.is_empty() {

@@ -218,6 +218,7 @@ pub(crate) const SOLVERS: &[&str] = &[
     Solver::ALL[1].name(),
     Solver::ALL[2].name(),
     Solver::ALL[3].name(),
+    Solver::ALL[4].name(),
 ];
 pub(crate) const INTEGRATORS: &[&str] = names!(IntegratorMethod);
 pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
@@ -637,7 +638,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),
     default(S::Analysis, "tolerance", Quantity(D::Dimensionless), "1e-3", "Largest error of a reported peak, relative to the greatest of its kind in the building or gap, with automatic steps; 1e-6 to 0.1. `promise` in `summary.json` reports whether it is met; docs/theory.md, section 14, lists the exceptions."),
     default(S::Analysis, "energy_tolerance", Quantity(D::Dimensionless), "1e-6", "Relative energy imbalance above which a run warns."),
-    default(S::Analysis, "solver", Choice(SOLVERS), "\"auto\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, the published product of transfer matrices, or, for elastic buildings, their modes. \"auto\" is modal for elastic buildings with automatic steps, otherwise riccati."),
+    default(S::Analysis, "solver", Choice(SOLVERS), "\"auto\"", "Equations that advance a step: Riccati transfer, direct stiffness as a check, the published product of transfer matrices, for elastic buildings their modes, or for shear buildings that yield power series in time. With automatic steps \"auto\" is modal for elastic buildings and series for shear buildings that yield; otherwise it is riccati."),
     default(S::Analysis, "integrator", ChoiceOrTable(INTEGRATORS, S::Integrator), "\"average-acceleration\"", "Time integration rule."),
     default(S::Analysis, "accept_unusual", FlagOrTexts, "false", "Accepts values outside their usual ranges: true for all, or a list of fields such as [\"building[0].spans\"]; \"analysis.step\" stands for the work of a run."),
 

@@ -379,7 +379,8 @@ fn analysis(page: &Page) -> Facts {
             ),
         ),
     ];
-    if work.solver != Solver::Modal.name() {
+    let exact = [Solver::Modal, Solver::Series].map(Solver::name);
+    if !exact.contains(&work.solver) {
         facts.insert(1, ("integrator", settings.integrator.to_string()));
     }
     if let Some(step) = work.contact_step_s {

@@ -68,10 +68,12 @@ impl Prepared {
     }
 
     /// Settings of a run with contact. Energies are audited where histories are recorded, so these are recorded even if
-    /// nobody reads them. Modal stepping audits in every step, and rows cost it steps: without `histories` it records none.
+    /// nobody reads them. Modal and series stepping audit in every step, and rows cost them time: without
+    /// `histories` they record none.
     #[must_use]
     pub fn settings(&self, histories: bool) -> Settings {
-        let recorded = histories || self.plan.solver != Solver::Modal;
+        let audits_anyway = matches!(self.plan.solver, Solver::Modal | Solver::Series);
+        let recorded = histories || !audits_anyway;
         let usual = Settings::default();
         Settings {
             record_interval: usual.record_interval.filter(|_| recorded),

@@ -202,6 +202,7 @@ fn newmark(
         Solver::Stiffness => "direct stiffness",
         Solver::Product => "product",
         Solver::Modal => "modal",
+        Solver::Series => "series",
     };
     entries(expected, "")
         .map(|(steps, expected)| {

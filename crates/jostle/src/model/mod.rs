@@ -548,11 +548,20 @@ pub enum Solver {
     Product,
     /// Elastic buildings by their modes, exact between the points of a record ([`crate::stepping::modal`]).
     Modal,
+    /// Buildings of masses and springs that yield, by power series in time between changes of the springs
+    /// ([`crate::stepping::series`]).
+    Series,
 }
 
 impl Solver {
     /// Every solver, in the order of the documentation.
-    pub const ALL: [Self; 4] = [Self::Riccati, Self::Stiffness, Self::Product, Self::Modal];
+    pub const ALL: [Self; 5] = [
+        Self::Riccati,
+        Self::Stiffness,
+        Self::Product,
+        Self::Modal,
+        Self::Series,
+    ];
 
     /// The solver of a name.
     #[must_use]
@@ -568,6 +577,7 @@ impl Solver {
             Self::Stiffness => "direct stiffness",
             Self::Product => "product of transfer matrices",
             Self::Modal => "modes, exact between the points of the record",
+            Self::Series => "power series in time, exact between changes of stiffness",
         }
     }
 
@@ -579,6 +589,7 @@ impl Solver {
             Self::Stiffness => "stiffness",
             Self::Product => "product",
             Self::Modal => "modal",
+            Self::Series => "series",
         }
     }
 }

@@ -80,7 +80,7 @@ pub(crate) struct ContactEquations {
     /// Links that are not linear.
     pub(in crate::stepping) links: Vec<StepLink>,
     /// W.
-    pub(super) compliance: Envelope,
+    pub(in crate::stepping) compliance: Envelope,
     /// Multiply-adds spent so far.
     pub(crate) operations: u64,
     responses: Vec<ContactResponse>,
@@ -115,12 +115,12 @@ impl ContactEquations {
     }
 
     /// The same, starting from given indentations.
-    pub(super) fn solve_from_here(&mut self) -> Option<u64> {
+    pub(in crate::stepping) fn solve_from_here(&mut self) -> Option<u64> {
         self.newton().or_else(|| self.settle())
     }
 
     /// Sets the indentations to those under known forces.
-    pub(super) fn press(&mut self, force: impl Fn(usize) -> f64) {
+    pub(in crate::stepping) fn press(&mut self, force: impl Fn(usize) -> f64) {
         for (i, closed) in self.closed.iter_mut().enumerate() {
             closed.indentation = closed.free - self.compliance.times(i, &force);
         }

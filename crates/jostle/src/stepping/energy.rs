@@ -102,6 +102,19 @@ impl EnergyAudit {
         }
     }
 
+    /// Looks at the balance without asking how much of the work on springs and links is recoverable.
+    pub(crate) fn look(&mut self, kinetic: f64, strain: f64) {
+        self.imbalance.watch(Energy {
+            input: self.input + self.initial,
+            kinetic,
+            strain,
+            damped: self.damped + self.links,
+            hysteretic: self.springs + self.yielding_links,
+            contact: self.contact,
+            ..Energy::default()
+        });
+    }
+
     /// The balance now. Energy present at the start counts as input.
     pub(crate) fn balance(&mut self, system: &System, state: &State) -> Energy {
         let stored = stored(system, state);

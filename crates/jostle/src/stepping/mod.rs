@@ -5,6 +5,7 @@
 
 mod acceleration_parts;
 mod clock;
+mod contact_parabola;
 mod control;
 mod coupling;
 mod direct;
@@ -13,16 +14,20 @@ mod episode;
 mod events;
 mod expected_work;
 mod face_forces;
+mod force_equations;
 mod gap_forces;
 mod member_peaks;
 mod member_ratios;
 pub mod modal;
+mod near_contacts;
 mod outcome;
 mod peak_change;
 mod plan;
+mod predicted_force;
 mod recorder;
 mod runner;
 mod sensitivity;
+pub mod series;
 mod settle;
 mod simulate;
 mod step_friction;

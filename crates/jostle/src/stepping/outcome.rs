@@ -4,6 +4,7 @@ use super::acceleration_parts::AccelerationParts;
 use std::ops::ControlFlow;
 
 use super::member_ratios::MemberRatios;
+use super::plan::Plan;
 use crate::history::{
     Energy, Extreme, FaceImpact, FloorPeaks, History, Impact, LinkTotals, MemberHistory,
     SectionRatio, SpringEvent, SpringHistory, SpringTotals, SupportPeaks, Work, WorstInstant,
@@ -36,6 +37,22 @@ impl Default for Settings {
             pounding: Pounding::Included,
             record_interval: Some(0.005),
         }
+    }
+}
+
+/// Most rows of a history in a step of free vibration.
+const MOST_ROWS: f64 = 64.0;
+
+impl Settings {
+    /// Into how many parts free steps are divided for rows of a history.
+    pub(super) fn rows_per_step(&self, plan: &Plan) -> u32 {
+        self.record_interval.map_or(1, |interval| {
+            if interval == 0.0 {
+                return 1;
+            }
+            let rows = (plan.step / interval * (1.0 - 1e-9)).clamp(1.0, MOST_ROWS);
+            (rows.ceil() as u32).next_power_of_two()
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Step sizes: fixed, or chosen from the tolerance (theory, Eqs. G1 and G2).
 
 use super::expected_work::too_long;
-use super::modal;
+use super::{modal, series};
 use crate::interface::Contact;
 use crate::model::Integrator;
 use crate::model::{Analysis, ModelFault, Solver};
@@ -87,6 +87,8 @@ const TYPICAL_SPEED: f64 = 0.5;
 const MODAL_STEPS_PER_FIRST: f64 = 20.0;
 const MODAL_STEPS_PER_THIRD: f64 = 7.5;
 const MODAL_STEPS_PER_MOTION_PERIOD: f64 = 300.0;
+/// Free-vibration steps of series stepping per third lateral period: peaks do not rest on cubics.
+const SERIES_STEPS_PER_THIRD: f64 = 5.0;
 /// Free-vibration step of modal stepping without other limits \[s\].
 const LONGEST_MODAL_STEP: f64 = 0.05;
 /// Steps per elastic impact of modal stepping, at a tolerance of 1e-3.
@@ -125,7 +127,15 @@ impl Plan {
                 check_step(step, system, motion, &mut faults);
                 step
             }
-            None if solver == Solver::Modal => modal_step(system, motion, refinement),
+            None if solver == Solver::Modal => {
+                let per_period = [MODAL_STEPS_PER_FIRST, MODAL_STEPS_PER_THIRD];
+                exact_step(system, motion, refinement, per_period, LONGEST_MODAL_STEP)
+            }
+            None if solver == Solver::Series => {
+                let per_period = [MODAL_STEPS_PER_FIRST, SERIES_STEPS_PER_THIRD];
+                let longest = LONGEST_MODAL_STEP.min(series::longest_step(system));
+                exact_step(system, motion, refinement, per_period, longest)
+            }
             None => automatic_step(system, motion, refinement),
         };
         let contact_steps = match analysis.contact_step {
@@ -138,13 +148,13 @@ impl Plan {
                 )
             }
             None => ContactSteps::PerImpact {
-                steps: if solver == Solver::Modal {
+                steps: if follows_parabolas(solver) {
                     MODAL_STEPS_PER_IMPACT / (analysis.tolerance / 1e-3).powf(0.25)
                 } else {
                     STEPS_PER_IMPACT / refinement
                 },
                 tolerance: analysis.tolerance
-                    * if solver == Solver::Modal {
+                    * if follows_parabolas(solver) {
                         MODAL_CONTACT_SHARE
                     } else {
                         CONTACT_SHARE
@@ -171,7 +181,7 @@ impl Plan {
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         match self.contact_steps {
-            ContactSteps::PerImpact { tolerance, .. } if self.solver == Solver::Modal => {
+            ContactSteps::PerImpact { tolerance, .. } if follows_parabolas(self.solver) => {
                 tolerance / MODAL_CONTACT_SHARE
             }
             ContactSteps::PerImpact { tolerance, .. } => tolerance / CONTACT_SHARE,
@@ -199,13 +209,28 @@ impl Plan {
         self.with_step(Some(step))
     }
 
+    /// The same plan with twice the steps in contact.
+    pub(super) fn with_finer_contacts(&self) -> Self {
+        let contact_steps = match self.contact_steps {
+            ContactSteps::PerImpact { steps, tolerance } => ContactSteps::PerImpact {
+                steps: 2.0 * steps,
+                tolerance,
+            },
+            given @ ContactSteps::Fixed(_) => given,
+        };
+        Self {
+            contact_steps,
+            ..*self
+        }
+    }
+
     /// The same plan with another free-vibration step and matching contact steps, whose error falls with its
     /// square.
     pub(super) fn with_step(&self, step: Option<f64>) -> Self {
         let step = step.unwrap_or(self.step);
         let factor = self.step / step;
         let contact_steps = match self.contact_steps {
-            ContactSteps::PerImpact { steps, tolerance } if self.solver != Solver::Modal => {
+            ContactSteps::PerImpact { steps, tolerance } if !follows_parabolas(self.solver) => {
                 ContactSteps::PerImpact {
                     steps: steps * factor,
                     tolerance: tolerance / (factor * factor),
@@ -214,7 +239,7 @@ impl Plan {
             given => given,
         };
         Self {
-            step: if self.solver == Solver::Modal {
+            step: if follows_parabolas(self.solver) {
                 self.step
             } else {
                 step
@@ -287,7 +312,7 @@ impl Plan {
 
     fn root_of_share(&self, share: f64) -> f64 {
         let root = share.sqrt();
-        if self.solver == Solver::Modal {
+        if follows_parabolas(self.solver) {
             root.sqrt()
         } else {
             root
@@ -296,7 +321,7 @@ impl Plan {
 
     /// Least steps per half cycle of a weak contact.
     fn fewest_in_contact(&self, steps: f64) -> f64 {
-        if self.solver == Solver::Modal {
+        if follows_parabolas(self.solver) {
             MODAL_FEWEST_ADAPTED * steps
         } else {
             (FEWEST_ADAPTED * steps).max(FEWEST_OF_ALL)
@@ -362,6 +387,14 @@ fn more_steps(contact: &Contact) -> f64 {
     }
 }
 
+/// Whether contact forces are parabolas over a step, whose error is of fourth order.
+fn follows_parabolas(solver: Solver) -> bool {
+    match solver {
+        Solver::Modal | Solver::Series => true,
+        Solver::Riccati | Solver::Stiffness | Solver::Product => false,
+    }
+}
+
 /// The named solver, or the fastest one that meets the tolerance. Fixed steps imply the Riccati solver; damping in
 /// all modes requires modal stepping.
 fn solver_for(system: &System, analysis: &Analysis) -> Solver {
@@ -375,6 +408,8 @@ fn solver_for(system: &System, analysis: &Analysis) -> Solver {
                 && resolves_links(system, analysis.tolerance)
         {
             Solver::Modal
+        } else if automatic && series::refusals(system, analysis.integrator).is_empty() {
+            Solver::Series
         } else {
             Solver::Riccati
         }
@@ -423,6 +458,15 @@ fn check_solver(
             path: format!("building[{index}].damping.modes"),
             problem: "\"all\" needs solver = \"modal\" under [analysis], or none named there; other solvers know Rayleigh damping of one or two modes".into(),
         }));
+        if solver == Solver::Series && damped.is_none() && !system.is_in_space() {
+            let reasons = series::refusals(system, analysis.integrator);
+            faults.extend(reasons.into_iter().map(|reason| ModelFault {
+                path: "analysis.solver".into(),
+                problem: format!(
+                    "series cannot be used: {reason}; leave it out, or take solver = \"riccati\""
+                ),
+            }));
+        }
         return;
     }
     for reason in modal::refusals(system, analysis.integrator) {
@@ -439,14 +483,20 @@ fn check_solver(
     }
 }
 
-/// The free-vibration step of modal stepping. Only the search for contacts and peaks needs it: cubics must follow
-/// the third mode.
-fn modal_step(system: &System, motion: &GroundMotion, refinement: f64) -> f64 {
+/// The free-vibration step where motion is exact over a step. Only the search for contacts and peaks needs it: cubics must
+/// follow the third mode.
+fn exact_step(
+    system: &System,
+    motion: &GroundMotion,
+    refinement: f64,
+    [per_first, per_third]: [f64; 2],
+    longest: f64,
+) -> f64 {
     // Cubics are of fourth order.
     let refinement = refinement.sqrt().min(2.0);
-    let mut step = LONGEST_MODAL_STEP;
+    let mut step = longest;
     for building in &system.buildings {
-        for (number, steps) in [(1, MODAL_STEPS_PER_FIRST), (3, MODAL_STEPS_PER_THIRD)] {
+        for (number, steps) in [(1, per_first), (3, per_third)] {
             step = lateral_period(building, number)
                 .map_or(step, |period| step.min(refinement * period / steps));
         }

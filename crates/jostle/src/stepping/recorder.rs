@@ -240,6 +240,11 @@ impl Recorder {
         }
     }
 
+    /// Whether a row of the history is due at a time, or `wanted` and there is a history.
+    pub(crate) fn is_due(&self, time: f64, wanted: bool) -> bool {
+        self.history.is_some() && (wanted || time >= self.due)
+    }
+
     /// Adds a row to the history when one is due, or at once when it is `wanted`.
     pub(crate) fn record(
         &mut self,
@@ -254,12 +259,12 @@ impl Recorder {
             links,
             ground,
         } = *instant;
+        if !self.is_due(state.time, wanted) {
+            return;
+        }
         let Some(history) = &mut self.history else {
             return;
         };
-        if !wanted && state.time < self.due {
-            return;
-        }
         self.due = state.time + self.interval * (1.0 - 1e-9);
         let energy = audit.balance(system, state);
         if let Some(springs) = &mut self.springs {

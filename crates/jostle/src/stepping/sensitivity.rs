@@ -8,6 +8,7 @@ use super::peak_change::{change_of_peaks, impacts};
 use super::plan::Plan;
 use super::simulate::simulate_once;
 use crate::interface::Contact;
+use crate::model::Solver;
 use crate::motion::GroundMotion;
 use crate::system::{BuildingSystem, System};
 
@@ -33,7 +34,7 @@ const FEW_IMPACTS: usize = 12;
 /// much gives the instant. If a contact stays open and its closing is within the tolerance of the gap, the gap is
 /// made narrower instead, so that the contact is made. Where the tolerance is not met and impacts differ between two step
 /// sizes, the instant is not later than the first of these. Other runs with at most twelve impacts, none of them
-/// doubtful, are not repeated; nor are those of buildings that yield.
+/// doubtful, are not repeated; nor are those of buildings that yield, unless they are stepped by power series.
 pub fn find_sensitivity(
     system: &System,
     motion: &GroundMotion,
@@ -60,7 +61,9 @@ fn sensitive_from(
         .accuracy
         .is_some_and(|accuracy| accuracy.residual > tolerance);
     let unresolved = doubtful.filter(|_| unmet);
-    let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
+    let yields = |building: &BuildingSystem| {
+        !building.equations.springs.is_empty() && plan.solver != Solver::Series
+    };
     let near_misses: Vec<bool> = (0..system.contacts.len())
         .map(|contact| nearly_touches(system, outcome, contact, tolerance))
         .collect();

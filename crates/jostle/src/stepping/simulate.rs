@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::direct::{run_directly, within_tolerance};
-use super::modal;
 use super::outcome::{Observer, Outcome, Progress, Settings, StepError};
 use super::plan::Plan;
+use super::{modal, series};
 use crate::model::Solver;
 use crate::motion::GroundMotion;
 use crate::state::State;
@@ -91,6 +91,7 @@ fn step_through(
             Ok(shapes) => modal::simulate_with(system, motion, plan, settings, &shapes, observer),
             Err(error) => Outcome::not_begun(system, error),
         },
+        Solver::Series => series::simulate(system, motion, plan, settings, state, observer),
         Solver::Riccati => {
             within_tolerance::<RiccatiSweep>(system, motion, plan, settings, state, observer)
         }
@@ -114,6 +115,7 @@ pub(super) fn simulate_once(
     let rest = || State::at_rest(system, motion.acceleration(0.0));
     match plan.solver {
         Solver::Modal => simulate(system, motion, plan, settings, observer),
+        Solver::Series => series::run(system, motion, plan, settings, rest(), observer),
         Solver::Riccati => {
             run_directly::<RiccatiSweep>(system, motion, plan, settings, rest(), observer)
         }

@@ -21,6 +21,7 @@ mod no_impact_is_lost_or_counted_twice;
 mod riccati_equals_direct_stiffness;
 mod rows_of_buildings;
 mod same_input_same_bits;
+mod series_stepping;
 mod space;
 mod storey_forces;
 mod support;

@@ -44,7 +44,8 @@ impl PromiseSummary {
                 "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, beyond the tolerance {tolerance:e}"
             ),
             (None, _) => {
-                "not estimated: buildings yield, or the integrator is not the usual one".to_owned()
+                "not estimated: direct steps of buildings that yield, or another integrator"
+                    .to_owned()
             }
         };
         match self.sensitive_from_s {

@@ -87,7 +87,7 @@ pub(super) struct Direct<E: StepEquations> {
 const AFTER_JUMP: u32 = 64;
 
 /// Storey drift from which a building that yields or leans has collapsed \[–\].
-const COLLAPSE_DRIFT: f64 = 0.25;
+pub(super) const COLLAPSE_DRIFT: f64 = 0.25;
 
 impl<E: StepEquations> Direct<E> {
     fn new(run: &RunState<'_>, settings: Settings, state: State) -> Self {

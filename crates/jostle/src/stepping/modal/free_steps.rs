@@ -12,6 +12,7 @@ use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::clock::Clock;
 use crate::stepping::events::Cubic;
+use crate::stepping::near_contacts;
 use crate::stepping::runner::RunState;
 
 /// Largest and smallest number of steps at once.
@@ -276,7 +277,8 @@ impl ModalStepper<'_> {
                 || (0..run.phases.len()).all(|index| {
                     let closing = |list: &[f64]| self.reduced.closing(index, list);
                     // Near misses are for single steps, which look at them.
-                    let width = run.system.contacts[index].width - self.doubt(run, index);
+                    let width = run.system.contacts[index].width
+                        - near_contacts::doubt(run, index, self.peaks.closing[index].value);
                     Cubic::new(
                         closing(then.u) - width,
                         closing(then.rate),

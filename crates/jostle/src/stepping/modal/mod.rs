@@ -6,6 +6,7 @@
 //! parabolas. [`refusals`] rejects unsupported features.
 
 mod basis;
+mod closed_contacts;
 mod corners;
 mod damped;
 mod defects;
@@ -21,7 +22,6 @@ mod member_reach;
 mod members;
 mod mode_kernels;
 mod peaks;
-mod predicted_force;
 mod reduced;
 mod response;
 mod series;

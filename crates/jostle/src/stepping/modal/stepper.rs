@@ -1,16 +1,13 @@
 //! Stepping in modal coordinates.
 
-use std::f64::consts::PI;
-
+use super::closed_contacts::{AHEAD, STRUCK_STEPS};
 use super::damped::Rules;
 use super::energy::Audit;
 use super::estimate::{Estimate, Reached};
-use super::forces::ForceEquations;
 use super::free_steps::FreeSteps;
 use super::links::{LinkMotion, longest_step};
 use super::members::Instant;
 use super::peaks::{Peaks, Taken, Watched};
-use super::predicted_force::{AHEAD, PredictedForce, STRUCK_STEPS};
 use super::reduced::{Reduced, Table};
 use super::struck::{StruckStep, WithinStep};
 use super::turning::{Loads, StepMotion};
@@ -19,18 +16,18 @@ use crate::motion::{Ground, GroundMotion};
 use crate::state::{ContactPhase, Episode, State};
 use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::clock::{Clock, NextStep};
-use crate::stepping::control::{Observed, next_division};
+use crate::stepping::contact_parabola;
 use crate::stepping::events::Cubic;
+use crate::stepping::force_equations::ForceEquations;
 use crate::stepping::gap_forces::StepForce;
 use crate::stepping::member_ratios::MemberRatios;
+use crate::stepping::near_contacts::{self, NearContacts, Touch};
 use crate::stepping::outcome::{Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
+use crate::stepping::predicted_force::PredictedForce;
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::stepping::step_friction::FrictionPath;
 use crate::system::System;
-
-/// Most rows of a history in a step of free vibration.
-const MOST_ROWS: f64 = 64.0;
 
 /// Modal coordinates of all buildings, and how their steps are taken.
 pub(super) struct ModalStepper<'a> {
@@ -79,10 +76,7 @@ pub(super) struct ModalStepper<'a> {
     /// Steps left in which accelerations may still follow a jump of velocities, unlike a cubic.
     pub(super) struck: u32,
     within: WithinStep,
-    /// How far every open contact has opened since it was closed; infinite before it ever was \[m\].
-    pub(super) clearance: Vec<f64>,
-    /// First instant at which a contact was made or missed by less than the tolerance \[s\].
-    pub(super) doubtful_from: Option<f64>,
+    near: NearContacts,
 }
 
 /// Share of the tolerance below which an error of shapes needs no further shapes.
@@ -103,17 +97,6 @@ pub(super) struct Verdict {
     pub(super) lacking: Vec<Vec<usize>>,
     /// First instant at which a contact was made or missed by less than the tolerance \[s\].
     pub(super) doubtful_from: Option<f64>,
-}
-
-/// Into how many parts free steps are divided for rows of a history.
-fn rows_per_step(plan: &Plan, settings: Settings) -> u32 {
-    settings.record_interval.map_or(1, |interval| {
-        if interval == 0.0 {
-            return 1;
-        }
-        let rows = (plan.step / interval * (1.0 - 1e-9)).clamp(1.0, MOST_ROWS);
-        (rows.ceil() as u32).next_power_of_two()
-    })
 }
 
 /// Into how many parts free steps are divided so that the forces of links follow a cubic over each.
@@ -177,8 +160,8 @@ impl<'a> ModalStepper<'a> {
             free_steps: FreeSteps::new(reduced),
             tables: vec![Table::default()],
             divisions: vec![0],
-            least_division: division.max(rows_per_step(plan, settings)),
-            rows_per_step: (rows_per_step(plan, settings) / division).max(1) as usize,
+            least_division: division.max(settings.rows_per_step(plan)),
+            rows_per_step: (settings.rows_per_step(plan) / division).max(1) as usize,
             rules: Rules::new(),
             q: pair(modes),
             v: pair(modes),
@@ -201,8 +184,7 @@ impl<'a> ModalStepper<'a> {
             reached: Reached::new(reduced),
             checks_errors: false,
             checked_forces: vec![0.0; reduced.forces()],
-            clearance: vec![f64::INFINITY; contacts],
-            doubtful_from: None,
+            near: NearContacts::new(contacts),
             struck: 0,
             within: WithinStep::default(),
             reduced,
@@ -224,7 +206,7 @@ impl<'a> ModalStepper<'a> {
         Verdict {
             estimate,
             lacking,
-            doubtful_from: self.doubtful_from,
+            doubtful_from: self.near.doubtful_from,
         }
     }
 
@@ -486,9 +468,6 @@ impl<'a> ModalStepper<'a> {
     }
 }
 
-/// Steps of a size after an impact.
-const STEPS_AFTERWARDS: u32 = 4;
-
 impl Stepper for ModalStepper<'_> {
     fn ends_steps_at_corners(&self, _: &RunState<'_>) -> bool {
         true
@@ -593,16 +572,18 @@ impl Stepper for ModalStepper<'_> {
     }
 
     fn unresolved_contact(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
-        let unseen = self.opens_unseen(run, step);
-        unseen.or_else(|| self.misses_prediction(run))
+        let unseen = contact_parabola::opens_unseen(run, self, step);
+        unseen.or_else(|| contact_parabola::misses_prediction(run, &self.predicted))
     }
 
     fn contact_that_opens_unseen(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
-        self.opens_unseen(run, step)
+        contact_parabola::opens_unseen(run, self, step)
     }
 
     fn before_step(&mut self, run: &mut RunState<'_>, step: f64) {
-        self.doubt_turns(run, step);
+        let mut near = std::mem::replace(&mut self.near, NearContacts::new(0));
+        near.at_turns(run, self, step, |contact| self.peaks.closing[contact].value);
+        self.near = near;
     }
 
     fn gather(
@@ -677,12 +658,6 @@ impl Stepper for ModalStepper<'_> {
         slope
     }
 
-    /// Finer steps where the error of this one endangers the tolerance, coarser ones where the grid allows and the error is
-    /// far below (theory, Eq. Q6).
-    ///
-    /// Predicted motion leaves out what is of fourth order in h, and so its force at the end, by e; then the step misses
-    /// h e/24 of the impulse. Over the π/(ωh) steps of half a cycle at the present contact stiffness, that is an error of
-    /// the force of π e/24; four times as much is allowed for, since forces that set in as t^1.5 are off by more.
     fn next_division(
         &self,
         run: &RunState<'_>,
@@ -692,48 +667,16 @@ impl Stepper for ModalStepper<'_> {
         step: f64,
     ) -> u32 {
         let index = run.coupling.closed[closed].contact;
-        let division = run.contact_division[index];
-        if episode.since >= start {
-            return division;
-        }
-        let (contact, trial) = (&run.system.contacts[index], &run.trials[index]);
-        let law = &contact.law;
-        let response = law.follow(trial.indentation, trial.rate, &episode.memory);
-        let mut missed = (trial.force - self.predicted[index].end).abs();
+        let mut missed = (run.trials[index].force - self.predicted[index].end).abs();
         if let Some(place) = self.reduced.friction[index] {
             let friction = run.trials[place].force - self.predicted[place].end;
             missed = missed.max(friction.abs());
         }
-        let observed = Observed {
-            step,
-            stiffness: response.by_indentation,
-            damping: response.by_rate,
-            error: PI / 6.0 * missed / run.strongest[contact.gap],
-            order: 4,
-        };
-        if run
-            .plan
-            .is_too_coarse(division, contact, observed.stiffness)
-        {
-            run.plan.finer(division)
-        } else {
-            next_division(run.plan, contact, &observed, division, &run.clock)
-        }
+        contact_parabola::division_after_step(run, index, episode, [start, step], missed)
     }
 
-    /// After an impact steps grow back to those of free vibration, doubled every few.
     fn relax_divisions(&mut self, run: &mut RunState<'_>) {
-        for index in 0..run.phases.len() {
-            let division = run.contact_division[index];
-            if division == 1 || !run.is_open(index) {
-                continue;
-            }
-            self.open_steps[index] += 1;
-            if self.open_steps[index] >= STEPS_AFTERWARDS && run.clock.is_on_grid(division / 2) {
-                self.open_steps[index] = 0;
-                run.contact_division[index] /= 2;
-            }
-        }
+        contact_parabola::relax_divisions(run, &mut self.open_steps);
     }
 
     fn after_step(
@@ -770,7 +713,13 @@ impl Stepper for ModalStepper<'_> {
     }
 
     fn before_touch(&mut self, run: &RunState<'_>, contact: usize, rate: f64) {
-        self.doubt_touch(run, contact, rate);
+        let closing = self.peaks.closing[contact].value;
+        let touch = Touch {
+            rate,
+            acceleration: self.reduced.closing(contact, &self.acceleration[0]),
+            doubt: near_contacts::doubt(run, contact, closing),
+        };
+        self.near.at_touch(run, contact, touch);
     }
 
     fn division_at_touch(
@@ -781,27 +730,13 @@ impl Stepper for ModalStepper<'_> {
         episode: &Episode,
         planned: u32,
     ) -> u32 {
-        // A slow touch may be followed by a strong push.
         let acceleration = self.reduced.closing(contact, &self.acceleration[0]);
         let contact = &run.system.contacts[contact];
-        let mut division = planned;
-        loop {
-            let step = run.plan.step / f64::from(division);
-            let end = rate + acceleration * step;
-            let reached = 0.5 * step * (rate + end);
-            let response = contact.law.follow(reached, end, &episode.memory);
-            if !run
-                .plan
-                .is_too_coarse(division, contact, response.by_indentation)
-            {
-                return division;
-            }
-            division = run.plan.finer(division);
-        }
+        contact_parabola::division_at_touch(run, contact, [rate, acceleration], episode, planned)
     }
 
     fn after_release(&mut self, contact: usize) {
-        self.clearance[contact] = 0.0;
+        self.near.after_release(contact);
         self.open_steps[contact] = 0;
     }
 

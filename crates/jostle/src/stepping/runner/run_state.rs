@@ -57,7 +57,7 @@ impl<'a> RunState<'a> {
             motion,
             plan,
             pounding: settings.pounding == Pounding::Included,
-            clock: if plan.solver == Solver::Modal {
+            clock: if matches!(plan.solver, Solver::Modal | Solver::Series) {
                 Clock::ending_at_record_points(plan.step)
             } else {
                 Clock::new(plan.step)

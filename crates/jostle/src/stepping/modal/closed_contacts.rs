@@ -1,9 +1,10 @@
 //! Contacts that close, push and open, in modal coordinates.
 
 use super::stepper::ModalStepper;
-use crate::contact::{ForceLaw, momentum};
+use crate::contact::momentum;
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::coupling::Closed;
+use crate::stepping::predicted_force::{Drift, PredictedForce};
 use crate::stepping::runner::{Jump, RunState};
 use crate::stepping::step_friction::{FRICTION_PARTS, StepFriction};
 
@@ -16,45 +17,6 @@ pub(super) const STRUCK_STEPS: u32 = 2;
 const STEPS_PER_RADIAN: f64 = 2.0;
 /// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
 pub(super) const AHEAD: f64 = 1e-3;
-/// Parts of a step in which a force sets in or ends.
-const CORNER_PARTS: u32 = 16;
-
-/// A contact force as it can be predicted at the start of a step.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct PredictedForce {
-    /// At the end of the step \[N\].
-    pub(super) end: f64,
-    /// Its slope at the start \[N/s\].
-    slope: f64,
-    /// What the parabola of the same mean and end would rise over the step if it went on as it starts \[N\].
-    rise: f64,
-}
-
-/// Relative motion of two faces that accelerate evenly.
-#[derive(Clone, Copy, Debug)]
-struct Drift {
-    start: f64,
-    rate: f64,
-    acceleration: f64,
-    jerk: f64,
-}
-
-impl Drift {
-    /// Displacement and rate after a time \[s\].
-    fn after(&self, t: f64) -> [f64; 2] {
-        let Self {
-            start,
-            rate,
-            acceleration,
-            jerk,
-        } = self;
-        [
-            start + t * (rate + t / 2.0 * (acceleration + t / 3.0 * jerk)),
-            rate + t * (acceleration + t / 2.0 * jerk),
-        ]
-    }
-}
-
 /// Friction of a closed contact, if it has any.
 fn friction_of(run: &RunState<'_>, contact: usize, episode: &Episode) -> Option<StepFriction> {
     let law = run.system.contacts[contact].friction?.law;
@@ -68,50 +30,7 @@ fn friction_of(run: &RunState<'_>, contact: usize, episode: &Episode) -> Option<
     })
 }
 
-impl PredictedForce {
-    /// b in F₀ + (F₁ − F₀)τ + b(τ² − τ), a parabola that starts as predicted \[N\].
-    pub(super) fn bend(&self, start: f64, end: f64) -> f64 {
-        end - start - self.rise
-    }
-}
-
 impl ModalStepper<'_> {
-    /// A closed contact that would open and close again within the tried step.
-    pub(super) fn opens_unseen(&self, run: &RunState<'_>, step: f64) -> Option<usize> {
-        let closed = run.coupling.closed.iter();
-        let closed = closed.filter(|closed| closed.friction.is_none());
-        let mut unseen = closed.filter(|closed| {
-            let trial = &run.trials[closed.contact];
-            let parting = self.reduced.closing(closed.contact, &self.rate[0]) < 0.0;
-            if !parting || trial.rate <= 0.0 || closed.law.jumps_at_release() {
-                return false;
-            }
-            let curve = run.indentation_curve(self, closed.contact, step);
-            curve.turning_points().any(|at| curve.value(at) < 0.0)
-        });
-        unseen.next().map(|closed| closed.contact)
-    }
-
-    /// A closed contact whose force differs from the prediction by more than the greatest force so far: the
-    /// predicted mean then says nothing.
-    pub(super) fn misses_prediction(&self, run: &RunState<'_>) -> Option<usize> {
-        if !run.plan.chooses_contact_steps() {
-            return None;
-        }
-        let closed = run.coupling.closed.iter();
-        let closed = closed.filter(|closed| closed.friction.is_none());
-        let mut closed = closed.map(|closed| closed.contact);
-        closed.find(|&index| {
-            let known = match run.phases[index] {
-                ContactPhase::Closed(episode) => episode.force.abs(),
-                ContactPhase::Open => 0.0,
-            };
-            let strongest = run.strongest[run.system.contacts[index].gap];
-            let missed = (run.trials[index].force - self.predicted[index].end).abs();
-            missed > known.max(strongest)
-        })
-    }
-
     /// A contact closing at `rate` opens at once with `restitution` times that.
     pub(super) fn strike(
         &mut self,
@@ -165,7 +84,10 @@ impl ModalStepper<'_> {
                 continue;
             };
             let (friction, predicted, start) = if contact == index {
-                let predicted = self.predict(run, index, episode, step);
+                let drift = self.drift(run, index, step);
+                let pressed = &run.system.contacts[index];
+                let predicted =
+                    PredictedForce::of_contact(pressed, episode, drift, [run.time, step]);
                 (None, predicted, episode.force)
             } else {
                 let Some(mut own) = friction_of(run, contact, episode) else {
@@ -246,48 +168,6 @@ impl ModalStepper<'_> {
         }
     }
 
-    /// A contact force over a step if the faces go on as they accelerate now.
-    fn predict(
-        &self,
-        run: &RunState<'_>,
-        index: usize,
-        episode: &Episode,
-        step: f64,
-    ) -> PredictedForce {
-        let contact = &run.system.contacts[index];
-        let drift = self.drift(run, index, step);
-        let (start, rate, acceleration) =
-            (drift.start - contact.width, drift.rate, drift.acceleration);
-        let respond =
-            |indentation: f64, rate: f64| contact.law.follow(indentation, rate, &episode.memory);
-        let force = |share: f64| {
-            let t = share * step;
-            let indentation = start + t * (rate + t / 2.0 * (acceleration + t / 3.0 * drift.jerk));
-            let rate = rate + t * (acceleration + t / 2.0 * drift.jerk);
-            respond(indentation, rate).force
-        };
-        let (before, half, end) = (episode.force, force(0.5), force(1.0));
-        let smooth = before != 0.0 && end != 0.0;
-        let mean = if smooth {
-            (before + 4.0 * half + end) / 6.0
-        } else {
-            // Forces set in with all kinds of powers of time, and end within a step.
-            let parts = f64::from(CORNER_PARTS);
-            let at = |part: u32| force(f64::from(part) / parts);
-            let inside = |first: u32| (first..CORNER_PARTS).step_by(2).map(at).sum::<f64>();
-            (before + 4.0 * inside(1) + 2.0 * inside(2) + end) / (3.0 * parts)
-        };
-        let rise = 6.0 * mean - 4.0 * before - 2.0 * end;
-        let slope = if episode.since == run.time {
-            // Laws do not know it yet.
-            rise / step
-        } else {
-            let response = respond(start, rate);
-            response.by_indentation * rate + response.by_rate * acceleration
-        };
-        PredictedForce { end, slope, rise }
-    }
-
     /// Rate of a contact force just after the present; modal accelerations stand in `scratch` \[N/s\].
     pub(super) fn slope_from_here(&self, run: &RunState<'_>, index: usize) -> f64 {
         let ContactPhase::Closed(episode) = run.phases[index] else {
@@ -310,51 +190,5 @@ impl ModalStepper<'_> {
     /// Relative acceleration of the faces of a contact; modal ones stand in `scratch` \[m/s²\].
     pub(super) fn relative_acceleration(&self, index: usize) -> f64 {
         self.reduced.closing_of_modes(index, &self.scratch)
-    }
-
-    /// How far from touching an event of a contact may be made or missed within the tolerance \[m\].
-    pub(super) fn doubt(&self, run: &RunState<'_>, index: usize) -> f64 {
-        run.plan.tolerance()
-            * run.system.contacts[index]
-                .width
-                .max(self.peaks.closing[index].value)
-    }
-
-    /// Notes a touch that is hardly one: faces that turn back before they are far in, that were hardly apart before, or
-    /// that stay together because they are too slow to bounce.
-    pub(super) fn doubt_touch(&mut self, run: &RunState<'_>, index: usize, rate: f64) {
-        let doubt = self.doubt(run, index);
-        let acceleration = self.reduced.closing(index, &self.acceleration[0]);
-        let turns = acceleration < 0.0 && rate * rate < -2.0 * acceleration * doubt;
-        let law = &run.system.contacts[index].law;
-        let rests = matches!(law, ForceLaw::Restitution { .. });
-        if turns || rests || self.clearance[index] < doubt {
-            self.doubtful_from.get_or_insert(run.time);
-        }
-    }
-
-    /// Notes faces that nearly touched, or nearly parted, in the tried step.
-    pub(super) fn doubt_turns(&mut self, run: &RunState<'_>, step: f64) {
-        for index in 0..run.phases.len() {
-            let (then, now) = (
-                self.reduced.closing(index, &self.rate[0]),
-                run.trials[index].rate,
-            );
-            if run.is_open(index) {
-                let clear = -run.trials[index].indentation;
-                self.clearance[index] = self.clearance[index].max(clear);
-            }
-            if then * now >= 0.0 {
-                continue;
-            }
-            let curve = run.indentation_curve(self, index, step);
-            let nearest = curve
-                .turning_points()
-                .map(|at| curve.value(at).abs())
-                .fold(f64::INFINITY, f64::min);
-            if nearest < self.doubt(run, index) {
-                self.doubtful_from.get_or_insert(run.time);
-            }
-        }
     }
 }
