@@ -106,6 +106,8 @@ class Frame(Part):
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
+        damper: dampers and other links between two floors of this building, such as
+            ``[{"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}]``.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         shear: ``"rigid"`` (default), or ``"flexible"`` for members with shear deformation (Timoshenko), or
             ``{"columns": …, "beams": …}``.
@@ -144,6 +146,7 @@ class Frame(Part):
         hinges: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
+        damper: Sequence[Table] | None = None,
         codes: Table | None = None,
         shear: _Flexibility | Table | None = None,
         poisson_ratio: float | None = None,
@@ -175,6 +178,7 @@ class Frame(Part):
                 "hinges": hinges,
                 "gravity": gravity,
                 "p_delta": p_delta,
+                "damper": damper,
                 "codes": codes,
                 "shear": shear,
                 "poisson_ratio": poisson_ratio,
@@ -200,6 +204,8 @@ class Shear(Part):
             "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
+        damper: dampers and other links between two floors of this building, such as
+            ``[{"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}]``.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         floors: the same as ``storeys``.
         plan: width along x and depth across, ``["20 m", "12 m"]``, corners counter-clockwise, or a list of ``{"size": …}`` or
@@ -232,6 +238,7 @@ class Shear(Part):
         hinges: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
+        damper: Sequence[Table] | None = None,
         codes: Table | None = None,
         floors: int | None = None,
         plan: Sequence[Any] | None = None,
@@ -256,6 +263,7 @@ class Shear(Part):
                 "hinges": hinges,
                 "gravity": gravity,
                 "p_delta": p_delta,
+                "damper": damper,
                 "codes": codes,
                 "floors": floors,
                 "plan": plan,
@@ -291,6 +299,8 @@ class Given(Part):
         storey_height: one length, or a list from the ground up, of a building given by modes; 3 m by default.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default; not beside a damping
             matrix.
+        damper: dampers and other links between two floors of this building, such as
+            ``[{"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}]``.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         **units_in_names: the same with units in names, as in ``storey_height_m=3.2``.
 
@@ -314,6 +324,7 @@ class Given(Part):
         storeys: int | None = None,
         storey_height: Quantities | None = None,
         damping: Table | None = None,
+        damper: Sequence[Table] | None = None,
         codes: Table | None = None,
         **units_in_names: Unpack[GivenUnits],
     ) -> None:
@@ -331,6 +342,7 @@ class Given(Part):
                 "storeys": storeys,
                 "storey_height": storey_height,
                 "damping": damping,
+                "damper": damper,
                 "codes": codes,
             },
             units_in_names,

@@ -7,7 +7,7 @@ use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{Damping, Hinges, Structure, usual_damping_modes};
 use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
-use jostle::{Building, Model, Plan, RiccatiSweep, Solver, System};
+use jostle::{Building, LinkLaw, Model, Plan, RiccatiSweep, Solver, System};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
@@ -222,21 +222,70 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             })
             .collect();
         let [left, right] = names(system, link.between);
-        writeln!(text, "{}", styled(BOLD, &format!("{left} — {right}")))?;
+        let pair = if link.is_inside() {
+            left.to_owned()
+        } else {
+            format!("{left} — {right}")
+        };
+        let law = match link.law {
+            LinkLaw::Linear => String::new(),
+            law => format!("{} ", law.name()),
+        };
+        writeln!(text, "{}", styled(BOLD, &pair))?;
         writeln!(
             text,
             "  {} at {} m, each with {}\n",
-            counted(heights.len(), "link"),
+            counted(heights.len(), &format!("{law}link")),
             heights.join(", "),
-            [(link.stiffness, "N/m"), (link.damping, "N.s/m")]
-                .iter()
-                .filter(|(value, _)| *value > 0.0)
-                .map(|(value, unit)| format!("{value:.3e} {unit}"))
-                .collect::<Vec<_>>()
-                .join(" and ")
+            parameters(link)
         )?;
     }
     Ok(())
+}
+
+/// Numbers of a link, with units.
+fn parameters(link: &jostle::Link) -> String {
+    let exponent = match link.law {
+        LinkLaw::Viscous { exponent } => exponent,
+        LinkLaw::Linear
+        | LinkLaw::Maxwell
+        | LinkLaw::Friction { .. }
+        | LinkLaw::Yielding(_)
+        | LinkLaw::Cable { .. }
+        | LinkLaw::Stopper { .. } => 1.0,
+    };
+    let per_speed = if exponent == 1.0 {
+        "N.s/m".to_owned()
+    } else {
+        format!("N.(s/m)^{exponent}")
+    };
+    let (mut stiffness, mut own) = (link.stiffness, Vec::new());
+    match link.law {
+        LinkLaw::Linear | LinkLaw::Viscous { .. } | LinkLaw::Maxwell => {}
+        LinkLaw::Friction {
+            slip_force,
+            stick_stiffness,
+        } => {
+            stiffness = stick_stiffness;
+            own.push(format!("slip at {:.1} kN", slip_force * 1e-3));
+        }
+        LinkLaw::Yielding(hysteresis) => {
+            let backbone = hysteresis.backbone();
+            let yielding = backbone.side(Side::Positive).yielding;
+            stiffness = backbone.initial();
+            own.push(format!(
+                "yield at {:.1} kN, {}",
+                yielding.force * 1e-3,
+                hysteresis.rule().name()
+            ));
+        }
+        LinkLaw::Cable { slack } => own.push(format!("a slack of {:.1} mm", slack * 1e3)),
+        LinkLaw::Stopper { gap } => own.push(format!("a gap of {:.1} mm", gap * 1e3)),
+    }
+    let springs = [(stiffness, "N/m"), (link.damping, per_speed.as_str())];
+    let springs = springs.iter().filter(|(value, _)| *value > 0.0);
+    let springs = springs.map(|(value, unit)| format!("{value:.3e} {unit}"));
+    springs.chain(own).collect::<Vec<_>>().join(" and ")
 }
 
 /// Number of faces and corners.

@@ -77,6 +77,10 @@ pub(crate) enum Section {
     Bars,
     Gap,
     Link,
+    /// A link inside one building.
+    Damper,
+    /// What links and dampers share.
+    LinkLaw,
     /// A wall that gaps and links can name.
     Wall,
     /// Yielding of a link.
@@ -333,7 +337,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "motion", Kind::Table(S::Motion), "The ground motion."),
     required(S::Root, "building", Tables(&[S::Building, S::Frame, S::Shear, S::Given]), "The buildings, from left to right."),
     optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps between neighbours, and between the ends of the row and walls there."),
-    optional(S::Root, "link", Tables(&[S::Link]), "Springs, dampers and sliders that join neighbours, or floors of one building."),
+    optional(S::Root, "link", Tables(&[S::Link, S::LinkLaw]), "Springs, dampers and sliders that join neighbours, or floors of one building."),
     optional(S::Root, "wall", Tables(&[S::Wall]), "Walls that gaps and links can name, anywhere beside a building."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
@@ -384,6 +388,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "floors", Count, "The same as storeys."),
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings."),
     default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`."),
+    optional(S::Building, "damper", Tables(&[S::Damper, S::LinkLaw]), "Dampers and other links between two of its floors; a short form of link. They follow the links in results."),
     default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight."),
     optional(S::Building, "codes", Kind::Table(S::BuildingCodes), "Factors of this building in the separation rules of codes, such as `{ behaviour_factor = 3.9 }`."),
     default(S::Building, "p_delta", Flag, "false", "Include P-Delta from the weight above."),
@@ -609,15 +614,17 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row. One building twice: links between its own floors."),
     default(S::Link, "floors", FloorPairs, "\"common\"", "Points that are joined, as for gaps. Inside one building: pairs of its floors, such as [[0, 1], [1, 2]]; 0 is its base."),
     default(S::Link, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can be joined."),
-    default(S::Link, "law", Choice(LINK_LAWS), "\"linear\"", "linear, spring and dashpot side by side; viscous, F = c v^α against the motion, with a spring in series if stiffness is given; maxwell, spring and dashpot in series; friction, a slider; yielding, a hysteresis rule; cable, tension only; stopper, compression only. All but linear need solver = \"riccati\"."),
-    optional(S::Link, "stiffness", Quantity(D::Stiffness), "Force per change of length, of each link; of the spring in series for viscous and maxwell; before the first corner for yielding. Not for friction."),
-    optional(S::Link, "damping", LinkDamping, "Force per rate of change of length, of each link; for viscous per its power, in N.(s/m)^exponent. Not for friction, yielding and cable."),
-    default(S::Link, "exponent", Quantity(D::Dimensionless), "1", "viscous: exponent α of the rate, 0.1 to 2."),
-    optional(S::Link, "slip_force", Quantity(D::Force), "friction: force at which it slips."),
-    optional(S::Link, "stick_stiffness", Quantity(D::Stiffness), "friction: stiffness while it sticks."),
-    optional(S::Link, "hinge", Kind::Table(S::LinkHinge), "yielding: rule and corners."),
-    default(S::Link, "slack", Quantity(D::Length), "0", "cable: lengthening at which it becomes taut."),
-    default(S::Link, "gap", Quantity(D::Length), "0", "stopper: shortening at which it is touched."),
+    required(S::Damper, "floors", FloorPairs, "The two floors that it joins, such as [0, 1], or a list of such pairs; 0 is the mat of an isolated building, otherwise the base."),
+
+    default(S::LinkLaw, "law", Choice(LINK_LAWS), "\"linear\"", "linear, spring and dashpot side by side; viscous, F = c v^α against the motion, with a spring in series if stiffness is given; maxwell, spring and dashpot in series; friction, a slider; yielding, a hysteresis rule; cable, tension only; stopper, compression only. All but linear need solver = \"riccati\"."),
+    optional(S::LinkLaw, "stiffness", Quantity(D::Stiffness), "Force per change of length, of each link; of the spring in series for viscous and maxwell; before the first corner for yielding. Not for friction."),
+    optional(S::LinkLaw, "damping", LinkDamping, "Force per rate of change of length, of each link; for viscous per its power, in N.(s/m)^exponent. Not for friction, yielding and cable."),
+    default(S::LinkLaw, "exponent", Quantity(D::Dimensionless), "1", "viscous: exponent α of the rate, 0.1 to 2."),
+    optional(S::LinkLaw, "slip_force", Quantity(D::Force), "friction: force at which it slips."),
+    optional(S::LinkLaw, "stick_stiffness", Quantity(D::Stiffness), "friction: stiffness while it sticks."),
+    optional(S::LinkLaw, "hinge", Kind::Table(S::LinkHinge), "yielding: rule and corners."),
+    default(S::LinkLaw, "slack", Quantity(D::Length), "0", "cable: lengthening at which it becomes taut."),
+    default(S::LinkLaw, "gap", Quantity(D::Length), "0", "stopper: shortening at which it is touched."),
 
     required(S::LinkHinge, "rule", Choice(RULES), "Unloading and reloading rule of the link."),
     default(S::LinkHinge, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
@@ -643,6 +650,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Analysis, "accept_unusual", FlagOrTexts, "false", "Accepts values outside their usual ranges: true for all, or a list of fields such as [\"building[0].spans\"]; \"analysis.step\" stands for the work of a run."),
 
     default(S::Output, "members", FlagOrTexts, "false", "Axial force, shear and moment of columns and beams of frames: true for the greatest of every member, or a list of members such as [\"J1.column.2.3\"] (line, storey) and [\"J1.beam.5.1\"] (floor, span), whose histories are written as well."),
+    default(S::Output, "links", Flag, "false", "Whether `history.parquet` has the stroke and the speed of every link and damper beside its force."),
     default(S::Output, "capacity", FlagOrChoices(CAPACITY_RULES), "all rules, if forces of members are asked for and ties are known", "Compares shear and moment of reinforced columns and beams with their capacity at every instant: a rule, a list of rules whose first governs, true for all, false for none. Implies the forces of all members."),
 
     default(S::Output, "floor_spectra", Kind::FlagTextsOrTable(S::FloorSpectra), "false", "Response spectra of floors, with and without contact: true for every floor, a list of floors such as [\"J1.floor.5\"] or buildings such as [\"J1\"], or a table."),

@@ -9,6 +9,7 @@ mod between;
 mod building;
 mod capacity;
 mod codes;
+mod damper;
 mod floor_spectra;
 mod frame;
 mod gap;
@@ -44,6 +45,7 @@ use jostle_motion::{GoverningRule, TargetSpectrum};
 use jostle_section::capacity::ShearRule;
 
 use self::building::Buildings;
+use self::damper::DamperPaths;
 use crate::bounded::read_at_most;
 use crate::fault::{Fault, InputError};
 use crate::keys::Section;
@@ -167,8 +169,11 @@ pub fn read_model_text(
 pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<Input, InputError> {
     let mut reader = Reader::new(&source);
     let read = read_root(&mut reader, &root, base);
-    if let Some(Parts { model, .. }) = &read {
-        let checked = model.check().err().unwrap_or_default();
+    if let Some(Parts { model, dampers, .. }) = &read {
+        let mut checked = model.check().err().unwrap_or_default();
+        for fault in &mut checked {
+            dampers.rename(&mut fault.path);
+        }
         add_model_faults(&mut reader, &root, checked);
     }
     let (mut noted, accepted) = (reader.take_warnings(), reader.accepted.clone());
@@ -182,6 +187,7 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
             codes,
             floor_spectra,
             governing,
+            dampers: _,
         }) if error.faults.is_empty() => Ok(Input {
             reinforced,
             capacity,
@@ -425,6 +431,7 @@ fn with_record(old: Option<&MotionSpec>, record: &str) -> MotionSpec {
 /// What a file describes.
 struct Parts {
     model: Model,
+    dampers: DamperPaths,
     motion: Option<MotionSpec>,
     reinforced: Vec<ReinforcedMember>,
     capacity: CapacityRequest,
@@ -474,7 +481,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         }
         None => Vec::new(),
     };
-    let links = match reader.get(&view, "link") {
+    let mut links = match reader.get(&view, "link") {
         Some(field) => {
             let buildings = buildings.as_ref().map(|read| &read.buildings[..]);
             link::read_all(reader, &field, buildings, &walls)
@@ -488,6 +495,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         let read = buildings.as_ref();
         let read = read.map(|read| (&read.buildings[..], &read.members[..]));
         (analysis.members, floor_spectra, capacity) = output::read(reader, &field, read);
+        analysis.link_motion = output::link_motion(reader, &field);
     }
     let codes = reader.get(&view, "codes");
     let of_buildings = buildings.as_ref().map(|read| read.codes.clone());
@@ -496,8 +504,11 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         mut buildings,
         members: reinforced,
         at,
+        dampers,
         ..
     } = buildings?;
+    let paths = DamperPaths::new(links.len(), &dampers);
+    links.extend(dampers.into_iter().map(|damper| damper.link));
     plan::place(&mut buildings, &at, &gaps);
     let mut model = Model {
         title: title.unwrap_or_default(),
@@ -522,6 +533,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         codes,
         floor_spectra,
         governing,
+        dampers: paths,
     })
 }
 

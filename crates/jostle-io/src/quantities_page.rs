@@ -108,6 +108,8 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
         Column::ContactForce { contact: 0 },
         Column::Closing { contact: 0 },
         Column::LinkForce { link: 0 },
+        Column::LinkStroke { link: 0 },
+        Column::LinkSpeed { link: 0 },
         Column::SupportForce { building: 0 },
     ];
     let energies = EnergyTerm::ALL.into_iter().map(Column::Energy);

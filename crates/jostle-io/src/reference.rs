@@ -102,11 +102,21 @@ const TABLES: &[(Section, &str, &str)] = &[
         "Springs, dampers and sliders between neighbours, or between floors of one building; see [Dampers between two towers](how-to/dampers-between-towers.md).",
     ),
     (
+        Section::Damper,
+        "`[[building.damper]]`",
+        "A short form of `[[link]]` inside one building.",
+    ),
+    (
+        Section::LinkLaw,
+        "`[[link]]`, `[[building.damper]]`, further keys",
+        "",
+    ),
+    (
         Section::Wall,
         "`[[wall]]`",
         "See [Isolated buildings and moat walls](how-to/isolation.md).",
     ),
-    (Section::LinkHinge, "`hinge` of a link", ""),
+    (Section::LinkHinge, "`hinge` of a link or damper", ""),
     (Section::Analysis, "`[analysis]`", ""),
     (
         Section::Output,

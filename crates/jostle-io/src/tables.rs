@@ -560,7 +560,9 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
             format!("{name}.floor{floor}.")
         }
         Column::ContactForce { .. } | Column::Closing { .. } => joint(contacts, "contact"),
-        Column::LinkForce { .. } => joint(links, "link"),
+        Column::LinkForce { .. } | Column::LinkStroke { .. } | Column::LinkSpeed { .. } => {
+            joint(links, "link")
+        }
         Column::SupportForce { .. } => match wall_behind(model, index) {
             Some(wall) => format!("{}.", plain(wall)),
             None => {

@@ -106,8 +106,8 @@ pub(crate) const RANGES: &[Range] = &[
     of(&[S::Isolation], "limit", "a displacement of bearings", D::Length, [0.01, 3.0], NO_LIMIT, LENGTHS),
     of(&[S::Wall], "stiffness", "a stiffness of a wall", D::Stiffness, [1e3, 1e13], NO_LIMIT, &["MN/m", "kN/m", "N/m"]),
     of(&[S::Wall], "mass", "a mass of a wall", D::Mass, [10.0, 1e8], NO_LIMIT, &["t", "kg"]),
-    of(&[S::Link], "stiffness", "a link stiffness", D::Stiffness, [1e3, 1e16], NO_LIMIT, &["MN/m", "kN/m"]),
-    of(&[S::Link], "damping", "a dashpot coefficient", D::Damping, [1e2, 1e12], NO_LIMIT, &["kN.s/m", "MN.s/m"]),
+    of(&[S::LinkLaw], "stiffness", "a link stiffness", D::Stiffness, [1e3, 1e16], NO_LIMIT, &["MN/m", "kN/m"]),
+    of(&[S::LinkLaw], "damping", "a dashpot coefficient", D::Damping, [1e2, 1e12], NO_LIMIT, &["kN.s/m", "MN.s/m"]),
 ];
 
 const fn of(

@@ -69,16 +69,16 @@ function load(data, beside) {
 const embedded = document.getElementById("page-data");
 if (embedded) load(JSON.parse(embedded.textContent), null);
 
-/** Displacement history of a building at a height: of a floor, or between floors on a straight line. */
+/** Displacement history of a building at a height: of a floor, or between floors on a straight line. Floor 0 is its mat. */
 function displacementColumn(table, building, floor, height) {
-  if (floor) return table.columns.get(`u:${building}:${floor}`);
+  if (floor || floor === 0) return table.columns.get(`u:${building}:${floor}`);
   const heights = page.buildings[building].heights;
   const above = heights.findIndex((h) => h >= height - 1e-3);
   if (above < 0) return undefined;
   const base = above > 0 ? heights[above - 1] : 0;
   const part = (height - base) / (heights[above] - base);
   const upper = table.columns.get(`u:${building}:${above + 1}`);
-  const lower = above > 0 ? table.columns.get(`u:${building}:${above}`) : undefined;
+  const lower = table.columns.get(`u:${building}:${above}`);
   return upper?.map((u, i) => part * u + (1 - part) * (lower ? lower[i] : 0));
 }
 

@@ -37,14 +37,16 @@ class LoopChart {
     this.view = view;
     this.name = data.name;
     this.time = unpack(data.time);
-    const [dUnit, fUnit] = data.storey ? ["mm", "kN"] : ["mrad", "kN·m"];
-    this.x = scaled(unpack(data.deformation), 1e3);
+    const [dUnit, fUnit] = data.over_time ? ["s", "kN"] : data.storey ? ["mm", "kN"] : ["mrad", "kN·m"];
+    this.x = data.over_time ? this.time : scaled(unpack(data.deformation), 1e3);
     this.y = scaled(unpack(data.force), 1e-3);
+    this.ends = data.over_time && [0, page.duration];
+    this.marks = (data.marks ?? []).map((at) => 1e3 * at);
     this.backbone = data.backbone.map(([x, y]) => [1e3 * x, 1e-3 * y]);
     const figure = html("figure", "multiple loop", undefined, host);
     const caption = html("figcaption", "", undefined, figure);
     html("span", "", data.name, caption);
-    const numbers = `ductility ${readable(data.ductility)}, ${readable(data.dissipated / 1e3)} kJ`;
+    const numbers = data.note ?? `ductility ${readable(data.ductility)}, ${readable(data.dissipated / 1e3)} kJ`;
     html("span", "unit", numbers, caption);
     this.svg = svg("svg", { viewBox: `0 0 ${LoopChart.width} ${LoopChart.height}`, role: "img" }, figure);
     this.svg.setAttribute("aria-label", `${fUnit} over ${dUnit}, ${data.name}`);
@@ -61,12 +63,16 @@ class LoopChart {
   /** Scales, grid and the lines that never change. */
   frame(dUnit, fUnit) {
     // The curve of first loading is drawn as far as the loop reaches, and a little more.
-    const reach = 1.06 * Math.max(1e-9, greatest(this.x));
+    const moved = Math.max(1e-9, greatest(this.x));
+    // Stops and limits are shown where they are near.
+    this.marks = this.marks.filter((at) => Math.abs(at) < 1.6 * moved);
+    const reach = 1.06 * Math.max(moved, greatest(this.marks));
     const top = 1.1 * Math.max(1e-9, greatest(this.y), ...this.backbone.filter(([x]) => Math.abs(x) <= reach).map(([, y]) => Math.abs(y)));
     const { width, height, margin } = LoopChart;
-    const ends = { x: [-reach, reach], y: [-top, top], xUnit: dUnit, yUnit: fUnit };
+    const ends = { x: this.ends || [-reach, reach], y: [-top, top], xUnit: dUnit, yUnit: fUnit };
     const { px, py, inside } = smallPlot(this.svg, { width, height, margin, ...ends });
     Object.assign(this, { px, py });
+    for (const at of this.marks) svg("path", { class: "mark-line", d: `M${px(at).toFixed(1)},${margin.top}V${height - margin.bottom}` }, inside);
     this.first = svg("path", { class: "backbone" }, inside);
     this.whole = svg("path", { class: "line whole" }, inside);
     this.strong = svg("path", { class: "line" }, inside);
@@ -84,7 +90,7 @@ class LoopChart {
     this.starts.push(this.text.length);
     this.whole.setAttribute("d", this.text ? `M${this.text.slice(1)}` : "");
     const outline = this.backbone.map(([x, y]) => `${this.px(x).toFixed(1)},${this.py(y).toFixed(1)}`);
-    this.first.setAttribute("d", `M${outline.join("L")}`);
+    this.first.setAttribute("d", outline.length ? `M${outline.join("L")}` : "");
   }
 
   at(t) {

@@ -50,6 +50,9 @@ function show() {
   beside.show(placeCharts(byId("place").value));
   below.show([energyChart()].filter(Boolean));
   loopCharts = byId("loops") ? page.loops.map((loop) => new LoopChart(byId("loops"), view, loop)) : [];
+  const devices = byId("device-loops");
+  // Devices move sideways, as storeys do.
+  if (devices) loopCharts.push(...page.devices.map((device) => new LoopChart(devices, view, { ...device, storey: true, backbone: device.outline })));
   for (const loop of loopCharts) loop.draw();
   panels.refresh();
   byId("zoom-impact").hidden = !groups.length;

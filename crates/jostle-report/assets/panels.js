@@ -5,13 +5,17 @@ const colours = (i) => `var(--c${i % 7})`;
 /** The contacts with an impact, largest peak force first. */
 const struckContacts = () => contacts.filter((c) => c.impacts > 0).sort((a, b) => b.peak - a.peak);
 
-/** Name of a side of a gap; null is a wall. */
-function sideName(building) {
-  return building === null ? "wall" : page.buildings[building].name;
+/** The wall on a side of a gap, if it is one. */
+const wallOf = (gap, side) => page.walls[gap.walls[side] ?? -1];
+
+/** Name of a side of a gap. */
+function sideName(gap, side) {
+  const building = gap.between[side];
+  return building === null ? wallOf(gap, side)?.name || "wall" : page.buildings[building].name;
 }
 
 function contactName(contact) {
-  const [left, right] = contact.gap.between.map(sideName);
+  const [left, right] = [0, 1].map((side) => sideName(contact.gap, side));
   return page.gaps.length > 1 ? `${left}–${right}, ${contact.label}` : contact.label;
 }
 
@@ -83,10 +87,11 @@ function energyChart() {
 function contactCharts(contact) {
   const sides = [0, 1].map((side) => {
     const building = contact.gap.between[side];
-    const name = sideName(building);
-    // A wall moves with the ground.
-    const still = (table) => table && new Float64Array(table.time.length);
-    if (building === null) return { building, name, run: still(run), without: still(without) };
+    const name = sideName(contact.gap, side);
+    // A rigid wall moves with the ground.
+    const column = wallOf(contact.gap, side)?.column;
+    const wall = (table) => table && (table.columns.get(`u:${column}:0`) ?? new Float64Array(table.time.length));
+    if (building === null) return { building, name, run: wall(run), without: wall(without) };
     const of = (table) => table && displacementColumn(table, building, contact.floors[side], contact.height);
     return { building, name, run: of(run), without: of(without) };
   });
@@ -112,7 +117,7 @@ function contactCharts(contact) {
   const width = contact.width * 1e3;
   const levels = [{ value: width, label: `gap ${readableLength(contact.width)}` }];
   const name = contactName(contact);
-  const bent = moving.some((side) => !contact.floors[sides.indexOf(side)]);
+  const bent = moving.some((side) => contact.floors[sides.indexOf(side)] === null);
   return [
     { title: `Displacement, ${name}${bent ? " (straight lines between floors)" : ""}`, unit: "mm", series },
     { title: `Closing, ${name}`, unit: "mm", series: closings, levels, zone: width },
@@ -123,13 +128,14 @@ function floorCharts(building, floor) {
   const column = `u:${building}:${floor}`;
   const values = run.columns.get(column);
   if (!values) return [];
-  const name = page.buildings[building].name;
+  const { name } = page.buildings[building];
+  const where = floor ? `floor ${floor}` : "mat";
   const series = [{ label: name, colour: colours(building), time: run.time, values: scaled(values, 1e3) }];
   if (without && page.gaps.length) {
     const free = scaled(without.columns.get(column) ?? new Float64Array(), 1e3);
     if (free.length) series.push({ label: "without", colour: colours(building), time: without.time, values: free, dashed: true });
   }
-  return [{ title: `Displacement, ${name}, floor ${floor}`, unit: "mm", series }];
+  return [{ title: `Displacement, ${name}, ${where}`, unit: "mm", series }];
 }
 
 /** Charts in a host, one for each description; those that are there take the new data over. */
@@ -162,7 +168,8 @@ function fillPlaces(select) {
   addGroup("Contacts", byHeight.map((contact) => [`contact ${contact.index}`, contactName(contact)]));
   page.buildings.forEach((building, i) => {
     const floors = building.heights.map((_, k) => building.heights.length - k);
-    addGroup(building.name, floors.map((floor) => [`floor ${i} ${floor}`, `${building.name}, floor ${floor}`]));
+    if (building.isolated) floors.push(0);
+    addGroup(building.name, floors.map((floor) => [`floor ${i} ${floor}`, `${building.name}, ${floor ? `floor ${floor}` : "mat"}`]));
   });
   const start = struckContacts()[0] ?? byHeight[0];
   const wanted = kept || (start && `contact ${start.index}`);

@@ -43,9 +43,9 @@ class Scene {
     this.draw(this.time);
   }
 
-  /** Displacement columns: per building, per floor from the ground up. */
+  /** Displacement columns: per building, per floor from the ground or the mat up, which is floor 0. */
   columns(table) {
-    return page.buildings.map((b, i) => b.heights.map((_, floor) => table.columns.get(`u:${i}:${floor + 1}`)));
+    return page.buildings.map((b, i) => [0, ...b.heights].map((_, floor) => table.columns.get(`u:${i}:${floor}`)));
   }
 
   /** The round exaggeration that moves the roofs by about a twentieth of the height. */
@@ -61,6 +61,7 @@ class Scene {
       return {
         pinned: svg("path", { class: "pinned" }, group),
         ghost: svg("path", { class: "ghost" }, group),
+        bearings: svg("path", { class: "bearings" }, group),
         columns: svg("path", { class: "columns" }, group),
         floors: svg("path", { class: building.frame ? "beams" : "slabs" }, group),
         // Yielded ones by their ductility.
@@ -70,6 +71,7 @@ class Scene {
         sway: svg("text", { class: "sway", "text-anchor": "middle" }, group),
       };
     });
+    this.walls = page.walls.map((wall) => ({ ...wall, path: svg("path", { class: "wall" }, this.svg) }));
     this.links = page.links.map((link) => ({ link, path: svg("path", { class: "link" }, this.svg) }));
     this.flashes = contacts.map(() => svg("circle", { class: "flash" }, this.svg));
     this.instant = svg("text", { class: "instant", x: 12, y: 24 }, this.svg);
@@ -82,36 +84,49 @@ class Scene {
     this.width = TimeChart.paperWidth ?? Math.max(this.room, 240);
     const f = this.exaggeration;
     const free = f * this.peak + 0.02 * this.top + 0.5;
-    // Beside a wall: the gap before it, and its thickness.
-    const wall = (side) => {
-      const at = (part) => part.between[side] === null;
-      if (![...page.gaps, ...page.links].some(at)) return null;
-      const widths = page.gaps.filter(at).map((gap) => gap.width);
-      return widths.length ? f * Math.min(...widths) : free;
-    };
     this.thickness = 0.05 * this.top;
-    this.walls = [wall(0), wall(1)];
-    const [room, roomRight] = this.walls.map((away) => (away === null ? free : away + this.thickness));
+    // Beside a wall: the gap before it, and its thickness.
+    const away = (wall, side) => (wall.widths[side] === null ? free : f * wall.widths[side]);
+    const outside = (side, building) => {
+      const own = this.walls.filter((wall) => wall.beside[side] === building && wall.beside[1 - side] === null);
+      return own.length ? Math.max(...own.map((wall) => away(wall, side) + this.thickness)) : null;
+    };
+    const last = page.buildings.length - 1;
+    this.ends = [outside(1, 0), outside(0, last)];
+    const [room, roomRight] = this.ends.map((ends) => ends ?? free);
     const widths = page.buildings.map((b) => b.spans.reduce((sum, span) => sum + span, 0));
     let x = room;
     this.left = widths.map((width, i) => {
       const start = x;
       const gaps = page.gaps.filter((g) => g.between[0] === i && g.between[1] !== null);
       const narrowest = Math.min(...gaps.map((g) => g.width));
-      x += width + (gaps.length ? f * narrowest : 2 * f * this.peak + 2);
+      const shared = this.walls.find((wall) => wall.beside[0] === i && wall.beside[1] === i + 1);
+      if (gaps.length) x += width + f * narrowest;
+      else if (shared) x += width + away(shared, 0) + this.thickness + away(shared, 1);
+      else x += width + (outside(0, i) ?? f * this.peak + 1) + (outside(1, i + 1) ?? f * this.peak + 1);
       return start;
     });
-    const last = widths.length - 1;
+    for (const wall of this.walls) {
+      const [left, right] = wall.beside;
+      const from = left === null ? null : this.left[left] + widths[left] + away(wall, 0);
+      const to = right === null ? from + this.thickness : this.left[right] - away(wall, 1);
+      wall.faces = [from ?? to - this.thickness, to];
+    }
+    this.pit = page.buildings.some((building) => building.isolated) ? Scene.pit : 0;
+    this.below = Scene.below + this.pit;
     const total = this.left[last] + widths[last] + roomRight;
     const tallest = this.width < 600 ? 340 : 560;
     this.scale = Math.min((this.width - 2 * Scene.beside) / total, (tallest - 100) / this.top);
     this.base = this.top * this.scale + 34;
     this.shift = (this.width - total * this.scale) / 2;
-    this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.base + 70 + Scene.below}`);
+    this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.base + 70 + this.below}`);
     this.widths = widths;
     this.drawBack();
     this.draw(this.time);
   }
+
+  /** Height of bearings as drawn [px]. */
+  static pit = 20;
 
   /** Room for dimensions on either side of the row and below it [px]. */
   static beside = 34;
@@ -130,7 +145,17 @@ class Scene {
     back.replaceChildren();
     svg("path", { class: "ground", d: `M0,${this.base}H${this.width}` }, back);
     svg("rect", { class: "soil", x: 0, y: this.base, width: this.width, height: 7 }, back);
-    const row = this.base + 24 + Scene.below;
+    page.buildings.forEach((building, i) => {
+      if (!building.isolated) return;
+      const free = this.exaggeration * this.peak;
+      const walls = [0, 1].map((side) => this.walls.find((wall) => wall.beside[1 - side] === i));
+      const from = this.px(walls[0] ? walls[0].faces[1] : this.left[i] - free);
+      const to = this.px(walls[1] ? walls[1].faces[0] : this.left[i] + this.widths[i] + free);
+      svg("rect", { class: "pit", x: from, y: this.base - 1, width: Math.max(to - from, 0), height: this.pit + 1 }, back);
+      svg("path", { class: "ground", d: `M${from},${this.base}V${this.base + this.pit}H${to}V${this.base}` }, back);
+      svg("rect", { class: "soil", x: from, y: this.base + this.pit, width: Math.max(to - from, 0), height: 7 }, back);
+    });
+    const row = this.base + 24 + this.below;
     page.buildings.forEach((building, i) => {
       const room = page.buildings.length > 1 ? this.widths[i] * this.scale + 4 : this.width;
       const x = this.px(this.left[i] + this.widths[i] / 2);
@@ -142,16 +167,9 @@ class Scene {
         label.textContent = `${building.name.slice(0, kept)}…`;
       }
     });
-    this.walls.forEach((away, side) => {
-      if (away === null) return;
-      const face = this.wallFace(side);
-      const x = this.px(side === 0 ? face - this.thickness : face);
-      const height = page.buildings[side === 0 ? 0 : page.buildings.length - 1].heights.at(-1) * this.scale;
-      svg("rect", { class: "wall", x, y: this.base - height, width: this.thickness * this.scale, height }, back);
-    });
     const named = new Set();
     for (const gap of page.gaps) {
-      const pair = gap.between.join();
+      const pair = [...gap.between, ...gap.walls].join();
       if (named.has(pair)) continue;
       named.add(pair);
       const [left, right] = [0, 1].map((side) => this.faceAtRest(gap, side));
@@ -160,7 +178,7 @@ class Scene {
       const label = near > 70 ? `gap ${readableLength(gap.width)}` : readableLength(gap.width);
       svg("text", { class: "gap-name", x, y: row + 17, "text-anchor": "middle" }, back).textContent = label;
     }
-    const arrow = { class: "ground-name", x: this.width / 2 - this.reach - 10, y: this.base + 62 + Scene.below, "text-anchor": "end" };
+    const arrow = { class: "ground-name", x: this.width / 2 - this.reach - 10, y: this.base + 62 + this.below, "text-anchor": "end" };
     svg("text", arrow, back).textContent = this.width < 600 ? "ground" : "ground acceleration";
     page.buildings.forEach((building, i) => this.drawDimensions(building, i));
   }
@@ -171,7 +189,7 @@ class Scene {
     const mark = 3.5;
     const metres = (value) => `${Number(value.toPrecision(4))}`;
     if (building.frame) {
-      const y = this.base + 16;
+      const y = this.base + 16 + this.pit;
       let x = this.left[i];
       let path = `M${this.px(x).toFixed(1)},${y}H${this.px(x + this.widths[i]).toFixed(1)}`;
       for (const span of [0, ...building.spans]) {
@@ -190,7 +208,7 @@ class Scene {
     // Clear of the greatest sway, or outside the wall.
     const sway = this.exaggeration * this.peak;
     const near = right ? this.px(this.left[i] + this.widths[i] + sway) + 14 : this.px(this.left[i] - sway) - 14;
-    const x = this.walls[Number(right)] === null ? near : right ? this.width - Scene.beside + 8 : Scene.beside - 8;
+    const x = this.ends[Number(right)] === null ? near : right ? this.width - Scene.beside + 8 : Scene.beside - 8;
     const heights = [0, ...building.heights];
     const roof = heights.at(-1);
     const storeys = heights.slice(1).map((height, k) => height - heights[k]);
@@ -207,16 +225,10 @@ class Scene {
     else write(`${metres(roof)} m, ${storeys.length} storeys`, roof / 2);
   }
 
-  /** Where the face of the wall is on the left (0) or on the right (1) of the row [m]. */
-  wallFace(side) {
-    const last = this.widths.length - 1;
-    return side === 0 ? this.left[0] - this.walls[0] : this.left[last] + this.widths[last] + this.walls[1];
-  }
-
   /** Where the left (0) or the right (1) side of a gap or a link is at rest [m]. */
   faceAtRest(part, side) {
     const building = part.between[side];
-    if (building === null) return this.wallFace(side);
+    if (building === null) return this.walls[part.walls[side]].faces[1 - side];
     return this.left[building] + (side === 0 ? this.widths[building] : 0);
   }
 
@@ -224,9 +236,15 @@ class Scene {
   face(part, side, height, sways) {
     const building = part.between[side];
     const rest = this.faceAtRest(part, side);
-    if (building === null) return rest;
+    if (building === null) return rest + this.exaggeration * this.wallSway(this.walls[part.walls[side]]);
     const heights = [0, ...page.buildings[building].heights];
     return rest + this.exaggeration * interpolate(heights, sways[building], height);
+  }
+
+  /** Displacement of a wall now [m]. */
+  wallSway(wall) {
+    const values = run.columns.get(`u:${wall.column}:0`);
+    return values ? interpolate(run.time, values, this.time) : 0;
   }
 
   /** How far the arrow of the ground acceleration reaches at its peak [px]. */
@@ -234,12 +252,12 @@ class Scene {
     return Math.min(90, this.width / 6);
   }
 
-  /** Sideways places of the floors of a building, the ground first [m]. */
+  /** Sideways places of the floors of a building, the ground or the mat first [m]. */
   places(columns, table, t) {
     const k = Math.min(Math.max(indexBefore(table.time, t), 0), table.time.length - 2);
     const span = table.time[k + 1] - table.time[k];
     const part = span > 0 ? Math.min(Math.max((t - table.time[k]) / span, 0), 1) : 0;
-    return [0, ...columns.map((u) => (u ? u[k] + part * (u[k + 1] - u[k]) : 0))];
+    return columns.map((u) => (u ? u[k] + part * (u[k + 1] - u[k]) : 0));
   }
 
   draw(t) {
@@ -248,14 +266,36 @@ class Scene {
     this.instant.textContent = `t = ${fixed(t, 3)} s`;
     const sways = page.buildings.map((_, i) => this.places(this.run[i], run, t));
     page.buildings.forEach((building, i) => this.drawBuilding(building, i, sways[i], t));
+    this.walls.forEach((wall) => this.drawWall(wall));
     this.drawLinks(sways);
     this.drawFlashes(sways, t);
     const a = interpolate(ground.time, ground.values, t) / this.groundPeak;
     const middle = this.width / 2;
     const tip = middle + a * this.reach;
     const head = Math.sign(a) * Math.min(7, Math.abs(tip - middle));
-    const y = this.base + 58 + Scene.below;
+    const y = this.base + 58 + this.below;
     this.arrow.setAttribute("d", `M${middle},${y - 5}v10m0,-5H${tip}m${-head},-4l${head},4l${-head},4`);
+  }
+
+  /** From the bottom of a pit beside it, or from the ground, to a little above its highest contact. */
+  drawWall(wall) {
+    const pit = wall.beside.some((building) => building !== null && page.buildings[building].isolated);
+    const bottom = this.base + (pit ? this.pit : 0);
+    const top = this.py(wall.top) - Math.max(0.02 * this.top * this.scale, 5);
+    const [from, to] = wall.faces.map((x) => this.px(x + this.exaggeration * this.wallSway(wall)).toFixed(2));
+    wall.path.setAttribute("d", `M${from},${bottom}V${top.toFixed(2)}H${to}V${bottom}z`);
+  }
+
+  /** Bearings lean from the bottom of the pit to the mat. */
+  bearings(lines, mat) {
+    const places = lines.length > 2 ? lines : [lines[0], (lines[0] + lines.at(-1)) / 2, lines.at(-1)];
+    const half = Math.min(7, (0.3 * (lines.at(-1) - lines[0]) * this.scale) / places.length);
+    const [top, bottom] = [this.base + 3, this.base + this.pit];
+    return places.map((place, k) => {
+      const inwards = k === 0 ? half : k === places.length - 1 ? -half : 0;
+      const [foot, head] = [this.px(place) + inwards, this.px(place + this.exaggeration * mat) + inwards];
+      return `M${(foot - half).toFixed(2)},${bottom}L${(head - half).toFixed(2)},${top}h${(2 * half).toFixed(2)}L${(foot + half).toFixed(2)},${bottom}z`;
+    }).join("");
   }
 
   drawBuilding(building, i, sway, t) {
@@ -275,11 +315,11 @@ class Scene {
     };
     const floor = (places) =>
       heights
-        .slice(1)
-        .map((h, k) => `M${this.px(lines[0] + f * places[k + 1]).toFixed(2)},${this.py(h).toFixed(2)}h${(this.widths[i] * this.scale).toFixed(2)}`)
+        .map((h, k) => (k === 0 && !building.isolated ? "" : `M${this.px(lines[0] + f * places[k]).toFixed(2)},${this.py(h).toFixed(2)}h${(this.widths[i] * this.scale).toFixed(2)}`))
         .join("");
     part.columns.setAttribute("d", lines.map((x) => column(x, sway)).join(""));
     part.floors.setAttribute("d", floor(sway));
+    part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0]) : "");
     this.drawHinges(part, lines, heights, sway, t);
     const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
     const outline = (places) => column(lines[0], places) + column(lines[lines.length - 1], places) + floor(places);
@@ -339,6 +379,10 @@ class Scene {
   /** Dampers as a pot with its rod, springs as a zigzag. */
   drawLinks(sways) {
     for (const { link, path } of this.links) {
+      if (link.inside) {
+        path.setAttribute("d", this.brace(link, sways));
+        continue;
+      }
       const [x0, x1] = [0, 1].map((side) => this.px(this.face(link, side, link.height, sways)));
       const y = this.py(link.height);
       const [middle, size] = [(x0 + x1) / 2, 4];
@@ -362,6 +406,22 @@ class Scene {
       }
       path.setAttribute("d", outline);
     }
+  }
+
+  /** A damper inside a building: a line between the middles of its floors, with a pot half way. */
+  brace(link, sways) {
+    const building = link.between[0];
+    const heights = [0, ...page.buildings[building].heights];
+    const width = Math.min(this.widths[building], 6);
+    const middle = this.left[building] + this.widths[building] / 2;
+    const [a, b] = link.inside.map((floor, k) => {
+      const x = middle + (k ? 0.3 : -0.3) * width + this.exaggeration * sways[building][floor];
+      return [this.px(x), this.py(heights[floor])];
+    });
+    const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    const size = Math.max(Math.hypot(dx, dy), 1e-9);
+    const at = (along, across) => `${(a[0] + along * dx - (across * dy) / size).toFixed(2)},${(a[1] + along * dy + (across * dx) / size).toFixed(2)}`;
+    return `M${at(0, 0)}L${at(0.42, 0)}M${at(0.42, 4)}L${at(0.42, -4)}M${at(0.58, 4)}L${at(0.4, 4)}M${at(0.58, -4)}L${at(0.4, -4)}M${at(0.58, 4)}L${at(0.58, -4)}M${at(0.58, 0)}L${at(1, 0)}`;
   }
 
   drawFlashes(sways, t) {

@@ -23,6 +23,8 @@ pub(crate) struct Envelope {
     pub(crate) moment: Vec<f64>,
     /// Storey drift ratio at the end, positive to the right \[–\].
     pub(crate) residual: Vec<f64>,
+    /// Greatest displacements to the right and to the left and total acceleration of the mat of an isolated building.
+    pub(crate) mat: Option<[f64; 3]>,
 }
 
 /// Envelopes of every building of the run, from its summary.
@@ -58,6 +60,13 @@ pub(crate) fn of_run(page: &Page) -> Vec<Envelope> {
                     .map(|f| f.response.overturning_moment_peak_n_m)
                     .collect(),
                 residual: floors.iter().map(|f| f.response.residual_drift).collect(),
+                mat: floors.mat.as_ref().map(|mat| {
+                    [
+                        mat.response.displacement_max_m,
+                        mat.response.displacement_min_m,
+                        mat.response.total_acceleration_peak_m_s2,
+                    ]
+                }),
             }
         })
         .collect()
@@ -71,7 +80,17 @@ pub(crate) fn of_history(model: &Model, history: &History) -> Vec<Envelope> {
         .enumerate()
         .map(|(building, shape)| {
             let mut envelope = Envelope::default();
-            let mut below: Option<Vec<f64>> = None;
+            // The mat, if there is one; floors of other buildings count from 1.
+            let mut below = history.column(Column::Displacement { building, floor: 0 });
+            envelope.mat = below.as_ref().map(|u| {
+                let a = history.column(Column::TotalAcceleration { building, floor: 0 });
+                let a = a.unwrap_or_default();
+                [
+                    u.iter().copied().fold(0.0, f64::max),
+                    u.iter().copied().fold(0.0, f64::min),
+                    a.iter().fold(0.0, |peak, a| a.abs().max(peak)),
+                ]
+            });
             for (storey, height) in shape.storey_heights().iter().enumerate() {
                 let floor = storey + 1;
                 let Some(u) = history.column(Column::Displacement { building, floor }) else {
@@ -145,11 +164,12 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
                 meaning,
             };
             let both = [
-                (&envelope.greatest, "to the right"),
-                (&envelope.least, "to the left"),
+                (&envelope.greatest, 0, "to the right"),
+                (&envelope.least, 1, "to the left"),
             ];
-            for (values, meaning) in both {
-                displacement.push(line(from_base(values, heights, 1e3), meaning));
+            for (values, side, meaning) in both {
+                let base = envelope.mat.map_or(0.0, |mat| mat[side]);
+                displacement.push(line(from_base(base, values, heights, 1e3), meaning));
             }
             drift.push(line(
                 steps(&envelope.drift, heights, 100.0),
@@ -171,7 +191,8 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
                 .zip(heights.iter().copied());
             let mut points: Vec<(f64, f64)> = floors.collect();
             if !points.is_empty() {
-                points.insert(0, (page.motion.peak(), 0.0));
+                let base = envelope.mat.map_or(page.motion.peak(), |mat| mat[2]);
+                points.insert(0, (base, 0.0));
             }
             acceleration.push(line(points, "either sign"));
         }
@@ -194,8 +215,8 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
     }
 }
 
-fn from_base(values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
-    std::iter::once((0.0, 0.0))
+fn from_base(base: f64, values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
+    std::iter::once((base * factor, 0.0))
         .chain(
             values
                 .iter()

@@ -142,7 +142,11 @@ fn neighbours(page: &Page, summary: &GapSummary, gap: &Gap, envelopes: &[Envelop
         let envelope = envelopes.get(building)?;
         let peaks = envelope.greatest.iter().zip(&envelope.least);
         let peaks = peaks.map(|(greatest, least)| greatest.max(-least));
-        let peak = peak_at_height(heights.into_iter().zip(peaks), height);
+        let mat = envelope
+            .mat
+            .map(|[greatest, least, _]| (0.0, greatest.max(-least)));
+        let floors = heights.into_iter().zip(peaks);
+        let peak = peak_at_height(mat.into_iter().chain(floors), height);
         peak.is_finite().then_some(peak)
     };
     let contacts = summary.contacts.iter();

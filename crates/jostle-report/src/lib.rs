@@ -8,6 +8,7 @@ mod calculation;
 mod collisions;
 mod contact_box;
 mod describe;
+mod devices;
 mod diagrams;
 mod document;
 mod encode;
@@ -34,6 +35,7 @@ mod tables;
 mod thin_loop;
 mod verdict;
 mod viewer;
+mod walls;
 
 pub use calculation::Calculation;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};

@@ -6,8 +6,8 @@ use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{
-    Page, calculation, contact_box, describe, floor_spectra, format, hinges, joints, members,
-    method, payload, site_plan, spread, tables,
+    Page, calculation, contact_box, describe, devices, floor_spectra, format, hinges, joints,
+    members, method, payload, site_plan, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -67,6 +67,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         p.note { "No time histories were recorded, so there is no animation." }
                     }
                     @if let Some(hinges) = hinges::section(page) { (hinges) }
+                    @if let Some(devices) = devices::section(page) { (devices) }
                     section #impacts {
                         h2 { "Impacts" }
                         @if recorded { (impact_panels()) }

@@ -1,16 +1,18 @@
 //! Data of the page's scripts: geometry, impacts and thinned histories as one JSON text.
 
 use jostle::history::{Column, EnergyTerm, History};
-use jostle::model::{Building, Gap, Structure};
+use jostle::model::{Building, Gap, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
 use serde::Serialize;
 
 use crate::Page;
+use crate::devices::{self, side_column};
 use crate::encode::{Packed, Packer, thin_impacts, thin_rows};
 use crate::hinges::{self, Place};
 use crate::thin_loop::thin_loop;
 use crate::verdict::place;
+use crate::walls::{self, SceneWall};
 
 /// How much of a run goes into a page.
 pub(crate) struct Budget {
@@ -65,6 +67,8 @@ struct Payload<'a> {
     hysteretic: bool,
     hinges: Vec<HingeData>,
     loops: Vec<LoopData>,
+    devices: Vec<DeviceData>,
+    walls: Vec<SceneWall>,
 }
 
 /// Building, kind (`c`, `b`, `s`), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
@@ -93,6 +97,20 @@ struct LoopData {
     force: Packed,
 }
 
+/// The loop of bearings or of a link.
+#[derive(Serialize)]
+struct DeviceData {
+    name: String,
+    building: usize,
+    note: String,
+    outline: Vec<[f64; 2]>,
+    marks: Vec<f64>,
+    over_time: bool,
+    time: Packed,
+    deformation: Packed,
+    force: Packed,
+}
+
 /// Shape of a building at rest.
 #[derive(Serialize)]
 struct Outline<'a> {
@@ -102,12 +120,16 @@ struct Outline<'a> {
     heights: Vec<f64>,
     /// Bay widths \[m\].
     spans: Vec<f64>,
+    /// Whether it stands on bearings.
+    isolated: bool,
 }
 
 #[derive(Serialize)]
 struct GapData {
     /// Left and right building; `null` is a wall.
     between: [Option<usize>; 2],
+    /// Walls of the scene on its sides.
+    walls: [Option<usize>; 2],
     width: f64,
     contacts: Vec<ContactData>,
 }
@@ -128,6 +150,9 @@ struct ContactData {
 #[derive(Serialize)]
 struct LinkData {
     between: [Option<usize>; 2],
+    walls: [Option<usize>; 2],
+    /// Floors that it joins, inside one building.
+    inside: Option<[usize; 2]>,
     height: f64,
     spring: bool,
     dashpot: bool,
@@ -187,11 +212,12 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
     let time = page.history.column(Column::Time).unwrap_or_default();
     let force = forces(page);
     let places = hinges::places(page.model);
+    let walls = walls::walls(page);
     let payload = Payload {
         duration: duration(page, &time),
         buildings: page.model.buildings.iter().map(outline).collect(),
-        gaps: gaps(page),
-        links: links(page),
+        gaps: gaps(page, &walls),
+        links: links(page, &walls),
         ground: ground(page.motion, budget.ground, pack),
         run: table(
             page,
@@ -216,6 +242,8 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
         hysteretic: page.summary.energy.hysteretic_j != 0.0,
         hinges: hinge_data(page, &places),
         loops: loops(page, &places, &time, budget.loops, pack),
+        devices: devices(page, &time, budget.loops, pack),
+        walls,
     };
     // Finite numbers and strings only: this cannot fail.
     serde_json::to_string(&payload).unwrap_or_else(|_| "{}".into())
@@ -278,6 +306,32 @@ fn loops(
     chosen.iter().map(of_place).collect()
 }
 
+fn devices(page: &Page, time: &[f64], budget: usize, pack: &mut Packer) -> Vec<DeviceData> {
+    let shown = devices::shown(page);
+    // As for loops of hinges.
+    let budget = budget / 4 / shown.len().max(1);
+    let data = shown.into_iter().map(|(device, points)| {
+        let rows = thin_loop(time, &points, budget);
+        let instants: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
+        let values = |part: usize, pack: &mut Packer| {
+            let rows = rows.iter();
+            pack.values(rows.map(|row| f64::from(points[*row][part])))
+        };
+        DeviceData {
+            time: pack.instants(&instants),
+            deformation: values(0, pack),
+            force: values(1, pack),
+            name: device.name,
+            building: device.building,
+            note: device.note,
+            outline: device.outline,
+            marks: device.marks,
+            over_time: device.over_time,
+        }
+    });
+    data.collect()
+}
+
 fn duration(page: &Page, time: &[f64]) -> f64 {
     let reached = time.last().copied().unwrap_or(0.0);
     if reached > 0.0 {
@@ -303,6 +357,7 @@ fn outline(building: &Building) -> Outline<'_> {
         frame,
         heights: building.floor_heights(),
         spans,
+        isolated: building.base.isolation.is_some(),
     }
 }
 
@@ -311,11 +366,12 @@ pub(crate) fn contacts(summary: &Summary) -> impl Iterator<Item = &ContactSummar
     summary.gaps.iter().flat_map(|gap| &gap.contacts)
 }
 
-fn gaps(page: &Page) -> Vec<GapData> {
+fn gaps(page: &Page, walls: &[SceneWall]) -> Vec<GapData> {
     let mut index = 0;
     page.gaps()
         .map(|(summary, gap)| GapData {
             between: page.model.buildings_beside(gap.between),
+            walls: SceneWall::index_of(walls, page.model, gap.between),
             width: gap.width(),
             contacts: summary
                 .contacts
@@ -337,12 +393,17 @@ fn gaps(page: &Page) -> Vec<GapData> {
         .collect()
 }
 
-fn links(page: &Page) -> Vec<LinkData> {
+fn links(page: &Page, walls: &[SceneWall]) -> Vec<LinkData> {
     let all = page.links().flat_map(|(summary, link)| {
         summary.floors.iter().map(|floor| LinkData {
             between: page.model.buildings_beside(link.between),
+            walls: SceneWall::index_of(walls, page.model, link.between),
+            inside: match floor.floors {
+                [Some(low), Some(high)] if link.is_inside() => Some([low, high]),
+                _ => None,
+            },
             height: floor.height_m,
-            spring: link.stiffness > 0.0,
+            spring: link.stiffness > 0.0 || link.law.is_hysteretic(),
             dashpot: link.damping > 0.0,
         })
     });
@@ -430,7 +491,7 @@ fn force_data(
         let depths = if rows.is_empty() {
             None
         } else {
-            indentation(page.history, gap, contact, index)
+            indentation(page.model, page.history, gap, contact, index)
         };
         ForceData {
             force: Series {
@@ -447,6 +508,7 @@ fn force_data(
 /// Indentation of a contact in every row of a history, negative while it is open; `None` where the history holds neither
 /// its closing nor its floors \[m\].
 fn indentation(
+    model: &Model,
     history: &History,
     gap: &Gap,
     contact: &ContactSummary,
@@ -457,13 +519,11 @@ fn indentation(
     }
     let mut depths = vec![-contact.width_m; history.len()];
     for (side, sign) in [(0, 1.0), (1, -1.0)] {
-        let Some(building) = gap.between[side] else {
-            // A wall moves with the ground.
+        let Some(column) = side_column(model, gap.between[side], contact.floors[side])? else {
+            // A rigid wall moves with the ground.
             continue;
         };
-        let floor = contact.floors[side]?;
-        let moved = history.column(Column::Displacement { building, floor })?;
-        for (depth, moved) in depths.iter_mut().zip(moved) {
+        for (depth, moved) in depths.iter_mut().zip(history.column(column)?) {
             *depth += sign * moved;
         }
     }
@@ -523,6 +583,11 @@ fn wanted(page: &Page, history: &History, energies: bool) -> Vec<(String, Column
             ));
         }
     }
+    let feet = history.columns().iter().filter_map(|column| match column {
+        Column::Displacement { building, floor: 0 } => Some((format!("u:{building}:0"), *column)),
+        _ => None,
+    });
+    wanted.extend(feet);
     let closings = history.columns().iter().filter_map(|column| {
         let Column::Closing { contact } = column else {
             return None;

@@ -146,6 +146,8 @@ pub(crate) fn peak_closing(gap: &GapSummary) -> Option<f64> {
 /// Where a contact is: "floor 5", "floors 5 and 4", "height 4.80 m".
 pub(crate) fn place(contact: &ContactSummary) -> String {
     match contact.floors {
+        [Some(0), Some(0)] => "mats".to_owned(),
+        [Some(0), None] | [None, Some(0)] => "mat".to_owned(),
         [Some(left), Some(right)] if left == right => format!("floor {left}"),
         [Some(left), Some(right)] => format!("floors {left} and {right}"),
         _ => format!("height {}\u{a0}m", format::fixed(contact.height_m, 2)),

@@ -27,11 +27,26 @@ impl Prepared {
 }
 
 fn shapes(system: &System) -> Vec<Vec<(f64, Vec<f64>)>> {
-    let of = |mode: &Mode| (mode.period(), floor_shape(mode));
     let buildings = system.structures().iter();
     buildings
-        .map(|building| building.lateral_modes().take(SHAPES).map(of).collect())
+        .map(|building| {
+            let mat = building
+                .support
+                .map(|support| support.dof - building.offset);
+            let of = |mode: &Mode| (mode.period(), shape_from(mode, mat));
+            building.lateral_modes().take(SHAPES).map(of).collect()
+        })
         .collect()
+}
+
+/// Horizontal shape at the mat, if there is one, and at the floors, the floor that moves most by ±1.
+fn shape_from(mode: &Mode, mat: Option<usize>) -> Vec<f64> {
+    let floors = floor_shape(mode);
+    let pairs = floors.iter().zip(&mode.floors);
+    let scale = pairs.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    let scale = scale.map_or(0.0, |(scaled, own)| scaled / own);
+    let mat = mat.map(|dof| scale * mode.shape[dof]);
+    mat.into_iter().chain(floors).collect()
 }
 
 /// Changes with every number of the model and of the motion, and with the version.

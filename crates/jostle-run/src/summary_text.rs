@@ -467,14 +467,29 @@ fn write_spread(text: &mut String, spread: &ContactSensitivity) -> std::fmt::Res
 
 fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
     let [left, right] = &link.between;
+    let pair = if left == right {
+        left.clone()
+    } else {
+        format!("{left} — {right}")
+    };
+    let law = match link.law.as_str() {
+        "linear" => String::new(),
+        law => format!("{law} "),
+    };
+    // Springs without dashpot dissipate rounding, of either sign.
+    let dissipated = if link.dissipated_j.abs() < 1e-6 {
+        0.0
+    } else {
+        link.dissipated_j
+    };
     let stroke = link.floors.iter().map(|floor| floor.peak_stroke_m);
     writeln!(
         text,
-        "\n{left} — {right}, {}: {}, stroke {} mm, {:.1} kJ dissipated",
-        counted(link.floors.len(), "link"),
+        "\n{pair}, {}: {}, stroke {} mm, {:.1} kJ dissipated",
+        counted(link.floors.len(), &format!("{law}link")),
         styled(BOLD, &format!("peak {} kN", kn(link.peak_force_n))),
         mm(stroke.fold(0.0, f64::max)),
-        link.dissipated_j * 1e-3
+        dissipated * 1e-3
     )
 }
 

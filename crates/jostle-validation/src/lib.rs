@@ -136,8 +136,9 @@ const FAMILIES: [(&str, &str, Make); 16] = [
         |_| paper::rows(),
     ),
     (
-        "Yielding frames in OpenSees",
-        "Hinges at every member end and most other features of a model, from model files with a tolerance of 10⁻⁴. \
+        "Yielding frames, bearings and links in OpenSees",
+        "Hinges at every member end; bearings with stops, a moat wall and links of every law that is exported; most other features \
+         of a model, from model files with a tolerance of 10⁻⁴. \
          The reference is OpenSees on the exported scripts with steps of 0.5 ms, near contact 0.05 ms.",
         |_| yielding::rows(),
     ),

@@ -1,4 +1,4 @@
-//! Yielding frames through model files, against OpenSees on the exported script.
+//! Yielding frames, bearings, walls and links through model files, against OpenSees on the exported script.
 
 use jostle::{Pounding, Settings};
 use jostle_io::Input;
@@ -9,7 +9,7 @@ use crate::files::{model, run_model};
 use crate::row::Row;
 
 /// Name of the case, the model, what OpenSees made of it, and what it may be off.
-const CASES: [(&str, &str, &str, f64); 2] = [
+const CASES: [(&str, &str, &str, f64); 3] = [
     (
         "inelastic",
         include_str!("../data/opensees/inelastic.toml"),
@@ -23,6 +23,13 @@ const CASES: [(&str, &str, &str, f64); 2] = [
         include_str!("../data/opensees/leaning.json"),
         // When halved; its peak-oriented springs overshoot corners, which is of first order.
         9e-4,
+    ),
+    (
+        "isolated",
+        include_str!("../data/opensees/isolated.toml"),
+        include_str!("../data/opensees/isolated.json"),
+        // When halved: 1.2·10⁻⁵ of forces, 1.9·10⁻⁵ of displacements.
+        5e-5,
     ),
 ];
 /// Ours, on peak forces and displacements \[–\].
@@ -85,7 +92,10 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
             let all = outcome.impacts.iter();
             all.filter(move |impact| impact.contact == index)
         };
-        let floor = at(expected, "/floors/0");
+        let floor = match at(expected, "/floors/0") {
+            Value::Null => "of a wall".to_owned(),
+            number => number.to_string(),
+        };
         let wanted = number(expected, "/impact_count");
         rows.push(Row::absolute(
             &source,
@@ -103,6 +113,20 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
                 tolerance,
             ));
         }
+    }
+    if let Some(expected) = expected.get("links").and_then(Value::as_array) {
+        let wanted: Vec<f64> = expected
+            .iter()
+            .map(|link| number(link, "/peak_force_n"))
+            .collect();
+        let links = outcome.links.iter();
+        let got: Vec<f64> = links.map(|link| link.peak_force.value.abs()).collect();
+        for (number, (wanted, got)) in wanted.iter().zip(&got).enumerate() {
+            let law = system.links[number].law.name();
+            let quantity = format!("{law} link, peak force [N]");
+            rows.push(Row::relative(&source, quantity, *wanted, *got, tolerance));
+        }
+        assert_eq!(wanted.len(), got.len(), "as many links");
     }
     rows
 }

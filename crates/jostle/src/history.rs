@@ -128,6 +128,17 @@ pub enum Column {
         /// Link index.
         link: usize,
     },
+    /// Shortening of a link since rest (index into the links of the system) \[m\]. On request; and of links that are not linear
+    /// between floors, where it does not follow from displacements of floors.
+    LinkStroke {
+        /// Link index.
+        link: usize,
+    },
+    /// Its rate, on the same terms \[m/s\].
+    LinkSpeed {
+        /// Link index.
+        link: usize,
+    },
     /// Force of the bearings of a building or of the spring and dashpot of a wall on the ground \[N\].
     SupportForce {
         /// Building index; walls are counted on from the buildings.
@@ -172,6 +183,8 @@ impl Column {
             Self::ContactForce { .. } => of("contact", "force", Unit::N, "contact force, positive in compression"),
             Self::Closing { .. } => of("contact", "closing", Unit::M, "closing; only of contacts on a column between floors"),
             Self::LinkForce { .. } => of("link", "force", Unit::N, "force of the link, positive in compression"),
+            Self::LinkStroke { .. } => of("link", "stroke", Unit::M, "shortening of the link since rest; with `links = true` under `[output]`"),
+            Self::LinkSpeed { .. } => of("link", "speed", Unit::M_S, "its rate; with `links = true` under `[output]`"),
             Self::SupportForce { .. } => of("isolation", "force", Unit::N, "force of bearings, stops not included; of a wall, that of its spring and dashpot"),
             Self::Energy(EnergyTerm::Input) => of("energy", "input", Unit::J, "work of the ground motion until then"),
             Self::Energy(EnergyTerm::Kinetic) => of("energy", "kinetic", Unit::J, "kinetic energy relative to the ground"),
@@ -200,7 +213,9 @@ impl Column {
             | Self::RotationRate { building, floor }
             | Self::RotationAcceleration { building, floor } => [building, floor],
             Self::ContactForce { contact } | Self::Closing { contact } => [contact, 0],
-            Self::LinkForce { link } => [link, 0],
+            Self::LinkForce { link } | Self::LinkStroke { link } | Self::LinkSpeed { link } => {
+                [link, 0]
+            }
             Self::SupportForce { building } => [building, 0],
         }
     }

@@ -2,9 +2,11 @@
 
 use std::ops::ControlFlow;
 
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::{
-    Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, LawKind, Link, Model,
-    Plan, Pounding, RestitutionIs, Settings, Shear, Solver, Structure, System, simulate,
+    Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, Isolation, Isolator,
+    LawKind, Level, Link, LinkLaw, Model, Plan, Pounding, RestitutionIs, Settings, Shear, Solver,
+    SpeedFriction, Stop, Structure, System, Wall, simulate,
 };
 
 fn towers() -> Model {
@@ -69,8 +71,74 @@ fn blows_and_links_allocate_nothing_either() {
         level_tolerance: 1e-3,
         stiffness: 1e6,
         damping: 5e4,
-        law: jostle::LinkLaw::Linear,
+        law: LinkLaw::Linear,
     }];
+    never_more_often(&model);
+}
+
+/// Links of all laws, bearings of both kinds that yield, stops, and a wall that gives way.
+#[test]
+fn links_that_are_not_linear_bearings_and_walls_allocate_nothing_either() {
+    let mut model = towers();
+    let yielding = {
+        let corners = Corners::bilinear(6e4, 0.05);
+        let backbone = Backbone::from_forces(3e7, corners, corners).expect("sound");
+        Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("it fits")
+    };
+    let friction = LinkLaw::Friction {
+        slip_force: 4e4,
+        stick_stiffness: 4e7,
+    };
+    let link = |law, stiffness, damping| Link {
+        between: [Some(0), Some(1)],
+        floors: FloorPairs::listed(&[(2, 2)]),
+        level_tolerance: 1e-3,
+        stiffness,
+        damping,
+        law,
+    };
+    model.links = vec![
+        link(LinkLaw::Viscous { exponent: 0.4 }, 0.0, 2e4),
+        link(LinkLaw::Viscous { exponent: 0.35 }, 5e7, 2e4),
+        link(LinkLaw::Maxwell, 1e7, 3e5),
+        link(friction, 0.0, 0.0),
+        link(LinkLaw::Yielding(yielding), 0.0, 0.0),
+        link(LinkLaw::Cable { slack: 0.01 }, 1e7, 0.0),
+        link(LinkLaw::Stopper { gap: 0.008 }, 2e7, 4e4),
+    ];
+    let stops = Stop {
+        at: 0.03,
+        stiffness: 2e7,
+    };
+    let lead = Isolator::LeadRubber {
+        stiffness: 3e7,
+        yield_force: 1e5,
+        post_yield: 0.1,
+    };
+    let pendulum = Isolator::Pendulum {
+        radius: 1.5,
+        friction: SpeedFriction {
+            slow: 0.02,
+            fast: 0.05,
+            rate: 40.0,
+        },
+        slip_displacement: 1e-3,
+    };
+    for (building, isolator) in model.buildings.iter_mut().zip([lead, pendulum]) {
+        building.base.isolation = Some(Isolation {
+            stops: [Some(stops); 2],
+            ..Isolation::new(isolator, 6e4)
+        });
+    }
+    model.walls.push(Wall {
+        name: "moat".into(),
+        stiffness: Some(1e8),
+        damping: 1e6,
+        mass: 2e4,
+    });
+    let mut moat = Gap::between([Some(2), Some(0)], 0.015, model.gaps[0].law);
+    moat.floors = FloorPairs::Listed(vec![[Level::Wall, Level::Floor(0)]]);
+    model.gaps.push(moat);
     never_more_often(&model);
 }
 
@@ -78,7 +146,7 @@ fn never_more_often(model: &Model) {
     let mut model = model.clone();
     if model.analysis.solver != Some(Solver::Modal) {
         // Automatic steps would be refined by further runs, more of them in a longer motion.
-        model.analysis.step = Some(0.005);
+        model.analysis.step = Some(0.004);
     }
     let model = &model;
     let system = System::assemble(model).expect("a valid model");

@@ -68,6 +68,8 @@ def build(axial):
         ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", 1)
     for tag, left, right, material, *_ in CONTACTS:
         ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1)
+    for tag, left, right, material, *_ in LINKS:
+        ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1)
     for number, building in enumerate(BUILDINGS, start=1):
         first, last = building["nodes"]
         # On the initial stiffness of everything that is not a bare spring.
@@ -299,6 +301,11 @@ def envelopes(folder):
         ops.recorder("EnvelopeElement", "-file", os.path.join(folder, "forces"), "-precision", 12, "-ele", *elements, "localForce")
 
 
+    if LINKS:
+        elements = [row[0] for row in LINKS]
+        ops.recorder("EnvelopeElement", "-file", os.path.join(folder, "links"), "-precision", 12, "-ele", *elements, "localForce")
+
+
 def read(folder, name):
     with open(os.path.join(folder, name)) as file:
         return [[float(value) for value in line.split()] for line in file]
@@ -326,6 +333,7 @@ def analyse(args):
         ops.wipe()
         low, high, _ = read(folder, "floors")
         forces = read(folder, "forces")[0] if CONTACTS else []
+        pulls = read(folder, "links")[2] if LINKS else []
     peaks = iter(zip(high, low))
     buildings = []
     for building in BUILDINGS:
@@ -344,6 +352,9 @@ def analyse(args):
             "peak_force_n": max(0.0, -forces[index]),
             "first_impact_s": watch.first[index],
         })
+    links = []
+    for (_, _, _, _, number, floors, height), force in zip(LINKS, pulls):
+        links.append({"link": number, "floors": list(floors), "height_m": height, "peak_force_n": force})
     firsts = [contact["first_impact_s"] for contact in contacts if contact["first_impact_s"] is not None]
     return {
         "title": TITLE,
@@ -363,6 +374,7 @@ def analyse(args):
         "complete": complete,
         "buildings": buildings,
         "contacts": contacts,
+        "links": links,
         "impact_count": sum(watch.impacts),
         "peak_force_n": max((contact["peak_force_n"] for contact in contacts), default=0.0),
         "first_impact_s": min(firsts, default=None),
@@ -380,7 +392,8 @@ def analyse(args):
 
 
 def main():
-    yields = any(name in ("ElasticPP", "Hysteretic") for name, *_ in MATERIALS)
+    used = [material for *_, springs, _ in SPRINGS for _, material in springs] + [row[3] for row in LINKS]
+    yields = any(MATERIALS[material - 1][0] != "Elastic" for material in used)
     parser = argparse.ArgumentParser(description=f"{TITLE}: for OpenSeesPy, {EXPORTED_BY}. Prints JSON.")
     parser.add_argument("--uniform", type=float, metavar="DT", help="one step size throughout [s]")
     parser.add_argument("--free", type=float, default=FREE_STEP, metavar="DT", help="step in free vibration [s] (%(default)s)")

@@ -1,10 +1,11 @@
 //! Hysteresis rules and contact laws as uniaxial materials of OpenSees.
 
+use jostle::LinkLaw;
 use jostle::contact::ForceLaw;
 use jostle::hysteresis::{
     Backbone, BackboneSide, Corner, Hysteresis, HysteresisRule, Side, energy_to_yield,
 };
-use jostle::interface::Contact;
+use jostle::interface::{Contact, LinkElement};
 
 /// Materials of a script, numbered from 1, equal ones listed once.
 #[derive(Default)]
@@ -99,11 +100,69 @@ impl Materials {
                 ];
                 Ok(self.hysteretic(backbone, parameters))
             }
+            HysteresisRule::Stop { side } => {
+                let at = backbone.side(side).yielding.deformation;
+                Ok(self.gap(backbone.initial(), at, side.sign()))
+            }
             rule @ (HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
-            | HysteresisRule::Sliding { .. }
-            | HysteresisRule::Stop { .. }) => Err(rule.name()),
+            | HysteresisRule::Sliding { .. }) => Err(rule.name()),
         }
+    }
+
+    /// An elastic spring that acts beyond a strain, of positive strains with sign 1 and of negative ones with −1.
+    fn gap(&mut self, stiffness: f64, at: f64, sign: f64) -> usize {
+        let at = sign * at.max(NO_GAP);
+        self.add("ElasticPPGap", vec![stiffness, sign * NEVER, at])
+    }
+
+    /// The law of a link, strain being u_right − u_left and so its lengthening, and what is different about it.
+    ///
+    /// # Errors
+    /// The name of a rule that OpenSees does not have.
+    pub(super) fn link(
+        &mut self,
+        link: &LinkElement,
+    ) -> Result<(usize, Option<&'static str>), &'static str> {
+        const IN_SERIES: &str = "ViscousDamper integrates spring and dashpot in series within each step, at constant rate of \
+             deformation; jostle takes the mean force of the step.";
+        let (stiffness, damping) = (link.stiffness, link.damping);
+        Ok(match &link.law {
+            LinkLaw::Linear => (self.elastic(stiffness, damping), None),
+            LinkLaw::Viscous { exponent } if stiffness == 0.0 => {
+                (self.add("Viscous", vec![damping, *exponent]), None)
+            }
+            LinkLaw::Viscous { exponent } => (
+                self.add("ViscousDamper", vec![stiffness, damping, *exponent]),
+                Some(IN_SERIES),
+            ),
+            LinkLaw::Maxwell => (
+                self.add("ViscousDamper", vec![stiffness, damping, 1.0]),
+                Some(IN_SERIES),
+            ),
+            LinkLaw::Friction {
+                slip_force,
+                stick_stiffness,
+            } => {
+                let slips = slip_force / stick_stiffness;
+                (
+                    self.add("ElasticPP", vec![*stick_stiffness, slips, -slips]),
+                    None,
+                )
+            }
+            LinkLaw::Yielding(hysteresis) => (self.yielding(&hysteresis.mirrored())?, None),
+            LinkLaw::Cable { slack } => (self.gap(stiffness, *slack, 1.0), None),
+            LinkLaw::Stopper { gap } if damping == 0.0 => (self.gap(stiffness, *gap, -1.0), None),
+            LinkLaw::Stopper { gap } => (
+                self.add(
+                    "ViscoelasticGap",
+                    vec![stiffness, damping, -gap.max(NO_GAP)],
+                ),
+                Some(
+                    "ViscoelasticGap of a stopper pulls before it opens; jostle cuts the force at zero.",
+                ),
+            ),
+        })
     }
 
     /// Iwan's parallel springs, which is what the rules are.

@@ -9,7 +9,7 @@ mod script;
 mod ties;
 
 use jostle::hysteresis::HysteresisRule;
-use jostle::{Hinges, ModelFault};
+use jostle::{Hinges, Isolation, Isolator, ModelFault};
 
 use crate::{Export, Exported};
 use script::Script;
@@ -46,17 +46,16 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 .into(),
         );
     }
-    if !model.walls.is_empty() {
-        refuse(
-            "wall".into(),
-            "walls with names are not exported yet; leave them and their gaps out".into(),
-        );
-    }
     for (index, building) in model.buildings.iter().enumerate() {
-        if building.base.isolation.is_some() {
+        if let Some(Isolation {
+            isolator: Isolator::Pendulum { friction, .. },
+            ..
+        }) = &building.base.isolation
+            && !friction.is_constant()
+        {
             refuse(
-                format!("building[{index}].isolation"),
-                "is not exported yet; describe lead-rubber bearings as base with a horizontal_hinge of the rule bilinear".into(),
+                format!("building[{index}].isolation.friction"),
+                "rises with the speed, which the exported springs cannot do; give one coefficient, such as friction = 0.05".into(),
             );
         }
         let of_members = match &building.hinges {

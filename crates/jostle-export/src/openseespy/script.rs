@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use jostle::hysteresis::Hysteresis;
+use jostle::interface::Port;
 use jostle::statics::STANDARD_GRAVITY;
 use jostle::structure::{StickModel, Support};
 use jostle::system::BuildingSystem;
@@ -39,6 +40,7 @@ pub(super) struct Script<'a> {
     springs: String,
     leaning: String,
     contacts: String,
+    links: String,
 }
 
 impl<'a> Script<'a> {
@@ -69,6 +71,7 @@ impl<'a> Script<'a> {
             springs: String::new(),
             leaning: String::new(),
             contacts: String::new(),
+            links: String::new(),
         };
         let mut faults = Vec::new();
         let mut place = 0.0;
@@ -94,8 +97,8 @@ impl<'a> Script<'a> {
         }
         if !export.system.is_in_space() {
             script.add_contacts(&mut faults);
+            script.add_links(&mut faults);
         }
-        script.refuse_links(&mut faults);
         script.remark_on_motion();
         if faults.is_empty() {
             Ok(script)
@@ -159,7 +162,9 @@ impl<'a> Script<'a> {
             .iter()
             .map(|node| self.tag(index, *node).to_string())
             .collect();
-        let gravity = self.export.model.buildings[index].gravity;
+        // Walls follow the buildings of the model, and have no weight.
+        let of_model = self.export.model.buildings.get(index);
+        let gravity = of_model.map_or_else(Default::default, |building| building.gravity);
         let (equations, nodes) = (
             &building.equations,
             building.discretization.stick_model.nodes.len(),
@@ -314,7 +319,9 @@ impl<'a> Script<'a> {
                 .into_iter()
                 .map(|material| (1, material))
                 .collect();
-            self.spring(first, last, &directions, spring.proportional_damping);
+            if !directions.is_empty() {
+                self.spring(first, last, &directions, spring.proportional_damping);
+            }
             if spring.softening != 0.0 {
                 self.lean(first, last, -spring.softening);
             }
@@ -390,20 +397,7 @@ impl<'a> Script<'a> {
                 }
                 continue;
             }
-            let face = |side: usize| {
-                let face = contact.ports.0[side]?;
-                let discretization = &system.buildings[face.building].discretization;
-                let nodes = if side == 0 {
-                    &discretization.right_face
-                } else {
-                    &discretization.left_face
-                };
-                let level = |node: &&usize| {
-                    (discretization.stick_model.nodes[**node].y - face.height).abs() <= SAME_LEVEL
-                };
-                let node = nodes.iter().find(level).copied()?;
-                Some(self.tag(face.building, node))
-            };
+            let face = |side: usize| self.face(contact.ports.0[side]?, side == 0);
             let (Some(a), Some(b)) = (face(0), face(1)) else {
                 faults.push(ModelFault {
                     path: format!("{path}.floors"),
@@ -449,14 +443,83 @@ impl<'a> Script<'a> {
         }
     }
 
-    /// Links have no counterpart here yet.
-    fn refuse_links(&self, faults: &mut Vec<ModelFault>) {
-        let mut links: Vec<usize> = self.export.system.links.iter().map(|l| l.link).collect();
-        links.dedup();
-        faults.extend(links.into_iter().map(|link| ModelFault {
-            path: format!("link[{link}]"),
-            problem: "links are not exported; leave them out".to_owned(),
-        }));
+    /// Tag of the node at a point of the right or the left face of a building.
+    fn face(&self, port: Port, right: bool) -> Option<usize> {
+        let discretization = &self.export.system.buildings[port.building].discretization;
+        let nodes = if right {
+            &discretization.right_face
+        } else {
+            &discretization.left_face
+        };
+        let level = |node: &&usize| {
+            (discretization.stick_model.nodes[**node].y - port.height).abs() <= SAME_LEVEL
+        };
+        let node = match nodes.iter().find(level) {
+            Some(node) => *node,
+            // A wall has one node, whatever the height of its contacts.
+            None if port.building >= self.export.model.buildings.len() => *nodes.first()?,
+            None => return None,
+        };
+        Some(self.tag(port.building, node))
+    }
+
+    /// Tag of a node of a building that stands still.
+    fn ground(&self, building: usize) -> Option<usize> {
+        let sticks = &self.export.system.buildings[building]
+            .discretization
+            .stick_model;
+        let mut nodes = sticks.nodes.iter();
+        let node = nodes.position(|node| node.support == Support::Fixed)?;
+        Some(self.tag(building, node))
+    }
+
+    fn add_links(&mut self, faults: &mut Vec<ModelFault>) {
+        let system = self.export.system;
+        for link in &system.links {
+            let path = format!("link[{}]", link.link);
+            let ports = link.ports.0;
+            let own = ports.iter().flatten().map(|port| port.building).next();
+            // Both ends of a link inside a building stand on the same face.
+            let end = |side: usize| match ports[side] {
+                Some(port) => self.face(port, side == 0 || link.inside),
+                None => self.ground(own?),
+            };
+            let (Some(a), Some(b)) = (end(0), end(1)) else {
+                faults.push(ModelFault {
+                    path: format!("{path}.floors"),
+                    problem: format!("there is no node at {:.3} m", link.height),
+                });
+                continue;
+            };
+            let (material, remark) = match self.materials.link(link) {
+                Ok(found) => found,
+                Err(rule) => {
+                    faults.push(ModelFault {
+                        path: format!("{path}.hinge.rule"),
+                        problem: format!(
+                            "OpenSees has no rule \"{rule}\"; normal, bilinear, peak-oriented and pinched can be exported"
+                        ),
+                    });
+                    continue;
+                }
+            };
+            if let Some(remark) = remark {
+                self.remark(remark);
+            }
+            let tag = self.element();
+            let floor = |floor: Option<usize>| {
+                floor.map_or_else(|| "None".to_owned(), |floor| floor.to_string())
+            };
+            let [low, high] = link.ports.floors();
+            let _ = writeln!(
+                self.links,
+                "    ({tag}, {a}, {b}, {material}, {}, ({}, {}), {:?}),",
+                link.link,
+                floor(low),
+                floor(high),
+                rounded(link.height),
+            );
+        }
     }
 
     fn remark_on_motion(&mut self) {
@@ -600,6 +663,12 @@ impl<'a> Script<'a> {
             "CONTACTS",
             "element, left node, right node, material, gap [m], number of the gap, floors, height [m]",
             &self.contacts,
+        )?;
+        table(
+            out,
+            "LINKS",
+            "element, left node, right node, material, number of the link, floors, height [m]",
+            &self.links,
         )?;
         self.write_motion(out)?;
         writeln!(out, "\n{}", driver.trim_end())

@@ -6,6 +6,7 @@ use jostle::separation::BuildingCodes;
 use jostle::{Analysis, Base, Building, Damping, Gravity, Model, PlanPoint, Structure};
 use std::path::Path;
 
+use super::damper::{self, Damper};
 use super::reinforced::{self, ReinforcedMember};
 use super::{codes, frame, given, hinges, isolation, plan, shear};
 use crate::keys::{BUILDING_KINDS, Section};
@@ -28,6 +29,8 @@ pub(super) struct Buildings {
     pub(super) codes: Vec<BuildingCodes>,
     /// Where those with a plan stand on the site; `None` stands in a row.
     pub(super) at: Vec<Option<PlanPoint>>,
+    /// Their dampers, in the order of buildings.
+    pub(super) dampers: Vec<Damper>,
 }
 
 /// Reads the list of buildings; `None` if it is not a list.
@@ -53,6 +56,7 @@ pub(super) fn read_all(
         return None;
     }
     let (mut members, mut of_codes, mut at) = (Vec::new(), Vec::new(), Vec::new());
+    let mut dampers = Vec::new();
     let buildings = entries
         .iter()
         .enumerate()
@@ -61,6 +65,7 @@ pub(super) fn read_all(
             let building = read(reader, entry, i, base, &mut members, &mut place);
             at.push(place);
             of_codes.push(read_codes(reader, entry));
+            dampers.extend(damper::read_all(reader, entry, i));
             building
         })
         .collect::<Vec<_>>();
@@ -71,6 +76,7 @@ pub(super) fn read_all(
         members,
         codes: of_codes,
         at,
+        dampers,
     })
 }
 

@@ -10,7 +10,7 @@ use crate::reader::{Field, Reader, View};
 use crate::unit::Unit;
 
 /// Most links.
-const MOST_LINKS: usize = 10_000;
+pub(super) const MOST_LINKS: usize = 10_000;
 
 /// Reads all links. Without buildings, names are unknown, and only the rest is checked.
 pub(super) fn read_all(
@@ -45,19 +45,15 @@ fn read(
     buildings: Option<&[Building]>,
     walls: &[Wall],
 ) -> Option<Link> {
-    let view = reader.open(field, &[Section::Link])?;
+    let view = reader.open(field, &[Section::Link, Section::LinkLaw])?;
     let between = neighbours(reader, &view, buildings, walls, true);
     let floors = floors(reader, &view);
     let level_tolerance = tolerance(reader, &view);
-    let name = match reader.get(&view, "law") {
-        Some(field) => reader.choice(&field, LINK_LAWS, &[])?,
-        None => LinkLaw::Linear.name(),
-    };
     let Parameters {
         law,
         stiffness,
         damping,
-    } = parameters(reader, &view, name)?;
+    } = read_law(reader, &view)?;
     Some(Link {
         between: between?,
         floors: floors.unwrap_or(FloorPairs::Common),
@@ -69,10 +65,19 @@ fn read(
 }
 
 /// A law with its numbers.
-struct Parameters {
-    law: LinkLaw,
-    stiffness: f64,
-    damping: f64,
+pub(super) struct Parameters {
+    pub(super) law: LinkLaw,
+    pub(super) stiffness: f64,
+    pub(super) damping: f64,
+}
+
+/// The law of a link or damper; `None` after faults.
+pub(super) fn read_law(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Parameters> {
+    let name = match reader.get(view, "law") {
+        Some(field) => reader.choice(&field, LINK_LAWS, &[])?,
+        None => LinkLaw::Linear.name(),
+    };
+    parameters(reader, view, name)
 }
 
 /// Keys of the parameters, with the laws that know them.

@@ -33,6 +33,13 @@ pub(super) fn read(
     (members, spectra, capacity)
 }
 
+/// Whether strokes and speeds of links are asked for.
+pub(super) fn link_motion(reader: &mut Reader<'_>, field: &Field<'_>) -> bool {
+    let view = reader.reopen(field, &[Section::Output]);
+    let links = view.and_then(|view| reader.get(&view, "links"));
+    links.is_some_and(|field| reader.flag(&field).unwrap_or(false))
+}
+
 fn read_members(reader: &mut Reader<'_>, field: &Field<'_>) -> MemberRequest {
     match (&field.node.value, field.entries()) {
         (Value::Flag(envelopes), _) => MemberRequest {

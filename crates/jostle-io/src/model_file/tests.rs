@@ -41,6 +41,7 @@ hinges = { rule = "pinched", pinching = {}, damage = {}, column = { positive = {
 [[building]]
 kind = "shear"
 codes = { importance = 1 }
+damper = [{ floors = [0, 1], law = "friction" }]
 base = { mass = 1 }
 isolation = { kind = "linear", stop = {} }
 hinges = { rule = "normal" }

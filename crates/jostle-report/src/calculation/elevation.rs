@@ -1,12 +1,12 @@
 //! The buildings drawn to scale, with heights, spans and gaps.
 
-use jostle::Model;
 use jostle::model::{Building, Structure};
 use maud::{Markup, html};
 
 use super::words::WORDS;
-use crate::format;
 use crate::static_plot::colour;
+use crate::walls::{SceneWall, walls};
+use crate::{Page, format};
 
 /// Size of the drawing, and room for dimensions around it.
 const WIDTH: f64 = 760.0;
@@ -15,6 +15,10 @@ const BELOW: f64 = 46.0;
 const ABOVE: f64 = 20.0;
 /// Room for the heights beside a building.
 const BESIDE: f64 = 34.0;
+/// Height of bearings as drawn, free space beside a mat, width of walls.
+const PIT: f64 = 14.0;
+const FREE: f64 = 7.0;
+const WALL: f64 = 8.0;
 /// Width of a building without spans, as a part of its height, and its least width \[m\].
 const SLENDERNESS: f64 = 0.3;
 const LEAST_WIDTH: f64 = 3.0;
@@ -60,7 +64,14 @@ impl Outline {
 }
 
 /// The figure. Gaps are drawn wide enough to be seen; their width is written.
-pub(super) fn figure(model: &Model) -> Markup {
+pub(super) fn figure(page: &Page) -> Markup {
+    let model = page.model;
+    let isolated = |building: &Building| building.base.isolation.is_some();
+    let pit = if model.buildings.iter().any(isolated) {
+        PIT
+    } else {
+        0.0
+    };
     let outlines: Vec<Outline> = model.buildings.iter().map(Outline::new).collect();
     let count = outlines.len() as f64;
     let wide: f64 = outlines.iter().map(Outline::width).sum();
@@ -71,7 +82,7 @@ pub(super) fn figure(model: &Model) -> Markup {
     let room = WIDTH - count * BESIDE - 30.0;
     let scale = (room / wide).min(TALLEST / high);
     let ground = ABOVE + scale * high;
-    let height = ground + BELOW;
+    let height = ground + BELOW + pit;
     let used = scale * wide + count * BESIDE;
     let mut left = 0.5 * (WIDTH - used);
     let mut places = Vec::new();
@@ -86,13 +97,68 @@ pub(super) fn figure(model: &Model) -> Markup {
             svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(WORDS.elevation) {
                 line.ground x1="8" x2=(WIDTH - 8.0) y1=(round(ground)) y2=(round(ground)) {}
                 @for (index, (outline, left)) in outlines.iter().zip(&places).enumerate() {
-                    (drawing(&model.buildings[index], index, outline, *left, scale, ground))
+                    @if isolated(&model.buildings[index]) {
+                        (bearings(index, *left, scale * outline.width(), ground))
+                    }
+                    (drawing(&model.buildings[index], index, outline, *left, [scale, ground, pit]))
+                }
+                @for wall in walls(page) {
+                    (wall_mark(&wall, model.buildings.iter().map(isolated).collect(), &outlines, &places, [scale, ground]))
                 }
                 @for gap in &model.gaps {
-                    (gap_mark(gap, &outlines, &places, scale, ground))
+                    (gap_mark(gap, &outlines, &places, scale, ground + pit))
                 }
             }
         }
+    }
+}
+
+/// A mat on bearings in a pit.
+fn bearings(index: usize, left: f64, width: f64, ground: f64) -> Markup {
+    let (from, to) = (left - FREE, left + width + FREE);
+    let half = (0.1 * width).min(6.0);
+    let places = [left + half, left + 0.5 * width, left + width - half];
+    let pit = format!("M{from:.1},{ground:.1}v{PIT}H{to:.1}v-{PIT}");
+    let pads = places.map(|x| {
+        format!(
+            "M{:.1},{:.1}v-{PIT}h{:.1}v{PIT}z",
+            x - half,
+            ground + PIT,
+            2.0 * half
+        )
+    });
+    html! {
+        rect.pit x=(round(from)) y=(round(ground - 1.0)) width=(round(to - from)) height=(round(PIT + 1.0)) {}
+        path.ground d=(pit) {}
+        g style=(colour(index)) {
+            path.bearings d=(pads.concat()) {}
+            line.slabs x1=(round(left)) x2=(round(left + width)) y1=(round(ground)) y2=(round(ground)) {}
+        }
+    }
+}
+
+/// A wall, up to its highest contact.
+fn wall_mark(
+    wall: &SceneWall,
+    isolated: Vec<bool>,
+    outlines: &[Outline],
+    places: &[f64],
+    [scale, ground]: [f64; 2],
+) -> Markup {
+    let [left, right] = wall.beside;
+    let from = match (left, right) {
+        (Some(left), _) => places[left] + scale * outlines[left].width() + FREE,
+        (None, Some(right)) => places[right] - FREE - WALL,
+        (None, None) => return html! {},
+    };
+    let pit = [left, right]
+        .into_iter()
+        .flatten()
+        .any(|index| isolated[index]);
+    let bottom = ground + if pit { PIT } else { 0.0 };
+    let top = ground - scale * wall.top - 5.0;
+    html! {
+        rect.wall x=(round(from)) y=(round(top)) width=(WALL) height=(round(bottom - top)) {}
     }
 }
 
@@ -101,8 +167,7 @@ fn drawing(
     index: usize,
     outline: &Outline,
     left: f64,
-    scale: f64,
-    ground: f64,
+    [scale, ground, pit]: [f64; 3],
 ) -> Markup {
     let frame = matches!(building.structure, Structure::Frame(_));
     let y = |height: f64| ground - scale * height;
@@ -150,10 +215,10 @@ fn drawing(
         }
         @if frame {
             @for pair in outline.lines.windows(2) {
-                text x=(round(0.5 * (x(pair[0]) + x(pair[1])))) y=(round(ground + 15.0)) text-anchor="middle" { (format::plain(pair[1] - pair[0], 4)) }
+                text x=(round(0.5 * (x(pair[0]) + x(pair[1])))) y=(round(ground + pit + 15.0)) text-anchor="middle" { (format::plain(pair[1] - pair[0], 4)) }
             }
         }
-        text x=(round(middle)) y=(round(ground + 30.0)) text-anchor="middle" { "H = " (format::plain(outline.height(), 4)) }
+        text x=(round(middle)) y=(round(ground + pit + 30.0)) text-anchor="middle" { "H = " (format::plain(outline.height(), 4)) }
     }
 }
 

@@ -15,7 +15,8 @@ use words::WORDS;
 /// What a calculation document shows beyond the numbers of a run.
 #[derive(Clone, Debug)]
 pub struct Calculation<'a> {
-    /// First lateral modes of every building: period \[s\] and horizontal shape at the floors, the greatest ±1.
+    /// First lateral modes of every building: period \[s\] and horizontal shape at the floors, the greatest ±1; of an
+    /// isolated building at its mat before them.
     pub shapes: Vec<Vec<(f64, Vec<f64>)>>,
     /// Design spectrum that the motion is scaled to, and its damping ratio.
     pub target: Option<(&'a TargetSpectrum, f64)>,
@@ -126,7 +127,7 @@ pub(crate) fn model_figures(page: &Page) -> Markup {
         return html! {};
     };
     html! {
-        (elevation::figure(page.model))
+        (elevation::figure(page))
         div.static-plots.shapes {
             @for (index, building) in page.model.buildings.iter().enumerate() {
                 @if let Some(shapes) = calculation.shapes.get(index).filter(|shapes| !shapes.is_empty()) {
@@ -139,10 +140,12 @@ pub(crate) fn model_figures(page: &Page) -> Markup {
 
 fn shape_plot(building: &Building, shapes: &[(f64, Vec<f64>)]) -> Plot {
     let heights = building.floor_heights();
-    // A mat moves; its displacement is not among those of floors.
-    let ground = building.base.isolation.is_none().then_some([0.0, 0.0]);
+    // A mat moves, and is the first of the shape; the ground does not.
+    let isolated = building.base.isolation.is_some();
+    let (ground, mat) = ((!isolated).then_some([0.0; 2]), isolated.then_some(0.0));
     let lines = shapes.iter().enumerate().map(|(index, (period, shape))| {
-        let floors = shape.iter().zip(&heights).map(|(x, y)| [*x, *y]);
+        let levels = mat.into_iter().chain(heights.iter().copied());
+        let floors = shape.iter().zip(levels).map(|(x, y)| [*x, y]);
         Line {
             name: format!("T{} = {} s", index + 1, format::fixed(*period, 3)),
             points: ground.into_iter().chain(floors).collect(),

@@ -52,10 +52,7 @@ impl Contact {
     /// Whether a side lies on a column between floors.
     #[must_use]
     pub fn is_between_floors(&self) -> bool {
-        let sides = self.ports.buildings().into_iter().zip(self.ports.floors());
-        sides
-            .into_iter()
-            .any(|(building, floor)| building.is_some() && floor.is_none())
+        self.ports.are_between_floors()
     }
 
     /// A contact without width whose law is still to be given.

@@ -75,6 +75,15 @@ impl PortPair {
         self.0.map(|port| port.and_then(|f| f.floor))
     }
 
+    /// Whether a side is a point of a building between its floors.
+    #[must_use]
+    pub fn are_between_floors(&self) -> bool {
+        let sides = self.buildings().into_iter().zip(self.floors());
+        sides
+            .into_iter()
+            .any(|(building, floor)| building.is_some() && floor.is_none())
+    }
+
     /// Height above the base, midway where both sides differ \[m\].
     #[must_use]
     pub fn height(&self) -> f64 {

@@ -509,6 +509,8 @@ pub struct Analysis {
     pub most_work: f64,
     /// Forces of columns and beams that are asked for; `[output] members` of a model file.
     pub members: MemberRequest,
+    /// Whether histories hold strokes and speeds of links; `[output] links` of a model file.
+    pub link_motion: bool,
 }
 
 /// Default bound on the work of a run: some hours of computing \[–\].
@@ -525,6 +527,7 @@ impl Default for Analysis {
             integrator: Integrator::default(),
             most_work: MOST_WORK,
             members: MemberRequest::default(),
+            link_motion: false,
         }
     }
 }

@@ -521,7 +521,8 @@ fn lateral_period(building: &BuildingSystem, number: usize) -> Option<f64> {
 
 fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f64 {
     let mut step = LONGEST_STEP;
-    for building in &system.buildings {
+    // Walls follow the ground, damped by the soil: errors of their frequencies decide.
+    for building in system.structures() {
         for (number, steps) in [(1, STEPS_PER_FIRST_PERIOD), (3, STEPS_PER_THIRD_PERIOD)] {
             step = lateral_period(building, number)
                 .map_or(step, |period| step.min(refinement * period / steps));
@@ -558,7 +559,13 @@ fn frequency_errors<'a>(
     let duration = motion.duration;
     building.lateral_modes().map(move |mode| {
         let omega = mode.circular_frequency;
-        let damping = 0.5 * (equations.alpha / omega + equations.beta * omega);
+        let mut damping = 0.5 * (equations.alpha / omega + equations.beta * omega);
+        if let Some(support) = &building.support {
+            // Rayleigh damping acts on motion relative to the support, and the dashpot of the support beside it.
+            let moved = mode.shape[support.dof - building.offset].powi(2);
+            damping *= (1.0 - support.stiffness * moved / (omega * omega)).max(0.0);
+            damping += 0.5 * support.damping * moved / omega;
+        }
         let cycles = 0.5 / damping.max(1.0 / (omega * duration));
         let floors = mode.floors.iter();
         let largest = floors.fold(0.0, |most: f64, floor| most.max(floor.abs()));

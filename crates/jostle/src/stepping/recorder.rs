@@ -77,6 +77,10 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
             .map(|contact| Column::Closing { contact }),
     );
     columns.extend((0..system.links.len()).map(|link| Column::LinkForce { link }));
+    let followed = system.links_followed.iter();
+    columns.extend(
+        followed.flat_map(|&link| [Column::LinkStroke { link }, Column::LinkSpeed { link }]),
+    );
     let supported = system.buildings.iter().enumerate();
     for (building, _) in supported.filter(|(_, own)| own.support.is_some()) {
         let floor = 0;
@@ -295,6 +299,11 @@ impl Recorder {
             .filter(|contact| contact.is_between_floors())
             .for_each(|contact| put(contact.ports.closing(&state.displacement)));
         links.iter().for_each(|force| put(*force));
+        for link in &system.links_followed {
+            let link = &system.links[*link];
+            put(link.shortening(&state.displacement));
+            put(link.ports.closing(&state.velocity));
+        }
         for building in &system.buildings {
             if let Some(support) = &building.support {
                 put(state.displacement[support.dof]);

@@ -95,6 +95,7 @@ impl System {
         system.walls = walls;
         system.join(&row, model)?;
         system.follow_members(&model.analysis.members);
+        system.follow_links(model.analysis.link_motion);
         let faults = finite::of_contacts(&system);
         if faults.is_empty() {
             Ok(system)
@@ -116,11 +117,13 @@ impl System {
             edge_ends: Vec::new(),
             links: Vec::new(),
             members_followed: Vec::new(),
+            links_followed: Vec::new(),
             ratings: Vec::new(),
             walls: self.walls.clone(),
         };
         system.join(&Row::new(model), model)?;
         system.follow_members(&model.analysis.members);
+        system.follow_links(model.analysis.link_motion);
         Ok(system)
     }
 

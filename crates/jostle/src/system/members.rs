@@ -37,6 +37,15 @@ impl System {
             .collect();
     }
 
+    /// Lets histories hold strokes and speeds of all links, or of those only that are not linear and whose strokes do not
+    /// follow from displacements of floors.
+    pub fn follow_links(&mut self, all: bool) {
+        let links = self.links.iter().enumerate();
+        let followed =
+            links.filter(|(_, link)| all || !link.is_linear() && link.ports.are_between_floors());
+        self.links_followed = followed.map(|(index, _)| index).collect();
+    }
+
     /// Building and member of this name, among those whose forces are followed.
     fn member_named(&self, wanted: &str) -> Option<[usize; 2]> {
         self.buildings

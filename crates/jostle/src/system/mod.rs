@@ -39,6 +39,8 @@ pub struct System {
     /// Members whose forces are recorded over time: building, and member of its
     /// [`MemberForces`](crate::structure::MemberForces).
     pub members_followed: Vec<[usize; 2]>,
+    /// Links whose strokes and speeds are recorded over time.
+    pub links_followed: Vec<usize>,
     /// Members whose demand is compared with their capacity.
     pub ratings: Vec<MemberRating>,
     /// Walls of the model, in its order.
@@ -81,6 +83,7 @@ impl System {
             edge_ends: Vec::new(),
             links: Vec::new(),
             members_followed: Vec::new(),
+            links_followed: Vec::new(),
             ratings: Vec::new(),
             walls: Vec::new(),
         }

@@ -11,6 +11,7 @@ mod extremes_are_survived;
 mod forces_never_pull;
 mod given_structures;
 mod harmonic_pounding;
+mod isolation;
 mod linked_modal_stepping;
 mod links_and_walls;
 mod mirrored_model_mirrors_the_answer;

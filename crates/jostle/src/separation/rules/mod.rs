@@ -105,13 +105,16 @@ pub fn floors_are_level(model: &Model, gap: &Gap) -> bool {
     gap.floors == FloorPairs::Common && others.all(|found| found.between.map(Some) != gap.between)
 }
 
-/// Greatest displacement of a building at a height, from the peaks of its floors from the ground up; between floors
-/// linear, above the roof that of the roof \[m\].
+/// Greatest displacement of a building at a height, from the peaks of its floors from the ground up, a mat at height 0 before
+/// them; between floors linear, above the roof that of the roof \[m\].
 #[must_use]
 pub fn peak_at_height(floors: impl IntoIterator<Item = (f64, f64)>, height: f64) -> f64 {
     let (mut below, mut peak_below) = (0.0, 0.0);
     for (floor, peak) in floors {
         if height <= floor + 1e-3 {
+            if floor <= below {
+                return peak;
+            }
             let share = ((height - below) / (floor - below)).clamp(0.0, 1.0);
             return peak_below + share * (peak - peak_below);
         }
@@ -523,5 +526,8 @@ mod tests {
         assert!((peak_at_height(floors(), 1.5) - 0.005).abs() < 1e-15);
         assert!((peak_at_height(floors(), 4.5) - 0.025).abs() < 1e-15);
         assert_eq!(peak_at_height(floors(), 9.0), 0.04);
+        let on_mat = || [(0.0, 0.1)].into_iter().chain(floors());
+        assert_eq!(peak_at_height(on_mat(), 0.0), 0.1);
+        assert!(peak_at_height(on_mat(), 1.5) > 0.05);
     }
 }

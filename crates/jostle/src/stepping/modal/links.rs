@@ -53,7 +53,7 @@ impl ModalLink {
     }
 
     /// Left minus right of monitored values.
-    fn closing(&self, values: &[f64]) -> f64 {
+    pub(super) fn closing(&self, values: &[f64]) -> f64 {
         let at = |port: Option<Shown>| port.map_or(0.0, |shown| values[shown.watched]);
         at(self.ports[0]) - at(self.ports[1])
     }

@@ -513,6 +513,15 @@ impl Peaks {
             .filter(|(_, contact)| contact.is_between_floors())
             .for_each(|(contact, _)| put(reduced.closing(contact, watched.u)));
         links.iter().for_each(|force| put(*force));
+        for followed in &system.links_followed {
+            let mut links = reduced.links.iter();
+            let own = links.find(|own| own.link == Some(*followed));
+            let [stroke, speed] = own.map_or([0.0; 2], |own| {
+                [own.closing(watched.u), own.closing(watched.rate)]
+            });
+            put(stroke);
+            put(speed);
+        }
         [
             energy.input,
             energy.kinetic,

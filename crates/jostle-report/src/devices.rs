@@ -1,0 +1,416 @@
+//! Bearings, links, dampers and walls: loops of force over displacement, and a table of what they went through.
+
+use jostle::history::Column;
+use jostle::hysteresis::Side;
+use jostle::model::{Isolation, Link, LinkLaw, Model};
+use jostle::results::summary::{IsolationSummary, LinkFloorSummary, LinkSummary};
+use maud::{Markup, html};
+
+use crate::hinges::outline;
+use crate::{Page, format};
+
+/// Loops shown.
+const MOST_LOOPS: usize = 9;
+/// Rows of the table.
+const MOST_ROWS: usize = 100;
+
+/// Bearings of a building, or one link.
+pub(crate) struct Device<'a> {
+    /// What it is and where.
+    pub(crate) name: String,
+    /// Index of its building, or of the left one.
+    pub(crate) building: usize,
+    /// Peak displacement and dissipated energy, in words.
+    pub(crate) note: String,
+    /// Force of first loading, as (displacement, force); empty where it has none.
+    pub(crate) outline: Vec<[f64; 2]>,
+    /// Displacements of stops and limits \[m\].
+    pub(crate) marks: Vec<f64>,
+    /// Whether its force is shown over time: loops of cables and stoppers are single lines.
+    pub(crate) over_time: bool,
+    source: Source<'a>,
+}
+
+/// Where the history has it.
+#[derive(Clone, Copy)]
+enum Source<'a> {
+    Bearings(usize),
+    /// Index among all links.
+    Link(usize, &'a Link, [Option<usize>; 2]),
+}
+
+impl Device<'_> {
+    /// Displacement and force at every instant of the history; `None` where it has them not \[m, N\].
+    pub(crate) fn points(&self, page: &Page) -> Option<Vec<[f32; 2]>> {
+        let (moved, force) = match self.source {
+            Source::Bearings(building) => (
+                page.history
+                    .column(Column::Displacement { building, floor: 0 })?,
+                page.history.column(Column::SupportForce { building })?,
+            ),
+            Source::Link(index, link, floors) => (
+                stroke(page, index, link, floors)?,
+                page.history.column(Column::LinkForce { link: index })?,
+            ),
+        };
+        let pairs = moved.iter().zip(&force);
+        Some(pairs.map(|(u, f)| [*u as f32, *f as f32]).collect())
+    }
+}
+
+/// Shortening of a link at every instant \[m\].
+fn stroke(page: &Page, index: usize, link: &Link, floors: [Option<usize>; 2]) -> Option<Vec<f64>> {
+    if let Some(recorded) = page.history.column(Column::LinkStroke { link: index }) {
+        return Some(recorded);
+    }
+    let mut moved = vec![0.0; page.history.len()];
+    for (side, sign) in [(0, 1.0), (1, -1.0)] {
+        let Some(column) = side_column(page.model, link.between[side], floors[side])? else {
+            continue;
+        };
+        for (sum, u) in moved.iter_mut().zip(page.history.column(column)?) {
+            *sum += sign * u;
+        }
+    }
+    // Weight may have moved both sides before the run.
+    let rest = moved.first().copied().unwrap_or(0.0);
+    moved.iter_mut().for_each(|value| *value -= rest);
+    Some(moved)
+}
+
+/// Column with the displacement of a side; `Some(None)` moves with the ground, `None` is a point between floors.
+pub(crate) fn side_column(
+    model: &Model,
+    side: Option<usize>,
+    floor: Option<usize>,
+) -> Option<Option<Column>> {
+    let Some(index) = side else {
+        return Some(None);
+    };
+    if let Some(building) = model.buildings.get(index) {
+        let floor = floor?;
+        let on_ground = floor == 0 && building.base.isolation.is_none();
+        return Some((!on_ground).then_some(Column::Displacement {
+            building: index,
+            floor,
+        }));
+    }
+    let walls = &model.walls[..=index - model.buildings.len()];
+    let moving = walls.iter().filter(|wall| !wall.is_rigid()).count();
+    let rigid = walls.last().is_some_and(|wall| wall.is_rigid());
+    Some((!rigid).then(|| Column::Displacement {
+        building: model.buildings.len() + moving - 1,
+        floor: 0,
+    }))
+}
+
+/// All of them: bearings first, then links by dissipated energy.
+pub(crate) fn devices<'a>(page: &Page<'a>) -> Vec<Device<'a>> {
+    let mut devices = Vec::new();
+    for (index, isolation, result) in isolated(page) {
+        devices.push(Device {
+            name: format!(
+                "{}, {} bearings",
+                page.summary.buildings[index].name, result.kind
+            ),
+            building: index,
+            note: note(
+                result.displacement_peak_m(),
+                result.hysteretic_j + result.damped_j,
+            ),
+            outline: first_loading(isolation, result),
+            marks: marks(isolation),
+            over_time: false,
+            source: Source::Bearings(index),
+        });
+    }
+    let mut links: Vec<(usize, &LinkSummary, &Link, &LinkFloorSummary)> = Vec::new();
+    for (summary, link) in page.links() {
+        for floor in &summary.floors {
+            links.push((links.len(), summary, link, floor));
+        }
+    }
+    links.retain(|(_, _, link, _)| link.law != LinkLaw::Linear || link.damping > 0.0);
+    links.sort_by(|a, b| b.3.dissipated_j.total_cmp(&a.3.dissipated_j));
+    for (index, summary, link, floor) in links {
+        let building = link.between.into_iter().flatten();
+        let reach = 1.1 * floor.peak_stroke_m;
+        devices.push(Device {
+            name: name(summary, floor),
+            building: building.min().unwrap_or(0),
+            note: note(floor.peak_stroke_m, floor.dissipated_j),
+            outline: match &link.law {
+                LinkLaw::Friction {
+                    slip_force,
+                    stick_stiffness,
+                } => symmetric(
+                    slip_force / stick_stiffness,
+                    *slip_force,
+                    [reach, *slip_force],
+                ),
+                LinkLaw::Yielding(hysteresis) => outline(hysteresis.backbone(), [reach; 2]),
+                LinkLaw::Linear
+                | LinkLaw::Viscous { .. }
+                | LinkLaw::Maxwell
+                | LinkLaw::Cable { .. }
+                | LinkLaw::Stopper { .. } => Vec::new(),
+            },
+            marks: Vec::new(),
+            over_time: matches!(link.law, LinkLaw::Cable { .. } | LinkLaw::Stopper { .. }),
+            source: Source::Link(index, link, floor.floors),
+        });
+    }
+    devices
+}
+
+/// Those whose loops are shown.
+pub(crate) fn shown<'a>(page: &Page<'a>) -> Vec<(Device<'a>, Vec<[f32; 2]>)> {
+    let devices = devices(page).into_iter();
+    let known = devices.filter_map(|device| {
+        let points = device.points(page)?;
+        Some((device, points))
+    });
+    known.take(MOST_LOOPS).collect()
+}
+
+/// Buildings on bearings: index, input, results.
+fn isolated<'a>(
+    page: &Page<'a>,
+) -> impl Iterator<Item = (usize, &'a Isolation, &'a IsolationSummary)> {
+    let buildings = page.model.buildings.iter().zip(&page.summary.buildings);
+    buildings
+        .enumerate()
+        .filter_map(|(index, (building, summary))| {
+            let isolation = building.base.isolation.as_ref()?;
+            Some((index, isolation, summary.isolation.as_ref()?))
+        })
+}
+
+fn note(moved: f64, dissipated: f64) -> String {
+    format!(
+        "{}, {} dissipated",
+        format::millimetres(moved),
+        format::energy(without_rounding(dissipated))
+    )
+}
+
+/// Energy dissipated, without what springs without dashpot dissipate by rounding \[J\].
+fn without_rounding(dissipated: f64) -> f64 {
+    if dissipated.abs() < 1e-6 {
+        0.0
+    } else {
+        dissipated
+    }
+}
+
+fn name(summary: &LinkSummary, floor: &LinkFloorSummary) -> String {
+    let [left, right] = &summary.between;
+    let pair = if left == right {
+        left.clone()
+    } else {
+        format!("{left}–{right}")
+    };
+    let place = match floor.floors {
+        [Some(left), Some(right)] => format!("floors {left}–{right}"),
+        [Some(one), None] | [None, Some(one)] => format!("floor {one}"),
+        [None, None] => format!("{} m", format::plain(floor.height_m, 3)),
+    };
+    format!("{pair}, {place}, {}", summary.law)
+}
+
+/// Force of bearings of first loading, friction at high speed.
+fn first_loading(isolation: &Isolation, result: &IsolationSummary) -> Vec<[f64; 2]> {
+    let Some([strength, second, yielding]) = isolation.isolator.yielding(result.weight_n) else {
+        return Vec::new();
+    };
+    let reach = 1.1 * result.displacement_peak_m().max(yielding);
+    symmetric(
+        yielding,
+        strength + second * yielding,
+        [reach, strength + second * reach],
+    )
+}
+
+/// A line through zero, a corner and an end, and the same on the other side.
+fn symmetric(deformation: f64, force: f64, [reach, end]: [f64; 2]) -> Vec<[f64; 2]> {
+    vec![
+        [-reach, -end],
+        [-deformation, -force],
+        [deformation, force],
+        [reach, end],
+    ]
+}
+
+/// Displacements of stops and limits \[m\].
+fn marks(isolation: &Isolation) -> Vec<f64> {
+    let stops = Side::BOTH.into_iter().zip(isolation.stops);
+    let stops = stops.filter_map(|(side, stop)| Some(side.sign() * stop?.at));
+    let limits = isolation.limit.into_iter().flat_map(|at| [-at, at]);
+    stops.chain(limits).collect()
+}
+
+/// The section of the page, if the model has any of them.
+pub(crate) fn section(page: &Page) -> Option<Markup> {
+    if isolated(page).next().is_none()
+        && page.summary.links.is_empty()
+        && page.summary.walls.is_empty()
+    {
+        return None;
+    }
+    let loops = page.history.len() > 1 && !shown(page).is_empty();
+    let (rows, all) = rows(page);
+    Some(html! {
+        section #devices {
+            h2 { (title(page)) }
+            @for (index, isolation, result) in isolated(page) {
+                p { (sentence(&page.summary.buildings[index].name, isolation, result)) }
+            }
+            @if loops {
+                p.quiet {
+                    "Force over displacement; bearings with their dashpots, without stops. Links: positive where they are shorter and push. Dashed: first loading; dotted: stops and limits. Cables and stoppers: force over time."
+                }
+                div #device-loops.multiples {}
+            }
+            div.scroll {
+                table {
+                    thead { tr {
+                        th scope="col" { "where" }
+                        @for (name, unit) in COLUMNS {
+                            th.number scope="col" { (name) @if !unit.is_empty() { br; span.unit { "[" (unit) "]" } } }
+                        }
+                    } }
+                    tbody {
+                        @for (place, cells) in rows {
+                            tr { td { (place) } @for cell in cells { td.number { (cell) } } }
+                        }
+                    }
+                }
+            }
+            @if all > MOST_ROWS {
+                p.quiet { "The " (MOST_ROWS) " that dissipate most, of " (all) "; summary.json has all of them." }
+            }
+        }
+    })
+}
+
+const COLUMNS: [(&str, &str); 7] = [
+    ("peak force", "kN"),
+    ("stroke", "mm"),
+    ("capacity", "mm"),
+    ("used", "%"),
+    ("peak speed", "m/s"),
+    ("residual", "mm"),
+    ("dissipated", "kJ"),
+];
+
+fn title(page: &Page) -> String {
+    let mut parts = Vec::new();
+    if isolated(page).next().is_some() {
+        parts.push("bearings");
+    }
+    if !page.summary.links.is_empty() {
+        parts.push("links and dampers");
+    }
+    if !page.summary.walls.is_empty() {
+        parts.push("walls");
+    }
+    let text = parts.join(", ");
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}
+
+fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> String {
+    let moved = result.displacement_peak_m();
+    let mut text = format!(
+        "{name} moves {} on its bearings",
+        format::millimetres(moved)
+    );
+    if let Some(limit) = isolation.limit {
+        let used = format::fixed(100.0 * moved / limit, 0);
+        text.push_str(&format!(
+            ", {used} % of their limit of {}",
+            format::millimetres(limit)
+        ));
+    }
+    text.push_str(&format!(
+        ". They dissipate {}. Residual displacement: {}.",
+        format::energy(result.hysteretic_j + result.damped_j),
+        format::millimetres(result.residual_m.abs())
+    ));
+    if let Some(force) = result.stop_force_peak_n.filter(|force| *force > 0.0) {
+        text.push_str(&format!(" A stop is hit with {}.", format::force(force)));
+    }
+    text
+}
+
+type Row = (String, [String; 7]);
+
+/// Rows of the table, and how many there would be.
+fn rows(page: &Page) -> (Vec<Row>, usize) {
+    let milli = |value: f64| format::significant(value * 1e3, 3);
+    let kilo = |value: f64| format::significant(value * 1e-3, 3);
+    let none = || format::NOTHING.to_owned();
+    let mut rows = Vec::new();
+    for (index, isolation, result) in isolated(page) {
+        let moved = result.displacement_peak_m();
+        rows.push((
+            format!(
+                "{}, {} bearings",
+                page.summary.buildings[index].name, result.kind
+            ),
+            [
+                kilo(result.force_peak_n),
+                milli(moved),
+                isolation.limit.map_or_else(none, milli),
+                isolation
+                    .limit
+                    .map_or_else(none, |limit| format::fixed(100.0 * moved / limit, 0)),
+                none(),
+                milli(result.residual_m),
+                kilo(result.hysteretic_j + result.damped_j),
+            ],
+        ));
+    }
+    for wall in &page.summary.walls {
+        rows.push((
+            wall.name.clone(),
+            [
+                kilo(wall.force_peak_n),
+                milli(wall.displacement_peak_m),
+                none(),
+                none(),
+                none(),
+                none(),
+                kilo(wall.dissipated_j),
+            ],
+        ));
+    }
+    let mut links = Vec::new();
+    for (summary, link) in page.links() {
+        for floor in &summary.floors {
+            links.push((links.len(), summary, link, floor));
+        }
+    }
+    links.sort_by(|a, b| b.3.dissipated_j.total_cmp(&a.3.dissipated_j));
+    let all = rows.len() + links.len();
+    links.truncate(MOST_ROWS.saturating_sub(rows.len()));
+    for (index, summary, link, floor) in links {
+        let residual = stroke(page, index, link, floor.floors);
+        let residual = residual.and_then(|stroke| stroke.last().copied());
+        rows.push((
+            name(summary, floor),
+            [
+                kilo(floor.peak_force_n.abs()),
+                milli(floor.peak_stroke_m),
+                none(),
+                none(),
+                format::significant(floor.peak_speed_m_s, 3),
+                residual.map_or_else(none, milli),
+                kilo(without_rounding(floor.dissipated_j)),
+            ],
+        ));
+    }
+    (rows, all)
+}
