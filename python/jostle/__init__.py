@@ -11,7 +11,7 @@ Examples:
 """
 
 from ._animation import Animation
-from ._builders import Frame, Gap, Given, Link, Shear, Wall
+from ._builders import Frame, Gap, Given, Link, Shear, Soil, Wall
 from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
 from ._contact_advice import ContactAdvice, StiffnessEstimate, StiffnessRange, WaveEstimate, contact_advice
 from ._errors import (
@@ -69,6 +69,7 @@ __all__ = [
     "Result",
     "RuleGap",
     "Shear",
+    "Soil",
     "Spectrum",
     "StiffnessEstimate",
     "StiffnessRange",

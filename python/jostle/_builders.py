@@ -101,6 +101,7 @@ class Frame(Part):
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
         base: springs and dashpots under every column: ``"fixed"`` (default) or ``{"rotational_stiffness": …}``.
         isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``.
+        foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``.
         hinges: plastic hinges at the member ends; without them the frame is elastic:
             ``{"rule": "peak-oriented", "from": "section"}`` or
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
@@ -143,6 +144,7 @@ class Frame(Part):
         damping: Table | None = None,
         base: Literal["fixed"] | Table | None = None,
         isolation: Table | None = None,
+        foundation: Table | None = None,
         hinges: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
@@ -175,6 +177,7 @@ class Frame(Part):
                 "damping": damping,
                 "base": base,
                 "isolation": isolation,
+                "foundation": foundation,
                 "hinges": hinges,
                 "gravity": gravity,
                 "p_delta": p_delta,
@@ -200,6 +203,7 @@ class Shear(Part):
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
         base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …}``.
         isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``.
+        foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``.
         hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
             "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
@@ -235,6 +239,7 @@ class Shear(Part):
         damping: Table | None = None,
         base: Literal["fixed"] | Table | None = None,
         isolation: Table | None = None,
+        foundation: Table | None = None,
         hinges: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
@@ -260,6 +265,7 @@ class Shear(Part):
                 "damping": damping,
                 "base": base,
                 "isolation": isolation,
+                "foundation": foundation,
                 "hinges": hinges,
                 "gravity": gravity,
                 "p_delta": p_delta,
@@ -522,6 +528,42 @@ class Wall(Part):
     ) -> None:
         super().__init__(
             {"name": name, "stiffness": stiffness, "damping": damping, "mass": mass},
+            {},
+        )
+
+
+class Soil(Part):
+    """Soil under buildings with a foundation.
+
+    Args:
+        shear_wave_velocity: shear wave velocity at the strains of the motion, > 0.
+        density: density, > 0.
+        poisson_ratio: Poisson's ratio, at least 0 and below 0.5.
+        damping: hysteretic damping ratio at the strains of the motion; 0 by default.
+        coupling: ``"none"`` (default), ``"static"``, or ``{"stiffness": …, "damping": …}``, matrices over u and θ of every
+            foundation from left to right, instead of all others.
+
+    Raises:
+        TypeError: an unknown keyword, with the nearest known one.
+    """
+
+    def __init__(
+        self,
+        *,
+        shear_wave_velocity: Quantity | None = None,
+        density: Quantity | None = None,
+        poisson_ratio: float | None = None,
+        damping: float | None = None,
+        coupling: Literal["none", "static"] | Table | None = None,
+    ) -> None:
+        super().__init__(
+            {
+                "shear_wave_velocity": shear_wave_velocity,
+                "density": density,
+                "poisson_ratio": poisson_ratio,
+                "damping": damping,
+                "coupling": coupling,
+            },
             {},
         )
 

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from . import _jostle
-from ._builders import Building, Gap, Link, Part, Table, Wall
+from ._builders import Building, Gap, Link, Part, Soil, Table, Wall
 from ._errors import MissingFileError, ModelError, ModelWarning
 from ._motion import Motion
 from ._tree import text_of
@@ -35,6 +35,7 @@ class Model:
             it, and so do several gaps of one pair.
         links: springs and dampers that join neighbours.
         walls: walls that gaps and links can name.
+        soil: soil under buildings with a foundation.
         motion: a :class:`Motion`, the name or path of a record, or ``[motion]`` of the model file.
         title: printed on summaries and reports.
         analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
@@ -56,6 +57,7 @@ class Model:
         *,
         links: Link | Table | Sequence[Link | Table] = (),
         walls: Wall | Table | Sequence[Wall | Table] = (),
+        soil: Soil | Table | None = None,
         motion: Motion | str | os.PathLike[str] | Table | None = None,
         title: str | None = None,
         analysis: Table | None = None,
@@ -70,6 +72,8 @@ class Model:
         if walls:
             listed = [walls] if isinstance(walls, (Part, Mapping)) else walls
             tree["wall"] = [_table(wall) for wall in listed]
+        if soil is not None:
+            tree["soil"] = _table(soil)
         if title is not None:
             tree["title"] = title
         if analysis is not None:

@@ -21,14 +21,16 @@ pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = describe(&mut text, &opened.input.model, &opened.system);
-    for warning in &opened.input.warnings {
+    let of_foundations = jostle::results::foundation_warnings(&opened.system);
+    for warning in opened.input.warnings.iter().chain(&of_foundations) {
         let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
     }
     let assumptions = opened.input.assumptions();
     for assumption in &assumptions {
         let _ = writeln!(text, "{} {assumption}", styled(LOUD, "note:"));
     }
-    if !(opened.input.warnings.is_empty() && assumptions.is_empty()) {
+    let warned = !(opened.input.warnings.is_empty() && of_foundations.is_empty());
+    if warned || !assumptions.is_empty() {
         text.push('\n');
     }
     if !opened.input.records().is_empty() {
@@ -115,6 +117,9 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         }
         if let Some(mat) = building.discretization.mat {
             describe_bearings(text, &mat)?;
+        }
+        if let Some(foundation) = building.foundation {
+            describe_foundation(text, &foundation)?;
         }
         if let Some(hinges) = &model.buildings[index].hinges {
             describe_hinges(text, hinges)?;
@@ -333,6 +338,42 @@ fn describe_faces(text: &mut String, contacts: &[&jostle::interface::Contact]) -
     writeln!(text)
 }
 
+/// Foundation, springs and dashpots of the soil, and what they do to the first mode.
+fn describe_foundation(
+    text: &mut String,
+    own: &jostle::system::FoundationPlace,
+) -> std::fmt::Result {
+    let (foundation, springs) = (&own.foundation, &own.springs);
+    let depth = match foundation.embedment > 0.0 {
+        true => format!(", {:.2} m deep", foundation.embedment),
+        false => String::new(),
+    };
+    writeln!(
+        text,
+        "  foundation {:.2} x {:.2} m{depth}, {:.1} t",
+        foundation.length,
+        foundation.width,
+        foundation.mass * 1e-3
+    )?;
+    writeln!(
+        text,
+        "  soil: sway {} N/m and {} N.s/m, rocking {} N.m/rad and {} N.m.s/rad",
+        short(springs.sway_stiffness),
+        short(springs.sway_damping),
+        short(springs.rocking_stiffness),
+        short(springs.rocking_damping)
+    )?;
+    writeln!(
+        text,
+        "  first period {:.3} s instead of {:.3} s on rigid ground ({:.3} times), damping {:.2} % instead of {:.2} %",
+        own.period,
+        own.fixed_period,
+        own.period / own.fixed_period,
+        100.0 * own.damping,
+        100.0 * own.fixed_damping
+    )
+}
+
 /// Amplitude at which the equivalent linear bearings are given, where there is no limit \[m\].
 const AMPLITUDE: f64 = 0.1;
 
@@ -468,7 +509,7 @@ fn special(building: &Building) -> Vec<String> {
         known.collect::<Vec<_>>().join(", ")
     };
     let base = &building.base;
-    if !base.is_fixed() && base.isolation.is_none() {
+    if !base.is_fixed() && base.isolation.is_none() && base.foundation.is_none() {
         let springs = list(&[
             ("rotation", base.rotational_stiffness, "N.m/rad"),
             ("sideways", base.horizontal_stiffness, "N/m"),

@@ -89,7 +89,11 @@ fn describe(text: &mut String, building: &BuildingSystem, modes: &[Mode]) -> std
         let sway = if mode.is_lateral() {
             shape.join(" ")
         } else {
-            styled(DIM, "beams")
+            let what = match building.foundation.is_some() {
+                true => "hardly any sway",
+                false => "beams",
+            };
+            styled(DIM, what)
         };
         writeln!(
             text,

@@ -39,6 +39,11 @@ pub fn export(export: &Export<'_>) -> Result<Vec<BuildingMatrices>, Vec<ModelFau
                 "stands on bearings, which matrices do not hold; leave it out",
             ),
             (
+                building.foundation.is_some(),
+                "foundation",
+                "stands on soil, whose dashpots matrices do not hold; leave it out",
+            ),
+            (
                 !building.rest.displacement.is_empty(),
                 "gravity",
                 "starts under its weight, which matrices do not hold: leave out gravity",

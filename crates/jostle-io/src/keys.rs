@@ -47,6 +47,8 @@ pub(crate) enum Section {
     ShearBase,
     /// Further ones under the columns of a frame.
     FrameBase,
+    /// Rigid foundation under a building.
+    Foundation,
     /// Bearings and mat under a building.
     Isolation,
     /// Friction of bearings that changes with speed.
@@ -85,6 +87,10 @@ pub(crate) enum Section {
     Wall,
     /// Yielding of a link.
     LinkHinge,
+    /// Soil under foundations.
+    Soil,
+    /// Springs and dashpots of all foundations.
+    SoilCoupling,
     Analysis,
     /// What results should hold beyond the usual.
     Output,
@@ -318,6 +324,8 @@ const fn default(
     }
 }
 
+/// How foundations act on each other.
+pub(crate) const SOIL_COUPLINGS: &[&str] = &["none", "static"];
 /// Kinds of bearings.
 pub(crate) const ISOLATORS: &[&str] = &["linear", "lead-rubber", "friction-pendulum"];
 
@@ -339,6 +347,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps between neighbours, and between the ends of the row and walls there."),
     optional(S::Root, "link", Tables(&[S::Link, S::LinkLaw]), "Springs, dampers and sliders that join neighbours, or floors of one building."),
     optional(S::Root, "wall", Tables(&[S::Wall]), "Walls that gaps and links can name, anywhere beside a building."),
+    optional(S::Root, "soil", Kind::Table(S::Soil), "Soil under buildings with a foundation."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
     optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
@@ -395,6 +404,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::Frame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
     optional(S::Frame, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base; in one plane."),
+    optional(S::Frame, "foundation", Kind::Table(S::Foundation), "Rigid foundation on [soil], instead of base; in one plane."),
     required(S::Frame, "spans", Quantities(D::Length), "Widths of the bays from left to right."),
     required(S::Frame, "column", TablePerStorey(S::Column), "Column section: one, or a list from the ground up."),
     required(S::Frame, "beam", TablePerStorey(S::Beam), "Beam section: one, or a list from the ground up."),
@@ -414,6 +424,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
     optional(S::Shear, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base; in one plane."),
+    optional(S::Shear, "foundation", Kind::Table(S::Foundation), "Rigid foundation on [soil], instead of base; in one plane."),
     required(S::Shear, "mass", PerStorey(D::Mass), "Floor masses from the ground up. A weight is converted."),
     optional(S::Shear, "stiffness", Kind::PlanStiffness, "Storey stiffnesses from the ground up; required without elements. With a plan also { x, y, torsion }: a bare value is along x, y is then the same, and torsion that of stiffness spread evenly over the plan."),
     optional(S::Shear, "plan", Kind::Plan, "Plan of the floors: width along x and depth across, corners counter-clockwise, or a list of { size } or { corners } from the ground up. The building then moves in both directions and turns."),
@@ -486,6 +497,12 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::ShearDeformation, "columns", Choice(AXIAL), "\"rigid\"", "Shear deformation of columns."),
     default(S::ShearDeformation, "beams", Choice(AXIAL), "\"rigid\"", "Shear deformation of beams."),
+
+    required(S::Foundation, "length", Quantity(D::Length), "Side along the row. The foundation is centred below the building."),
+    required(S::Foundation, "width", Quantity(D::Length), "Side across the row."),
+    default(S::Foundation, "embedment", Quantity(D::Length), "0", "Depth over which its sides are in contact with soil."),
+    required(S::Foundation, "mass", Quantity(D::Mass), "Mass."),
+    default(S::Foundation, "rotary_inertia", Quantity(D::PolarMass), "mass · length² / 12", "Rotary inertia about the axis across the row."),
 
     required(S::Isolation, "kind", Choice(ISOLATORS), "Kind of the bearings, all of them together."),
     required(S::Isolation, "mat_mass", Quantity(D::Mass), "Mass of the mat between the bearings and the building. The mat is floor 0."),
@@ -640,6 +657,15 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Wall, "stiffness", Quantity(D::Stiffness), "Force per displacement where it is struck, soil included; without it the wall is rigid."),
     default(S::Wall, "damping", Quantity(D::Damping), "0", "Dashpot of the wall, such as that of the soil behind it."),
     optional(S::Wall, "mass", Quantity(D::Mass), "Mass that moves where it is struck; required with a stiffness. 33/140 of a cantilever struck at its top."),
+
+    optional(S::Soil, "shear_wave_velocity", Quantity(D::Speed), "Shear wave velocity at the strains of the motion; required unless coupling gives matrices."),
+    optional(S::Soil, "density", Quantity(D::Density), "Density; required unless coupling gives matrices."),
+    optional(S::Soil, "poisson_ratio", Quantity(D::Dimensionless), "Poisson's ratio, at least 0 and below 0.5; required unless coupling gives matrices."),
+    default(S::Soil, "damping", Quantity(D::Dimensionless), "0", "Hysteretic damping ratio of the soil at the strains of the motion."),
+    default(S::Soil, "coupling", ChoiceOrTable(SOIL_COUPLINGS, S::SoilCoupling), "\"none\"", "How foundations act on each other: none, static (surface foundations, by the flexibility of the half-space between them), or matrices over u and θ of every foundation from left to right."),
+
+    required(S::SoilCoupling, "stiffness", Kind::NumberLists, "Stiffness over u_A, θ_A, u_B, θ_B, … in N/m, N and N·m, θ counter-clockwise: symmetric and positive definite."),
+    required(S::SoilCoupling, "damping", Kind::NumberLists, "Dashpots over the same, in N·s/m, N·s and N·m·s: symmetric and positive semidefinite."),
 
     default(S::Analysis, "step", WordOr("auto", D::Time), "\"auto\"", "Time step of free vibration."),
     default(S::Analysis, "contact_step", WordOr("auto", D::Time), "\"auto\"", "Time step while a contact is closed."),

@@ -25,6 +25,7 @@ mod plan;
 mod reinforced;
 mod section;
 mod shear;
+mod soil;
 #[cfg(test)]
 mod tests;
 mod unusual_results;
@@ -488,6 +489,10 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         }
         None => Vec::new(),
     };
+    let soil = match reader.get(&view, "soil") {
+        Some(field) => soil::read(reader, &field),
+        None => None,
+    };
     let mut analysis =
         analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
     let (mut capacity, mut floor_spectra) = (CapacityRequest::default(), None);
@@ -516,6 +521,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         gaps,
         links,
         walls,
+        soil,
         analysis,
     };
     if model.is_in_space() {

@@ -57,6 +57,11 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::ShearDeformation, "`shear` of a frame", ""),
     (Section::Joint, "`joint` of a frame", ""),
     (
+        Section::Foundation,
+        "`foundation` of a building",
+        "See [Buildings on soil](how-to/soil.md).",
+    ),
+    (
         Section::Isolation,
         "`isolation` of a building",
         "See [Isolated buildings and moat walls](how-to/isolation.md).",
@@ -117,6 +122,12 @@ const TABLES: &[(Section, &str, &str)] = &[
         "See [Isolated buildings and moat walls](how-to/isolation.md).",
     ),
     (Section::LinkHinge, "`hinge` of a link or damper", ""),
+    (
+        Section::Soil,
+        "`[soil]`",
+        "See [Buildings on soil](how-to/soil.md).",
+    ),
+    (Section::SoilCoupling, "`soil.coupling`", ""),
     (Section::Analysis, "`[analysis]`", ""),
     (
         Section::Output,

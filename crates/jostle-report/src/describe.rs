@@ -74,6 +74,9 @@ fn building(
     }
     let rayleigh = summary.map(|s| (s.rayleigh_alpha_per_s, s.rayleigh_beta_s));
     let mut said = damping(&building.damping, rayleigh);
+    if building.base.foundation.is_some() {
+        said += ", of motion relative to the foundation";
+    }
     if building.base.isolation.is_some() {
         said = said.replace(
             "the first and third lateral modes, as far as they exist",
@@ -91,6 +94,40 @@ fn building(
             "roof displacement at the end",
             format::millimetres(summary.response.residual_roof_displacement_m),
         ));
+        if let Some(own) = &summary.foundation {
+            facts.push((
+                "foundation",
+                format!(
+                    "sways {}, rocks {}",
+                    format::millimetres(own.sway_peak_m),
+                    format::unit(format::plain(own.rocking_peak_rad * 1e3, 3), "mrad")
+                ),
+            ));
+            facts.push((
+                "first period on the soil",
+                format!(
+                    "{}, {} times that on rigid ground",
+                    format::unit(format::plain(own.period_s, 3), "s"),
+                    format::plain(own.period_ratio, 4)
+                ),
+            ));
+            facts.push((
+                "damping of that mode",
+                format!(
+                    "{} %, on rigid ground {} %",
+                    format::plain(100.0 * own.damping_ratio, 3),
+                    format::plain(100.0 * own.damping_ratio_fixed, 3)
+                ),
+            ));
+            let parts = [
+                (own.sway_stiffness_n_m, "N/m"),
+                (own.sway_damping_n_s_m, "N·s/m"),
+                (own.rocking_stiffness_n_m_rad, "N·m/rad"),
+                (own.rocking_damping_n_m_s_rad, "N·m·s/rad"),
+            ];
+            let parts = parts.map(|(value, unit)| format::unit(format::plain(value, 4), unit));
+            facts.push(("springs and dashpots of the soil", parts.join(", ")));
+        }
         if summary.hinges.cracked + summary.hinges.yielded > 0 {
             facts.push((
                 "hinges",
@@ -449,6 +486,9 @@ fn energy(page: &Page) -> Facts {
     ];
     if energy.links_j != 0.0 {
         facts.push(("of that by links", format::energy(energy.links_j)));
+    }
+    if let Some(soil) = energy.soil_j {
+        facts.push(("of that by the soil", format::energy(soil)));
     }
     if energy.hysteretic_j != 0.0 {
         facts.push(("hysteretic", format::energy(energy.hysteretic_j)));

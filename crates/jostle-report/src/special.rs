@@ -46,6 +46,24 @@ fn base(base: &Base) -> Facts {
             ("mat", format::tonnes(isolation.mat_mass)),
         ];
     }
+    if let Some(foundation) = &base.foundation {
+        let metres = |value: f64| format::plain(value, 3);
+        let depth = match foundation.embedment > 0.0 {
+            true => format!(", {} m deep", metres(foundation.embedment)),
+            false => String::new(),
+        };
+        return vec![
+            (
+                "foundation",
+                format!(
+                    "{} m × {} m{depth}",
+                    metres(foundation.length),
+                    metres(foundation.width)
+                ),
+            ),
+            ("mass of the foundation", format::tonnes(foundation.mass)),
+        ];
+    }
     let mut facts: Facts = vec![(
         "base",
         springs(&[

@@ -399,9 +399,10 @@ impl Search<'_> {
         });
         let damping = [0, 1].map(|side| {
             let omega = std::f64::consts::TAU / periods[side];
-            let rayleigh = neighbours[side].map(|building| &building.equations);
-            rayleigh.map_or(0.0, |equations| {
-                0.5 * (equations.alpha / omega + equations.beta * omega)
+            neighbours[side].map_or(0.0, |building| {
+                let equations = &building.equations;
+                let rayleigh = 0.5 * (equations.alpha / omega + equations.beta * omega);
+                building.foundation.map_or(rayleigh, |own| own.damping)
             })
         });
         let usable = periods

@@ -16,7 +16,7 @@ pub type ListedModes<'a> = Vec<(&'a BuildingSystem, Vec<Mode>)>;
 /// Names the building whose modes were not found, and why.
 pub fn list_modes(system: &System, count: usize) -> Result<ListedModes<'_>, RunError> {
     let modes = system.structures().iter().map(|building| {
-        let modes = eigen::modes(building, count).map_err(|problem| {
+        let modes = eigen::modes(building.alone(), count).map_err(|problem| {
             RunError::Analysis(format!("no modes of \"{}\": {problem}", building.name))
         })?;
         Ok((building, modes))

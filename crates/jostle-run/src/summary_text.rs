@@ -56,6 +56,7 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     write_buildings(text, &summary.buildings)?;
     write_in_plan(text, &summary.buildings)?;
     write_isolation(text, summary)?;
+    write_foundations(text, summary)?;
     write_hinges(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
     for gap in &summary.gaps {
@@ -235,6 +236,28 @@ fn changes(building: &BuildingSummary) -> [Option<Extremes>; 3] {
 }
 
 /// One line for every building that can crack and yield.
+/// Foundations on soil, one line each.
+fn write_foundations(text: &mut String, summary: &Summary) -> std::fmt::Result {
+    let mut between = "\n";
+    for building in &summary.buildings {
+        let Some(own) = &building.foundation else {
+            continue;
+        };
+        writeln!(
+            text,
+            "{between}foundation of {}: {:.2} mm sway, {:.3} mrad rocking; the soil makes the first period {:.3} times as long and its damping {:.2} % instead of {:.2} %",
+            building.name,
+            own.sway_peak_m * 1e3,
+            own.rocking_peak_rad * 1e3,
+            own.period_ratio,
+            100.0 * own.damping_ratio,
+            100.0 * own.damping_ratio_fixed
+        )?;
+        between = "";
+    }
+    Ok(())
+}
+
 /// Bearings and walls, one line each.
 fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
     for building in &summary.buildings {

@@ -160,6 +160,7 @@ fn model_of(inputs: &Value) -> Model {
         gaps,
         links: Vec::new(),
         walls,
+        soil: None,
         analysis: Analysis::default(),
     }
 }

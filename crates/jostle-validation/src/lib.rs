@@ -20,6 +20,7 @@ pub mod paper;
 pub mod pounding;
 pub mod row;
 pub mod shear_buildings;
+pub mod soil;
 pub mod space;
 pub mod towers;
 pub mod work_precision;
@@ -54,7 +55,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 16] = [
+const FAMILIES: [(&str, &str, Make); 17] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -97,6 +98,14 @@ const FAMILIES: [(&str, &str, Make); 16] = [
          bearings whose friction rises with speed. Expected values: an event-driven integrator of eighth order at a relative \
          tolerance of 10⁻¹².",
         |_| ground::rows(),
+    ),
+    (
+        "Soil",
+        "Springs and dashpots of rigid rectangles; one mass and two towers on foundations that sway and rock, alone and coupled \
+         through the soil, without and with impacts, under El Centro. Expected values: formulas typed in from a second source, \
+         complex roots of the equations of motion, and an event-driven integrator of eighth order at a relative tolerance of \
+         10⁻¹².",
+        |_| soil::rows(),
     ),
     (
         "Links that are not linear",
@@ -165,6 +174,18 @@ pub fn families(extent: Extent) -> Vec<Family> {
         rows: make(extent),
     };
     FAMILIES.into_iter().map(compute).collect()
+}
+
+/// The family of a title; `None` if there is none.
+#[must_use]
+pub fn family(wanted: &str, extent: Extent) -> Option<Family> {
+    let found = FAMILIES.into_iter().find(|(title, ..)| *title == wanted)?;
+    let (title, about, make) = found;
+    Some(Family {
+        title,
+        about,
+        rows: make(extent),
+    })
 }
 
 /// The rows that miss, with their families.

@@ -139,6 +139,7 @@ fn model(inputs: &Value, tolerance: f64) -> Model {
         gaps: gap.into_iter().collect(),
         links: vec![link(at(inputs, "/links"))],
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             tolerance,
             ..Analysis::default()

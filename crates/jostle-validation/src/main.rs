@@ -13,6 +13,7 @@ const USAGE: &str = "\
 usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [TOLERANCE]]] [--work-precision] [--figures]
   --full        small steps as well; takes minutes
   --check       writes nothing; exits with 1 if a number misses
+  --family T    prints every comparison of the family with that title
   --pairs       compares automatic with uniform steps on random pairs of buildings, by default seeds 1 to 1000, and prints
                 the distribution of the errors; takes minutes
   --work-precision  writes docs/work-precision.md and its figure; takes minutes
@@ -38,6 +39,11 @@ fn main() -> ExitCode {
         .is_some_and(|a| a.starts_with("--certify"))
     {
         return certified(&arguments);
+    }
+    if let [option, title] = &arguments[..]
+        && option == "--family"
+    {
+        return one_family(title);
     }
     if arguments.first().is_some_and(|a| a == "--bits") {
         return bits_of(&arguments[1..]);
@@ -92,6 +98,30 @@ fn main() -> ExitCode {
         return ExitCode::FAILURE;
     }
     if misses(&families).next().is_some() {
+        ExitCode::FAILURE
+    } else {
+        ExitCode::SUCCESS
+    }
+}
+
+/// Prints every comparison of one family.
+fn one_family(title: &str) -> ExitCode {
+    let Some(family) = jostle_validation::family(title, Extent::Reduced) else {
+        say(&format!("no family is called {title}"));
+        return ExitCode::from(2);
+    };
+    for row in &family.rows {
+        say(&format!(
+            "{} {}: {}: expected {:e}, got {:e}, error {:.2e}",
+            if row.misses() { "MISS" } else { "ok  " },
+            row.source,
+            row.quantity,
+            row.expected,
+            row.got,
+            row.error
+        ));
+    }
+    if family.rows.iter().any(jostle_validation::row::Row::misses) {
         ExitCode::FAILURE
     } else {
         ExitCode::SUCCESS

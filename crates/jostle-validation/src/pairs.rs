@@ -112,6 +112,7 @@ pub(crate) fn pair(seed: u64, tolerance: f64) -> (Model, GroundMotion) {
         gaps: vec![Gap::after(0, random.between(0.002, 0.04), law)],
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             tolerance,
             ..Analysis::default()

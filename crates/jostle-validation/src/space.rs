@@ -172,6 +172,7 @@ fn model(inputs: &Value, tolerance: f64) -> Model {
         gaps,
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             tolerance,
             ..Analysis::default()
@@ -638,6 +639,7 @@ fn polygons() -> Vec<Row> {
             gaps: vec![gap],
             links: Vec::new(),
             walls: Vec::new(),
+            soil: None,
             analysis: Analysis::default(),
         };
         let found = System::assemble(&model)

@@ -76,6 +76,7 @@ fn row(buildings: usize, storeys: usize) -> Model {
             .collect(),
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             step: Some(2e-3),
             ..Analysis::default()

@@ -494,6 +494,17 @@ pub struct SupportPeaks {
     pub damped: f64,
 }
 
+/// Peaks of a rigid foundation on soil.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FoundationPeaks {
+    /// Greatest displacement to the right, and to the left (≤ 0) \[m\].
+    pub sway: [Extreme; 2],
+    /// Greatest rotation counter-clockwise, and clockwise (≤ 0) \[rad\].
+    pub rocking: [Extreme; 2],
+    /// Energy that its dashpots, apart from those to neighbours, take away: radiation and damping of the soil \[J\].
+    pub damped: f64,
+}
+
 /// Energies \[J\] and the greatest error of their balance so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {

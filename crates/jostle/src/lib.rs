@@ -42,6 +42,7 @@
 //!     gaps: vec![Gap::after(0, 0.02, law)], // 20 mm, right of building 0
 //!     links: Vec::new(),
 //!     walls: Vec::new(),
+//!     soil: None,
 //!     analysis: Analysis::default(),
 //! };
 //! // A record: ground acceleration [m/s²] at equal steps, here five seconds of a sine of 0.7 s.
@@ -114,10 +115,11 @@ pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
-    Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, FrameHinges, Gap, Given, Gravity,
-    Hinges, Integrator, Isolation, Isolator, IsolatorDamping, Joint, Level, Link, LinkLaw,
-    MemberRequest, Model, ModelFault, PlanArea, PlanContact, PlanPoint, Section, Shear, Solver,
-    SpeedFriction, Stop, Structure, Tier, TierStorey, Tiers, Wall,
+    Analysis, Axial, Base, Building, Damping, FloorPairs, Foundation, FoundationSprings, Frame,
+    FrameHinges, Gap, Given, Gravity, HalfSpace, Hinges, Integrator, Isolation, Isolator,
+    IsolatorDamping, Joint, Level, Link, LinkLaw, MemberRequest, Model, ModelFault, PlanArea,
+    PlanContact, PlanPoint, Section, Shear, Soil, SoilCoupling, Solver, SpeedFriction, Stop,
+    Structure, Tier, TierStorey, Tiers, Wall,
 };
 pub use motion::{Bearing, GroundMotion, Wave};
 pub use quantity::{Quantity, Unit};

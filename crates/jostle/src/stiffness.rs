@@ -12,7 +12,7 @@ use crate::structure::element::{self, Part};
 pub struct DirectStiffness {
     stiffness: Vec<(Part, f64)>,
     mass: Vec<f64>,
-    springs: Vec<[Option<usize>; 2]>,
+    springs: Vec<SpringPlace>,
     /// Of the stiffnesses, the masses and the springs, in this order.
     pattern: Pattern,
 }
@@ -38,8 +38,9 @@ impl StepEquations for DirectStiffness {
             }
         }
         places.extend((0..equations.len()).map(|dof| (dof, dof)));
-        let springs: Vec<_> = equations.springs.iter().map(|spring| spring.dofs).collect();
-        let of_springs = springs.iter().flat_map(|dofs| spring_entries(*dofs));
+        let springs = equations.springs.iter();
+        let springs: Vec<_> = springs.map(|spring| (spring.dofs, spring.lever)).collect();
+        let of_springs = springs.iter().flat_map(|spring| spring_entries(*spring));
         places.extend(of_springs.map(|(row, column, _)| (row, column)));
         Self {
             pattern: Pattern::new(equations.len(), &places),
@@ -59,8 +60,8 @@ impl StepEquations for DirectStiffness {
         let members = members.map(|(part, value)| part.weight(matrix) * value);
         let inertia = self.mass.iter().map(|mass| matrix.mass * mass);
         let springs = self.springs.iter().zip(tangents);
-        let springs = springs.flat_map(|(dofs, tangent)| {
-            spring_entries(*dofs).map(move |(_, _, sign)| sign * tangent)
+        let springs = springs.flat_map(|(spring, tangent)| {
+            spring_entries(*spring).map(move |(_, _, sign)| sign * tangent)
         });
         self.pattern
             .factorize(members.chain(inertia).chain(springs), &mut factor.0)
@@ -72,9 +73,21 @@ impl StepEquations for DirectStiffness {
     }
 }
 
-/// Rows, columns and signs of the entries of a spring between two degrees of freedom, one triangle.
-fn spring_entries(dofs: [Option<usize>; 2]) -> impl Iterator<Item = (usize, usize, f64)> {
+/// A spring between two degrees of freedom, and the rotation and height that add to its deformation.
+type SpringPlace = ([Option<usize>; 2], Option<(usize, f64)>);
+
+/// Rows, columns and factors of the entries of a spring, one triangle.
+fn spring_entries((dofs, lever): SpringPlace) -> impl Iterator<Item = (usize, usize, f64)> {
     let own = |dof: Option<usize>| dof.map(|dof| (dof, dof, 1.0));
     let between = dofs[0].zip(dofs[1]).map(|(a, b)| (a, b, -1.0));
-    [own(dofs[0]), own(dofs[1]), between].into_iter().flatten()
+    let turning = lever.map(|(turning, height)| (turning, turning, height * height));
+    let beside = |dof: Option<usize>, sign: f64| {
+        let (turning, height) = lever?;
+        Some((dof?, turning, sign * height))
+    };
+    let levers = [turning, beside(dofs[0], 1.0), beside(dofs[1], -1.0)];
+    [own(dofs[0]), own(dofs[1]), between]
+        .into_iter()
+        .chain(levers)
+        .flatten()
 }

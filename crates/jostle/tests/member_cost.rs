@@ -54,6 +54,7 @@ fn model(members: MemberRequest) -> Model {
         gaps: vec![Gap::after(0, 0.03, law)],
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             members,
             ..Analysis::default()

@@ -87,6 +87,7 @@ fn neighbours() -> Model {
         }],
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()
@@ -365,6 +366,7 @@ fn portal(columns: f64, beam: f64, height: f64, span: f64) -> System {
         gaps: vec![wall([None, Some(0)]), wall([Some(0), None])],
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()
@@ -591,6 +593,7 @@ fn columns_carry_the_overturning_moment() {
         gaps: Vec::new(),
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()

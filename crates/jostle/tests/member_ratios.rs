@@ -129,6 +129,7 @@ fn model() -> Model {
         }],
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             members,
             ..Analysis::default()

@@ -37,6 +37,7 @@ fn towers() -> Model {
         gaps: vec![Gap::after(0, 0.03, law)],
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis::default(),
     }
 }

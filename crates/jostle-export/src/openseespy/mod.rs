@@ -58,6 +58,12 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "rises with the speed, which the exported springs cannot do; give one coefficient, such as friction = 0.05".into(),
             );
         }
+        if building.base.foundation.is_some() {
+            refuse(
+                format!("building[{index}].foundation"),
+                "is not exported yet; leave it and [soil] out to compare the buildings on rigid ground".into(),
+            );
+        }
         let of_members = match &building.hinges {
             None => None,
             Some(Hinges::Frame(hinges)) => {

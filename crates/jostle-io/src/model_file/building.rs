@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::damper::{self, Damper};
 use super::reinforced::{self, ReinforcedMember};
-use super::{codes, frame, given, hinges, isolation, plan, shear};
+use super::{codes, frame, given, hinges, isolation, plan, shear, soil};
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -168,11 +168,18 @@ fn read(
     if kind != Kind::Given {
         building.base = read_base(reader, &view, is_shear);
         building.base.isolation = isolation::read(reader, &view);
+        building.base.foundation = soil::read_foundation(reader, &view);
     }
-    if building.base.isolation.is_some() {
-        // A base beside it is a fault already.
+    let Base {
+        isolation,
+        foundation,
+        ..
+    } = building.base;
+    if isolation.is_some() || foundation.is_some() {
+        // A base beside it is a fault already, and isolation beside a foundation.
         building.base = Base {
-            isolation: building.base.isolation,
+            isolation: isolation.filter(|_| foundation.is_none()),
+            foundation,
             ..Base::default()
         };
     }
@@ -278,6 +285,7 @@ fn is_sound(building: &Building) -> bool {
         gaps: Vec::new(),
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis::default(),
     };
     alone.check().is_ok()

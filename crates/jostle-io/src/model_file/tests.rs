@@ -36,6 +36,7 @@ shear = { columns = "flexible" }
 base = { horizontal_stiffness = 1, horizontal_hinge = { rule = "normal" }, rotational_stiffness = 1, rotational_hinge = { rule = "normal" } }
 joint = { rotational_stiffness = 1 }
 damping = { ratio = 0.1 }
+foundation = { length = 1 }
 isolation = { kind = "friction-pendulum", friction = { slow = 0.03 }, stop = { left = { at = 1 } } }
 hinges = { rule = "pinched", pinching = {}, damage = {}, column = { positive = {}, negative = {} } }
 [[building]]
@@ -45,6 +46,8 @@ damper = [{ floors = [0, 1], law = "friction" }]
 base = { mass = 1 }
 isolation = { kind = "linear", stop = {} }
 hinges = { rule = "normal" }
+[soil]
+coupling = { stiffness = [[1]] }
 [[gap]]
 [[link]]
 stiffness = 1

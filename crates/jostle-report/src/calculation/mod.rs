@@ -140,9 +140,10 @@ pub(crate) fn model_figures(page: &Page) -> Markup {
 
 fn shape_plot(building: &Building, shapes: &[(f64, Vec<f64>)]) -> Plot {
     let heights = building.floor_heights();
-    // A mat moves, and is the first of the shape; the ground does not.
+    // A mat moves, and is the first of the shape; so does a foundation, which is not; the ground does not.
     let isolated = building.base.isolation.is_some();
-    let (ground, mat) = ((!isolated).then_some([0.0; 2]), isolated.then_some(0.0));
+    let stands = !isolated && building.base.foundation.is_none();
+    let (ground, mat) = (stands.then_some([0.0; 2]), isolated.then_some(0.0));
     let lines = shapes.iter().enumerate().map(|(index, (period, shape))| {
         let levels = mat.into_iter().chain(heights.iter().copied());
         let floors = shape.iter().zip(levels).map(|(x, y)| [*x, y]);

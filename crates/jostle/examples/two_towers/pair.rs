@@ -19,6 +19,7 @@ pub(crate) fn pair(gap: f64) -> Model {
         gaps: vec![Gap::after(0, gap, law)],
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis::default(),
     }
 }

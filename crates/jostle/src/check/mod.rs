@@ -5,6 +5,7 @@ mod isolation;
 mod members;
 mod neighbours;
 mod plan;
+mod soil;
 
 use members::check_members;
 use neighbours::check_neighbours;
@@ -91,6 +92,7 @@ fn check(model: &Model) -> Result<(), Vec<ModelFault>> {
     isolation::check_walls(&mut faults, model);
     plan::check_space(&mut faults, model);
     check_neighbours(&mut faults, model);
+    soil::check_soil(&mut faults, model);
     check_analysis(&mut faults, model);
     check_members(&mut faults, model);
     if faults.0.is_empty() {
@@ -127,6 +129,7 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
         !matches!(building.structure, Structure::Frame(_)),
     );
     isolation::check_isolation(faults, path, building);
+    soil::check_foundation(faults, path, building);
     if let Some(hinges) = &building.hinges {
         check_hinges(
             faults,

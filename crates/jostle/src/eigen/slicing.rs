@@ -81,6 +81,9 @@ impl Search<'_> {
             for dof in spring.dofs.into_iter().flatten() {
                 held[dof] += spring.hysteresis.initial_tangent();
             }
+            if let Some((turning, height)) = spring.lever {
+                held[turning] += height * height * spring.hysteresis.initial_tangent();
+            }
         }
         let slowest = self
             .mass

@@ -10,6 +10,7 @@ mod integrator;
 mod isolation;
 mod link_law;
 mod members;
+mod soil;
 mod tiers;
 mod wall;
 
@@ -24,6 +25,7 @@ pub use integrator::Integrator;
 pub use isolation::{Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop};
 pub use link_law::LinkLaw;
 pub use members::MemberRequest;
+pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
 pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
 pub use wall::Wall;
 
@@ -51,6 +53,7 @@ pub use wall::Wall;
 ///     gaps: Vec::new(),
 ///     links: Vec::new(),
 ///     walls: Vec::new(),
+///     soil: None,
 ///     analysis: Analysis::default(),
 /// };
 /// let faults = model.check().expect_err("the stiffness is missing");
@@ -68,6 +71,8 @@ pub struct Model {
     pub links: Vec<Link>,
     /// Walls that gaps and links can name. In [`Gap::between`] and [`Link::between`] they are counted on from the buildings.
     pub walls: Vec<Wall>,
+    /// Soil under buildings with a foundation; `None` if no building has one.
+    pub soil: Option<Soil>,
     /// Step sizes, tolerance and solver.
     pub analysis: Analysis,
 }
@@ -155,6 +160,8 @@ pub struct Base {
     pub horizontal_hinge: Option<Hysteresis>,
     /// Bearings and a mat under the whole building, instead of all of the above.
     pub isolation: Option<Isolation>,
+    /// Rigid foundation on the soil of the model, instead of all of the above.
+    pub foundation: Option<Foundation>,
 }
 
 impl Base {
@@ -165,6 +172,7 @@ impl Base {
             && self.horizontal_stiffness.is_none()
             && self.vertical_stiffness.is_none()
             && self.isolation.is_none()
+            && self.foundation.is_none()
     }
 }
 
@@ -218,6 +226,7 @@ pub struct Gravity {
 ///     gaps: Vec::new(),
 ///     links: Vec::new(),
 ///     walls: Vec::new(),
+///     soil: None,
 ///     analysis: Analysis::default(),
 /// };
 /// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;

@@ -265,6 +265,9 @@ pub fn pushover(
     building: &BuildingSystem,
     settings: PushSettings,
 ) -> Result<Pushover, NothingToPush> {
+    if let Some(alone) = building.without_neighbours() {
+        return pushover(&alone, settings);
+    }
     let forces = settings.pattern.forces(building).ok_or(NothingToPush)?;
     let sign = settings.direction.sign();
     let roof = building.floors.last().ok_or(NothingToPush)?;
@@ -409,10 +412,13 @@ impl Push<'_> {
         let mut below = building
             .foot
             .map_or(0.0, |foot| from_rest(foot - building.offset));
+        let turned = building
+            .foundation
+            .map_or(0.0, |own| from_rest(own.dofs[1] - building.offset));
         let storeys = building.floors.iter().zip(&floors);
         let storey_drifts = storeys
             .map(|(floor, value)| {
-                let drift = (value - below) / floor.storey_height;
+                let drift = (value - below) / floor.storey_height + turned;
                 below = *value;
                 drift
             })

@@ -4,6 +4,7 @@ mod capacity;
 pub mod contact_sensitivity;
 mod counted_impact;
 pub mod floor_spectra;
+mod foundation;
 mod in_plan;
 mod isolation;
 mod members;
@@ -13,5 +14,6 @@ mod summarise;
 pub mod summary;
 
 pub use counted_impact::{CountedImpact, counted, find_simultaneous};
+pub use foundation::foundation_warnings;
 pub use members::{member_name, section_name};
 pub use summarise::{Run, springs_of};

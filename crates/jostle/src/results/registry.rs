@@ -7,10 +7,10 @@ use super::in_plan::{BuildingInPlan, FloorInPlan};
 use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
     AcceptanceSummary, AxialFailureSummary, BuildingSummary, CapacitySummary, ContactSummary,
-    EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, GapSummary, HingeSummary,
-    ImpactSummary, IsolationSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary,
-    RatioPlace, RatioSummary, SectionSummary, SpringSummary, StruckSummary, Summary, WallSummary,
-    WorkSummary,
+    EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, FoundationSummary, GapSummary,
+    HingeSummary, ImpactSummary, IsolationSummary, LinkFloorSummary, LinkSummary, MotionSummary,
+    PromiseSummary, RatioPlace, RatioSummary, SectionSummary, SpringSummary, StruckSummary,
+    Summary, WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -66,6 +66,7 @@ pub fn owners() -> Vec<Owner> {
         owner("Floors", "buildings[].floors[]", Some("floors.parquet"), "J1.floor3.", &[entries(FloorSummary::QUANTITIES), entries(FloorResponse::QUANTITIES)]),
         owner("Floors in plan", "buildings[].floors[]", None, "", &[entries(FloorInPlan::QUANTITIES)]),
         owner("Bearings", "buildings[].isolation", None, "", &[entries(IsolationSummary::QUANTITIES)]),
+        owner("Foundations", "buildings[].foundation", None, "", &[entries(FoundationSummary::QUANTITIES)]),
         owner("Hinges of a building", "buildings[].hinges", None, "", &[entries(HingeSummary::QUANTITIES)]),
         owner("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries(SpringSummary::QUANTITIES)]),
         owner("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries(SectionSummary::QUANTITIES)]),

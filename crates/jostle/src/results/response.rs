@@ -140,10 +140,11 @@ pub(super) fn building_response(
 fn residual_drifts(building: &BuildingSystem, outcome: &Outcome) -> Vec<f64> {
     let u = &outcome.state.displacement;
     let mut below = building.foot.map_or(0.0, |dof| u[dof]);
+    let turned = building.rocking(u);
     let mut drift = |floor: &crate::system::Floor| {
         let rise = u[floor.dof] - below;
         below = u[floor.dof];
-        rise / floor.storey_height
+        rise / floor.storey_height + turned
     };
     building.floors.iter().map(&mut drift).collect()
 }

@@ -11,6 +11,7 @@ use crate::interface::LinkElement;
 use crate::model::{Gap, LinkLaw, Model};
 use crate::motion::GroundMotion;
 use crate::results::capacity;
+use crate::results::foundation::{foundation_summary, foundation_warnings, soil_energy};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
 use crate::results::members::members_of;
 use crate::results::response::{
@@ -175,6 +176,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         rayleigh_alpha_per_s: building.equations.alpha,
         rayleigh_beta_s: building.equations.beta,
         isolation: isolation_summary(index, building, run.outcome),
+        foundation: foundation_summary(index, building, run.outcome),
         floors: Floors {
             mat: mat_summary(index, &floors, run),
             above: floors,
@@ -482,12 +484,18 @@ impl From<&CountedImpact> for ImpactSummary {
 
 fn energy_summary(system: &System, outcome: &Outcome) -> EnergySummary {
     let energy = &outcome.energy;
+    let soil = soil_energy(system, outcome);
     EnergySummary {
         input_j: energy.input,
         kinetic_j: energy.kinetic,
         strain_j: energy.strain,
         damped_j: energy.damped,
-        links_j: energy.links,
+        links_j: match soil {
+            Some(_) if system.model_links().is_empty() => 0.0,
+            Some([_, between]) => energy.links - between,
+            None => energy.links,
+        },
+        soil_j: soil.map(|[all, _]| all),
         hysteretic_j: energy.hysteretic,
         contact_j: energy.contact,
         friction_j: system
@@ -572,6 +580,7 @@ fn warnings(run: &Run) -> Vec<String> {
             ));
         }
     }
+    warnings.extend(foundation_warnings(run.system));
     let accuracy = run.outcome.accuracy.iter();
     warnings.extend(accuracy.flat_map(|accuracy| accuracy_warnings(accuracy, remedy)));
     warnings

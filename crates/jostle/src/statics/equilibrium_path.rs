@@ -326,6 +326,7 @@ fn holding_spring(dof: usize, stiffness: f64) -> Option<YieldingSpring> {
     let backbone = Backbone::from_deformations(stiffness, corners, corners).ok()?;
     Some(YieldingSpring {
         dofs: [Some(dof), None],
+        lever: None,
         hysteresis: Hysteresis::new(HysteresisRule::Elastic, backbone).ok()?,
         carries_base_shear: false,
     })

@@ -6,8 +6,9 @@ use std::ops::ControlFlow;
 use super::member_ratios::MemberRatios;
 use super::plan::Plan;
 use crate::history::{
-    Energy, Extreme, FaceImpact, FloorPeaks, History, Impact, LinkTotals, MemberHistory,
-    SectionRatio, SpringEvent, SpringHistory, SpringTotals, SupportPeaks, Work, WorstInstant,
+    Energy, Extreme, FaceImpact, FloorPeaks, FoundationPeaks, History, Impact, LinkTotals,
+    MemberHistory, SectionRatio, SpringEvent, SpringHistory, SpringTotals, SupportPeaks, Work,
+    WorstInstant,
 };
 use crate::linear::NotPositive;
 use crate::state::State;
@@ -109,6 +110,8 @@ pub struct Outcome {
     pub in_plan: Vec<PlanPeaks>,
     /// Peaks of the bearings of every building and of the springs of walls; zero where there are none.
     pub supports: Vec<SupportPeaks>,
+    /// Peaks of the foundation of every building; zero where there is none.
+    pub foundations: Vec<FoundationPeaks>,
     /// Greatest closing u_left − u_right of every contact \[m\].
     pub closing: Vec<Extreme>,
     /// Greatest sum of the contact forces of a gap at one instant, for each gap up to the last one with a contact \[N\].
@@ -301,6 +304,7 @@ impl Outcome {
             floors: system.buildings.iter().map(floors).collect(),
             in_plan: vec![PlanPeaks::default(); system.buildings.len()],
             supports: vec![SupportPeaks::default(); system.buildings.len()],
+            foundations: vec![FoundationPeaks::default(); system.buildings.len()],
             closing: vec![Extreme::default(); system.contacts.len()],
             gap_forces: Vec::new(),
             face_impacts: Vec::new(),

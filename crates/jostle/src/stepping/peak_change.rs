@@ -1,7 +1,7 @@
 //! Difference of the reported peaks of two runs of one system.
 
 use super::outcome::Outcome;
-use crate::history::{FloorPeaks, Impact, LinkTotals};
+use crate::history::{Extreme, FloorPeaks, FoundationPeaks, Impact, LinkTotals};
 use crate::system::System;
 
 /// Weight of differences between parts of runs, which are usually larger than those of the peaks.
@@ -37,6 +37,14 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             worst = worst.max(IN_PARTS * change / greatest);
         }
         floors_before += a_floors.len();
+        let [one, other] = [a, b].map(|run| run.foundations[index]);
+        let both = |of: fn(&FoundationPeaks) -> [Extreme; 2]| {
+            let pairs = of(&one).into_iter().zip(of(&other));
+            relative(pairs.map(|(a, b)| [a.value, b.value]))
+        };
+        worst = worst
+            .max(both(|peaks| peaks.sway))
+            .max(both(|peaks| peaks.rocking));
         for kind in 0..MEMBER_FORCES {
             let members = system.buildings[index].members.members.iter();
             let forms = members.flat_map(|m| m.sections.iter().map(|section| section.forms[kind]));

@@ -5,7 +5,8 @@ use super::energy::EnergyAudit;
 use super::events::Cubic;
 use super::member_peaks::MemberPeaks;
 use crate::history::{
-    Column, Energy, EnergyTerm, Extreme, FloorPeaks, History, SpringHistory, SupportPeaks,
+    Column, Energy, EnergyTerm, Extreme, FloorPeaks, FoundationPeaks, History, SpringHistory,
+    SupportPeaks,
 };
 use crate::state::{ContactPhase, State};
 use crate::system::System;
@@ -21,6 +22,7 @@ pub(crate) struct Recorder {
     pub(crate) closing: Vec<Extreme>,
     pub(crate) base_shear: Vec<f64>,
     pub(crate) supports: Vec<SupportPeaks>,
+    pub(crate) foundations: Vec<FoundationPeaks>,
     pub(crate) parts: AccelerationParts,
     pub(crate) members: MemberPeaks,
     /// Displacement and velocity of every floor, and closing and rate of every contact, at the start of the step.
@@ -76,7 +78,8 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
             .filter(|contact| system.contacts[*contact].is_between_floors())
             .map(|contact| Column::Closing { contact }),
     );
-    columns.extend((0..system.links.len()).map(|link| Column::LinkForce { link }));
+    let links = system.model_links().len();
+    columns.extend((0..links).map(|link| Column::LinkForce { link }));
     let followed = system.links_followed.iter();
     columns.extend(
         followed.flat_map(|&link| [Column::LinkStroke { link }, Column::LinkSpeed { link }]),
@@ -102,7 +105,8 @@ impl Recorder {
         let buildings = system.buildings.iter();
         let floors: usize = buildings.map(|building| building.floors.len()).sum();
         let supports = system.buildings.iter().filter(|own| own.support.is_some());
-        let tracked = floors + system.contacts.len() + supports.count();
+        let foundations = system.buildings.iter().filter_map(|own| own.foundation);
+        let tracked = floors + system.contacts.len() + supports.count() + 2 * foundations.count();
         Self {
             history: interval.map(|_| History::new(columns(system))),
             springs: interval
@@ -122,6 +126,7 @@ impl Recorder {
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
             supports: vec![SupportPeaks::default(); system.buildings.len()],
+            foundations: vec![FoundationPeaks::default(); system.buildings.len()],
             parts: AccelerationParts::new(floors, duration),
             members: MemberPeaks::new(system, interval.is_some()),
             before: Vec::with_capacity(tracked),
@@ -161,6 +166,10 @@ impl Recorder {
         for support in system.buildings.iter().filter_map(|own| own.support) {
             self.before.push((u[support.dof], v[support.dof]));
         }
+        for foundation in system.buildings.iter().filter_map(|own| own.foundation) {
+            let motions = foundation.dofs.map(|dof| (u[dof], v[dof]));
+            self.before.extend(motions);
+        }
     }
 
     /// Updates peaks with the step that ended in `state`.
@@ -172,6 +181,7 @@ impl Recorder {
         let mut before = self.before.iter();
         for (index, building) in system.buildings.iter().enumerate() {
             let mut below = building.foot.map_or(0.0, |dof| u[dof]);
+            let turned = building.rocking(u);
             for (peaks, floor) in self.floors[index].iter_mut().zip(&building.floors) {
                 let now = (u[floor.dof], v[floor.dof]);
                 if let Some(&then) = before.next() {
@@ -188,7 +198,7 @@ impl Recorder {
                 floor_of_all += 1;
                 peaks.storey_drift = peaks
                     .storey_drift
-                    .max(((now.0 - below) / floor.storey_height).abs());
+                    .max(((now.0 - below) / floor.storey_height + turned).abs());
                 below = now.0;
             }
             let floors = &mut self.floors[index];
@@ -228,6 +238,27 @@ impl Recorder {
             peaks.total_acceleration = peaks.total_acceleration.max(total);
             let force = building.support_force(state);
             peaks.force = peaks.force.max(force.abs());
+        }
+        for (peaks, building) in self.foundations.iter_mut().zip(&system.buildings) {
+            let Some(foundation) = &building.foundation else {
+                continue;
+            };
+            let mut moved = [0.0; 2];
+            let [sway, rocking] = [&mut peaks.sway, &mut peaks.rocking];
+            for ((extremes, dof), moved) in [sway, rocking]
+                .into_iter()
+                .zip(foundation.dofs)
+                .zip(&mut moved)
+            {
+                if let Some(&then) = before.next() {
+                    let now = (u[dof], v[dof]);
+                    *moved = now.0 - then.0;
+                    take_extremes(extremes.each_mut(), [then, now], start, step);
+                }
+            }
+            let [uu, ut, tt] = foundation.own_damping;
+            let [x, turn] = moved;
+            peaks.damped += (uu * x * x + 2.0 * ut * x * turn + tt * turn * turn) / step;
         }
     }
 
@@ -298,7 +329,8 @@ impl Recorder {
             .iter()
             .filter(|contact| contact.is_between_floors())
             .for_each(|contact| put(contact.ports.closing(&state.displacement)));
-        links.iter().for_each(|force| put(*force));
+        let own = links.iter().take(system.model_links().len());
+        own.for_each(|force| put(*force));
         for link in &system.links_followed {
             let link = &system.links[*link];
             put(link.shortening(&state.displacement));

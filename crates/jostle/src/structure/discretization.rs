@@ -208,7 +208,7 @@ impl Discretization {
 
 impl StickModel {
     /// Adds a free node without mass and returns its index.
-    fn add_node(&mut self, x: f64, y: f64) -> usize {
+    pub(super) fn add_node(&mut self, x: f64, y: f64) -> usize {
         self.nodes.push(Node {
             x,
             y,

@@ -1,7 +1,7 @@
 //! Stiffness of the massless elements between lumped masses, in global axes.
 
 use crate::linear::StepMatrix;
-use crate::structure::{Coupling, Hinge, Member, Node, Spring, StickModel};
+use crate::structure::{Coupling, Hinge, Member, Node, RigidFoundation, Spring, StickModel};
 
 /// Displacement of a node: horizontal, vertical, rotation.
 pub(crate) const X: usize = 0;
@@ -38,18 +38,63 @@ impl Part {
 pub(crate) struct ElementStiffness {
     /// Part, (node, component), (node, component), value \[N/m, N, N·m; times s for dashpots\]; both triangles.
     pub(crate) entries: Vec<(Part, Place, Place, f64)>,
+    /// Whether it is the soil under a foundation.
+    pub(crate) is_soil: bool,
 }
 
-/// Stiffness and dashpots of every element of a stick model.
+/// Stiffness and dashpots of every element of a stick model, over displacements that are not tied to the rotation of a
+/// foundation.
 pub(crate) fn stiffnesses(stick_model: &StickModel) -> impl Iterator<Item = ElementStiffness> + '_ {
+    let foundation = stick_model.foundation.as_ref();
+    untied(stick_model).map(move |mut element| {
+        if let Some(foundation) = foundation {
+            for (_, a, b, value) in &mut element.entries {
+                for place in [a, b] {
+                    let share;
+                    (*place, share) = foundation.carries(*place);
+                    *value *= share;
+                }
+            }
+        }
+        element
+    })
+}
+
+/// The same over all displacements of nodes.
+pub(crate) fn untied(stick_model: &StickModel) -> impl Iterator<Item = ElementStiffness> + '_ {
+    let foundation = stick_model.foundation.as_ref();
     let members = stick_model
         .members
         .iter()
         .map(|member| of_member(member, &stick_model.nodes));
     members
         .chain(stick_model.hinges.iter().map(of_hinge))
-        .chain(stick_model.springs.iter().map(of_spring))
+        .chain(
+            stick_model
+                .springs
+                .iter()
+                .map(move |spring| of_spring(spring, foundation)),
+        )
         .chain(stick_model.couplings.iter().map(of_coupling))
+        .chain(foundation.map(of_soil))
+}
+
+impl RigidFoundation {
+    /// A displacement as a multiple of another: what the foundation makes rise or sink is tied to its rotation.
+    pub(crate) fn carries(&self, place: Place) -> (Place, f64) {
+        match (place.1, self.levers.get(place.0)) {
+            (Y, Some(Some(lever))) => ((self.node, THETA), *lever),
+            _ => (place, 1.0),
+        }
+    }
+}
+
+impl StickModel {
+    /// The displacement to which one is tied, and its share of it.
+    pub(crate) fn carried(&self, place: Place) -> (Place, f64) {
+        let foundation = self.foundation.as_ref();
+        foundation.map_or((place, 1.0), |foundation| foundation.carries(place))
+    }
 }
 
 impl Member {
@@ -137,16 +182,47 @@ pub(crate) fn of_hinge(hinge: &Hinge) -> ElementStiffness {
     stiffness
 }
 
-/// Storey spring (theory, Eq. K3).
-pub(crate) fn of_spring(spring: &Spring) -> ElementStiffness {
+/// Storey spring (theory, Eqs. K3 and B22).
+pub(crate) fn of_spring(spring: &Spring, foundation: Option<&RigidFoundation>) -> ElementStiffness {
     let [i, j] = spring.ends;
     let mut stiffness = ElementStiffness::default();
     if spring.hysteresis.is_none() {
         let part = part_of(spring.proportional_damping);
-        stiffness.couple(part, (i, X), (j, X), spring.stiffness);
+        match (spring.lever, foundation) {
+            (Some(lever), Some(foundation)) => stiffness.combine(
+                part,
+                &[
+                    ((i, X), -1.0),
+                    ((j, X), 1.0),
+                    ((foundation.node, THETA), lever),
+                ],
+                spring.stiffness,
+            ),
+            _ => stiffness.couple(part, (i, X), (j, X), spring.stiffness),
+        }
     }
     stiffness.couple(Part::Undamped, (i, X), (j, X), -spring.softening);
     stiffness.couple(Part::Dashpot, (i, X), (j, X), spring.dashpot);
+    stiffness
+}
+
+/// Springs and dashpots of the soil under a foundation.
+fn of_soil(foundation: &RigidFoundation) -> ElementStiffness {
+    let mut stiffness = ElementStiffness {
+        is_soil: true,
+        ..ElementStiffness::default()
+    };
+    let (u, turn) = ((foundation.node, X), (foundation.node, THETA));
+    for (part, [uu, ut, tt]) in [
+        (Part::Undamped, foundation.stiffness),
+        (Part::Dashpot, foundation.damping),
+    ] {
+        let entries = [(u, u, uu), (u, turn, ut), (turn, u, ut), (turn, turn, tt)];
+        let entries = entries.into_iter().filter(|(_, _, value)| *value != 0.0);
+        stiffness
+            .entries
+            .extend(entries.map(|(a, b, value)| (part, a, b, value)));
+    }
     stiffness
 }
 
@@ -170,6 +246,15 @@ pub(crate) fn part_of(proportional_damping: bool) -> Part {
 }
 
 impl ElementStiffness {
+    /// A spring that the sum of displacements times their shares stretches.
+    pub(crate) fn combine(&mut self, part: Part, shares: &[(Place, f64)], value: f64) {
+        for &(a, of_a) in shares {
+            for &(b, of_b) in shares {
+                self.entries.push((part, a, b, value * of_a * of_b));
+            }
+        }
+    }
+
     /// A spring between two displacements.
     fn couple(&mut self, part: Part, a: Place, b: Place, value: f64) {
         if value != 0.0 {

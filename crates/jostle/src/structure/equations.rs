@@ -44,6 +44,8 @@ pub struct Equations {
 pub struct YieldingSpring {
     /// The deformation is the first minus the second; `None` moves with the ground.
     pub dofs: [Option<usize>; 2],
+    /// Rotation of the foundation under a storey, and the height by which it adds to the deformation \[m\].
+    pub lever: Option<(usize, f64)>,
     /// Rule and backbone.
     pub hysteresis: Hysteresis,
     /// Whether its force is part of the base shear.
@@ -56,7 +58,11 @@ impl YieldingSpring {
     #[inline]
     pub fn deformation(&self, displacement: &[f64]) -> f64 {
         let at = |dof: Option<usize>| dof.map_or(0.0, |dof| displacement[dof]);
-        at(self.dofs[0]) - at(self.dofs[1])
+        let between = at(self.dofs[0]) - at(self.dofs[1]);
+        match self.lever {
+            Some((turning, height)) => between + height * displacement[turning],
+            None => between,
+        }
     }
 
     /// Adds a force conjugate to the deformation to loads of the building.
@@ -67,6 +73,9 @@ impl YieldingSpring {
         }
         if let Some(dof) = self.dofs[1] {
             load[dof] -= force;
+        }
+        if let Some((turning, height)) = self.lever {
+            load[turning] += height * force;
         }
     }
 }
@@ -86,14 +95,15 @@ impl Equations {
                 .into_iter()
                 .enumerate()
             {
-                let Some(dof) = path.dof(index, component) else {
+                let (place, share) = stick_model.carried((index, component));
+                let Some(dof) = path.dof(place.0, place.1) else {
                     continue;
                 };
-                mass[dof] += value;
+                mass[dof] += value * (share * share);
                 match component {
                     X => driven_mass[dof] += value,
                     Y if stick_model.in_plan => driven_across[dof] += value,
-                    Y => vertical_mass[dof] += value,
+                    Y => vertical_mass[dof] += value * share,
                     _ => {}
                 }
             }
@@ -104,16 +114,36 @@ impl Equations {
         let mut triplets = [Vec::new(), Vec::new(), Vec::new()];
         let mut base_shear = Vec::new();
         // What couplings leave of a row at the ground is no force there: the base shear is the sum of all rows.
-        let of_supports = stick_model.couplings.is_empty();
-        for (part, a, b, value) in
-            element::stiffnesses(stick_model).flat_map(|element| element.entries)
+        let on_soil = stick_model.foundation.is_some();
+        let of_supports = stick_model.couplings.is_empty() || on_soil;
+        // Over a foundation, the base shear is what it takes from the building above.
+        let sway = stick_model.foundation.as_ref();
+        let sway = sway.and_then(|foundation| path.dof(foundation.node, X));
+        for (is_soil, (part, a, b, value)) in
+            element::stiffnesses(stick_model).flat_map(|element| {
+                let is_soil = element.is_soil;
+                element
+                    .entries
+                    .into_iter()
+                    .map(move |entry| (is_soil, entry))
+            })
         {
+            let on_foundation = sway.is_some() && path.dof(a.0, a.1) == sway;
+            if on_foundation
+                && !is_soil
+                && part != Part::Dashpot
+                && let Some(column) = path.dof(b.0, b.1)
+            {
+                base_shear.push((column, -value));
+            }
             match (path.dof(a.0, a.1), path.dof(b.0, b.1)) {
                 (Some(row), Some(column)) if row >= column => {
                     triplets[part as usize].push((row, column, value));
                 }
                 // Forces of the supports on the building.
-                (None, Some(column)) if of_supports && a.1 == X && part != Part::Dashpot => {
+                (None, Some(column))
+                    if of_supports && !on_soil && a.1 == X && part != Part::Dashpot =>
+                {
                     base_shear.push((column, -value));
                 }
                 _ => {}
@@ -126,7 +156,7 @@ impl Equations {
                 base_shear.push((column, value));
             }
         }
-        if !of_supports {
+        if !of_supports || on_soil {
             base_shear = summed(&base_shear, n);
         }
         let [stiffness, undamped, dashpots] =
@@ -243,12 +273,16 @@ fn summed(entries: &[(usize, f64)], count: usize) -> Vec<(usize, f64)> {
 }
 
 fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {
+    let foundation = stick_model.foundation.as_ref().map(|own| own.node);
+    let sway = foundation.and_then(|node| path.dof(node, X));
+    let turning = foundation.and_then(|node| path.dof(node, element::THETA));
     let spring = |[first, second]: [usize; 2], component: usize, hysteresis: Hysteresis| {
         let dofs = [first, second].map(|node| path.dof(node, component));
         YieldingSpring {
             dofs,
+            lever: None,
             hysteresis,
-            carries_base_shear: component == X && dofs.contains(&None),
+            carries_base_shear: component == X && dofs.contains(&sway),
         }
     };
     let hinges = stick_model.hinges.iter().filter_map(|hinge| {
@@ -258,7 +292,10 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
     // A storey is positive when its upper floor is to the right of its lower one.
     let storeys = stick_model.springs.iter().filter_map(|storey| {
         let [lower, upper] = storey.ends;
-        Some(spring([upper, lower], X, storey.hysteresis?))
+        Some(YieldingSpring {
+            lever: turning.zip(storey.lever),
+            ..spring([upper, lower], X, storey.hysteresis?)
+        })
     });
     hinges.chain(storeys).collect()
 }

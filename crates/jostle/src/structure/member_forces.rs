@@ -286,9 +286,10 @@ impl<'a> Cuts<'a> {
             }
         };
         let mut rows = vec![[const { Vec::new() }; 3]; nodes.len()];
-        for (part, a, b, value) in
-            element::stiffnesses(stick_model).flat_map(|element| element.entries)
+        for (part, a, b, value) in element::untied(stick_model).flat_map(|element| element.entries)
         {
+            let (b, share) = stick_model.carried(b);
+            let value = value * share;
             if let Some(dof) = building.equations.dof(b) {
                 rows[a.0][a.1].push((part, dof, value));
             }
@@ -309,9 +310,10 @@ impl<'a> Cuts<'a> {
         for (part, a, b, value) in &element.stiffness.entries {
             if *a == place
                 && *part != Part::Dashpot
-                && let Some(dof) = self.building.equations.dof(*b)
+                && let (b, share) = self.building.discretization.stick_model.carried(*b)
+                && let Some(dof) = self.building.equations.dof(b)
             {
-                form.displacement.push((dof, sign * value));
+                form.displacement.push((dof, sign * value * share));
             }
         }
         form.displacement = merged(form.displacement);
@@ -385,9 +387,11 @@ impl<'a> Cuts<'a> {
                     form.displacement.push((*dof, -value));
                 }
             }
-            if let Some(dof) = equations.dof((index, Y)) {
-                form.acceleration.push((dof, -node.mass));
-                form.velocity.push((dof, -equations.alpha * node.mass));
+            let (place, share) = stick_model.carried((index, Y));
+            if let Some(dof) = equations.dof(place) {
+                let mass = node.mass * share;
+                form.acceleration.push((dof, -mass));
+                form.velocity.push((dof, -equations.alpha * mass));
             }
             form.constant -= self.gravity * node.mass;
         }

@@ -4,6 +4,7 @@ mod assembled_building;
 mod discretization;
 pub(crate) mod element;
 mod equations;
+mod foundation;
 mod member_end;
 mod member_forces;
 mod path;
@@ -25,6 +26,8 @@ pub use member_forces::{
 };
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
-pub use stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Support};
+pub use stick_model::{
+    Coupling, Hinge, Member, Node, RigidFoundation, Spring, StickModel, Support,
+};
 pub use storey_forces::{StoreyForce, StoreyForces};
 pub(crate) use tiers::motion_at;

@@ -26,6 +26,23 @@ impl Path {
                 }
             }
         }
+        // Storeys deform by the rotation of their foundation: it comes after the last of them, and leaves no fill-in.
+        if let Some(foundation) = &stick_model.foundation {
+            let turning = ties.root(foundation.node, THETA);
+            let stands = |node: &usize| {
+                let levers = foundation.levers.get(*node);
+                let carried = levers.is_some_and(Option::is_some);
+                let mut springs = stick_model.springs.iter();
+                carried || springs.any(|own| own.lever.is_some() && own.ends.contains(node))
+            };
+            let order = node_order(stick_model);
+            let last = order.iter().enumerate();
+            let last = last.filter(|(_, (_, node))| stands(node)).last();
+            if let (Some(root), Some((position, &(rank, _)))) = (turning, last) {
+                let after = Some((rank, THETA, position));
+                last_met[root] = last_met[root].max(after);
+            }
+        }
         let mut roots: Vec<usize> = (0..last_met.len())
             .filter(|&root| last_met[root].is_some())
             .collect();
@@ -105,6 +122,23 @@ impl Ties {
                         Self::place(hinge.ends[0], component),
                         Self::place(hinge.ends[1], component),
                     );
+                }
+            }
+        }
+        if let Some(foundation) = &stick_model.foundation {
+            for &foot in &foundation.feet {
+                for component in [X, THETA] {
+                    ties.merge(
+                        Self::place(foot, component),
+                        Self::place(foundation.node, component),
+                    );
+                }
+            }
+            // It does not rise itself, and what rises with its rotation is no displacement of its own.
+            ties.merge(Self::place(foundation.node, Y), GROUND);
+            for (node, lever) in foundation.levers.iter().enumerate() {
+                if lever.is_some() {
+                    ties.merge(Self::place(node, Y), GROUND);
                 }
             }
         }

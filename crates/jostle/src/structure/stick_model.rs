@@ -18,6 +18,24 @@ pub struct StickModel {
     /// Whether nodes are floors in plan: their vertical displacement is then the one across the row, and their rotation is
     /// about a vertical axis.
     pub in_plan: bool,
+    /// Rigid foundation on springs and dashpots, if it stands on one.
+    pub foundation: Option<RigidFoundation>,
+}
+
+/// A rigid body at the foot of a building, on springs and dashpots: it moves sideways and turns, and does not rise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidFoundation {
+    /// Its node, at height zero; it carries its mass and rotary inertia.
+    pub node: usize,
+    /// The feet of columns, which move and turn with it.
+    pub feet: Vec<usize>,
+    /// Distance to the right of its node, for nodes that rise by that times its rotation: the feet, and what stands on them on
+    /// columns that keep their length \[m\].
+    pub levers: Vec<Option<f64>>,
+    /// Stiffness of the soil over displacement and rotation: uu, uθ, θθ \[N/m, N, N·m\].
+    pub stiffness: [f64; 3],
+    /// Dashpots of the soil over the same \[N·s/m, N·s, N·m·s\].
+    pub damping: [f64; 3],
 }
 
 /// A point that moves by x (right), y (up) and θ (counter-clockwise).
@@ -123,6 +141,9 @@ pub struct Spring {
     pub dashpot: f64,
     /// Whether stiffness-proportional damping of the building acts here too.
     pub proportional_damping: bool,
+    /// Height between its ends over a rigid foundation, whose rotation times this height adds to the deformation, counter-clockwise
+    /// like a displacement of the second end to the right; P-Delta acts on displacements alone \[m\].
+    pub lever: Option<f64>,
 }
 
 impl Spring {
@@ -136,6 +157,7 @@ impl Spring {
             softening: 0.0,
             dashpot: 0.0,
             proportional_damping: true,
+            lever: None,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! From a model to a system.
 
-use super::{BuildingSystem, SpringSupport, System, WallPlace, finite};
+use super::soil::{self, Founded, Ground};
+use super::{BuildingSystem, FoundationPlace, SpringSupport, System, WallPlace, finite};
 use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean};
 use crate::interface::{
@@ -22,15 +23,21 @@ impl System {
         model.check()?;
         let row = Row::new(model);
         let mut buildings = Vec::new();
+        let mut foundations: Vec<(usize, FoundationPlace)> = Vec::new();
         let mut faults = Vec::new();
         for (index, building) in model.buildings.iter().enumerate() {
             let points = row.points_between_floors(index);
             let points = points.each_ref().map(|points| &points[..]);
-            let damping = match building.base.isolation {
-                Some(_) => fixed_on_mat(building, points),
-                None => Ok(building.damping.clone()),
+            let number = foundations.len();
+            let on_soil = building.base.foundation.zip(Ground::of(model, number));
+            let damping = match (building.base.isolation, &on_soil) {
+                (Some(_), _) => fixed(building, points, true).map(|fixed| (rayleigh(&fixed), None)),
+                (None, Some((foundation, ground))) => fixed(building, points, false)
+                    .and_then(|fixed| Founded::new(building, &fixed, points, foundation, ground))
+                    .map(|founded| (founded.damping.clone(), Some((founded, *foundation)))),
+                (None, None) => Ok((building.damping.clone(), None)),
             };
-            let damping = match damping {
+            let (damping, founded) = match damping {
                 Ok(damping) => damping,
                 Err((field, problem)) => {
                     faults.push(ModelFault {
@@ -41,7 +48,9 @@ impl System {
                 }
             };
             let mut discretization = Discretization::with_points(building, points);
-            if let Damping::Rayleigh { alpha, .. } = damping {
+            if let Some((founded, foundation)) = &founded {
+                founded.support(&mut discretization, foundation);
+            } else if let Damping::Rayleigh { alpha, .. } = damping {
                 discretization.damp_relative_to_mat(alpha);
             }
             let mut assembled = BuildingSystem::new(&building.name, discretization);
@@ -67,11 +76,16 @@ impl System {
                     problem,
                 });
             }
+            if let Some((founded, foundation)) = &founded {
+                assembled.foundation = founded.place(&assembled, *foundation);
+                foundations.extend(assembled.foundation.map(|place| (index, place)));
+            }
             buildings.push(assembled);
         }
         if !faults.is_empty() {
             return Err(faults);
         }
+        let between = couple_foundations(model, &foundations, &mut buildings)?;
         let mut walls = Vec::new();
         for wall in &model.walls {
             let place = wall.stiffness.map(|stiffness| {
@@ -94,6 +108,13 @@ impl System {
         let mut system = Self::of_buildings(buildings);
         system.walls = walls;
         system.join(&row, model)?;
+        let places = system.buildings.iter().enumerate();
+        let places: Vec<_> = places
+            .filter_map(|(index, own)| Some((index, own.foundation?)))
+            .collect();
+        let soil = soil::links(&between, &places, &system.buildings, model.links.len());
+        system.soil_links = soil.len();
+        system.links.extend(soil);
         system.follow_members(&model.analysis.members);
         system.follow_links(model.analysis.link_motion);
         let faults = finite::of_contacts(&system);
@@ -111,11 +132,16 @@ impl System {
     /// As [`System::assemble`].
     pub fn with_gaps_of(&self, model: &Model) -> Result<Self, Vec<ModelFault>> {
         model.check()?;
+        // Static coupling depends on the distance between foundations.
+        if self.soil_links > 0 {
+            return Self::assemble(model);
+        }
         let mut system = Self {
             buildings: self.buildings.clone(),
             contacts: Vec::new(),
             edge_ends: Vec::new(),
             links: Vec::new(),
+            soil_links: 0,
             members_followed: Vec::new(),
             links_followed: Vec::new(),
             ratings: Vec::new(),
@@ -203,14 +229,16 @@ impl System {
     }
 }
 
-/// The damping coefficients of a building on a mat: those of the same building fixed there (theory, Eq. B6).
+/// The same building fixed on its mat or on its foundation: its damping coefficients are those of motion relative to it (theory,
+/// Eqs. B6 and B22).
 ///
 /// # Errors
 /// The field of the building, and what is wrong with it.
-fn fixed_on_mat(
+fn fixed(
     building: &Building,
     points: [&[f64]; 2],
-) -> Result<Damping, (&'static str, String)> {
+    on_mat: bool,
+) -> Result<BuildingSystem, (&'static str, String)> {
     let fixed = Building {
         base: Base::default(),
         ..building.clone()
@@ -221,12 +249,49 @@ fn fixed_on_mat(
         .put_under_gravity(fixed.gravity)
         .map_err(|problem| (problem.field(), problem.to_string()))?;
     assembled
-        .damp_as(&fixed.damping, true)
+        .damp_as(&fixed.damping, on_mat)
         .map_err(|problem| ("damping.modes", problem))?;
-    Ok(Damping::Rayleigh {
-        alpha: assembled.equations.alpha,
-        beta: assembled.equations.beta,
-    })
+    Ok(assembled)
+}
+
+fn rayleigh(building: &BuildingSystem) -> Damping {
+    Damping::Rayleigh {
+        alpha: building.equations.alpha,
+        beta: building.equations.beta,
+    }
+}
+
+/// Leaves to every foundation the soil of its own, and returns the springs and dashpots between them.
+///
+/// # Errors
+/// Foundations that act on each other more than springs between two of them can.
+fn couple_foundations(
+    model: &Model,
+    foundations: &[(usize, FoundationPlace)],
+    buildings: &mut [BuildingSystem],
+) -> Result<Vec<soil::Between>, Vec<ModelFault>> {
+    let fault = |problem: String| {
+        vec![ModelFault {
+            path: "soil.coupling".to_owned(),
+            problem,
+        }]
+    };
+    let Some(matrices) = soil::matrices(model, foundations).map_err(fault)? else {
+        return Ok(Vec::new());
+    };
+    let split = soil::split(&matrices, foundations.len()).map_err(|worst| {
+        fault(format!(
+            "the neighbours of \"{}\" leave no positive stiffness or damping for its own soil: put fewer foundations beside each other, or give matrices with smaller entries between them",
+            model.buildings[foundations[worst].0].name
+        ))
+    })?;
+    if split.between.is_empty() {
+        return Ok(Vec::new());
+    }
+    for ((building, _), [stiffness, damping]) in foundations.iter().zip(split.own) {
+        buildings[*building].stand_on(stiffness, damping);
+    }
+    Ok(split.between)
 }
 
 /// Contacts of a gap between two buildings with plans, from the lowest floor up, face by face; faces are numbered from

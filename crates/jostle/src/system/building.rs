@@ -3,6 +3,7 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
+use super::soil::FoundationPlace;
 use crate::eigen::{Mode, lateral_modes_along, modes_dense, symmetric};
 use crate::interface::DofRow;
 use crate::model::{Damping, Gravity, PlanPoint, usual_damping_modes};
@@ -37,6 +38,8 @@ pub struct BuildingSystem {
     pub foot: Option<usize>,
     /// What moves it as a whole, where results are wanted of it.
     pub support: Option<SpringSupport>,
+    /// The rigid foundation on which it stands.
+    pub foundation: Option<FoundationPlace>,
     /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
     pub modal_damping: Option<f64>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
@@ -44,6 +47,8 @@ pub struct BuildingSystem {
     pub modes: Vec<Mode>,
     /// How forces of columns and beams follow from the motion; empty unless they are asked for.
     pub members: MemberForces,
+    /// The same building without neighbours on the soil, where they act on its foundation.
+    alone: Option<Arc<AssembledBuilding>>,
     /// The recursion through its equations, shared by all runs.
     pub(crate) sweep: Arc<RiccatiSweep>,
 }
@@ -175,9 +180,11 @@ impl BuildingSystem {
             rest: Settled::default(),
             spring_offset: 0,
             support,
+            foundation: None,
             modal_damping: None,
             modes,
             members: MemberForces::default(),
+            alone: None,
             sweep: Arc::new(sweep),
         }
     }
@@ -203,6 +210,47 @@ impl BuildingSystem {
         }
         self.rest = rest;
         Ok(())
+    }
+
+    /// Gives the soil under its foundation other springs and dashpots over displacement and rotation: uu, uθ, θθ. Modes stay
+    /// those of the springs that it had.
+    pub(super) fn stand_on(&mut self, stiffness: [f64; 3], damping: [f64; 3]) {
+        let mut discretization = self.structure.discretization.clone();
+        if let Some(foundation) = &mut discretization.stick_model.foundation {
+            (foundation.stiffness, foundation.damping) = (stiffness, damping);
+        }
+        if let Some(place) = &mut self.foundation {
+            (place.own_stiffness, place.own_damping) = (stiffness, damping);
+        }
+        let mut structure = AssembledBuilding::new(&self.structure.name, discretization);
+        let (old, new) = (&self.structure.equations, &mut structure.equations);
+        (new.alpha, new.beta) = (old.alpha, old.beta);
+        self.sweep = Arc::new(RiccatiSweep::through(&structure.equations));
+        self.alone = Some(Arc::new(std::mem::replace(&mut self.structure, structure)));
+    }
+
+    /// Its equations without neighbours on the soil, to which its modes belong.
+    #[must_use]
+    pub fn alone(&self) -> &AssembledBuilding {
+        self.alone.as_deref().unwrap_or(&self.structure)
+    }
+
+    /// The building without neighbours on the soil; `None` if none act on its foundation.
+    pub(crate) fn without_neighbours(&self) -> Option<Self> {
+        let structure = AssembledBuilding::clone(self.alone.as_ref()?);
+        Some(Self {
+            sweep: Arc::new(RiccatiSweep::through(&structure.equations)),
+            structure,
+            alone: None,
+            ..self.clone()
+        })
+    }
+
+    /// Rotation of its foundation, counter-clockwise; zero where there is none \[rad\].
+    #[must_use]
+    pub fn rocking(&self, displacement: &[f64]) -> f64 {
+        let foundation = self.foundation.as_ref();
+        foundation.map_or(0.0, |own| displacement[own.dofs[1]])
     }
 
     /// Lateral modes, longest period first.

@@ -3,14 +3,17 @@
 mod assemble;
 mod building;
 mod finite;
+mod half_space;
 mod members;
 mod rating;
+mod soil;
 
 use crate::interface::{Contact, DofRow, EdgeEnd, Friction, LinkElement, Port, PortPair};
 use crate::model::{LEVEL_TOLERANCE, WALL};
 
 pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Track};
 pub use rating::MemberRating;
+pub use soil::FoundationPlace;
 
 /// Buildings in a row and what stands between them, ready to be stepped.
 ///
@@ -34,8 +37,11 @@ pub struct System {
     pub contacts: Vec<Contact>,
     /// Ends of the edges that corners of buildings in space touch, contact by contact.
     pub edge_ends: Vec<EdgeEnd>,
-    /// Springs and dashpots between buildings, link by link, from the lowest up.
+    /// Springs and dashpots between buildings, link by link, from the lowest up; behind those of the model, those of the soil
+    /// between foundations.
     pub links: Vec<LinkElement>,
+    /// How many of the links are soil between foundations.
+    pub soil_links: usize,
     /// Members whose forces are recorded over time: building, and member of its
     /// [`MemberForces`](crate::structure::MemberForces).
     pub members_followed: Vec<[usize; 2]>,
@@ -74,6 +80,11 @@ impl System {
             if let Some(support) = &mut building.support {
                 support.dof = support.dof - building.offset + offset;
             }
+            if let Some(foundation) = &mut building.foundation {
+                for dof in &mut foundation.dofs {
+                    *dof = *dof - building.offset + offset;
+                }
+            }
             building.offset = offset;
             offset += building.equations.len();
         }
@@ -82,11 +93,18 @@ impl System {
             contacts: Vec::new(),
             edge_ends: Vec::new(),
             links: Vec::new(),
+            soil_links: 0,
             members_followed: Vec::new(),
             links_followed: Vec::new(),
             ratings: Vec::new(),
             walls: Vec::new(),
         }
+    }
+
+    /// The links of the model, without the soil between foundations.
+    #[must_use]
+    pub fn model_links(&self) -> &[LinkElement] {
+        &self.links[..self.links.len() - self.soil_links]
     }
 
     /// The buildings of the model, without walls.

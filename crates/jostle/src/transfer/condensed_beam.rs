@@ -91,7 +91,7 @@ impl CondensedBeam {
                     element::of_member(&stick_model.members[*index], &stick_model.nodes)
                 }
                 Link::Hinge(index) => element::of_hinge(&stick_model.hinges[*index]),
-                Link::Spring(index) => element::of_spring(&stick_model.springs[*index]),
+                Link::Spring(index) => element::of_spring(&stick_model.springs[*index], None),
             };
             for (part, a, b, value) in element.entries {
                 if let (Some(a), Some(b)) = (place(a.0, a.1), place(b.0, b.1)) {

@@ -22,6 +22,11 @@ pub enum NotAFrame {
         "it has hinges or storeys that yield; this form of the method is for elastic buildings"
     )]
     Yields,
+    /// Its storeys deform by the rotation of a foundation.
+    #[error(
+        "it stands on a foundation that turns; this form of the method is for bases that do not"
+    )]
+    Turns,
     /// A node is on no column line and no beam.
     #[error("node {node} lies on no column line and on no beam")]
     LooseNode {
@@ -109,6 +114,9 @@ impl Layout {
         let stick_model = &building.discretization.stick_model;
         if !building.equations.springs.is_empty() {
             return Err(NotAFrame::Yields);
+        }
+        if stick_model.foundation.is_some() {
+            return Err(NotAFrame::Turns);
         }
         let elements = elements(stick_model);
         let mut around = vec![Vec::new(); stick_model.nodes.len()];

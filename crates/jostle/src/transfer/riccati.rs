@@ -54,6 +54,7 @@ use crate::structure::StepEquations;
 ///     gaps: Vec::new(),
 ///     links: Vec::new(),
 ///     walls: Vec::new(),
+///     soil: None,
 ///     analysis: Analysis::default(),
 /// };
 /// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;
@@ -106,6 +107,16 @@ struct SpringPlace {
     diagonal: [Option<usize>; 2],
     /// Index among the entries before the diagonal.
     between: Option<usize>,
+    /// Of the rotation that adds to its deformation.
+    lever: Option<LeverPlace>,
+}
+
+/// Positions of the tangent of a yielding storey on a foundation: on the diagonal of the rotation, and between it and the ends.
+#[derive(Clone, Copy, Debug)]
+struct LeverPlace {
+    height: f64,
+    turning: usize,
+    between: [Option<usize>; 2],
 }
 
 /// Entries of the step matrix at a spring: on the diagonal, and between its ends.
@@ -113,6 +124,8 @@ struct SpringPlace {
 struct SpringEntries {
     diagonal: [f64; 2],
     between: f64,
+    /// At its rotation: on the diagonal, and between it and the ends.
+    lever: [f64; 3],
 }
 
 /// Parts of an entry of the step matrix.
@@ -226,18 +239,26 @@ impl RiccatiSweep {
         let band = Band::new(batched.columns(), &starts, &rows);
         let banded = band.as_ref().map_or(&[][..], Band::places);
         let places = batched.places().iter().chain(banded).copied();
+        let entry_between = |a: usize, b: usize| {
+            let entries = before_starts[a.max(b)]..before_starts[a.max(b) + 1];
+            let place = before[entries.clone()]
+                .iter()
+                .position(|(column, _)| *column as usize == a.min(b));
+            place.map(|place| entries.start + place)
+        };
         let springs = equations.springs.iter().map(|spring| SpringPlace {
             diagonal: spring.dofs,
             between: match spring.dofs {
-                [Some(a), Some(b)] => {
-                    let entries = before_starts[a.max(b)]..before_starts[a.max(b) + 1];
-                    let place = before[entries.clone()]
-                        .iter()
-                        .position(|(column, _)| *column as usize == a.min(b));
-                    place.map(|place| entries.start + place)
-                }
+                [Some(a), Some(b)] => entry_between(a, b),
                 _ => None,
             },
+            lever: spring.lever.map(|(turning, height)| LeverPlace {
+                height,
+                turning,
+                between: spring
+                    .dofs
+                    .map(|dof| dof.and_then(|dof| entry_between(dof, turning))),
+            }),
         });
         Self {
             packed: PackedFactor::new(places, rows.len(), n),
@@ -314,6 +335,12 @@ impl RiccatiSweep {
                 .diagonal
                 .map(|dof| dof.map_or(0.0, |dof| factor.diagonal[dof])),
             between: spring.between.map_or(0.0, |entry| factor.before[entry]),
+            lever: spring.lever.map_or([0.0; 3], |lever| {
+                let [first, second] = lever
+                    .between
+                    .map(|entry| entry.map_or(0.0, |entry| factor.before[entry]));
+                [factor.diagonal[lever.turning], first, second]
+            }),
         });
         factor.bare.clear();
         factor.bare.extend(entries);
@@ -331,6 +358,15 @@ impl RiccatiSweep {
             if let Some(entry) = spring.between {
                 factor.before[entry] = bare.between;
             }
+            if let Some(lever) = spring.lever {
+                let [turning, first, second] = bare.lever;
+                factor.diagonal[lever.turning] = turning;
+                for (entry, value) in lever.between.into_iter().zip([first, second]) {
+                    if let Some(entry) = entry {
+                        factor.before[entry] = value;
+                    }
+                }
+            }
         }
         self.add_springs(tangents, factor);
     }
@@ -342,6 +378,14 @@ impl RiccatiSweep {
             }
             if let Some(entry) = spring.between {
                 factor.before[entry] -= tangent;
+            }
+            if let Some(lever) = spring.lever {
+                factor.diagonal[lever.turning] += tangent * lever.height * lever.height;
+                for (entry, sign) in lever.between.into_iter().zip([1.0, -1.0]) {
+                    if let Some(entry) = entry {
+                        factor.before[entry] += sign * tangent * lever.height;
+                    }
+                }
             }
         }
     }
@@ -474,7 +518,9 @@ impl StepEquations for RiccatiSweep {
         self.recompose(tangents, factor);
         factor.touched.fill(false);
         for &spring in changed {
-            for dof in self.springs[spring].diagonal.into_iter().flatten() {
+            let own = &self.springs[spring];
+            let turning = own.lever.map(|lever| lever.turning);
+            for dof in own.diagonal.into_iter().chain([turning]).flatten() {
                 let mut at = dof;
                 while !factor.touched[at] {
                     factor.touched[at] = true;
@@ -570,6 +616,12 @@ fn rows_before_diagonal(equations: &Equations) -> (Vec<usize>, Vec<(u32, Parts)>
             && a != b
         {
             entries.push((a.max(b) as u32, a.min(b) as u32, Parts::default()));
+        }
+        if let Some((turning, _)) = spring.lever {
+            for dof in spring.dofs.into_iter().flatten() {
+                let (row, column) = (dof.max(turning) as u32, dof.min(turning) as u32);
+                entries.push((row, column, Parts::default()));
+            }
         }
     }
     let by_column = in_order(&entries, n, |entry| entry.1 as usize);

@@ -97,6 +97,7 @@ fn run(buildings: Vec<Building>, gaps: Vec<Gap>, site: Site, tolerance: f64) -> 
         gaps,
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis {
             solver: Some(Solver::Modal),
             tolerance,

@@ -9,6 +9,7 @@ mod direct_runs_refine_their_steps;
 mod energy_balances;
 mod extremes_are_survived;
 mod forces_never_pull;
+mod foundations;
 mod given_structures;
 mod harmonic_pounding;
 mod isolation;

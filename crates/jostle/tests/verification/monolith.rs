@@ -33,9 +33,12 @@ fn push(
 }
 
 /// Deformation of a spring, from the committed one itself, so that standing still is exactly that.
-fn reached(dofs: [Option<usize>; 2], memory: &HysteresisMemory, next: &[f64], now: &[f64]) -> f64 {
-    let change = |dof: Option<usize>| dof.map_or(0.0, |dof| next[dof] - now[dof]);
-    memory.deformation() + (change(dofs[0]) - change(dofs[1]))
+fn reached(shares: &[(usize, f64)], memory: &HysteresisMemory, next: &[f64], now: &[f64]) -> f64 {
+    let changes = shares.iter();
+    let change: f64 = changes
+        .map(|(dof, share)| share * (next[*dof] - now[*dof]))
+        .sum();
+    memory.deformation() + change
 }
 
 /// Peak force of every contact, then of every link, and displacements at the end, by Newton's method on all
@@ -77,10 +80,12 @@ pub(crate) fn monolith(
             }
         }
         springs.extend(equations.springs.iter().map(|spring| {
-            (
-                spring.dofs.map(|dof| dof.map(|dof| dof + offset)),
-                spring.hysteresis,
-            )
+            let ends = spring.dofs.into_iter().zip([1.0, -1.0]);
+            let ends = ends.filter_map(|(dof, sign)| Some((dof?, sign)));
+            let shares = ends.chain(spring.lever);
+            let shares: Vec<(usize, f64)> =
+                shares.map(|(dof, share)| (dof + offset, share)).collect();
+            (shares, spring.hysteresis)
         }));
     }
     let state = jostle::State::at_rest(system, motion.acceleration(0.0));
@@ -119,13 +124,12 @@ pub(crate) fn monolith(
                     stiffness[(i, j)] + 2.0 / h * damping[(i, j)] + inertia
                 });
             }
-            for ((dofs, hysteresis), memory) in springs.iter().zip(&memories) {
-                let response = hysteresis.respond(memory, reached(*dofs, memory, next, &u));
-                for (i, sign) in dofs.iter().zip([1.0, -1.0]) {
-                    let Some(i) = *i else { continue };
+            for ((shares, hysteresis), memory) in springs.iter().zip(&memories) {
+                let response = hysteresis.respond(memory, reached(shares, memory, next, &u));
+                for &(i, sign) in shares {
                     residual[i] -= sign * response.force;
-                    for (j, other) in dofs.iter().zip([1.0, -1.0]) {
-                        if let (Some(j), Some(tangent)) = (*j, tangent.as_mut()) {
+                    for &(j, other) in shares {
+                        if let Some(tangent) = tangent.as_mut() {
                             tangent[(i, j)] += sign * other * response.tangent;
                         }
                     }
@@ -201,9 +205,9 @@ pub(crate) fn monolith(
             v[i] = 2.0 / h * (next[i] - u[i]) - v0;
             a[i] = 4.0 / (h * h) * (next[i] - u[i]) - 4.0 / h * v0 - a0;
         }
-        for ((dofs, hysteresis), memory) in springs.iter().zip(&mut memories) {
+        for ((shares, hysteresis), memory) in springs.iter().zip(&mut memories) {
             *memory = hysteresis
-                .respond(memory, reached(*dofs, memory, &next, &u))
+                .respond(memory, reached(shares, memory, &next, &u))
                 .memory;
         }
         u = next;

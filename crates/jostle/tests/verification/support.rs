@@ -165,6 +165,7 @@ pub(crate) fn row(buildings: Vec<Building>, width: f64, law: ContactLaw) -> Mode
             .collect(),
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         buildings,
         analysis: Analysis::default(),
     }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::capacity::CapacitySummary;
+use super::foundation::FoundationSummary;
 use super::hinges::HingeSummary;
 use super::isolation::{Floors, IsolationSummary};
 use super::members::MemberSummary;
@@ -28,6 +29,9 @@ pub struct BuildingSummary {
     /// Its bearings; absent if it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub isolation: Option<IsolationSummary>,
+    /// Its foundation on soil; absent if it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub foundation: Option<FoundationSummary>,
     /// Its peaks, and what is left at the end.
     #[serde(flatten)]
     pub response: BuildingResponse,

@@ -17,6 +17,9 @@ pub struct EnergySummary {
     pub damped_j: f64,
     /// The part of links.
     pub links_j: f64,
+    /// Dissipated in the dashpots of the soil: the part of damped_j that radiates or heats the soil; absent without foundations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub soil_j: Option<f64>,
     /// Energy of hinges.
     pub hysteretic_j: f64,
     /// Energy of contacts.
@@ -39,6 +42,7 @@ impl EnergySummary {
         Quantity::<Self>::real("strain_j", Unit::J, "strain energy", |e| e.strain_j),
         Quantity::<Self>::real("damped_j", Unit::J, "dissipated by viscous damping, that of links included", |e| e.damped_j).in_study(),
         Quantity::<Self>::real("links_j", Unit::J, "the part of links", |e| e.links_j),
+        Quantity::<Self>::optional("soil_j", Unit::J, "the part of the dashpots of the soil; only with foundations", |e| e.soil_j).not_in_summary(),
         Quantity::<Self>::real("hysteretic_j", Unit::J, "energy of hinges", |e| e.hysteretic_j).in_study(),
         Quantity::<Self>::real("contact_j", Unit::J, "energy of contacts", |e| e.contact_j).in_study(),
         Quantity::<Self>::optional("friction_j", Unit::J, "dissipated by friction along faces; only with friction", |e| e.friction_j).not_in_summary(),

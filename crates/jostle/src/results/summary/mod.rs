@@ -5,6 +5,7 @@ mod accuracy;
 mod building;
 mod capacity;
 mod energy;
+mod foundation;
 mod gaps;
 mod hinges;
 mod isolation;
@@ -18,6 +19,7 @@ pub use capacity::{
     LevelSummary, RatioPlace, RatioSummary,
 };
 pub use energy::EnergySummary;
+pub use foundation::FoundationSummary;
 pub use gaps::{ContactSummary, GapSummary, ImpactSummary};
 pub use hinges::{HingeSummary, SpringSummary};
 pub use isolation::{Floors, IsolationSummary, WallSummary};

@@ -142,6 +142,7 @@ impl<E: StepEquations> Direct<E> {
             face_impacts: run.face_forces.impacts,
             in_plan: vec![PlanPeaks::default(); run.system.buildings.len()],
             supports: std::mem::take(&mut self.recorder.supports),
+            foundations: std::mem::take(&mut self.recorder.foundations),
             base_shear: std::mem::take(&mut self.recorder.base_shear),
             acceleration_parts: std::mem::take(&mut self.recorder.parts),
             spring_history: self.recorder.springs.take(),

@@ -450,6 +450,7 @@ mod tests {
             gaps: vec![Gap::after(0, 0.02, law), Gap::after(1, 0.04, law)],
             links: Vec::new(),
             walls: Vec::new(),
+            soil: None,
             analysis: Analysis {
                 solver: Some(Solver::Modal),
                 ..Analysis::default()

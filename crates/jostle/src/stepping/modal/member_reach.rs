@@ -345,6 +345,7 @@ mod tests {
             gaps: vec![gap],
             links,
             walls: Vec::new(),
+            soil: None,
             analysis: Analysis {
                 solver: Some(Solver::Modal),
                 members: MemberRequest::all(),

@@ -59,6 +59,11 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
                 "\"{name}\" stands on bearings, or is a wall that gives way"
             ));
         }
+        if building.foundation.is_some() {
+            reasons.push(format!(
+                "\"{name}\" stands on a foundation whose dashpots couple its modes"
+            ));
+        }
         reasons.extend(links::refusal(building));
         if !building.rest.displacement.is_empty() {
             reasons.push(format!(

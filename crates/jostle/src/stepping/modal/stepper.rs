@@ -11,7 +11,7 @@ use super::peaks::{Peaks, Taken, Watched};
 use super::reduced::{Reduced, Table};
 use super::struck::{StruckStep, WithinStep};
 use super::turning::{Loads, StepMotion};
-use crate::history::{Energy, SupportPeaks, Work};
+use crate::history::{Energy, FoundationPeaks, SupportPeaks, Work};
 use crate::motion::{Ground, GroundMotion};
 use crate::state::{ContactPhase, Episode, State};
 use crate::stepping::acceleration_parts::AccelerationParts;
@@ -236,6 +236,7 @@ impl<'a> ModalStepper<'a> {
             floors,
             in_plan,
             supports: vec![SupportPeaks::default(); run.system.buildings.len()],
+            foundations: vec![FoundationPeaks::default(); run.system.buildings.len()],
             closing: std::mem::take(&mut self.peaks.closing),
             gap_forces: run.gap_forces.peaks,
             face_impacts: run.face_forces.impacts,

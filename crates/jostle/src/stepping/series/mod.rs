@@ -35,6 +35,11 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
     }
     for building in &system.buildings {
         let name = &building.name;
+        if building.foundation.is_some() {
+            reasons.push(format!(
+                "\"{name}\" stands on a foundation, whose rotation acts on all storeys"
+            ));
+        }
         if building.equations.mass.contains(&0.0) {
             reasons.push(format!(
                 "\"{name}\" has degrees of freedom without mass, as frames do"

@@ -4,7 +4,7 @@ use super::building_motion::{BuildingMotion, GAUSS, GroundLine, Push};
 use super::contacts::AHEAD;
 use super::peaks::SeriesPeaks;
 use crate::contact::momentum;
-use crate::history::{MemberHistory, SpringEvent, SpringTotals};
+use crate::history::{FoundationPeaks, MemberHistory, SpringEvent, SpringTotals};
 use crate::hysteresis::Stage;
 use crate::interface::InterfaceGraph;
 use crate::motion::{Ground, GroundMotion};
@@ -161,6 +161,7 @@ impl SeriesStepper {
             gap_forces: run.gap_forces.peaks,
             face_impacts: run.face_forces.impacts,
             in_plan: vec![PlanPeaks::default(); system.buildings.len()],
+            foundations: vec![FoundationPeaks::default(); self.peaks.supports.len()],
             supports: self.peaks.supports,
             base_shear: self.peaks.base_shear,
             acceleration_parts: self.peaks.parts,

@@ -1,0 +1,173 @@
+//! `[soil]` and `[building.foundation]`: rigid foundations on springs and dashpots of the soil.
+
+use jostle::{Foundation, HalfSpace, Soil, SoilCoupling};
+
+use crate::keys::{SOIL_COUPLINGS, Section};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+use crate::tree::Value;
+
+/// Most rows of a matrix of foundations.
+const MOST_ROWS: usize = 200;
+
+/// Reads the foundation of a building; `None` after a fault, or if it has none.
+pub(super) fn read_foundation(reader: &mut Reader<'_>, building: &View<'_>) -> Option<Foundation> {
+    let field = reader.get(building, "foundation")?;
+    for (key, remedy) in [
+        ("base", "the soil is the base; leave out base"),
+        (
+            "isolation",
+            "bearings on a foundation that sways and rocks are not possible yet; leave out one of them",
+        ),
+    ] {
+        if let Some(other) = reader.get(building, key) {
+            *reader.bad(&other, "cannot stand beside foundation") = Some(remedy.into());
+        }
+    }
+    let view = reader.open(&field, &[Section::Foundation])?;
+    let length = needed(reader, &view, "length", Dimension::Length, "\"12 m\"");
+    let width = needed(reader, &view, "width", Dimension::Length, "\"12 m\"");
+    let mass = needed(reader, &view, "mass", Dimension::Mass, "\"120 t\"");
+    let embedment = given(reader, &view, "embedment", Dimension::Length);
+    let rotary_inertia = given(reader, &view, "rotary_inertia", Dimension::PolarMass);
+    let plate = Foundation::rectangle(length?, width?, mass?);
+    Some(Foundation {
+        embedment: embedment.unwrap_or(0.0),
+        rotary_inertia: rotary_inertia.unwrap_or(plate.rotary_inertia),
+        ..plate
+    })
+}
+
+/// Reads the soil; `None` after a fault.
+pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Soil> {
+    let view = reader.open(field, &[Section::Soil])?;
+    let coupling = match reader.get(&view, "coupling") {
+        Some(field) => coupling(reader, &field),
+        None => Some(SoilCoupling::None),
+    };
+    let own = ["shear_wave_velocity", "density", "poisson_ratio"];
+    let matrices = matches!(coupling, Some(SoilCoupling::Given { .. }));
+    if matrices && !own.iter().any(|key| view.has(key)) {
+        if let Some(field) = reader.get(&view, "damping") {
+            *reader.bad(&field, "has no effect where coupling gives matrices") =
+                Some("put it into the matrix damping; leave it out here".into());
+        }
+        return Some(Soil {
+            half_space: None,
+            coupling: coupling?,
+        });
+    }
+    let velocity = needed(
+        reader,
+        &view,
+        "shear_wave_velocity",
+        Dimension::Speed,
+        "\"200 m/s\"",
+    );
+    let density = needed(
+        reader,
+        &view,
+        "density",
+        Dimension::Density,
+        "\"1800 kg/m3\"",
+    );
+    let ratio = needed(
+        reader,
+        &view,
+        "poisson_ratio",
+        Dimension::Dimensionless,
+        "0.33",
+    );
+    let damping = given(reader, &view, "damping", Dimension::Dimensionless);
+    if matrices {
+        for key in own {
+            if let Some(field) = reader.get(&view, key) {
+                *reader.bad(&field, "has no effect where coupling gives matrices") = Some(
+                    "leave out shear_wave_velocity, density and poisson_ratio, or coupling".into(),
+                );
+                return None;
+            }
+        }
+    }
+    Some(Soil {
+        half_space: Some(HalfSpace {
+            shear_wave_velocity: velocity?,
+            density: density?,
+            poisson_ratio: ratio?,
+            damping: damping.unwrap_or(0.0),
+        }),
+        coupling: coupling?,
+    })
+}
+
+fn coupling(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<SoilCoupling> {
+    if !matches!(field.node.value, Value::Table(_)) {
+        let word = reader.choice(field, SOIL_COUPLINGS, &[])?;
+        return Some(match word {
+            "static" => SoilCoupling::Static,
+            _ => SoilCoupling::None,
+        });
+    }
+    let view = reader.open(field, &[Section::SoilCoupling])?;
+    let stiffness = matrix(reader, &view, "stiffness");
+    let damping = matrix(reader, &view, "damping");
+    Some(SoilCoupling::Given {
+        stiffness: stiffness?,
+        damping: damping?,
+    })
+}
+
+/// A list of rows of numbers.
+fn matrix(reader: &mut Reader<'_>, view: &View<'_>, key: &'static str) -> Option<Vec<Vec<f64>>> {
+    let Some(field) = reader.get(view, key) else {
+        reader.missing(
+            view,
+            key,
+            format!("add {key} = [[…], […]], one row for u and one for theta of every foundation"),
+        );
+        return None;
+    };
+    let rows = field.entries().filter(|rows| rows.len() <= MOST_ROWS);
+    let Some(rows) = rows else {
+        *reader.bad(&field, "expected a list of rows of numbers") = Some(format!(
+            "write [[1e9, 0], [0, 5e10]], with at most {MOST_ROWS} rows"
+        ));
+        return None;
+    };
+    let mut matrix = Vec::with_capacity(rows.len());
+    for row in rows {
+        let Some(entries) = row.entries().filter(|row| row.len() <= MOST_ROWS) else {
+            *reader.bad(&row, "expected a row of numbers") = Some("write [1e9, 0]".into());
+            return None;
+        };
+        let values: Vec<Option<f64>> = entries
+            .iter()
+            .map(|entry| reader.quantity(entry, Dimension::Dimensionless))
+            .collect();
+        matrix.push(values.into_iter().collect::<Option<Vec<f64>>>()?);
+    }
+    Some(matrix)
+}
+
+fn given(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    dimension: Dimension,
+) -> Option<f64> {
+    let field = reader.get(view, key)?;
+    reader.quantity(&field, dimension)
+}
+
+fn needed(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    dimension: Dimension,
+    example: &str,
+) -> Option<f64> {
+    if !view.has(key) {
+        reader.missing(view, key, format!("add {key} = {example}"));
+    }
+    given(reader, view, key, dimension)
+}

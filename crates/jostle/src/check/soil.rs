@@ -1,0 +1,269 @@
+//! Faults of foundations and of the soil under them.
+
+use super::{Faults, each};
+use crate::eigen::symmetric;
+use crate::model::{Base, Building, Damping, Model, SoilCoupling, Solver, Structure};
+
+/// Entries of a matrix that differ by less than this, relative to the diagonal, count as equal.
+const SAME: f64 = 1e-9;
+
+/// Faults of the foundation of a building.
+pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Building) {
+    let Some(foundation) = &building.base.foundation else {
+        return;
+    };
+    let own = format!("{path}.foundation");
+    let plain = Base {
+        foundation: Some(*foundation),
+        ..Base::default()
+    };
+    faults.require(building.base == plain, own.as_str(), || {
+        "cannot stand beside base or isolation: the soil is the base; leave out one of them".into()
+    });
+    let stands = matches!(
+        building.structure,
+        Structure::Frame(_) | Structure::Shear(_)
+    );
+    faults.require(stands, own.as_str(), || {
+        "is for frames and shear buildings in one plane; leave it out".into()
+    });
+    if let Structure::Frame(frame) = &building.structure {
+        faults.require(!frame.axial.columns_flexible, own.as_str(), || {
+            "is for columns that keep their length: leave out columns = \"flexible\"".into()
+        });
+    }
+    faults.require(
+        !matches!(building.damping, Damping::AllModes { .. }),
+        format!("{path}.damping.modes"),
+        || "\"all\" is not possible for a building on a foundation, whose dashpots couple its modes; name one or two modes of the building on rigid ground".into(),
+    );
+    faults.positive(foundation.length, format!("{own}.length"), "m");
+    faults.positive(foundation.width, format!("{own}.width"), "m");
+    faults.not_negative(foundation.embedment, format!("{own}.embedment"), "m");
+    faults.positive(foundation.mass, format!("{own}.mass"), "kg");
+    faults.positive(
+        foundation.rotary_inertia,
+        format!("{own}.rotary_inertia"),
+        "kg.m2",
+    );
+}
+
+/// Faults of the soil, and of foundations beside each other.
+pub(super) fn check_soil(faults: &mut Faults, model: &Model) {
+    let founded: Vec<usize> = (0..model.buildings.len())
+        .filter(|&index| model.buildings[index].base.foundation.is_some())
+        .collect();
+    let Some(soil) = &model.soil else {
+        for index in founded {
+            faults.add(
+                format!("building[{index}].foundation"),
+                "needs [soil]: add its shear_wave_velocity, density and poisson_ratio",
+            );
+        }
+        return;
+    };
+    faults.require(!founded.is_empty(), "soil", || {
+        "carries no foundation: give a building a foundation, or leave out [soil]".into()
+    });
+    if let Some(ground) = &soil.half_space {
+        faults.positive(
+            ground.shear_wave_velocity,
+            "soil.shear_wave_velocity",
+            "m/s",
+        );
+        faults.positive(ground.density, "soil.density", "kg/m3");
+        faults.require(
+            (0.0..0.5).contains(&ground.poisson_ratio),
+            "soil.poisson_ratio",
+            || {
+                format!(
+                    "must be at least 0 and less than 0.5, found {}; saturated soil has about 0.45 to 0.49",
+                    ground.poisson_ratio
+                )
+            },
+        );
+        faults.require((0.0..1.0).contains(&ground.damping), "soil.damping", || {
+            format!(
+                "must lie between 0 and 1 (0.05 is 5 %), found {}",
+                ground.damping
+            )
+        });
+    }
+    let can_step = match model.analysis.solver {
+        None | Some(Solver::Riccati | Solver::Stiffness) => true,
+        Some(Solver::Product | Solver::Modal | Solver::Series) => false,
+    };
+    faults.require(
+        can_step,
+        "analysis.solver",
+        || "cannot step buildings on foundations: take \"riccati\" or \"stiffness\", or leave it out".into(),
+    );
+    for left in 0..model.buildings.len().saturating_sub(1) {
+        let neighbours = [left, left + 1].map(|index| model.buildings[index].base.foundation);
+        if let ([Some(_), Some(_)], Ok(distance)) = (neighbours, model.between_foundations(left)) {
+            faults.require(
+                distance >= 0.0 || distance.is_nan(),
+                format!("building[{}].foundation.length", left + 1),
+                || {
+                    format!(
+                        "overlaps the foundation of \"{}\" by {:.3} m: foundations are centred below their buildings",
+                        model.buildings[left].name, -distance
+                    )
+                },
+            );
+        }
+    }
+    match &soil.coupling {
+        SoilCoupling::None => need_half_space(faults, model),
+        SoilCoupling::Static => {
+            need_half_space(faults, model);
+            check_static(faults, model, &founded);
+        }
+        SoilCoupling::Given { stiffness, damping } => {
+            for (name, matrix, least) in
+                [("stiffness", stiffness, SAME), ("damping", damping, -SAME)]
+            {
+                check_matrix(
+                    faults,
+                    &format!("soil.coupling.{name}"),
+                    matrix,
+                    2 * founded.len(),
+                    least,
+                );
+            }
+        }
+    }
+    if soil.coupling != SoilCoupling::None {
+        for index in founded {
+            faults.require(
+                !model.buildings[index].gravity.preload,
+                format!("building[{index}].gravity"),
+                || "is not possible where foundations act on each other; leave out gravity, or coupling".into(),
+            );
+        }
+    }
+}
+
+fn need_half_space(faults: &mut Faults, model: &Model) {
+    let known = model
+        .soil
+        .as_ref()
+        .is_some_and(|soil| soil.half_space.is_some());
+    faults.require(known, "soil", || {
+        "needs shear_wave_velocity, density and poisson_ratio, unless coupling gives matrices"
+            .into()
+    });
+}
+
+/// Static coupling is that of foundations on the surface, a known distance apart.
+fn check_static(faults: &mut Faults, model: &Model, founded: &[usize]) {
+    faults.require(founded.len() > 1, "soil.coupling", || {
+        "\"static\" needs two foundations; leave it out".into()
+    });
+    for &index in founded {
+        let embedment = model.buildings[index]
+            .base
+            .foundation
+            .map(|own| own.embedment);
+        faults.require(
+            embedment.is_none_or(|depth| depth == 0.0),
+            format!("building[{index}].foundation.embedment"),
+            || "must be 0 where coupling = \"static\": the flexibility between foundations is that of the surface".into(),
+        );
+    }
+    let (Some(&first), Some(&last)) = (founded.first(), founded.last()) else {
+        return;
+    };
+    for left in first..last {
+        match model.between_foundations(left) {
+            Ok(distance) => faults.require(distance != 0.0, "soil.coupling", || {
+                format!(
+                    "\"static\" needs a clear distance between foundations; those of \"{}\" and \"{}\" touch",
+                    model.buildings[left].name,
+                    model.buildings[left + 1].name
+                )
+            }),
+            Err(problem) => faults.add("soil.coupling", problem),
+        }
+    }
+}
+
+/// Whether a matrix has the right size, is symmetric, and has eigenvalues of at least a part of its diagonal.
+fn check_matrix(faults: &mut Faults, path: &str, matrix: &[Vec<f64>], size: usize, least: f64) {
+    let square = matrix.len() == size && matrix.iter().all(|row| row.len() == size);
+    if !square {
+        let rows = matrix.len();
+        faults.add(
+            path,
+            format!(
+                "must have {size} rows of {size} numbers, for u and theta of every foundation from left to right; found {rows} rows"
+            ),
+        );
+        return;
+    }
+    for (row, (field, entries)) in each(matrix, path).enumerate() {
+        for (column, value) in entries.iter().enumerate() {
+            if !value.is_finite() {
+                faults.add(format!("{field}[{column}]"), "must be a finite number");
+                return;
+            }
+            let other = matrix[column][row];
+            let scale = (matrix[row][row].abs() * matrix[column][column].abs()).sqrt();
+            if (value - other).abs() > SAME * scale.max(value.abs()) {
+                faults.add(
+                    format!("{field}[{column}]"),
+                    format!("must equal the entry across the diagonal, {other}, found {value}: the matrix is not symmetric"),
+                );
+                return;
+            }
+        }
+    }
+    let definite = least > 0.0;
+    let diagonal: Vec<f64> = (0..size).map(|row| matrix[row][row]).collect();
+    let sound = |value: &f64| {
+        if definite {
+            *value > 0.0
+        } else {
+            *value >= 0.0
+        }
+    };
+    if let Some(row) = diagonal.iter().position(|value| !sound(value)) {
+        let wanted = if definite {
+            "greater than zero"
+        } else {
+            "at least zero"
+        };
+        faults.add(
+            format!("{path}[{row}][{row}]"),
+            format!("must be {wanted}, found {}", diagonal[row]),
+        );
+        return;
+    }
+    let lower: Vec<Vec<f64>> = (0..size)
+        .map(|row| {
+            let scaled = |column: usize| {
+                let scale = (diagonal[row] * diagonal[column]).sqrt();
+                match scale > 0.0 {
+                    true => matrix[row][column] / scale,
+                    false => matrix[row][column],
+                }
+            };
+            (0..=row).map(scaled).collect()
+        })
+        .collect();
+    let (values, _) = symmetric::eigen(&lower);
+    let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);
+    if !(smallest >= least) {
+        let wanted = if definite {
+            "positive definite"
+        } else {
+            "positive semidefinite"
+        };
+        faults.add(
+            path,
+            format!(
+                "is not {wanted}: scaled to a diagonal of ones, its smallest eigenvalue is {smallest:.3}; entries between foundations must not exceed those of each"
+            ),
+        );
+    }
+}

@@ -1,0 +1,53 @@
+//! Foundations on soil.
+
+use serde::Serialize;
+
+use crate::quantity::{Quantity, Unit};
+
+/// Rigid foundation of a building, and the springs and dashpots of the soil under it.
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
+pub struct FoundationSummary {
+    /// Greatest displacement, either sign \[m\].
+    pub sway_peak_m: f64,
+    /// Greatest rotation, either sign \[rad\].
+    pub rocking_peak_rad: f64,
+    /// First lateral period on the soil, without neighbours \[s\].
+    pub period_s: f64,
+    /// The same over that on rigid ground \[–\].
+    pub period_ratio: f64,
+    /// Damping ratio of the first lateral mode on the soil, to first order in the dashpots \[–\].
+    pub damping_ratio: f64,
+    /// Damping ratio of the first lateral mode on rigid ground \[–\].
+    pub damping_ratio_fixed: f64,
+    /// Stiffness against displacement, without neighbours \[N/m\].
+    pub sway_stiffness_n_m: f64,
+    /// Dashpot of displacement \[N·s/m\].
+    pub sway_damping_n_s_m: f64,
+    /// Stiffness against rotation, without neighbours \[N·m/rad\].
+    pub rocking_stiffness_n_m_rad: f64,
+    /// Dashpot of rotation \[N·m·s/rad\].
+    pub rocking_damping_n_m_s_rad: f64,
+    /// a₀ = ωB/V_s at which springs and dashpots hold; 0 for given matrices \[–\].
+    pub dimensionless_frequency: f64,
+    /// Energy dissipated in its own dashpots \[J\].
+    pub damped_j: f64,
+}
+
+#[rustfmt::skip]
+impl FoundationSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("sway_peak_m", Unit::M, "greatest displacement, either sign", |f| f.sway_peak_m),
+        Quantity::<Self>::real("rocking_peak_rad", Unit::RAD, "greatest rotation, either sign", |f| f.rocking_peak_rad),
+        Quantity::<Self>::real("period_s", Unit::S, "first lateral period on the soil, without neighbours", |f| f.period_s),
+        Quantity::<Self>::real("period_ratio", Unit::NONE, "the same over that on rigid ground", |f| f.period_ratio),
+        Quantity::<Self>::real("damping_ratio", Unit::NONE, "damping ratio of the first lateral mode on the soil, to first order in the dashpots", |f| f.damping_ratio),
+        Quantity::<Self>::real("damping_ratio_fixed", Unit::NONE, "damping ratio of the first lateral mode on rigid ground", |f| f.damping_ratio_fixed),
+        Quantity::<Self>::real("sway_stiffness_n_m", Unit::N_PER_M, "stiffness against displacement, without neighbours", |f| f.sway_stiffness_n_m),
+        Quantity::<Self>::real("sway_damping_n_s_m", Unit::NS_PER_M, "dashpot of displacement", |f| f.sway_damping_n_s_m),
+        Quantity::<Self>::real("rocking_stiffness_n_m_rad", Unit::NM_PER_RAD, "stiffness against rotation, without neighbours", |f| f.rocking_stiffness_n_m_rad),
+        Quantity::<Self>::real("rocking_damping_n_m_s_rad", Unit::NMS_PER_RAD, "dashpot of rotation", |f| f.rocking_damping_n_m_s_rad),
+        Quantity::<Self>::real("dimensionless_frequency", Unit::NONE, "a0 = ωB/Vs at which springs and dashpots hold, B being half the shorter side; 0 for given matrices", |f| f.dimensionless_frequency),
+        Quantity::<Self>::real("damped_j", Unit::J, "energy dissipated in its own dashpots", |f| f.damped_j),
+    ];
+}
