@@ -105,6 +105,8 @@ class Frame(Part):
         hinges: plastic hinges at the member ends; without them the frame is elastic:
             ``{"rule": "peak-oriented", "from": "section"}`` or
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
+        position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
+        motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
         damper: dampers and other links between two floors of this building, such as
@@ -146,6 +148,8 @@ class Frame(Part):
         isolation: Table | None = None,
         foundation: Table | None = None,
         hinges: Table | None = None,
+        position: Quantity | None = None,
+        motion: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
         damper: Sequence[Table] | None = None,
@@ -179,6 +183,8 @@ class Frame(Part):
                 "isolation": isolation,
                 "foundation": foundation,
                 "hinges": hinges,
+                "position": position,
+                "motion": motion,
                 "gravity": gravity,
                 "p_delta": p_delta,
                 "damper": damper,
@@ -206,6 +212,8 @@ class Shear(Part):
         foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``.
         hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
             "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
+        position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
+        motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
         damper: dampers and other links between two floors of this building, such as
@@ -241,6 +249,8 @@ class Shear(Part):
         isolation: Table | None = None,
         foundation: Table | None = None,
         hinges: Table | None = None,
+        position: Quantity | None = None,
+        motion: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
         damper: Sequence[Table] | None = None,
@@ -267,6 +277,8 @@ class Shear(Part):
                 "isolation": isolation,
                 "foundation": foundation,
                 "hinges": hinges,
+                "position": position,
+                "motion": motion,
                 "gravity": gravity,
                 "p_delta": p_delta,
                 "damper": damper,
@@ -307,6 +319,8 @@ class Given(Part):
             matrix.
         damper: dampers and other links between two floors of this building, such as
             ``[{"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}]``.
+        position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
+        motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         **units_in_names: the same with units in names, as in ``storey_height_m=3.2``.
 
@@ -331,6 +345,8 @@ class Given(Part):
         storey_height: Quantities | None = None,
         damping: Table | None = None,
         damper: Sequence[Table] | None = None,
+        position: Quantity | None = None,
+        motion: Table | None = None,
         codes: Table | None = None,
         **units_in_names: Unpack[GivenUnits],
     ) -> None:
@@ -349,6 +365,8 @@ class Given(Part):
                 "storey_height": storey_height,
                 "damping": damping,
                 "damper": damper,
+                "position": position,
+                "motion": motion,
                 "codes": codes,
             },
             units_in_names,
@@ -513,6 +531,8 @@ class Wall(Part):
         stiffness: force per displacement where it is struck, > 0; without it the wall is rigid.
         damping: force per velocity, ≥ 0; 0 by default.
         mass: mass that moves where it is struck, > 0; required with a stiffness.
+        position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion; without it the wall stands on the
+            ground of the building that it faces.
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
@@ -525,9 +545,16 @@ class Wall(Part):
         stiffness: Quantity | None = None,
         damping: Quantity | None = None,
         mass: Quantity | None = None,
+        position: Quantity | None = None,
     ) -> None:
         super().__init__(
-            {"name": name, "stiffness": stiffness, "damping": damping, "mass": mass},
+            {
+                "name": name,
+                "stiffness": stiffness,
+                "damping": damping,
+                "mass": mass,
+                "position": position,
+            },
             {},
         )
 

@@ -68,6 +68,11 @@ def experiment(model: Model, law: ContactLaw, *, step: Quantity = 1e-4) -> Exper
     motion = model.motion
     if motion is None:
         raise ModelError("the model has no ground motion")
+    if motion._core.has_own_grounds:
+        raise ModelError(
+            "motion: a law of your own needs one ground under all buildings; leave out arrival, position, "
+            "the motion of buildings and vertical"
+        )
     parts = [model.matrices(name) for name in model.buildings]
     offsets = np.cumsum([0] + [len(part.mass) for part in parts])
     if offsets[-1] > _MOST:

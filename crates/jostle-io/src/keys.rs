@@ -7,6 +7,7 @@ use jostle::separation::{Code, HazardZone, JointSystem, MotionLevel};
 use jostle_motion::GoverningRule;
 
 use crate::choices::{DesignKind, FragilityMethod, IntegratorMethod, Sampling, names};
+use crate::grounds_spec::Baseline;
 use crate::quantity::Dimension;
 use crate::record::RecordFormat;
 
@@ -15,6 +16,9 @@ use crate::record::RecordFormat;
 pub(crate) enum Section {
     Root,
     Motion,
+    /// Further keys of `[building.motion]`.
+    OwnMotion,
+    Coherency,
     Match,
     Spectrum,
     /// Keys of every building.
@@ -156,6 +160,8 @@ pub(crate) enum Kind {
     ChoiceOrTable(&'static [&'static str], Section),
     NumberOrTable(Section),
     Table(Section),
+    /// A table with the keys of several.
+    TableOf(&'static [Section]),
     /// One table, or a list of tables from the ground up.
     TablePerStorey(Section),
     /// A text, or a table instead.
@@ -373,6 +379,15 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Motion, "remove_mean", Flag, "Remove the mean of the record; required for counts with an instrument offset."),
     optional(S::Motion, "format", Choice(RECORD_FORMATS), "Format of the file, if auto-detection is wrong."),
 
+    optional(S::Motion, "vertical", Kind::TextOrMotion, "For frames: vertical shaking, positive upwards: a record, or a table like [motion], such as `{ scale = 0.67 }` for that share of this motion. Without a scaling of its own it has the factor of this motion."),
+    optional(S::Motion, "apparent_velocity", Quantity(D::Speed), "Speed of the waves along the row: the motion arrives at a building after position / this."),
+    optional(S::Motion, "baseline", Choice(&Baseline::NAMES), "Correction of the velocity of records: by a straight line or a parabola from rest, taken from the acceleration; or none. Required if records of buildings differ and their final velocities do."),
+    optional(S::Motion, "coherency", Kind::Table(S::Coherency), "Loss of coherency with the distance of a building from position 0, where the record was taken."),
+    required(S::Coherency, "alpha", Quantity(D::Dimensionless), "α of |γ| = exp(−(α ω d/V_s)²) (Luco and Wong 1986)."),
+    required(S::Coherency, "shear_wave_velocity", Quantity(D::Speed), "V_s of the ground."),
+    required(S::Coherency, "seed", Count, "Seed of the random part; the same seed gives the same motions."),
+    optional(S::OwnMotion, "arrival", Quantity(D::Time), "When the motion arrives at this building; before, its ground rests. Instead of position."),
+
     optional(S::Match, "spectrum", TextOrTable(S::Spectrum), "The design spectrum to match: a table, or a file of periods and accelerations."),
     optional(S::Match, "value", Quantity(D::Acceleration), "A pseudo-acceleration to match, instead of a spectrum."),
     optional(S::Match, "at", Quantity(D::Time), "The period at which to match."),
@@ -398,6 +413,8 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings."),
     default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`."),
     optional(S::Building, "damper", Tables(&[S::Damper, S::LinkLaw]), "Dampers and other links between two of its floors; a short form of link. They follow the links in results."),
+    optional(S::Building, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]."),
+    optional(S::Building, "motion", Kind::TableOf(&[S::OwnMotion, S::Motion]), "The ground under this building, if it differs: arrival, a record of its own, or a scale of the common one."),
     default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight."),
     optional(S::Building, "codes", Kind::Table(S::BuildingCodes), "Factors of this building in the separation rules of codes, such as `{ behaviour_factor = 3.9 }`."),
     default(S::Building, "p_delta", Flag, "false", "Include P-Delta from the weight above."),
@@ -655,6 +672,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     required(S::Wall, "name", Text, "Name by which gaps and links know it."),
     optional(S::Wall, "stiffness", Quantity(D::Stiffness), "Force per displacement where it is struck, soil included; without it the wall is rigid."),
+    optional(S::Wall, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]; without it the wall stands on the ground of the building that it faces."),
     default(S::Wall, "damping", Quantity(D::Damping), "0", "Dashpot of the wall, such as that of the soil behind it."),
     optional(S::Wall, "mass", Quantity(D::Mass), "Mass that moves where it is struck; required with a stiffness. 33/140 of a cantilever struck at its top."),
 

@@ -114,7 +114,9 @@ fn entry(
         | Kind::NumberOrTable(section)
         | Kind::TextOrTable(section)
         | Kind::ChoiceOrTable(_, section) => std::slice::from_ref(section),
-        Kind::WordOrTable(_, sections) | Kind::Tables(sections) => sections,
+        Kind::WordOrTable(_, sections) | Kind::Tables(sections) | Kind::TableOf(sections) => {
+            sections
+        }
         _ => &[],
     };
     let group = if path == key.name && inner.len() == 1 {
@@ -159,6 +161,7 @@ fn entry(
             return;
         }
         None if matches!(key.kind, Kind::Tables(_)) => return,
+        None if matches!(key.kind, Kind::TableOf(_)) => return,
         None if matches!(key.kind, Kind::Table(_)) => {
             if OFFERED.contains(&key.name) {
                 table(None, inner, path, (group, within), into);

@@ -11,6 +11,7 @@ mod csv;
 mod fault;
 mod floor_table;
 mod grade;
+mod grounds_spec;
 mod keys;
 mod knobs;
 mod matrices;
@@ -47,6 +48,7 @@ pub use csv::csv_field;
 pub use fault::{Fault, InputError};
 pub use floor_table::{floor_spectra_columns, write_floor_spectra_parquet};
 pub use grade::{parse_concrete, parse_steel};
+pub use grounds_spec::{Baseline, GroundsSpec, OwnGroundSpec, OwnMotionSpec};
 /// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
 pub use jostle::statics::STANDARD_GRAVITY;
 pub use keys::LAW_NAMES;

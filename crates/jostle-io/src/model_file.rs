@@ -14,6 +14,7 @@ mod floor_spectra;
 mod frame;
 mod gap;
 mod given;
+mod grounds;
 mod hinges;
 mod isolation;
 mod link;
@@ -334,6 +335,15 @@ impl Input {
         }
     }
 
+    /// Replaces the ground motion. How grounds differ stays as the model says, unless the new motion says it.
+    pub fn replace_motion(&mut self, motion: MotionSpec) {
+        let old = self.motion.take().and_then(|old| old.grounds);
+        self.motion = Some(MotionSpec {
+            grounds: motion.grounds.clone().or(old),
+            ..motion
+        });
+    }
+
     /// The ground motion in numbers.
     ///
     /// # Errors
@@ -344,15 +354,27 @@ impl Input {
             None => Err(MotionError::None),
         };
         resolved.map_err(|error| {
-            let path = match &error {
-                MotionError::None => "motion",
-                MotionError::TooStrong { .. } | MotionError::Zero { .. } => "motion.pga",
-                MotionError::Match { .. } => "motion.match",
+            let (mut place, mut cause) = ("motion".to_owned(), &error);
+            while let MotionError::Own { path, error } = cause {
+                (place, cause) = (path.clone(), error);
+            }
+            let path = match cause {
+                MotionError::None | MotionError::Own { .. } => "",
+                MotionError::TooStrong { .. } | MotionError::Zero { .. } => ".pga",
+                MotionError::Match { .. } => ".match",
                 MotionError::NotFound { .. }
                 | MotionError::Record { .. }
-                | MotionError::Several { .. } => "motion.record",
+                | MotionError::NoRecord
+                | MotionError::Several { .. } => ".record",
+                MotionError::Drift { .. } | MotionError::Baseline { .. } => ".baseline",
+                MotionError::Coherency { .. } => ".coherency",
             };
-            let mut fault = self.fault(path, error.to_string());
+            let mut fault = self.fault(&format!("{place}{path}"), error.to_string());
+            if let (MotionError::Drift { .. }, [fault]) = (&error, &mut fault.faults[..]) {
+                fault.remedy = Some(
+                    "add baseline = \"linear\" or \"quadratic\" under [motion] to correct them, or \"as-recorded\" to accept it".into(),
+                );
+            }
             if let (MotionError::Several { names }, [fault]) = (&error, &mut fault.faults[..]) {
                 fault.remedy = Some(format!(
                     "choose one with --record {} (in Python motion={:?}); jostle run, jostle gap, a study and run_suite of Python take all of them",
@@ -453,7 +475,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         Some(field) => reader.text(&field),
         None => Some("Untitled".to_owned()),
     };
-    let (motion, governing) = match reader.get(&view, "motion") {
+    let (mut motion, governing) = match reader.get(&view, "motion") {
         Some(field) => (
             motion::read(reader, &field, base),
             motion::governing(reader, &field),
@@ -514,6 +536,11 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     } = buildings?;
     let paths = DamperPaths::new(links.len(), &dampers);
     links.extend(dampers.into_iter().map(|damper| damper.link));
+    let names = [
+        buildings.iter().map(|own| own.name.clone()).collect(),
+        walls.iter().map(|own| own.name.clone()).collect(),
+    ];
+    grounds::read_own(reader, &view, &mut motion, names, (&gaps, &links), base);
     plan::place(&mut buildings, &at, &gaps);
     let mut model = Model {
         title: title.unwrap_or_default(),

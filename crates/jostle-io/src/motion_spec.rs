@@ -8,6 +8,7 @@ use jostle_motion::{
 };
 
 use crate::builtin;
+use crate::grounds_spec::GroundsSpec;
 use crate::keys::nearest;
 use crate::record::{GREATEST_ACCELERATION, RecordError, RecordOptions, read_record};
 use crate::source::BACKSLASH;
@@ -25,6 +26,8 @@ pub struct MotionSpec {
     pub duration: Option<f64>,
     /// Direction in plan and motion across, for buildings with plans.
     pub bearing: Option<Box<BearingSpec>>,
+    /// Ground that differs under the buildings, and vertical shaking.
+    pub grounds: Option<Box<GroundsSpec>>,
 }
 
 /// Where a ground motion comes from.
@@ -156,6 +159,43 @@ pub enum MotionError {
         /// The reason.
         error: MotionFault,
     },
+    /// A motion under one building, or upwards.
+    #[error("{error}")]
+    Own {
+        /// Its table.
+        path: String,
+        /// What is wrong.
+        error: Box<MotionError>,
+    },
+    /// Records that end with different velocities pull the grounds apart.
+    #[error(
+        "the records \"{}\" and \"{}\" end with {:.4} m/s and {:.4} m/s, which differ by more than 1 % of the greatest ground velocity, {peak:.3} m/s: the grounds would drift apart", .names[0], .names[1], .ends[0], .ends[1]
+    )]
+    Drift {
+        /// Names of two records.
+        names: [String; 2],
+        /// Their velocities at the end \[m/s\].
+        ends: [f64; 2],
+        /// Greatest ground velocity \[m/s\].
+        peak: f64,
+    },
+    /// A motion cannot lose coherency.
+    #[error("no motions can be made that lose coherency: {error}")]
+    Coherency {
+        /// The reason.
+        error: MotionFault,
+    },
+    /// Coherency of a wave given by a formula.
+    #[error("coherency needs a record, since a wave given by a formula has one frequency")]
+    NoRecord,
+    /// A baseline cannot be removed.
+    #[error("the baseline of \"{name}\" cannot be corrected: {error}")]
+    Baseline {
+        /// Name of the record.
+        name: String,
+        /// The reason.
+        error: MotionFault,
+    },
     /// Scaling left the range of numbers.
     #[error(
         "the scaled motion \"{name}\" exceeds 100 m/s2; check pga, scale and the unit of the record"
@@ -199,6 +239,7 @@ impl MotionSpec {
             reverse: false,
             duration: None,
             bearing: None,
+            grounds: None,
         }
     }
 
@@ -275,6 +316,13 @@ impl MotionSpec {
                 },
             ),
         };
+        if let Some(baseline) = self.grounds.as_ref().and_then(|grounds| grounds.baseline) {
+            let corrected = baseline.correct(&mut motion);
+            corrected.map_err(|error| MotionError::Baseline {
+                name: motion.name.clone(),
+                error,
+            })?;
+        }
         let peak = motion.unscaled_peak();
         motion.scale = match &self.scaling {
             Scaling::AsRecorded => 1.0,
@@ -306,6 +354,9 @@ impl MotionSpec {
                 angle: spec.angle,
                 across,
             }));
+        }
+        if let Some(grounds) = &self.grounds {
+            motion.grounds = grounds.resolve(self, &motion)?;
         }
         Ok(motion)
     }
@@ -349,6 +400,7 @@ fn analytic(name: &str, duration: f64, wave: Wave) -> GroundMotion {
         duration,
         wave,
         bearing: None,
+        grounds: None,
     }
 }
 

@@ -113,12 +113,21 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
         Column::SupportForce { building: 0 },
     ];
     let energies = EnergyTerm::ALL.into_iter().map(Column::Energy);
+    let of_grounds = [
+        Column::Energy(EnergyTerm::Ground),
+        Column::GroundDisplacement { building: 0 },
+    ];
     writeln!(
         page,
         "\n## Histories\n\nColumns of `history.parquet`, one row for each recorded instant.\n"
     )?;
     writeln!(page, "| column | unit | meaning |\n|---|---|---|")?;
-    for recorded in columns.into_iter().chain(energies).map(Column::recorded) {
+    for recorded in columns
+        .into_iter()
+        .chain(energies)
+        .chain(of_grounds)
+        .map(Column::recorded)
+    {
         let place = match recorded.owner {
             "contact" if recorded.name == "closing" => "J1-J2.at3200mm.",
             "floor" => "J1.floor3.",
@@ -126,6 +135,7 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
             "link" => "J1-J2.link5-5.",
             "isolation" => "J1.isolation.",
             "energy" => "energy_",
+            "ground" => "J1.",
             _ => "",
         };
         let (name, unit) = (recorded.name, recorded.unit);

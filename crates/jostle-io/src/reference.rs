@@ -14,6 +14,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "`[motion]`",
         "The ground motion: a record, or an analytic wave.",
     ),
+    (
+        Section::Coherency,
+        "`motion.coherency`",
+        "Ground motions that lose coherency with distance.",
+    ),
     (Section::Match, "`motion.match`", ""),
     (
         Section::Spectrum,
@@ -24,6 +29,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         Section::Building,
         "`[[building]]`",
         "From left to right. These keys belong to every building.",
+    ),
+    (
+        Section::OwnMotion,
+        "`[building.motion]`",
+        "The keys of `[motion]` about the record and its scaling, and this one.",
     ),
     (Section::Frame, "`[[building]]` with `kind = \"frame\"`", ""),
     (Section::Shear, "`[[building]]` with `kind = \"shear\"`", ""),
@@ -289,7 +299,7 @@ fn value(key: &Key) -> String {
         Kind::WordOrTable(word, _) => format!("`{word}`, or a table"),
         Kind::ChoiceOrTable(choices, _) => format!("{}, or a table", words(choices)),
         Kind::NumberOrTable(_) => "number, or a table".into(),
-        Kind::Table(_) => "table".into(),
+        Kind::Table(_) | Kind::TableOf(_) => "table".into(),
         Kind::TablePerStorey(_) => "table; or a list from the ground up".into(),
         Kind::TextOrTable(_) => "text, or a table".into(),
         Kind::Tables(_) => "tables".into(),

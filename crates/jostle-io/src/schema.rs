@@ -152,6 +152,7 @@ fn kind(kind: Kind) -> Value {
             json!({ "anyOf": [quantity(Dimension::Dimensionless), table(&[section])] })
         }
         Kind::Table(section) => table(&[section]),
+        Kind::TableOf(sections) => table(sections),
         Kind::TextOrTable(section) => {
             json!({ "anyOf": [{ "type": "string" }, table(&[section])] })
         }

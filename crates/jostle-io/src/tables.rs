@@ -570,6 +570,10 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
                 format!("{}.isolation.", name.unwrap_or_default())
             }
         },
+        Column::GroundDisplacement { .. } => match ground_under(model, index) {
+            Some(name) => format!("{}.", plain(name)),
+            None => format!("B{}.", index + 1),
+        },
         Column::Energy(_) => "energy_".to_owned(),
     };
     place + recorded.name + recorded.unit.suffix
@@ -580,6 +584,16 @@ fn wall_behind(model: &Model, building: usize) -> Option<&str> {
     let mut moving = model.walls.iter().filter(|wall| !wall.is_rigid());
     let index = building.checked_sub(model.buildings.len())?;
     moving.nth(index).map(|wall| &wall.name[..])
+}
+
+/// The name of the building or wall above a ground.
+fn ground_under(model: &Model, ground: usize) -> Option<&str> {
+    let buildings = model.buildings.len();
+    if let Some(building) = model.buildings.get(ground) {
+        return Some(&building.name);
+    }
+    let wall = ground.checked_sub(buildings)?;
+    model.walls.get(wall).map(|wall| &wall.name[..])
 }
 
 /// A name without the characters that split or end column names elsewhere.

@@ -72,6 +72,7 @@ fn contact(
         width_m: 0.01,
         closing_peak_m: 0.011,
         closing_peak_at_s: 1.0,
+        closing_peak_ground_m: None,
         impact_count: impacts.len(),
         peak_force_n: 1e6,
         peak_force_at_s: None,

@@ -40,9 +40,9 @@ pub use selection::{
 };
 pub use spectrum::{Reading, ResponseSpectrum, SpectrumCurve, response_spectrum, spaced_periods};
 pub use synthesis::{
-    Envelope, GroundFilter, Makris, MatchSettings, Matched, Mavroeidis, PulseShape, RECIPES,
-    Recipe, SineSettings, StochasticSettings, match_spectrum, misfit, near_fault_pulse, recipe,
-    sine_wave, spectrum_compatible, stochastic,
+    Coherency, Envelope, GroundFilter, Makris, MatchSettings, Matched, Mavroeidis, PulseShape,
+    RECIPES, Recipe, SineSettings, StochasticSettings, coherent_with, match_spectrum, misfit,
+    near_fault_pulse, recipe, sine_wave, spectrum_compatible, stochastic,
 };
 pub use target::{
     Asce7, En1998, EnGround, EnType, Gb50011, GbGroup, GbIntensity, GbLevel, GbSite, SpectrumTable,

@@ -87,7 +87,7 @@ impl Model {
     ) -> PyResult<Self> {
         let mut input = Input::clone(&self.opened.input);
         if let Some(motion) = motion {
-            input.motion = Some(motion.spec.clone());
+            input.replace_motion(motion.spec.clone());
         }
         let other_record = motion.is_none() && (self.opened.other_record || record.is_some());
         input

@@ -36,6 +36,7 @@ impl Motion {
             reverse: false,
             duration,
             bearing: None,
+            grounds: None,
         };
         Self::from_spec(spec).map_err(|error| argument_error(error.to_string()))
     }
@@ -54,6 +55,12 @@ type State<'py> = (
 
 #[pymethods]
 impl Motion {
+    /// Whether grounds of buildings differ, or shake vertically.
+    #[getter]
+    fn has_own_grounds(&self) -> bool {
+        self.motion.has_own_grounds()
+    }
+
     /// A built-in record, or a file.
     #[staticmethod]
     #[pyo3(signature = (name, unit=None, step=None, column=None))]

@@ -606,6 +606,7 @@ fn wanted(page: &Page, history: &History, energies: bool) -> Vec<(String, Column
 fn energy_name(term: EnergyTerm) -> &'static str {
     match term {
         EnergyTerm::Input => "input",
+        EnergyTerm::Ground => "ground",
         EnergyTerm::Kinetic => "kinetic",
         EnergyTerm::Strain => "strain",
         EnergyTerm::Damped => "damped",

@@ -111,6 +111,7 @@ impl CaseCache {
                     reverse: false,
                     duration: None,
                     bearing: None,
+                    grounds: None,
                     ..spec.clone()
                 };
                 // The error shows the line of the record.

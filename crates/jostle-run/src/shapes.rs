@@ -13,6 +13,7 @@ pub struct SharedShapes(Arc<OnceLock<Option<Found>>>);
 /// Shapes, and the steps that they were found for.
 struct Found {
     contact_steps: ContactSteps,
+    vertical: bool,
     reduction: Arc<modal::Reduction>,
 }
 
@@ -27,10 +28,12 @@ impl SharedShapes {
             let reduction = modal::Reduction::new(system, plan).ok()?;
             Some(Found {
                 contact_steps: plan.contact_steps,
+                vertical: plan.vertical,
                 reduction: Arc::new(reduction),
             })
         });
         let found = found.as_ref()?;
-        (found.contact_steps == plan.contact_steps).then(|| Arc::clone(&found.reduction))
+        let same = found.contact_steps == plan.contact_steps && found.vertical == plan.vertical;
+        same.then(|| Arc::clone(&found.reduction))
     }
 }

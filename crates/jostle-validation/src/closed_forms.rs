@@ -188,6 +188,7 @@ fn newmark(basic: &Value, key: &str, beta: f64) -> Vec<Row> {
                 period: 2.0 * PI / 5.0,
             },
             bearing: None,
+            grounds: None,
         };
         let state = run(&system, &motion, &plan, None).state;
         let got = [

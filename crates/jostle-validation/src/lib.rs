@@ -8,6 +8,7 @@ pub mod certify;
 pub mod chopra;
 pub mod closed_forms;
 pub mod collisions;
+pub mod differing_ground;
 pub mod document;
 pub mod frames;
 pub mod ground;
@@ -55,7 +56,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 17] = [
+const FAMILIES: [(&str, &str, Make); 18] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -106,6 +107,13 @@ const FAMILIES: [(&str, &str, Make); 17] = [
          complex roots of the equations of motion, and an event-driven integrator of eighth order at a relative tolerance of \
          10⁻¹².",
         |_| soil::rows(),
+    ),
+    (
+        "Ground that differs, and vertical shaking",
+        "Two and three towers that El Centro reaches one after the other, and a portal with a mass at midspan that is shaken along \
+         x and y. Expected values: an event-driven integrator of eighth order at a relative tolerance of 10⁻¹², the grounds being \
+         exact integrals of the record; without contact checked in absolute coordinates to 3·10⁻¹⁴ m.",
+        |_| differing_ground::rows(),
     ),
     (
         "Links that are not linear",

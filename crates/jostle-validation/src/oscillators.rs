@@ -145,6 +145,7 @@ fn under_a_sine() -> Vec<Row> {
             period: input("Tg"),
         },
         bearing: None,
+        grounds: None,
     };
     let outcome = run(&system, &motion(input("t_end")), &uniform(STEP), None);
     let name = |what: &str| format!("h = 0.05 ms, {what}");

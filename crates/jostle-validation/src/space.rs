@@ -199,6 +199,7 @@ fn motion(inputs: &Value) -> GroundMotion {
                     period: number(stored, "/period_s"),
                 },
                 bearing: None,
+                grounds: None,
             }
         }
     };
@@ -255,6 +256,7 @@ fn sum_across(motions: &[(GroundMotion, f64)]) -> GroundMotion {
                 .collect(),
         },
         bearing: None,
+        grounds: None,
     }
 }
 

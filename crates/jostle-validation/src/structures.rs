@@ -164,6 +164,7 @@ pub(crate) fn uniform(step: f64) -> Plan {
         contact_steps: ContactSteps::Fixed(1),
         integrator: jostle::Integrator::default(),
         solver: Solver::Riccati,
+        vertical: false,
     }
 }
 

@@ -54,6 +54,7 @@ fn fixed(step: f64, division: u32) -> Plan {
         contact_steps: ContactSteps::Fixed(division),
         integrator: jostle::Integrator::default(),
         solver: Solver::Riccati,
+        vertical: false,
     }
 }
 

@@ -118,7 +118,7 @@ pub enum Column {
         contact: usize,
     },
     /// Closing of a contact on a column between floors (index into the contacts of the system) \[m\]. That of other
-    /// contacts follows from the displacements of their floors.
+    /// contacts follows from the displacements of their floors, and is recorded only where grounds move apart.
     Closing {
         /// Contact index.
         contact: usize,
@@ -141,6 +141,11 @@ pub enum Column {
     },
     /// Force of the bearings of a building or of the spring and dashpot of a wall on the ground \[N\].
     SupportForce {
+        /// Building index; walls are counted on from the buildings.
+        building: usize,
+    },
+    /// Displacement from rest of the ground under a building or a wall, where grounds move apart \[m\].
+    GroundDisplacement {
         /// Building index; walls are counted on from the buildings.
         building: usize,
     },
@@ -181,12 +186,14 @@ impl Column {
             Self::RotationRate { .. } => of("floor", "rotation_rate", Unit::RAD_S, "its rate"),
             Self::RotationAcceleration { .. } => of("floor", "rotation_acceleration", Unit::RAD_S2, "the rate of that"),
             Self::ContactForce { .. } => of("contact", "force", Unit::N, "contact force, positive in compression"),
-            Self::Closing { .. } => of("contact", "closing", Unit::M, "closing; only of contacts on a column between floors"),
+            Self::Closing { .. } => of("contact", "closing", Unit::M, "closing; only of contacts on a column between floors, or where grounds move apart"),
+            Self::GroundDisplacement { .. } => of("ground", "ground_displacement", Unit::M, "displacement of the ground from rest, where grounds move apart"),
             Self::LinkForce { .. } => of("link", "force", Unit::N, "force of the link, positive in compression"),
             Self::LinkStroke { .. } => of("link", "stroke", Unit::M, "shortening of the link since rest; with `links = true` under `[output]`"),
             Self::LinkSpeed { .. } => of("link", "speed", Unit::M_S, "its rate; with `links = true` under `[output]`"),
             Self::SupportForce { .. } => of("isolation", "force", Unit::N, "force of bearings, stops not included; of a wall, that of its spring and dashpot"),
             Self::Energy(EnergyTerm::Input) => of("energy", "input", Unit::J, "work of the ground motion until then"),
+            Self::Energy(EnergyTerm::Ground) => of("energy", "ground", Unit::J, "work of grounds that move apart, through contacts and links, until then"),
             Self::Energy(EnergyTerm::Kinetic) => of("energy", "kinetic", Unit::J, "kinetic energy relative to the ground"),
             Self::Energy(EnergyTerm::Strain) => of("energy", "strain", Unit::J, "strain energy of members, and recoverable energy of hinges"),
             Self::Energy(EnergyTerm::Damped) => of("energy", "damped", Unit::J, "dissipated by viscous damping until then"),
@@ -216,7 +223,9 @@ impl Column {
             Self::LinkForce { link } | Self::LinkStroke { link } | Self::LinkSpeed { link } => {
                 [link, 0]
             }
-            Self::SupportForce { building } => [building, 0],
+            Self::SupportForce { building } | Self::GroundDisplacement { building } => {
+                [building, 0]
+            }
         }
     }
 }
@@ -226,6 +235,8 @@ impl Column {
 pub enum EnergyTerm {
     /// Work of the inertia forces of the ground motion.
     Input,
+    /// Work of grounds that move apart, through contacts and links; recorded only with them.
+    Ground,
     /// Kinetic energy relative to the ground.
     Kinetic,
     /// Strain energy of members, and recoverable energy of yielding springs.
@@ -239,7 +250,7 @@ pub enum EnergyTerm {
 }
 
 impl EnergyTerm {
-    /// All terms, in the order of the balance.
+    /// The terms of every run, in the order of the balance.
     pub const ALL: [Self; 6] = [
         Self::Input,
         Self::Kinetic,
@@ -477,6 +488,8 @@ pub struct FloorPeaks {
     pub storey_shear: f64,
     /// Greatest overturning moment about the base of the storey below, either sign \[N·m\].
     pub overturning_moment: f64,
+    /// Greatest vertical displacement of any mass of the floor, either sign; followed under vertical shaking only \[m\].
+    pub vertical_displacement: f64,
 }
 
 /// Peak response of what a building or a wall stands on: its bearings, or its spring and dashpot.
@@ -510,6 +523,8 @@ pub struct FoundationPeaks {
 pub struct Energy {
     /// Work of the ground motion.
     pub input: f64,
+    /// Work of grounds that move apart, through contacts and links (theory, Eq. B17).
+    pub ground: f64,
     /// Kinetic energy relative to the ground.
     pub kinetic: f64,
     /// Strain energy of members.
@@ -529,11 +544,11 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// Input − (kinetic + strain + damped + hysteretic + contact + friction) \[J\].
+    /// Input + ground − (kinetic + strain + damped + hysteretic + contact + friction) \[J\].
     #[must_use]
     pub fn residual(&self) -> f64 {
         let held = self.kinetic + self.strain + self.damped + self.hysteretic + self.contact;
-        self.input - (held + self.friction)
+        self.input + self.ground - (held + self.friction)
     }
 
     /// |residual| / input at this instant \[–\]; zero without input energy.

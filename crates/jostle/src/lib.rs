@@ -121,7 +121,7 @@ pub use model::{
     PlanContact, PlanPoint, Section, Shear, Soil, SoilCoupling, Solver, SpeedFriction, Stop,
     Structure, Tier, TierStorey, Tiers, Wall,
 };
-pub use motion::{Bearing, GroundMotion, Wave};
+pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};
 pub use results::summary::Summary;
 pub use results::{Run, springs_of};

@@ -1,5 +1,10 @@
 //! Ground motion: horizontal ground acceleration as a function of time.
 
+mod grounds;
+
+pub(crate) use grounds::Side;
+pub use grounds::{GroundPath, GroundPoint, Grounds, OwnGround};
+
 use std::f64::consts::PI;
 
 /// Horizontal ground acceleration a_g(t), positive to the right; zero outside `0..=duration`.
@@ -12,7 +17,7 @@ use std::f64::consts::PI;
 /// assert!((record.acceleration(0.01) - 0.5).abs() < 1e-15); // straight lines between values
 ///
 /// let wave = Wave::Sine { amplitude: 2.0, period: 0.7 };
-/// let sine = GroundMotion { name: "sine".into(), scale: 1.5, duration: 8.0, wave, bearing: None };
+/// let sine = GroundMotion { name: "sine".into(), scale: 1.5, duration: 8.0, wave, bearing: None, grounds: None };
 /// assert!((sine.peak() - 3.0).abs() < 1e-12);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +32,8 @@ pub struct GroundMotion {
     pub wave: Wave,
     /// Direction in plan and motion across it, for buildings in space.
     pub bearing: Option<Box<Bearing>>,
+    /// Ground that differs under the buildings, and vertical shaking; `None` is one ground under all, shaken along the row.
+    pub grounds: Option<Box<Grounds>>,
 }
 
 /// Ground acceleration along x and across \[m/s²\].
@@ -47,7 +54,7 @@ pub struct Bearing {
 /// use jostle::{GroundMotion, Wave};
 ///
 /// let wave = Wave::Ricker { amplitude: 3.0, period: 0.6, centre: 0.9 };
-/// let pulse = GroundMotion { name: "pulse".into(), scale: 1.0, duration: 2.0, wave, bearing: None };
+/// let pulse = GroundMotion { name: "pulse".into(), scale: 1.0, duration: 2.0, wave, bearing: None, grounds: None };
 /// assert!((pulse.acceleration(0.9) - 3.0).abs() < 1e-12);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -88,6 +95,7 @@ impl GroundMotion {
             duration,
             wave: Wave::Sampled { step, acceleration },
             bearing: None,
+            grounds: None,
         }
     }
 
@@ -252,6 +260,7 @@ mod tests {
                 centre: 1.0,
             },
             bearing: None,
+            grounds: None,
         };
         assert_eq!(motion.acceleration(1.0), -3.0);
         assert_eq!(motion.peak(), 3.0);

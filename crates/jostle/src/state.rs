@@ -4,8 +4,9 @@ use crate::contact::Memory;
 use crate::history::Extreme;
 use crate::hysteresis::HysteresisMemory;
 use crate::interface::{LinkElement, LinkMemory};
+use crate::motion::{Ground, GroundMotion};
 use crate::structure::{Motion, StoreyForce};
-use crate::system::{BuildingSystem, System};
+use crate::system::{BuildingSystem, RunGrounds, System};
 
 /// The state of a row of buildings at one instant; a clone is a checkpoint.
 ///
@@ -142,10 +143,23 @@ impl State {
     /// that instant.
     #[must_use]
     pub fn at_rest(system: &System, ground_acceleration: f64) -> Self {
+        Self::resting(system, |_| [ground_acceleration, 0.0])
+    }
+
+    /// The same on the grounds of a motion, which may differ.
+    #[must_use]
+    pub fn at_rest_on(system: &System, motion: &GroundMotion) -> Self {
+        let grounds = RunGrounds::new(system, motion);
+        let common = [motion.acceleration(0.0), 0.0];
+        Self::resting(system, |building| grounds.at(0, common).of(building))
+    }
+
+    fn resting(system: &System, ground_acceleration: impl Fn(usize) -> Ground) -> Self {
         let n = system.len();
         let (mut displacement, mut acceleration) = (vec![0.0; n], vec![0.0; n]);
         let mut springs = Vec::new();
-        for building in &system.buildings {
+        for (index, building) in system.buildings.iter().enumerate() {
+            let [ground_acceleration, second] = ground_acceleration(index);
             let equations = &building.equations;
             for (value, rest) in displacement[building.range()]
                 .iter_mut()
@@ -159,6 +173,15 @@ impl State {
             for (value, (driven, mass)) in acceleration[building.range()].iter_mut().zip(masses) {
                 if *mass > 0.0 {
                     *value = -driven / mass * ground_acceleration;
+                }
+            }
+            if second != 0.0 && !building.is_in_space() {
+                let masses = equations.vertical_mass.iter().zip(&equations.mass);
+                let own = acceleration[building.range()].iter_mut();
+                for (value, (driven, mass)) in own.zip(masses) {
+                    if *mass > 0.0 {
+                        *value -= driven / mass * second;
+                    }
                 }
             }
         }

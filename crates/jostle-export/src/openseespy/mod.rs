@@ -46,6 +46,12 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 .into(),
         );
     }
+    if export.motion.has_own_grounds() {
+        refuse(
+            "motion".into(),
+            "ground that differs under the buildings, and vertical shaking, are not exported yet: the script shakes one ground along the row; leave out arrival, position, [building.motion] and vertical".into(),
+        );
+    }
     for (index, building) in model.buildings.iter().enumerate() {
         if let Some(Isolation {
             isolator: Isolator::Pendulum { friction, .. },

@@ -681,6 +681,7 @@ impl<'a> Script<'a> {
             duration,
             wave,
             bearing: _,
+            grounds: _,
         } = self.export.motion;
         writeln!(out, "GRAVITY = {STANDARD_GRAVITY:?}  # m/s2")?;
         writeln!(out, "\n# Ground motion: {}", comment(name))?;

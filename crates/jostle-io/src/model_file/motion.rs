@@ -4,7 +4,8 @@ use std::path::Path;
 
 use jostle_motion::GoverningRule;
 
-use super::matching;
+use super::{grounds, matching};
+use crate::grounds_spec::OwnMotionSpec;
 use crate::keys::{RECORD_FORMATS, Section, WAVES};
 use crate::motion_spec::{BearingSpec, MotionSource, MotionSpec, Scaling};
 use crate::quantity::Dimension;
@@ -31,37 +32,18 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
     let duration = reader
         .get(&view, "duration")
         .and_then(|field| duration(reader, &field));
-    let record = reader.get(&view, "record");
-    let wave = reader.get(&view, "kind");
-    let source = match (&record, &wave) {
-        (Some(_), Some(wave)) => {
-            *reader.bad(wave, "cannot be combined with record") =
-                Some("keep either record or kind".into());
-            None
-        }
-        (Some(record), None) => {
-            refuse(
-                reader,
-                &view,
-                &["amplitude", "period", "centre"],
-                "a record",
-            );
-            read_record(reader, &view, record, base)
-        }
-        (None, Some(wave)) => {
-            refuse(reader, &view, RECORD_KEYS, "an analytic wave");
-            read_wave(reader, &view, wave)
-        }
-        (None, None) => {
-            reader.missing(
-                &view,
-                "record",
-                "add record = \"el-centro-1940-ns\", a path to a record, or kind = \"sine\"",
-            );
-            None
-        }
+    let source = if view.has("record") || view.has("kind") {
+        source(reader, &view, base)
+    } else {
+        reader.missing(
+            &view,
+            "record",
+            "add record = \"el-centro-1940-ns\", a path to a record, or kind = \"sine\"",
+        );
+        None
     };
     let bearing = bearing(reader, &view, base);
+    let grounds = grounds::read_common(reader, &view, base);
     let scaling = scaling(reader, &view, base);
     let reverse = reader
         .get(&view, "reverse")
@@ -72,7 +54,60 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
         reverse: reverse.unwrap_or(false),
         duration,
         bearing,
+        grounds,
     })
+}
+
+/// A motion beside the common one, from a table that need not name a source.
+pub(super) fn read_own(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    base: &Path,
+) -> Option<OwnMotionSpec> {
+    let source = if view.has("record") || view.has("kind") {
+        let source = source(reader, view, base)?;
+        if let (MotionSource::Records { .. }, Some(field)) = (&source, reader.get(view, "record")) {
+            *reader.bad(&field, "must be one record here") =
+                Some("only [motion] may list several".into());
+        }
+        Some(source)
+    } else {
+        let keys = ["amplitude", "period", "centre"];
+        refuse(reader, view, &keys, "the record of [motion]");
+        refuse(reader, view, RECORD_KEYS, "the record of [motion]");
+        None
+    };
+    let scaling = scaling(reader, view, base);
+    let reverse = reader
+        .get(view, "reverse")
+        .and_then(|field| reader.flag(&field));
+    Some(OwnMotionSpec {
+        source,
+        scaling,
+        reverse: reverse.unwrap_or(false),
+    })
+}
+
+/// The record or wave of a table that has one.
+fn source(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<MotionSource> {
+    let record = reader.get(view, "record");
+    let wave = reader.get(view, "kind");
+    match (&record, &wave) {
+        (Some(_), Some(wave)) => {
+            *reader.bad(wave, "cannot be combined with record") =
+                Some("keep either record or kind".into());
+            None
+        }
+        (Some(record), None) => {
+            refuse(reader, view, &["amplitude", "period", "centre"], "a record");
+            read_record(reader, view, record, base)
+        }
+        (None, Some(wave)) => {
+            refuse(reader, view, RECORD_KEYS, "an analytic wave");
+            read_wave(reader, view, wave)
+        }
+        (None, None) => None,
+    }
 }
 
 /// The rule for the governing value of several records, if the file names one; a single record has no use for it.
@@ -103,6 +138,10 @@ fn bearing(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<Box<
             if own.bearing.is_some() {
                 *reader.bad(&field, "has an angle or a motion across of its own") =
                     Some("give them under [motion] only".into());
+            }
+            if own.grounds.is_some() {
+                *reader.bad(&field, "says how grounds differ") =
+                    Some("say it under [motion] only".into());
             }
             Some(own)
         }

@@ -10,7 +10,7 @@ use crate::source::Source;
 use crate::tree::{Format, parse};
 
 /// Models that together have every table of a file.
-const ALL_TABLES: [&str; 5] = [
+const ALL_TABLES: [&str; 6] = [
     r#"
 [[building]]
 kind = "shear"
@@ -73,6 +73,20 @@ members = true
 floor_spectra = { floors = ["A.1"], damping = 0.05, periods = 1, low_pass = 25, order = 4 }
 [codes]
 show = "asce7"
+"#,
+    r#"
+[motion]
+record = "el-centro"
+apparent_velocity = 600
+coherency = { alpha = 0.1, shear_wave_velocity = 300, seed = 1 }
+vertical = { scale = 0.67 }
+[[building]]
+kind = "shear"
+position = 1
+motion = { record = "el-centro", arrival = 0, vertical = "el-centro" }
+[[wall]]
+name = "moat"
+position = 2
 "#,
     r#"
 building = []

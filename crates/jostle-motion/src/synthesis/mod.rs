@@ -1,5 +1,6 @@
 //! Artificial motions: a seed and parameters in, the same bits out.
 
+mod coherency;
 mod envelope;
 mod matching;
 mod pulse;
@@ -9,6 +10,7 @@ mod sines;
 mod stochastic;
 mod wavelet;
 
+pub use coherency::{Coherency, coherent_with};
 pub use envelope::Envelope;
 pub use matching::{MatchSettings, Matched, match_spectrum, misfit};
 pub use pulse::{Makris, Mavroeidis, PulseShape, near_fault_pulse};

@@ -319,6 +319,7 @@ fn motion(spec: &MotionSpec, peak: Peak) -> Result<Accelerogram, String> {
         duration,
         wave,
         bearing: _,
+        grounds: _,
     } = spec.resolve().map_err(|error| error.to_string())?;
     let Wave::Sampled {
         step,

@@ -32,13 +32,36 @@ pub(crate) fn lateral_modes_along(
     building: &AssembledBuilding,
     sweep: &RiccatiSweep,
 ) -> Result<Vec<Mode>, NotPositive> {
+    excited(building, sweep, &building.equations.driven_mass)
+        .map(|modes| modes.into_iter().filter(Mode::is_lateral).collect())
+}
+
+/// Modes that carry at least 1 % of the mass vertically, longest period first.
+///
+/// # Errors
+/// [`NotPositive`] when the building can move without deforming.
+pub(crate) fn vertical_modes_along(
+    building: &AssembledBuilding,
+    sweep: &RiccatiSweep,
+) -> Result<Vec<Mode>, NotPositive> {
+    let is_vertical = |mode: &Mode| mode.effective_mass_ratio_y >= LATERAL_SHARE;
+    excited(building, sweep, &building.equations.vertical_mass)
+        .map(|modes| modes.into_iter().filter(is_vertical).collect())
+}
+
+/// Modes that carry enough of a mass M r, longest period first.
+fn excited(
+    building: &AssembledBuilding,
+    sweep: &RiccatiSweep,
+    driven_mass: &[f64],
+) -> Result<Vec<Mode>, NotPositive> {
     let mut flexibility = Flexibility::along(building, sweep)?;
     let equations = &building.equations;
     let start: Vec<f64> = flexibility
         .massive
         .iter()
         .zip(&flexibility.root)
-        .map(|(&dof, root)| equations.driven_mass[dof] / root)
+        .map(|(&dof, root)| driven_mass[dof] / root)
         .collect();
     let mut krylov = Krylov::from(start);
     let hidden = LATERAL_SHARE * equations.total_mass();
@@ -68,7 +91,7 @@ pub(crate) fn lateral_modes_along(
         let shape = flexibility.with_massless(&shape, values[k]);
         Mode::new(building, 1.0 / values[k], shape)
     });
-    Ok(modes.filter(Mode::is_lateral).collect())
+    Ok(modes.collect())
 }
 
 /// M^½ (K⁻¹)_mm M^½ of one building, m being the degrees of freedom with mass (theory, Eq. M1).

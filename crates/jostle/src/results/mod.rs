@@ -5,6 +5,7 @@ pub mod contact_sensitivity;
 mod counted_impact;
 pub mod floor_spectra;
 mod foundation;
+mod ground;
 mod in_plan;
 mod isolation;
 mod members;

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::floor_spectra::{self, FilterSummary, FloorSpectra, FloorSpectrum};
+use super::ground::GroundSummary;
 use super::in_plan::{BuildingInPlan, FloorInPlan};
 use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
@@ -67,6 +68,7 @@ pub fn owners() -> Vec<Owner> {
         owner("Floors in plan", "buildings[].floors[]", None, "", &[entries(FloorInPlan::QUANTITIES)]),
         owner("Bearings", "buildings[].isolation", None, "", &[entries(IsolationSummary::QUANTITIES)]),
         owner("Foundations", "buildings[].foundation", None, "", &[entries(FoundationSummary::QUANTITIES)]),
+        owner("Ground under a building", "buildings[].ground", None, "", &[entries(GroundSummary::QUANTITIES)]),
         owner("Hinges of a building", "buildings[].hinges", None, "", &[entries(HingeSummary::QUANTITIES)]),
         owner("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries(SpringSummary::QUANTITIES)]),
         owner("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries(SectionSummary::QUANTITIES)]),

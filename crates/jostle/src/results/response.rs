@@ -66,6 +66,10 @@ pub struct FloorResponse {
     pub overturning_moment_peak_n_m: f64,
     /// Drift ratio of the storey below at the end, positive to the right \[–\].
     pub residual_drift: f64,
+    /// Greatest vertical displacement of any mass of the floor relative to the ground, either sign; absent without vertical
+    /// shaking \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vertical_displacement_peak_m: Option<f64>,
 }
 
 impl FloorResponse {
@@ -90,6 +94,7 @@ impl FloorResponse {
         Quantity::<Self>::real("storey_shear_peak_n", Unit::N, "greatest shear of the storey: the horizontal restoring forces above its base", |f| f.storey_shear_peak_n).in_study().compared().shown("storey shear", "kN", 1e-3, 1),
         Quantity::<Self>::real("overturning_moment_peak_n_m", Unit::NM, "greatest moment of these forces about the base of the storey", |f| f.overturning_moment_peak_n_m).in_study().compared().shown("overturning moment", "kN·m", 1e-3, 0),
         Quantity::<Self>::real("residual_drift", Unit::NONE, "drift ratio of the storey at the end, positive to the right", |f| f.residual_drift).in_study().compared(),
+        Quantity::<Self>::optional("vertical_displacement_peak_m", Unit::M, "greatest vertical displacement of any mass of the floor relative to the ground, either sign; only under vertical shaking", |f| f.vertical_displacement_peak_m).not_in_summary().in_study(),
     ];
 }
 
@@ -110,6 +115,8 @@ pub(super) fn floor_responses(
         storey_shear_peak_n: peaks.storey_shear,
         overturning_moment_peak_n_m: peaks.overturning_moment,
         residual_drift,
+        vertical_displacement_peak_m: (peaks.vertical_displacement > 0.0)
+            .then_some(peaks.vertical_displacement),
     };
     let residual = residual_drifts(building, outcome);
     floors.zip(residual).map(response).collect()

@@ -12,6 +12,7 @@ use crate::model::{Gap, LinkLaw, Model};
 use crate::motion::GroundMotion;
 use crate::results::capacity;
 use crate::results::foundation::{foundation_summary, foundation_warnings, soil_energy};
+use crate::results::ground::{closing_of_grounds, ground_summary};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
 use crate::results::members::members_of;
 use crate::results::response::{
@@ -118,7 +119,7 @@ impl Summary {
             links: (0..model.links.len())
                 .map(|index| link_summary(index, run))
                 .collect(),
-            energy: energy_summary(system, outcome),
+            energy: energy_summary(run),
             promise: promise_summary(run),
             work: work_summary(run),
             contact_sensitivity: None,
@@ -177,6 +178,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         rayleigh_beta_s: building.equations.beta,
         isolation: isolation_summary(index, building, run.outcome),
         foundation: foundation_summary(index, building, run.outcome),
+        ground: ground_summary(index, run),
         floors: Floors {
             mat: mat_summary(index, &floors, run),
             above: floors,
@@ -285,7 +287,7 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
     let contacts: Vec<ContactSummary> = own
         .iter()
         .zip(&counted)
-        .map(|(&contact, impacts)| contact_summary(contact, impacts, system, outcome))
+        .map(|(&contact, impacts)| contact_summary(contact, impacts, run))
         .collect();
     let impacts = contacts.iter().flat_map(|contact| &contact.impacts);
     let total = outcome.gap_forces.get(index);
@@ -405,12 +407,8 @@ pub(super) fn counted_impacts(index: usize, gap: &Gap, run: &Run) -> Vec<Counted
     counted(impacts, gap.minimum_separation)
 }
 
-fn contact_summary(
-    index: usize,
-    impacts: &[CountedImpact],
-    system: &System,
-    outcome: &Outcome,
-) -> ContactSummary {
+fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> ContactSummary {
+    let (system, outcome) = (run.system, run.outcome);
     let all = || impacts.iter().map(|counted| &counted.impact);
     let strongest = all()
         .filter(|impact| impact.peak_force > 0.0)
@@ -435,6 +433,7 @@ fn contact_summary(
         width_m: widths.fold(f64::INFINITY, f64::min),
         closing_peak_m: closing.value,
         closing_peak_at_s: closing.at,
+        closing_peak_ground_m: closing_of_grounds(first, closing.at, run),
         impact_count: impacts.len(),
         peak_force_n: strongest.map_or(0.0, |impact| impact.peak_force),
         peak_force_at_s: strongest.map(|impact| impact.peak_force_at),
@@ -482,11 +481,12 @@ impl From<&CountedImpact> for ImpactSummary {
     }
 }
 
-fn energy_summary(system: &System, outcome: &Outcome) -> EnergySummary {
-    let energy = &outcome.energy;
-    let soil = soil_energy(system, outcome);
+fn energy_summary(run: &Run) -> EnergySummary {
+    let (system, energy) = (run.system, &run.outcome.energy);
+    let soil = soil_energy(system, run.outcome);
     EnergySummary {
         input_j: energy.input,
+        ground_j: run.motion.grounds.is_some().then_some(energy.ground),
         kinetic_j: energy.kinetic,
         strain_j: energy.strain,
         damped_j: energy.damped,

@@ -3,7 +3,7 @@
 use crate::history::Energy;
 use crate::simd;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{RunGrounds, System};
 
 /// Energies so far, and the largest error of the balance.
 #[derive(Clone, Copy, Debug, Default)]
@@ -11,6 +11,8 @@ pub(crate) struct EnergyAudit {
     pub(crate) input: f64,
     pub(crate) damped: f64,
     pub(crate) contact: f64,
+    /// Work of the grounds on contacts and links.
+    pub(crate) ground: f64,
     /// Work done on yielding springs, recoverable energy included.
     pub(crate) springs: f64,
     /// Work done on links with springs and dashpots, recoverable energy of their springs included.
@@ -52,7 +54,7 @@ struct Stored {
     yielding_links: f64,
 }
 
-fn stored(system: &System, state: &State) -> Stored {
+fn stored(system: &System, state: &State, grounds: &RunGrounds<'_>) -> Stored {
     let (displacement, velocity) = (&state.displacement, &state.velocity);
     let (mut kinetic, mut strain) = (0.0, 0.0);
     for building in &system.buildings {
@@ -68,8 +70,10 @@ fn stored(system: &System, state: &State) -> Stored {
         .zip(&state.springs)
         .map(|(spring, memory)| spring.hysteresis.recoverable_energy(memory));
     let (mut links, mut yielding_links) = (0.0, 0.0);
-    for (link, memory) in system.links.iter().zip(state.link_memories()) {
-        let energy = link.recoverable(link.shortening(displacement), &memory);
+    let links_of_state = system.links.iter().zip(state.link_memories());
+    for (index, (link, memory)) in links_of_state.enumerate() {
+        let [moved, ..] = grounds.closing(system.contacts.len() + index, 0);
+        let energy = link.recoverable(link.shortening(displacement) + moved, &memory);
         *(if link.law.is_hysteretic() {
             &mut yielding_links
         } else {
@@ -87,8 +91,8 @@ fn stored(system: &System, state: &State) -> Stored {
 
 impl EnergyAudit {
     /// Starts from a state that may already have energy.
-    pub(crate) fn starting_from(system: &System, state: &State) -> Self {
-        let stored = stored(system, state);
+    pub(crate) fn starting_from(system: &System, state: &State, grounds: &RunGrounds<'_>) -> Self {
+        let stored = stored(system, state, grounds);
         Self {
             initial: stored.kinetic
                 + stored.strain
@@ -116,13 +120,19 @@ impl EnergyAudit {
     }
 
     /// The balance now. Energy present at the start counts as input.
-    pub(crate) fn balance(&mut self, system: &System, state: &State) -> Energy {
-        let stored = stored(system, state);
+    pub(crate) fn balance(
+        &mut self,
+        system: &System,
+        state: &State,
+        grounds: &RunGrounds<'_>,
+    ) -> Energy {
+        let stored = stored(system, state, grounds);
         let kinetic = stored.kinetic;
         let strain = stored.strain + stored.springs + stored.links + stored.yielding_links;
         let links = self.links - stored.links;
         self.imbalance.watch(Energy {
             input: self.input + self.initial,
+            ground: self.ground,
             kinetic,
             strain,
             damped: self.damped + links,

@@ -3,7 +3,7 @@
 use super::member_ratios::MemberRatios;
 use crate::history::MemberHistory;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{GroundsAt, System};
 
 /// Follows the forces of columns and beams of all buildings that were asked for.
 pub(crate) struct MemberPeaks {
@@ -33,9 +33,16 @@ impl MemberPeaks {
     }
 
     /// Adds a state; `links`: forces of links \[N\].
-    pub(crate) fn take(&mut self, system: &System, state: &State, links: &[f64], ground: f64) {
+    pub(crate) fn take(
+        &mut self,
+        system: &System,
+        state: &State,
+        links: &[f64],
+        grounds: GroundsAt<'_>,
+    ) {
         for (index, building) in system.buildings.iter().enumerate() {
             let (values, extremes) = (&mut self.values[index], &mut self.extremes[index]);
+            let ground = grounds.of(index)[0];
             building.member_forces(state, links, ground, |form, value| {
                 let [greatest, least] = &mut extremes[form];
                 *greatest = greatest.max(value);

@@ -12,13 +12,14 @@ const MEMBER_FORCES: usize = 3;
 
 /// Greatest difference of peaks, relative to the greatest of its kind in the building or gap \[–\].
 pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
-    let kinds: [fn(&FloorPeaks) -> f64; 6] = [
+    let kinds: [fn(&FloorPeaks) -> f64; 7] = [
         |floor| floor.displacement_max.value,
         |floor| floor.displacement_min.value,
         |floor| floor.storey_drift,
         |floor| floor.total_acceleration,
         |floor| floor.storey_shear,
         |floor| floor.overturning_moment,
+        |floor| floor.vertical_displacement,
     ];
     let mut worst = 0.0_f64;
     let mut floors_before = 0;

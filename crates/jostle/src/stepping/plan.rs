@@ -33,6 +33,8 @@ pub struct Plan {
     pub integrator: Integrator,
     /// Solver.
     pub solver: Solver,
+    /// Whether the ground shakes vertically as well.
+    pub vertical: bool,
 }
 
 /// Number of parts of a free-vibration step while a contact is closed.
@@ -51,6 +53,10 @@ pub enum ContactSteps {
     },
 }
 
+/// Steps per period of vertical modes with at least this share of the mass that moves vertically, at a tolerance of 1e-3.
+const STEPS_PER_VERTICAL: f64 = 60.0;
+const MODAL_STEPS_PER_VERTICAL: f64 = 12.0;
+const VERTICAL_SHARE: f64 = 0.05;
 /// Free-vibration steps per first lateral period, at a tolerance of 1e-3.
 const STEPS_PER_FIRST_PERIOD: f64 = 400.0;
 /// Free-vibration steps per third lateral period, at a tolerance of 1e-3.
@@ -112,8 +118,14 @@ impl Plan {
         analysis: &Analysis,
     ) -> Result<Self, Vec<ModelFault>> {
         let mut faults = Vec::new();
-        let solver = solver_for(system, analysis);
+        let solver = solver_for(system, motion, analysis);
         check_solver(solver, system, analysis, &mut faults);
+        if motion.has_own_grounds() {
+            faults.extend(refused_grounds(solver, system));
+        }
+        if motion.is_vertical() {
+            faults.extend(refused_vertical(system));
+        }
         if motion.bearing.is_some() && !system.is_in_space() {
             faults.push(ModelFault {
                 path: "motion.angle".into(),
@@ -166,6 +178,7 @@ impl Plan {
             contact_steps,
             integrator: analysis.integrator,
             solver,
+            vertical: motion.is_vertical(),
         };
         if faults.is_empty() {
             faults.extend(too_long(&plan, system, motion, analysis));
@@ -202,7 +215,7 @@ impl Plan {
     /// below 1. Steps still end on the points of a record.
     pub(super) fn refined(&self, factor: f64, motion: &GroundMotion) -> Self {
         let step = self.step / factor;
-        let step = match motion.step() {
+        let step = match motion.corner_step() {
             Some(record_step) => record_step / (record_step / step - 1e-9).ceil().max(1.0),
             None => step,
         };
@@ -397,7 +410,7 @@ fn follows_parabolas(solver: Solver) -> bool {
 
 /// The named solver, or the fastest one that meets the tolerance. Fixed steps imply the Riccati solver; damping in
 /// all modes requires modal stepping.
-fn solver_for(system: &System, analysis: &Analysis) -> Solver {
+fn solver_for(system: &System, motion: &GroundMotion, analysis: &Analysis) -> Solver {
     let usual = || {
         let automatic = analysis.step.is_none() && analysis.contact_step.is_none();
         let mut buildings = system.buildings.iter();
@@ -408,13 +421,53 @@ fn solver_for(system: &System, analysis: &Analysis) -> Solver {
                 && resolves_links(system, analysis.tolerance)
         {
             Solver::Modal
-        } else if automatic && series::refusals(system, analysis.integrator).is_empty() {
+        } else if automatic
+            && !motion.has_own_grounds()
+            && series::refusals(system, analysis.integrator).is_empty()
+        {
             Solver::Series
         } else {
             Solver::Riccati
         }
     };
     analysis.solver.unwrap_or_else(usual)
+}
+
+/// What cannot stand on ground that differs, or be shaken vertically.
+fn refused_grounds(solver: Solver, system: &System) -> Option<ModelFault> {
+    if system.is_in_space() {
+        return Some(ModelFault {
+            path: "motion".into(),
+            problem: "ground that differs, and vertical shaking, are not possible for buildings with a plan yet; leave out arrival, position, [building.motion] and vertical".into(),
+        });
+    }
+    if system.model_links().len() < system.links.len() {
+        return Some(ModelFault {
+            path: "soil.coupling".into(),
+            problem: "foundations that share the soil stand on one ground; leave coupling out, or arrival, position and [building.motion]".into(),
+        });
+    }
+    (solver == Solver::Series).then(|| ModelFault {
+        path: "analysis.solver".into(),
+        problem: "series cannot be used: the ground differs under the buildings, or shakes vertically; leave it out, or take solver = \"riccati\"".into(),
+    })
+}
+
+/// What cannot be shaken vertically.
+fn refused_vertical(system: &System) -> Option<ModelFault> {
+    let mut buildings = system.buildings.iter();
+    if !buildings.any(BuildingSystem::moves_vertically) {
+        return Some(ModelFault {
+            path: "motion.vertical".into(),
+            problem: "no mass moves vertically: shear buildings have none, nor have frames with rigid columns and no masses along beams; take frames with axial = { columns = \"flexible\" } or beam_segments, or leave vertical out".into(),
+        });
+    }
+    let mut buildings = system.buildings.iter();
+    let followed = buildings.any(|building| !building.members.forms.is_empty());
+    followed.then(|| ModelFault {
+        path: "output.members".into(),
+        problem: "forces of columns and beams do not include vertical inertia forces yet; leave out members, or vertical under [motion]".into(),
+    })
 }
 
 /// Two records whose steps do not fit: no step could end at the points of both.
@@ -501,14 +554,33 @@ fn exact_step(
                 .map_or(step, |period| step.min(refinement * period / steps));
         }
     }
+    if motion.is_vertical() {
+        for period in shortest_vertical_periods(system) {
+            step = step.min(refinement * period / MODAL_STEPS_PER_VERTICAL);
+        }
+    }
     if let Some(period) = motion.period() {
         // Loads are linear over a step, which is of second order.
         step = step.min(refinement * refinement * period / MODAL_STEPS_PER_MOTION_PERIOD);
     }
-    match motion.step() {
+    match motion.corner_step() {
         Some(record_step) => record_step / (record_step / step - 1e-9).ceil().max(1.0),
         None => step,
     }
+}
+
+/// Of every building, the shortest period of modes with a fair share of its vertical mass \[s\].
+fn shortest_vertical_periods(system: &System) -> impl Iterator<Item = f64> {
+    system.buildings.iter().filter_map(|building| {
+        let modes = building.vertical_modes();
+        let all: f64 = modes.iter().map(|mode| mode.effective_mass_ratio_y).sum();
+        let strong = modes
+            .iter()
+            .filter(|mode| mode.effective_mass_ratio_y >= VERTICAL_SHARE * all);
+        strong
+            .map(crate::eigen::Mode::period)
+            .min_by(f64::total_cmp)
+    })
 }
 
 fn lateral_period(building: &BuildingSystem, number: usize) -> Option<f64> {
@@ -528,6 +600,11 @@ fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f6
                 .map_or(step, |period| step.min(refinement * period / steps));
         }
     }
+    if motion.is_vertical() {
+        for period in shortest_vertical_periods(system) {
+            step = step.min(refinement * period / STEPS_PER_VERTICAL);
+        }
+    }
     if let Some(period) = motion.period() {
         step = step.min(refinement * period / STEPS_PER_MOTION_PERIOD);
     }
@@ -542,7 +619,7 @@ fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f6
         }
     }
     // Steps must end on the points of a record, where its slope changes.
-    match motion.step() {
+    match motion.corner_step() {
         Some(record_step) => record_step / (record_step / step - 1e-9).ceil().max(1.0),
         None => step,
     }

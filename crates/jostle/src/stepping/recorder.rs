@@ -9,7 +9,7 @@ use crate::history::{
     SupportPeaks,
 };
 use crate::state::{ContactPhase, State};
-use crate::system::System;
+use crate::system::{GroundsAt, RunGrounds, System};
 
 /// Recorder of histories and peaks.
 pub(crate) struct Recorder {
@@ -25,6 +25,8 @@ pub(crate) struct Recorder {
     pub(crate) foundations: Vec<FoundationPeaks>,
     pub(crate) parts: AccelerationParts,
     pub(crate) members: MemberPeaks,
+    /// Building, floor and degree of freedom of masses whose vertical displacement is followed.
+    vertical: Vec<[usize; 3]>,
     /// Displacement and velocity of every floor, and closing and rate of every contact, at the start of the step.
     before: Vec<(f64, f64)>,
 }
@@ -36,12 +38,13 @@ pub(crate) struct Instant<'a> {
     pub(crate) contacts: &'a [ContactPhase],
     /// Forces of links \[N\].
     pub(crate) links: &'a [f64],
-    /// Ground acceleration \[m/s²\].
-    pub(crate) ground: f64,
+    pub(crate) grounds: &'a RunGrounds<'a>,
+    /// Ground accelerations.
+    pub(crate) ground: GroundsAt<'a>,
 }
 
 /// Columns of a history, in order.
-pub(crate) fn columns(system: &System) -> Vec<Column> {
+pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> {
     let mut columns = vec![Column::Time, Column::GroundAcceleration];
     if system.is_in_space() {
         columns.push(Column::GroundAccelerationAcross);
@@ -75,7 +78,7 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
     columns.extend((0..contacts).map(|contact| Column::ContactForce { contact }));
     columns.extend(
         (0..system.contacts.len())
-            .filter(|contact| system.contacts[*contact].is_between_floors())
+            .filter(|contact| grounds.part || system.contacts[*contact].is_between_floors())
             .map(|contact| Column::Closing { contact }),
     );
     let links = system.model_links().len();
@@ -95,20 +98,30 @@ pub(crate) fn columns(system: &System) -> Vec<Column> {
         ]);
     }
     columns.extend(EnergyTerm::ALL.map(Column::Energy));
+    if grounds.part {
+        let places = 0..grounds.displacements().count();
+        columns.push(Column::Energy(EnergyTerm::Ground));
+        columns.extend(places.map(|building| Column::GroundDisplacement { building }));
+    }
     columns
 }
 
 impl Recorder {
     /// Records histories at least `interval` apart, every step for zero; `None` records only peaks. The run lasts
     /// `duration`.
-    pub(crate) fn new(system: &System, duration: f64, interval: Option<f64>) -> Self {
+    pub(crate) fn new(
+        system: &System,
+        grounds: &RunGrounds<'_>,
+        duration: f64,
+        interval: Option<f64>,
+    ) -> Self {
         let buildings = system.buildings.iter();
         let floors: usize = buildings.map(|building| building.floors.len()).sum();
         let supports = system.buildings.iter().filter(|own| own.support.is_some());
         let foundations = system.buildings.iter().filter_map(|own| own.foundation);
         let tracked = floors + system.contacts.len() + supports.count() + 2 * foundations.count();
         Self {
-            history: interval.map(|_| History::new(columns(system))),
+            history: interval.map(|_| History::new(columns(system, grounds))),
             springs: interval
                 .map(|_| {
                     let buildings = system.buildings.iter();
@@ -129,8 +142,21 @@ impl Recorder {
             foundations: vec![FoundationPeaks::default(); system.buildings.len()],
             parts: AccelerationParts::new(floors, duration),
             members: MemberPeaks::new(system, interval.is_some()),
+            vertical: Vec::new(),
             before: Vec::with_capacity(tracked),
         }
+    }
+
+    /// Follows vertical displacements as well.
+    pub(crate) fn follow_vertical(&mut self, system: &System, state: &State) {
+        for (index, building) in system.buildings.iter().enumerate() {
+            for (floor, dof) in building.vertical_points() {
+                self.vertical.push([index, floor, dof]);
+                let greatest = &mut self.floors[index][floor].vertical_displacement;
+                *greatest = greatest.max(state.displacement[dof].abs());
+            }
+        }
+        self.before.reserve(self.vertical.len());
     }
 
     /// Expects about this many more rows.
@@ -149,7 +175,7 @@ impl Recorder {
     }
 
     /// Stores the tracked motions at the start of a step.
-    pub(crate) fn before_step(&mut self, system: &System, state: &State) {
+    pub(crate) fn before_step(&mut self, system: &System, state: &State, grounds: &RunGrounds<'_>) {
         self.before.clear();
         let (u, v) = (&state.displacement, &state.velocity);
         for floor in system
@@ -159,9 +185,11 @@ impl Recorder {
         {
             self.before.push((u[floor.dof], v[floor.dof]));
         }
-        for contact in &system.contacts {
+        for (index, contact) in system.contacts.iter().enumerate() {
             let ports = &contact.ports;
-            self.before.push((ports.closing(u), ports.closing(v)));
+            let [moved, rate, _] = grounds.closing(index, 0);
+            self.before
+                .push((ports.closing(u) + moved, ports.closing(v) + rate));
         }
         for support in system.buildings.iter().filter_map(|own| own.support) {
             self.before.push((u[support.dof], v[support.dof]));
@@ -170,16 +198,26 @@ impl Recorder {
             let motions = foundation.dofs.map(|dof| (u[dof], v[dof]));
             self.before.extend(motions);
         }
+        for [.., dof] in &self.vertical {
+            self.before.push((u[*dof], v[*dof]));
+        }
     }
 
     /// Updates peaks with the step that ended in `state`.
-    pub(crate) fn after_step(&mut self, system: &System, state: &State, step: f64, ground: f64) {
+    pub(crate) fn after_step(&mut self, system: &System, instant: &Instant<'_>, step: f64) {
+        let Instant {
+            state,
+            grounds,
+            ground: all,
+            ..
+        } = *instant;
         let (u, v) = (&state.displacement, &state.velocity);
         let start = state.time - step;
         self.parts.set_time(state.time);
         let mut floor_of_all = 0;
         let mut before = self.before.iter();
         for (index, building) in system.buildings.iter().enumerate() {
+            let ground = all.of(index)[0];
             let mut below = building.foot.map_or(0.0, |dof| u[dof]);
             let turned = building.rocking(u);
             for (peaks, floor) in self.floors[index].iter_mut().zip(&building.floors) {
@@ -210,19 +248,24 @@ impl Recorder {
             let shear = building.base_shear(state);
             self.base_shear[index] = self.base_shear[index].max(shear.abs());
         }
-        for (contact, closing) in system.contacts.iter().zip(&mut self.closing) {
+        let contacts = system.contacts.iter().zip(&mut self.closing);
+        for (index, (contact, closing)) in contacts.enumerate() {
             if let Some(&then) = before.next() {
-                let now = (contact.ports.closing(u), contact.ports.closing(v));
+                let ports = &contact.ports;
+                let [moved, rate, _] = grounds.closing(index, 0);
+                let now = (ports.closing(u) + moved, ports.closing(v) + rate);
                 let greatest = greatest_in_step(then, now, start, step);
                 if greatest.value > closing.value {
                     *closing = greatest;
                 }
             }
         }
-        for (peaks, building) in self.supports.iter_mut().zip(&system.buildings) {
+        let supports = self.supports.iter_mut().zip(&system.buildings);
+        for (index, (peaks, building)) in supports.enumerate() {
             let Some(support) = building.support else {
                 continue;
             };
+            let ground = all.of(index)[0];
             if let Some(&then) = before.next() {
                 let now = (u[support.dof], v[support.dof]);
                 let moved = now.0 - then.0;
@@ -260,12 +303,23 @@ impl Recorder {
             let [x, turn] = moved;
             peaks.damped += (uu * x * x + 2.0 * ut * x * turn + tt * turn * turn) / step;
         }
+        for &[building, floor, dof] in &self.vertical {
+            let Some(&then) = before.next() else { continue };
+            let now = (u[dof], v[dof]);
+            let greatest = &mut self.floors[building][floor].vertical_displacement;
+            for sign in [1.0, -1.0] {
+                let [then, now] = [then, now].map(|(u, v)| (sign * u, sign * v));
+                *greatest = greatest.max(greatest_in_step(then, now, start, step).value);
+            }
+        }
     }
 
     /// Updates peaks with accelerations that have jumped.
-    pub(crate) fn after_jump(&mut self, system: &System, state: &State, ground: f64) {
+    pub(crate) fn after_jump(&mut self, system: &System, state: &State, grounds: GroundsAt<'_>) {
         let mut floor_of_all = 0;
-        for (building, floors) in system.buildings.iter().zip(&mut self.floors) {
+        let buildings = system.buildings.iter().zip(&mut self.floors);
+        for (index, (building, floors)) in buildings.enumerate() {
+            let ground = grounds.of(index)[0];
             for (peaks, floor) in floors.iter_mut().zip(&building.floors) {
                 let total = (state.acceleration[floor.dof] + ground).abs();
                 peaks.total_acceleration = peaks.total_acceleration.max(total);
@@ -292,6 +346,7 @@ impl Recorder {
             state,
             contacts,
             links,
+            grounds,
             ground,
         } = *instant;
         if !self.is_due(state.time, wanted) {
@@ -301,7 +356,7 @@ impl Recorder {
             return;
         };
         self.due = state.time + self.interval * (1.0 - 1e-9);
-        let energy = audit.balance(system, state);
+        let energy = audit.balance(system, state, grounds);
         if let Some(springs) = &mut self.springs {
             springs.push(&state.springs);
         }
@@ -313,22 +368,23 @@ impl Recorder {
             }
         };
         put(state.time);
-        put(ground);
-        for floor in system
-            .structures()
-            .iter()
-            .flat_map(|building| &building.floors)
-        {
-            put(state.displacement[floor.dof]);
-            put(state.velocity[floor.dof]);
-            put(state.acceleration[floor.dof] + ground);
+        put(ground.common[0]);
+        for (index, building) in system.structures().iter().enumerate() {
+            let ground = ground.of(index)[0];
+            for floor in &building.floors {
+                put(state.displacement[floor.dof]);
+                put(state.velocity[floor.dof]);
+                put(state.acceleration[floor.dof] + ground);
+            }
         }
         contacts.iter().for_each(|phase| put(phase.force()));
-        system
-            .contacts
-            .iter()
-            .filter(|contact| contact.is_between_floors())
-            .for_each(|contact| put(contact.ports.closing(&state.displacement)));
+        let contacts = system.contacts.iter().enumerate();
+        contacts
+            .filter(|(_, contact)| grounds.part || contact.is_between_floors())
+            .for_each(|(index, contact)| {
+                let [moved, ..] = grounds.closing(index, 0);
+                put(contact.ports.closing(&state.displacement) + moved);
+            });
         let own = links.iter().take(system.model_links().len());
         own.for_each(|force| put(*force));
         for link in &system.links_followed {
@@ -336,16 +392,17 @@ impl Recorder {
             put(link.shortening(&state.displacement));
             put(link.ports.closing(&state.velocity));
         }
-        for building in &system.buildings {
+        for (index, building) in system.buildings.iter().enumerate() {
             if let Some(support) = &building.support {
                 put(state.displacement[support.dof]);
                 put(state.velocity[support.dof]);
-                put(state.acceleration[support.dof] + ground);
+                put(state.acceleration[support.dof] + ground.of(index)[0]);
                 put(building.support_force(state));
             }
         }
         let Energy {
             input,
+            ground: energy_of_grounds,
             kinetic,
             strain,
             damped,
@@ -355,7 +412,12 @@ impl Recorder {
         } = energy;
         [input, kinetic, strain, damped, hysteretic, contact]
             .into_iter()
-            .for_each(put);
+            .for_each(&mut put);
+        if grounds.part {
+            std::iter::once(energy_of_grounds)
+                .chain(grounds.displacements())
+                .for_each(put);
+        }
         debug_assert!(row.next().is_none(), "every column has a value");
     }
 }

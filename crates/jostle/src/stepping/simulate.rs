@@ -46,7 +46,7 @@ pub fn simulate(
         motion,
         plan,
         settings,
-        State::at_rest(system, motion.acceleration(0.0)),
+        State::at_rest_on(system, motion),
         observer,
     )
 }
@@ -73,6 +73,10 @@ fn step_through(
     state: State,
     observer: &mut Observer<'_>,
 ) -> Outcome {
+    if plan.vertical != motion.is_vertical() {
+        let reason = "the steps were chosen for another motion".to_owned();
+        return Outcome::not_begun(system, StepError::Unsuited { reason });
+    }
     if plan.solver != Solver::Modal
         && let Some(building) = system.buildings.iter().find(|b| b.modal_damping.is_some())
     {
@@ -112,7 +116,7 @@ pub(super) fn simulate_once(
     settings: Settings,
     observer: &mut Observer<'_>,
 ) -> Outcome {
-    let rest = || State::at_rest(system, motion.acceleration(0.0));
+    let rest = || State::at_rest_on(system, motion);
     match plan.solver {
         Solver::Modal => simulate(system, motion, plan, settings, observer),
         Solver::Series => series::run(system, motion, plan, settings, rest(), observer),

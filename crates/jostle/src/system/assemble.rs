@@ -146,6 +146,7 @@ impl System {
             links_followed: Vec::new(),
             ratings: Vec::new(),
             walls: self.walls.clone(),
+            rigid_walls: Vec::new(),
         };
         system.join(&Row::new(model), model)?;
         system.follow_members(&model.analysis.members);
@@ -221,6 +222,16 @@ impl System {
                 }
             }
         }
+        let structures = self.structures().len();
+        let rigid = |between: [Option<usize>; 2]| {
+            between.map(|side| {
+                let wall = side?.checked_sub(structures)?;
+                self.walls[wall].building.is_none().then_some(wall)
+            })
+        };
+        let contacts = self.contacts.iter().map(|own| row.gaps[own.gap].between);
+        let links = self.links.iter().map(|own| row.links[own.link].between);
+        self.rigid_walls = contacts.chain(links).map(rigid).collect();
         if faults.is_empty() {
             Ok(())
         } else {

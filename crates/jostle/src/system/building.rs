@@ -4,9 +4,9 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::soil::FoundationPlace;
-use crate::eigen::{Mode, lateral_modes_along, modes_dense, symmetric};
+use crate::eigen::{Mode, lateral_modes_along, modes_dense, symmetric, vertical_modes_along};
 use crate::interface::DofRow;
-use crate::model::{Damping, Gravity, PlanPoint, usual_damping_modes};
+use crate::model::{Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, usual_damping_modes};
 use crate::motion::Ground;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::motion_at;
@@ -256,6 +256,36 @@ impl BuildingSystem {
     /// Lateral modes, longest period first.
     pub fn lateral_modes(&self) -> impl Iterator<Item = &Mode> {
         self.modes.iter().filter(|mode| mode.is_lateral())
+    }
+
+    /// Modes that carry at least 1 % of the mass vertically, longest period first; none where no mass moves vertically, or
+    /// where it can move without deforming.
+    #[must_use]
+    pub fn vertical_modes(&self) -> Vec<Mode> {
+        if !self.moves_vertically() {
+            return Vec::new();
+        }
+        vertical_modes_along(&self.structure, &self.sweep).unwrap_or_default()
+    }
+
+    /// Whether any mass moves vertically.
+    #[must_use]
+    pub fn moves_vertically(&self) -> bool {
+        self.equations.vertical_mass.iter().any(|mass| *mass > 0.0)
+    }
+
+    /// Floors, from 0, and degrees of freedom of masses that move vertically there, over the vectors of a
+    /// [`crate::State`].
+    pub fn vertical_points(&self) -> impl Iterator<Item = (usize, usize)> {
+        let nodes = self.discretization.stick_model.nodes.iter().enumerate();
+        let points = nodes.filter_map(|(node, place)| {
+            let dof = self.equations.vertical(node)?;
+            let at = |floor: &Floor| (floor.height - place.y).abs() <= LEVEL_TOLERANCE;
+            let floor = self.floors.iter().position(at)?;
+            (self.equations.vertical_mass[dof] > 0.0).then_some((floor, self.offset + dof))
+        });
+        let in_plane = !self.is_in_space();
+        points.filter(move |_| in_plane)
     }
 
     /// Sets the Rayleigh damping (theory, Eq. D1).

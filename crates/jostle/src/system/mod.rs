@@ -3,6 +3,7 @@
 mod assemble;
 mod building;
 mod finite;
+mod grounds;
 mod half_space;
 mod members;
 mod rating;
@@ -12,6 +13,7 @@ use crate::interface::{Contact, DofRow, EdgeEnd, Friction, LinkElement, Port, Po
 use crate::model::{LEVEL_TOLERANCE, WALL};
 
 pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Track};
+pub(crate) use grounds::{GroundsAt, OverStep, RunGrounds};
 pub use rating::MemberRating;
 pub use soil::FoundationPlace;
 
@@ -51,6 +53,9 @@ pub struct System {
     pub ratings: Vec<MemberRating>,
     /// Walls of the model, in its order.
     pub walls: Vec<WallPlace>,
+    /// Indices in [`System::walls`] of rigid walls on the two sides of every contact, then of every link; what is not listed
+    /// has none.
+    pub rigid_walls: Vec<[Option<usize>; 2]>,
 }
 
 /// A wall of a system.
@@ -98,6 +103,7 @@ impl System {
             links_followed: Vec::new(),
             ratings: Vec::new(),
             walls: Vec::new(),
+            rigid_walls: Vec::new(),
         }
     }
 

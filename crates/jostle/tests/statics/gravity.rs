@@ -61,6 +61,7 @@ fn a_building_with_cracked_hinges_stays_at_rest() {
         contact_steps: ContactSteps::Fixed(1),
         solver: Solver::Riccati,
         integrator: Default::default(),
+        vertical: false,
     };
     let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| {
         std::ops::ControlFlow::Continue(())

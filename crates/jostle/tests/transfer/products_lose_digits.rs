@@ -267,6 +267,7 @@ fn a_run_by_products_repeats_a_run_by_riccati_where_it_may() {
             contact_steps: ContactSteps::Fixed(1),
             integrator: jostle::Integrator::default(),
             solver,
+            vertical: false,
         };
         let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| {
             ControlFlow::Continue(())

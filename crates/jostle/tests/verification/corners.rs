@@ -72,6 +72,7 @@ impl Site {
             duration: 8.0,
             wave: Wave::Sine { amplitude, period },
             bearing: None,
+            grounds: None,
         };
         let sign = if self.mirrored { -1.0 } else { 1.0 };
         let mut across = wave("across", 1.5, 0.53);

@@ -447,6 +447,7 @@ fn a_sine_across_shakes_across() {
                 period: 0.6,
             },
             bearing: None,
+            grounds: None,
         }),
     }));
     let own = model(vec![tower], Vec::new());

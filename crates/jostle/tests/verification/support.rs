@@ -223,6 +223,7 @@ pub(crate) fn steps(step: f64, division: u32) -> Plan {
         contact_steps: ContactSteps::Fixed(division),
         integrator: jostle::Integrator::default(),
         solver: Solver::Riccati,
+        vertical: false,
     }
 }
 

@@ -8,6 +8,7 @@ use super::hinges::HingeSummary;
 use super::isolation::{Floors, IsolationSummary};
 use super::members::MemberSummary;
 use crate::quantity::{Quantity, Unit};
+use crate::results::ground::GroundSummary;
 use crate::results::in_plan::{BuildingInPlan, FloorInPlan};
 use crate::results::response::{Amplification, BuildingResponse, FloorResponse};
 
@@ -32,6 +33,9 @@ pub struct BuildingSummary {
     /// Its foundation on soil; absent if it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub foundation: Option<FoundationSummary>,
+    /// The ground under it; absent where one ground is under all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ground: Option<GroundSummary>,
     /// Its peaks, and what is left at the end.
     #[serde(flatten)]
     pub response: BuildingResponse,

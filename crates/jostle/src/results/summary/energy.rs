@@ -9,6 +9,9 @@ use crate::quantity::{Quantity, Unit};
 pub struct EnergySummary {
     /// Work of the ground motion.
     pub input_j: f64,
+    /// Work of grounds that move apart, through contacts and links; absent where one ground is under all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ground_j: Option<f64>,
     /// Kinetic energy.
     pub kinetic_j: f64,
     /// Strain energy.
@@ -27,7 +30,7 @@ pub struct EnergySummary {
     /// Dissipated by friction along faces; absent without.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_j: Option<f64>,
-    /// |input − sum of the others| / input at the end \[–\].
+    /// |input + ground − sum of the others| / input at the end \[–\].
     pub imbalance: f64,
     /// Greatest imbalance over time, relative to the greatest energy until then \[–\].
     pub worst_imbalance: f64,
@@ -38,6 +41,7 @@ impl EnergySummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("input_j", Unit::J, "work of the ground motion", |e| e.input_j).in_study(),
+        Quantity::<Self>::optional("ground_j", Unit::J, "work of grounds that move apart, through contacts and links, beside the input; only with ground that differs", |e| e.ground_j).not_in_summary(),
         Quantity::<Self>::real("kinetic_j", Unit::J, "kinetic energy", |e| e.kinetic_j),
         Quantity::<Self>::real("strain_j", Unit::J, "strain energy", |e| e.strain_j),
         Quantity::<Self>::real("damped_j", Unit::J, "dissipated by viscous damping, that of links included", |e| e.damped_j).in_study(),

@@ -100,10 +100,13 @@ pub struct ContactSummary {
     pub in_plan: Option<PlanContactSummary>,
     /// Width at rest, the least of its points \[m\].
     pub width_m: f64,
-    /// Greatest closing u_left − u_right \[m\].
+    /// Greatest closing u_left − u_right, that of grounds that differ included \[m\].
     pub closing_peak_m: f64,
     /// Its instant \[s\].
     pub closing_peak_at_s: f64,
+    /// The part of it that the grounds contribute; absent where one ground is under all \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub closing_peak_ground_m: Option<f64>,
     /// Number of impacts.
     pub impact_count: usize,
     /// Greatest force \[N\].
@@ -128,6 +131,7 @@ impl ContactSummary {
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the force", |c| c.impulse_n_s).in_study(),
         Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing", |c| c.closing_peak_m).in_study(),
         Quantity::<Self>::real("closing_peak_at_s", Unit::S, "its instant", |c| c.closing_peak_at_s),
+        Quantity::<Self>::optional("closing_peak_ground_m", Unit::M, "the part of it that the grounds contribute; only with ground that differs", |c| c.closing_peak_ground_m).not_in_summary(),
     ];
 }
 

@@ -12,6 +12,7 @@ mod isolation;
 mod links;
 mod members;
 
+pub use super::ground::GroundSummary;
 pub use accuracy::{PromiseSummary, WorkSummary};
 pub use building::{BuildingSummary, FloorSummary};
 pub use capacity::{

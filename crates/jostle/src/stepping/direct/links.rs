@@ -1,6 +1,6 @@
 //! Links: springs and dashpots between buildings, in every step (theory, Eqs. L1 to L3).
 
-use super::Direct;
+use super::{Direct, moved_by_grounds};
 use crate::contact::ForceLaw;
 use crate::history::{Extreme, LinkTotals};
 use crate::interface::{LinkElement, LinkMemory};
@@ -83,6 +83,16 @@ pub(super) fn law_of(link: &LinkElement) -> ForceLaw {
 }
 
 impl<E: StepEquations> Direct<E> {
+    /// Shortening of a link now, and its rate \[m, m/s\].
+    fn link_motion(&self, run: &RunState<'_>, index: usize) -> [f64; 2] {
+        let link = &run.system.links[index];
+        let [moved, rate, _] = run.grounds.closing(self.joints.contacts + index, 0);
+        [
+            link.shortening(&self.state.displacement) + moved,
+            link.ports.closing(&self.state.velocity) + rate,
+        ]
+    }
+
     /// Adds the forces of the links at the start of the step to its loads, as those of closed contacts.
     pub(super) fn add_link_loads(&mut self, run: &RunState<'_>) {
         for (link, force) in run.system.links.iter().zip(&self.links.forces) {
@@ -101,8 +111,8 @@ impl<E: StepEquations> Direct<E> {
         let own = index - self.joints.contacts;
         let link = &run.system.links[own];
         let trial = &run.trials[index];
+        let [start, _] = self.link_motion(run, own);
         let nonlinear = (!link.is_linear()).then(|| {
-            let start = link.shortening(&self.state.displacement);
             let memory = LinkMemory {
                 force: self.links.forces[own],
                 ..self.state.links[own]
@@ -172,9 +182,11 @@ impl<E: StepEquations> Direct<E> {
         for index in 0..run.system.links.len() {
             let link = &run.system.links[index];
             let trial = run.trials[self.joints.contacts + index];
-            let start = link.shortening(&self.state.displacement);
+            let [start, _] = self.link_motion(run, index);
             let before = self.links.forces[index];
-            let work = 0.5 * (before + trial.force) * (trial.indentation - start);
+            let mean = 0.5 * (before + trial.force);
+            let work = mean * (trial.indentation - start);
+            self.audit.ground += mean * moved_by_grounds(run, self.joints.contacts + index);
             let totals = &mut self.links.totals[index];
             totals.work += work;
             totals.peak_rate = totals.peak_rate.max(trial.rate.abs());
@@ -205,7 +217,7 @@ impl<E: StepEquations> Direct<E> {
     pub(super) fn first_link_touch(&self, run: &RunState<'_>, step: f64) -> Option<LinkTouch> {
         let mut first: Option<LinkTouch> = None;
         for (index, link) in run.system.links.iter().enumerate() {
-            let start = link.shortening(&self.state.displacement);
+            let [start, start_rate] = self.link_motion(run, index);
             let Some((start, sign)) = link.overlap(start) else {
                 continue;
             };
@@ -215,8 +227,7 @@ impl<E: StepEquations> Direct<E> {
                 false if end > 0.0 || rate < 0.0 => Crossing::Upwards,
                 true | false => continue,
             };
-            let start_rate = sign * link.ports.closing(&self.state.velocity);
-            let curve = Cubic::new(start, start_rate, end, rate, step);
+            let curve = Cubic::new(start, sign * start_rate, end, rate, step);
             if let Some(at) = curve.first_crossing(crossing)
                 && first.is_none_or(|first| at < first.at)
             {
@@ -241,7 +252,7 @@ impl<E: StepEquations> Direct<E> {
     /// it had no force.
     pub(super) fn begin_dashpot(&mut self, run: &RunState<'_>, index: usize) -> bool {
         let link = &run.system.links[index];
-        let rate = link.ports.closing(&self.state.velocity);
+        let [_, rate] = self.link_motion(run, index);
         let dashpot = match link.law {
             LinkLaw::Stopper { .. } => link.damping * rate.max(0.0),
             LinkLaw::Linear
@@ -280,7 +291,8 @@ impl<E: StepEquations> Direct<E> {
 
     /// Sudden changes of velocity of one building change the forces of the dashpots there, and these the accelerations of
     /// both ends.
-    pub(super) fn jerk_links(&mut self, system: &System, building: usize) {
+    pub(super) fn jerk_links(&mut self, run: &RunState<'_>, building: usize) {
+        let system = run.system;
         let offset = system.buildings[building].offset;
         for (index, link) in system.links.iter().enumerate() {
             for (port, sign) in link.ports.sides() {
@@ -291,8 +303,7 @@ impl<E: StepEquations> Direct<E> {
                     let change = port.row.moved_down(offset).value(&self.jump.velocity);
                     -sign * link.damping * change
                 } else {
-                    let shortening = link.shortening(&self.state.displacement);
-                    let rate = link.ports.closing(&self.state.velocity);
+                    let [shortening, rate] = self.link_motion(run, index);
                     link.force_now(shortening, rate, &self.state.links[index])
                         - self.links.forces[index]
                 };

@@ -13,8 +13,7 @@ mod within_tolerance;
 pub(super) use within_tolerance::within_tolerance;
 
 use crate::model::Integrator;
-use crate::motion::Ground;
-use crate::motion::GroundMotion;
+use crate::motion::{Ground, GroundMotion};
 use crate::simd;
 use crate::state::{ContactPhase, Episode, State};
 use crate::statics::STANDARD_GRAVITY;
@@ -95,7 +94,15 @@ impl<E: StepEquations> Direct<E> {
         let joints = Joints::new(system);
         let links = Links::starting_from(system, &state);
         let steps = motion.duration / plan.step;
-        let mut recorder = Recorder::new(system, motion.duration, settings.record_interval);
+        let mut recorder = Recorder::new(
+            system,
+            &run.grounds,
+            motion.duration,
+            settings.record_interval,
+        );
+        if plan.vertical {
+            recorder.follow_vertical(system, &state);
+        }
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
@@ -105,14 +112,14 @@ impl<E: StepEquations> Direct<E> {
             equations: buildings.map(|building| E::new(building)).collect(),
             factors: vec![StepFactors::blank(system, &joints)],
             divisions: vec![0],
-            unbalanced: unbalanced_load(system, &state, &links, run.ground[0][0], plan.integrator),
+            unbalanced: unbalanced_load(run, &state, &links, plan.integrator),
             increment: vec![0.0; system.len()],
             rate_term: vec![0.0; system.len()],
             joints,
             links,
             jump_factors: system.buildings.iter().map(|_| None).collect(),
             jump: JumpScratch::for_buildings(system),
-            audit: EnergyAudit::starting_from(system, &state),
+            audit: EnergyAudit::starting_from(system, &state, &run.grounds),
             yielding: YieldingSprings::starting_from(system, &state),
             recorder,
             state,
@@ -121,7 +128,7 @@ impl<E: StepEquations> Direct<E> {
     }
 
     fn into_outcome(mut self, mut run: RunState<'_>, end: RunEnd) -> Outcome {
-        let energy = self.audit.balance(run.system, &self.state);
+        let energy = self.audit.balance(run.system, &self.state, &run.grounds);
         let contact_step = Some(run.finest_in_contact)
             .filter(|d| *d > 0)
             .map(|d| run.plan.step / f64::from(d));
@@ -168,7 +175,7 @@ impl<E: StepEquations> Direct<E> {
     fn follow_members(&mut self, run: &RunState<'_>) {
         if self.recorder.members.is_asked() {
             self.state.contacts.clone_from(&run.phases);
-            let (links, ground) = (&self.links.forces, run.ground[0][0]);
+            let (links, ground) = (&self.links.forces, run.grounds_at(0));
             let members = &mut self.recorder.members;
             members.take(run.system, &self.state, links, ground);
         }
@@ -180,7 +187,8 @@ impl<E: StepEquations> Direct<E> {
             state: &self.state,
             contacts: &run.phases,
             links: &self.links.forces,
-            ground: run.ground[0][0],
+            grounds: &run.grounds,
+            ground: run.grounds_at(0),
         };
         self.recorder
             .record(run.system, &instant, wanted, &mut self.audit);
@@ -212,7 +220,7 @@ impl<E: StepEquations> Direct<E> {
     /// Rate of change of the closing rate of a contact \[m/s²\].
     fn relative_acceleration(&self, run: &RunState<'_>, contact: usize) -> f64 {
         let ports = &run.system.contacts[contact].ports;
-        ports.closing(&self.state.acceleration)
+        ports.closing(&self.state.acceleration) + run.grounds.closing(contact, 0)[2]
     }
 
     /// dF/dt of a contact with the present accelerations \[N/s\].
@@ -274,7 +282,9 @@ impl<E: StepEquations> Direct<E> {
     fn move_to_end(&mut self, run: &RunState<'_>, slot: usize) -> Result<(), StepError> {
         let factors = &self.factors[slot];
         let k = factors.coefficients;
-        for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
+        let [now, end] = [0, 1].map(|time| run.grounds_at(time));
+        let buildings = run.system.buildings.iter().zip(&factors.buildings);
+        for (index, (building, own)) in buildings.enumerate() {
             let (range, equations) = (building.range(), &building.equations);
             let rises = &mut self.increment[range.clone()];
             let advance = Advance {
@@ -290,7 +300,12 @@ impl<E: StepEquations> Direct<E> {
             if !driven_rise.is_finite() {
                 return Err(StepError::NotFinite { time: run.time });
             }
-            self.audit.input -= 0.5 * (run.ground[0][0] + run.ground[1][0]) * driven_rise;
+            let [now, end] = [now, end].map(|ground| ground.of(index));
+            self.audit.input -= 0.5 * (now[0] + end[0]) * driven_rise;
+            if run.plan.vertical {
+                let risen = simd::dot(&equations.vertical_mass, rises);
+                self.audit.input -= 0.5 * (now[1] + end[1]) * risen;
+            }
             let strained = if equations.beta > 0.0 {
                 equations.stiffness.quadratic_form(rises)
             } else {
@@ -323,12 +338,12 @@ impl<E: StepEquations> Stepper for Direct<E> {
 
     fn closing(&self, run: &RunState<'_>, contact: usize) -> f64 {
         let ports = &run.system.contacts[contact].ports;
-        ports.closing(&self.state.displacement)
+        ports.closing(&self.state.displacement) + run.grounds.closing(contact, 0)[0]
     }
 
     fn closing_rate(&self, run: &RunState<'_>, contact: usize) -> f64 {
         let ports = &run.system.contacts[contact].ports;
-        ports.closing(&self.state.velocity)
+        ports.closing(&self.state.velocity) + run.grounds.closing(contact, 0)[1]
     }
 
     fn division(&self, run: &RunState<'_>) -> u32 {
@@ -390,7 +405,8 @@ impl<E: StepEquations> Stepper for Direct<E> {
     }
 
     fn before_step(&mut self, run: &mut RunState<'_>, _: f64) {
-        self.recorder.before_step(run.system, &self.state);
+        self.recorder
+            .before_step(run.system, &self.state, &run.grounds);
     }
 
     fn gather(
@@ -407,6 +423,7 @@ impl<E: StepEquations> Stepper for Direct<E> {
         let work = mean * (curve.end - curve.start);
         episode.work += work;
         self.audit.contact += work;
+        self.audit.ground += mean * moved_by_grounds(run, index);
         let acceleration = self.relative_acceleration(run, index);
         let slope = self.force_slope(run, index, curve.start, curve.start_rise / step, episode);
         let closed = &mut run.coupling.closed[closed];
@@ -478,10 +495,15 @@ impl<E: StepEquations> Stepper for Direct<E> {
         _: [Ground; 2],
         was_closed: bool,
     ) -> Result<(), StepError> {
-        let ground = run.ground[0][0];
         self.struck_steps = self.struck_steps.saturating_sub(1);
-        self.recorder
-            .after_step(run.system, &self.state, step, ground);
+        let instant = Instant {
+            state: &self.state,
+            contacts: &run.phases,
+            links: &self.links.forces,
+            grounds: &run.grounds,
+            ground: run.grounds_at(0),
+        };
+        self.recorder.after_step(run.system, &instant, step);
         self.follow_members(run);
         self.record(run, was_closed);
         self.check_collapse(run)
@@ -512,22 +534,51 @@ impl<E: StepEquations> Stepper for Direct<E> {
     }
 
     fn after_event(&mut self, run: &RunState<'_>) {
-        let ground = run.ground[0][0];
+        let ground = run.grounds_at(0);
         self.recorder.after_jump(run.system, &self.state, ground);
     }
+
+    /// Buildings stay behind: M Δa = −M r Δa_g.
+    fn change_ground(&mut self, run: &RunState<'_>, building: usize, change: Ground) {
+        let own = &run.system.buildings[building];
+        let masses = own.equations.driven_mass.iter().zip(&own.equations.mass);
+        let accelerations = self.state.acceleration[own.range()].iter_mut();
+        for (value, (driven, mass)) in accelerations.zip(masses) {
+            if *mass > 0.0 {
+                *value -= driven / mass * change[0];
+            }
+        }
+        if !run.plan.vertical {
+            return;
+        }
+        let masses = own.equations.vertical_mass.iter().zip(&own.equations.mass);
+        let accelerations = self.state.acceleration[own.range()].iter_mut();
+        for (value, (driven, mass)) in accelerations.zip(masses) {
+            if *mass > 0.0 {
+                *value -= driven / mass * change[1];
+            }
+        }
+    }
+}
+
+/// How much closer the grounds of a contact or a link have moved over the tried step \[m\].
+fn moved_by_grounds(run: &RunState<'_>, joint: usize) -> f64 {
+    run.grounds.closing(joint, 1)[0] - run.grounds.closing(joint, 0)[0]
 }
 
 /// p − M a − C v − K u less the forces of links; empty when the state is in equilibrium to rounding and will stay so at the ends of steps.
 fn unbalanced_load(
-    system: &System,
+    run: &RunState<'_>,
     state: &State,
     links: &Links,
-    ground: f64,
     integrator: Integrator,
 ) -> Vec<f64> {
+    let (system, grounds) = (run.system, run.grounds_at(0));
     let mut load = vec![0.0; system.len()];
     let mut largest = 0.0_f64;
-    for building in &system.buildings {
+    for (index, building) in system.buildings.iter().enumerate() {
+        let [ground, second] = grounds.of(index);
+        let upwards = if run.plan.vertical { second } else { 0.0 };
         let (range, equations) = (building.range(), &building.equations);
         let (u, v) = (
             &state.displacement[range.clone()],
@@ -552,7 +603,7 @@ fn unbalanced_load(
                 0.0
             } else {
                 STANDARD_GRAVITY * equations.vertical_mass[k]
-            };
+            } + upwards * equations.vertical_mass[k];
             let driven = equations.driven_mass[k] * ground + weight;
             load[dof] = -driven - inertia - resisted[k];
             largest = largest

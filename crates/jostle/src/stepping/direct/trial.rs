@@ -18,7 +18,7 @@ impl<E: StepEquations> Direct<E> {
         slot: usize,
         end: Clock,
     ) -> Result<(), StepError> {
-        run.ground[1] = run.motion.components(end.time());
+        run.move_grounds(end.time());
         self.fill_loads(run, slot);
         if self.yielding.is_empty() {
             self.factors[slot].solve(
@@ -57,14 +57,16 @@ impl<E: StepEquations> Direct<E> {
 
     /// Loads of the incremental step, contacts of its end not yet pushing (theory, Eq. N3).
     fn fill_loads(&mut self, run: &RunState<'_>, slot: usize) {
-        let change = run.ground[1][0] - run.ground[0][0];
-        for (building, own) in run
+        let [now, end] = [0, 1].map(|time| run.grounds_at(time));
+        for (index, (building, own)) in run
             .system
             .buildings
             .iter()
             .zip(&self.factors[slot].buildings)
+            .enumerate()
         {
             let (range, equations) = (building.range(), &building.equations);
+            let change = end.of(index)[0] - now.of(index)[0];
             let loads = Loads {
                 equations,
                 own,
@@ -74,6 +76,14 @@ impl<E: StepEquations> Direct<E> {
                 out: &mut self.increment[range.clone()],
             };
             simd::in_wide_registers(range.len(), loads);
+            let upwards = end.of(index)[1] - now.of(index)[1];
+            if run.plan.vertical && upwards != 0.0 {
+                simd::add(
+                    &mut self.increment[range],
+                    -upwards,
+                    &equations.vertical_mass,
+                );
+            }
         }
         self.add_undamped_loads(run, slot);
         let weight = self.factors[slot].coefficients.unbalanced;
@@ -129,7 +139,8 @@ impl<E: StepEquations> Direct<E> {
         let contacts = contacts.map(|contact| (&contact.ports, contact.width));
         let links = run.system.links.iter();
         let links = links.map(|link| (&link.ports, link.closing_at_rest));
-        for ((ports, at_rest), trial) in contacts.chain(links).zip(&mut run.trials) {
+        let joints = contacts.chain(links).zip(&mut run.trials).enumerate();
+        for (index, ((ports, at_rest), trial)) in joints {
             let mut closed_by = 0.0;
             for (port, sign) in ports.sides() {
                 let shift = factors.buildings[port.building].shift;
@@ -143,6 +154,11 @@ impl<E: StepEquations> Direct<E> {
             trial.rate =
                 k.c * closed_by + (1.0 + k.d_v) * ports.closing(v) + k.d_a * ports.closing(a);
             trial.force = 0.0;
+            if run.grounds.part {
+                let [moved, rate, _] = run.grounds.closing(index, 1);
+                trial.indentation += moved;
+                trial.rate += rate;
+            }
         }
     }
 

@@ -106,6 +106,7 @@ impl<E: StepEquations> Direct<E> {
         }
         let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);
         self.audit.contact += dissipated;
+        self.audit.ground += impulse * run.grounds.closing(index, 0)[1];
         Jump {
             impulse,
             dissipated,
@@ -161,6 +162,6 @@ impl<E: StepEquations> Direct<E> {
         accelerations
             .zip(&*acceleration)
             .for_each(|(a, change)| *a += change);
-        self.jerk_links(run.system, building);
+        self.jerk_links(run, building);
     }
 }

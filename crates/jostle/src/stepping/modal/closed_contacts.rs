@@ -47,7 +47,10 @@ impl ModalStepper<'_> {
         run.contact_division[index] = run.contact_division[index].max(division);
         self.open_steps[index] = 0;
         let dissipated = before - self.v[0].iter().map(|v| 0.5 * v * v).sum::<f64>();
+        let by_grounds = impulse * run.grounds.closing(index, 0)[1];
+        let dissipated = dissipated + by_grounds;
         self.energy.contact += dissipated;
+        self.energy.ground += by_grounds;
         let [rate, before] = &mut self.rate;
         before.copy_from_slice(rate);
         let watched = [&mut self.u[0][..], &mut rate[..]];
@@ -124,11 +127,35 @@ impl ModalStepper<'_> {
     fn drift(&self, run: &RunState<'_>, index: usize, step: f64) -> Drift {
         let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
         let [along, across] = self.peaks.driven();
+        if run.grounds_at(0).is_split() {
+            return self.drift_on_own_grounds(run, index, step);
+        }
         let driven = self.reduced.closing(index, along);
         let [then, now] = run.ground;
         let mut jerk = closing(&self.unloaded_jerk) - driven * (now[0] - then[0]) / step;
         if !across.is_empty() {
             jerk -= self.reduced.closing(index, across) * (now[1] - then[1]) / step;
+        }
+        Drift {
+            start: closing(&self.u),
+            rate: closing(&self.rate),
+            acceleration: closing(&self.acceleration),
+            jerk,
+        }
+    }
+
+    /// The same on grounds that differ.
+    fn drift_on_own_grounds(&self, run: &RunState<'_>, index: usize, step: f64) -> Drift {
+        let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
+        let [then, now] = [0, 1].map(|time| run.grounds_at(time));
+        let [moved_then, moved_now] = [0, 1].map(|time| run.grounds.closing(index, time)[2]);
+        let mut jerk = closing(&self.unloaded_jerk) + (moved_now - moved_then) / step;
+        let sides = self.reduced.ports[index].into_iter().zip([1.0, -1.0]);
+        for (port, sign) in sides {
+            let Some(port) = port else { continue };
+            let [then, now] = [then, now].map(|all| all.of(port.building));
+            let rate = [0, 1].map(|axis| (now[axis] - then[axis]) / step);
+            jerk -= sign * self.peaks.driven_by(port.watched, rate);
         }
         Drift {
             start: closing(&self.u),
@@ -179,7 +206,7 @@ impl ModalStepper<'_> {
             return 0.0;
         }
         let ahead = AHEAD * run.plan.step / f64::from(run.contact_division[index]);
-        let acceleration = self.relative_acceleration(index);
+        let acceleration = self.relative_acceleration(run, index);
         let width = run.system.contacts[index].width;
         let rate = self.reduced.closing(index, &self.rate[0]) + acceleration * ahead;
         let indentation = self.reduced.closing(index, &self.u[0]) - width + rate * ahead;
@@ -188,7 +215,7 @@ impl ModalStepper<'_> {
     }
 
     /// Relative acceleration of the faces of a contact; modal ones stand in `scratch` \[m/s²\].
-    pub(super) fn relative_acceleration(&self, index: usize) -> f64 {
-        self.reduced.closing_of_modes(index, &self.scratch)
+    pub(super) fn relative_acceleration(&self, run: &RunState<'_>, index: usize) -> f64 {
+        self.reduced.closing_of_modes(index, &self.scratch) + run.grounds.closing(index, 0)[2]
     }
 }

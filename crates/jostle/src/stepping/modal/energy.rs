@@ -2,6 +2,7 @@
 
 use super::stepper::ModalStepper;
 use crate::history::Energy;
+use crate::motion::Ground;
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::energy::Imbalance;
@@ -21,6 +22,8 @@ pub(super) struct Audit {
     pub(super) input: f64,
     pub(super) damped: f64,
     pub(super) contact: f64,
+    /// Work of the grounds on contacts and links.
+    pub(super) ground: f64,
     pub(super) friction: f64,
     imbalance: Imbalance,
 }
@@ -40,6 +43,7 @@ impl Audit {
     ) -> Energy {
         self.imbalance.watch(Energy {
             input: self.input,
+            ground: self.ground,
             kinetic,
             strain,
             damped: self.damped + damped + links,
@@ -72,22 +76,39 @@ impl ModalStepper<'_> {
         let end = [&self.q[1][..], &self.v[1]];
         let damped = table.damped(self.reduced, of, end, [&self.scratch, &self.moment]);
         let step = table.step;
-        // ∫ a_g q̇ dt by parts.
-        let [before, after] = [0, 1].map(|time| self.reduced.driven(&self.q[time]));
-        let area = self.reduced.driven(&self.scratch);
-        let [then, now] = run.ground;
-        let mut input = 0.0;
-        for axis in 0..2 {
-            let slope = (now[axis] - then[axis]) / step;
-            input += slope * area[axis] - (now[axis] * after[axis] - then[axis] * before[axis]);
-        }
+        let input = self.input_over_step(run, step);
         if was_closed {
             self.contact_work(run, step);
         }
         if linked {
-            self.work_of_links(step);
+            self.work_of_links(&run.grounds, step);
         }
         StepEnergy { damped, input }
+    }
+
+    /// ∫ Σ Γ q̇ a_g dt by parts, negative; ∫q stands in `scratch`.
+    fn input_over_step(&self, run: &RunState<'_>, step: f64) -> f64 {
+        let by_parts = |grounds: [Ground; 2], moved: [Ground; 2], area: Ground| {
+            let ([then, now], [before, after]) = (grounds, moved);
+            let mut input = 0.0;
+            for axis in 0..2 {
+                let slope = (now[axis] - then[axis]) / step;
+                input += slope * area[axis] - (now[axis] * after[axis] - then[axis] * before[axis]);
+            }
+            input
+        };
+        let grounds = [0, 1].map(|time| run.grounds_at(time));
+        if !grounds[0].is_split() {
+            let moved = [0, 1].map(|time| self.reduced.driven(&self.q[time]));
+            return by_parts(run.ground, moved, self.reduced.driven(&self.scratch));
+        }
+        let own = |building: usize| {
+            let driven = |list: &[f64]| self.reduced.driven_of(building, list);
+            let moved = [0, 1].map(|time| driven(&self.q[time]));
+            let grounds = grounds.map(|all| all.of(building));
+            by_parts(grounds, moved, driven(&self.scratch))
+        };
+        (0..self.reduced.buildings.len()).map(own).sum()
     }
 
     /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch` and ∫τq in `moment`.
@@ -102,8 +123,11 @@ impl ModalStepper<'_> {
                 Some(_) => (0.0, episode.friction.force),
                 None => (run.system.contacts[index].width, episode.force),
             };
-            let closing = self.reduced.closing_of_modes(index, &self.scratch);
-            let leaning = 2.0 * self.reduced.closing_of_modes(index, &self.moment) - closing;
+            let grounds = run.grounds.over_step(index, step);
+            let closing = self.reduced.closing_of_modes(index, &self.scratch) + grounds.area;
+            let leaning = 2.0
+                * (self.reduced.closing_of_modes(index, &self.moment) + grounds.moment)
+                - closing;
             let before = self.reduced.closing(index, &self.u[0]) - width;
             let last = run.trials[index].force;
             let bent = self.predicted[index].bend(first, last);
@@ -111,6 +135,7 @@ impl ModalStepper<'_> {
                 - first * before
                 - (last - first) * (closing / step - width)
                 - bent * leaning / step;
+            self.energy.ground += grounds.work([first, last], bent, step);
             if closed.friction.is_some() {
                 episode.friction.work += work;
                 self.energy.friction += work;

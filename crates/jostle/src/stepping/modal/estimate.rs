@@ -5,8 +5,7 @@ use super::peaks::{Peaks, Watched};
 use super::reduced::{Reduced, ReducedBuilding};
 use super::turning::NEAR_GREATEST;
 use crate::history::FloorPeaks;
-use crate::motion::Ground;
-use crate::system::{BuildingSystem, Direction, System, Track};
+use crate::system::{BuildingSystem, Direction, GroundsAt, System, Track};
 
 /// Kinds of peaks of a building: displacements, drifts, total accelerations, base shear, storey shears, overturning moments.
 const KINDS: usize = 6;
@@ -95,7 +94,7 @@ impl Reached {
         reduced: &Reduced,
         accelerations: &[f64],
         watched: Watched<'_>,
-        ground: Ground,
+        grounds: GroundsAt<'_>,
         forces: &[f64],
     ) {
         let quickened = self.quickened.iter_mut().zip(accelerations);
@@ -123,6 +122,7 @@ impl Reached {
             let (known, missed) = (&forces[own_forces.clone()], &self.forces_missed[own_forces]);
             let storeys = system.buildings[index].storeys.len();
             let (u, a) = (&watched.u[places.clone()], &watched.acceleration[places]);
+            let ground = grounds.of(index);
             let mut below = own.foot.map_or((0.0, 0.0), |foot| (u[foot], slow[foot]));
             let shear = own.shear - own.watched.start;
             for (at, widened) in self.floors[index].iter_mut().enumerate() {

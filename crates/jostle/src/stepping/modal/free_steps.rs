@@ -14,6 +14,7 @@ use crate::stepping::clock::Clock;
 use crate::stepping::events::Cubic;
 use crate::stepping::near_contacts;
 use crate::stepping::runner::RunState;
+use crate::system::GroundsAt;
 
 /// Largest and smallest number of steps at once.
 const MOST: usize = 16;
@@ -172,6 +173,7 @@ impl ModalStepper<'_> {
         let quiet = |phase: &ContactPhase| *phase == ContactPhase::Open;
         if !self.reduced.links.is_empty()
             || !self.reduced.across.is_empty()
+            || run.ground_jumps
             || !run.phases.iter().all(quiet)
             || run.contact_division.iter().any(|d| *d > 1)
         {
@@ -323,7 +325,7 @@ impl ModalStepper<'_> {
         let taken = Taken {
             then: free_steps.watched(places, index),
             now,
-            ground: [[g0, 0.0], [g1, 0.0]],
+            ground: [g0, g1].map(|value| GroundsAt::common([value, 0.0])),
             start,
             step,
             motion: StepMotion {
@@ -332,7 +334,7 @@ impl ModalStepper<'_> {
                     _ => free_steps.state(modes, index),
                 },
                 loads: Loads::Ground,
-                ground: [[g0, 0.0], [g1, 0.0]],
+                ground: [g0, g1].map(|value| GroundsAt::common([value, 0.0])),
                 step,
             },
         };
@@ -346,7 +348,7 @@ impl ModalStepper<'_> {
             a,
             jerk,
             time: run.time,
-            ground: [g1, 0.0],
+            ground: GroundsAt::common([g1, 0.0]),
             phases: &run.phases,
             smooth: true,
         };
@@ -354,8 +356,15 @@ impl ModalStepper<'_> {
             self.peaks.follow_forces(run.system, self.reduced, instant);
         }
         if self.peaks.is_due(run.time, false) {
-            self.peaks
-                .record(run.system, self.reduced, instant, now, &[], &energy);
+            self.peaks.record(
+                run.system,
+                self.reduced,
+                instant,
+                now,
+                &[],
+                &energy,
+                &run.grounds,
+            );
         }
         run.work.steps += 1;
         run.work.solves += 1;
@@ -384,7 +393,7 @@ impl ModalStepper<'_> {
                     reduced,
                     accelerations,
                     watched,
-                    [ground, 0.0],
+                    GroundsAt::common([ground, 0.0]),
                     forces,
                 );
             }
@@ -469,7 +478,7 @@ mod tests {
         let plan = Plan::choose(&system, &motion, &model.analysis).expect("sensible steps");
         let rates: Vec<Rates> = (0..3).map(|index| rates(&system, index)).collect();
         let mut work = Work::default();
-        let reduced = Reduced::new(&system, &rates, 1e-4, &mut work).expect("stable");
+        let reduced = Reduced::new(&system, &rates, 1e-4, false, &mut work).expect("stable");
         let settings = Settings {
             record_interval,
             ..Settings::default()

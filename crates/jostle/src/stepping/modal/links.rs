@@ -17,7 +17,7 @@ use crate::linear::SparseSymmetric;
 use crate::linear::full_matrix::PivotedLu;
 use crate::simd;
 use crate::stepping::recorder::greatest_in_step;
-use crate::system::{BuildingSystem, System};
+use crate::system::{BuildingSystem, OverStep, RunGrounds, System};
 
 /// A spring and dashpot between two monitored points, or a point and the ground.
 pub(super) struct ModalLink {
@@ -25,6 +25,8 @@ pub(super) struct ModalLink {
     pub(super) link: Option<usize>,
     ports: [Option<Shown>; 2],
     pub(super) push: UnitForce,
+    /// Where lists of monitored values hold what the grounds add, if they do.
+    grounds: Option<usize>,
     /// \[N/m\].
     stiffness: f64,
     /// \[N·s/m\].
@@ -42,6 +44,7 @@ impl ModalLink {
             link,
             ports,
             push: UnitForce::between(reduced, ports, 0..0),
+            grounds: link.map(|link| reduced.watched() + reduced.unsplit_ports() + link),
             stiffness,
             damping,
         }
@@ -55,7 +58,11 @@ impl ModalLink {
     /// Left minus right of monitored values.
     pub(super) fn closing(&self, values: &[f64]) -> f64 {
         let at = |port: Option<Shown>| port.map_or(0.0, |shown| values[shown.watched]);
-        at(self.ports[0]) - at(self.ports[1])
+        let apart = at(self.ports[0]) - at(self.ports[1]);
+        match self.grounds.and_then(|place| values.get(place)) {
+            Some(grounds) => apart + grounds,
+            None => apart,
+        }
     }
 
     /// The same of modal values, which begin with those of the mode `first`.
@@ -65,6 +72,18 @@ impl ModalLink {
             &self.push.loads[within(&modes, self.push.modes.start)],
             &values[within(&modes, first)],
         )
+    }
+
+    /// What the grounds add to its closing, the rate and the acceleration of that, as [`RunGrounds::closing`].
+    fn moved_by_grounds(
+        &self,
+        grounds: &RunGrounds<'_>,
+        reduced: &Reduced,
+        time: usize,
+    ) -> [f64; 3] {
+        self.link.map_or([0.0; 3], |own| {
+            grounds.closing(reduced.unsplit_ports() + own, time)
+        })
     }
 
     /// Force for a shortening and its rate, or its rate for a rate and an acceleration \[N\].
@@ -346,7 +365,7 @@ const SHORTEST_BEFORE: f64 = 0.05;
 
 impl ModalStepper<'_> {
     /// Finds the forces of all links over the tried step, as if no contact pushed at its end, and lets them push.
-    pub(super) fn press_links(&mut self, slot: usize) {
+    pub(super) fn press_links(&mut self, grounds: &RunGrounds<'_>, slot: usize) {
         let reduced = self.reduced;
         let table = &self.tables[slot].links;
         let step = table.step();
@@ -355,13 +374,17 @@ impl ModalStepper<'_> {
         for link in &reduced.links {
             let modes = &link.push.modes;
             let [q, v] = [&self.q[1][modes.clone()], &self.v[1][modes.clone()]];
-            let end = closings(
+            let mut end = closings(
                 reduced,
                 link,
                 [q, v],
                 Some(&self.p[1][modes.clone()]),
                 modes,
             );
+            let moved = link.moved_by_grounds(grounds, reduced, 1);
+            for (value, moved) in end.iter_mut().zip(moved) {
+                *value += moved;
+            }
             let [force, bend] = link.unknowns(end, step);
             let slope = link.force(
                 link.closing(&self.rate[0]),
@@ -384,13 +407,17 @@ impl ModalStepper<'_> {
     }
 
     /// Work of links over the tried step; ∫q stands in `scratch` and ∫τq in `moment`.
-    pub(super) fn work_of_links(&mut self, step: f64) {
+    pub(super) fn work_of_links(&mut self, grounds: &RunGrounds<'_>, step: f64) {
         let motion = &mut self.links;
         for (index, link) in self.reduced.links.iter().enumerate() {
             let ends = [0, 1].map(|time| link.closing(&self.u[time]));
             let forces = [0, 1].map(|time| link.force(ends[time], link.closing(&self.rate[time])));
-            let closing = link.closing_of(&self.scratch, 0);
-            let leaning = 2.0 * link.closing_of(&self.moment, 0) - closing;
+            let moved = link.link.map_or_else(OverStep::default, |own| {
+                grounds.over_step(self.reduced.unsplit_ports() + own, step)
+            });
+            let closing = link.closing_of(&self.scratch, 0) + moved.area;
+            let leaning = 2.0 * (link.closing_of(&self.moment, 0) + moved.moment) - closing;
+            self.energy.ground += moved.work(forces, motion.bends[index], step);
             let work = forces[1] * ends[1]
                 - forces[0] * ends[0]
                 - (forces[1] - forces[0]) * closing / step
@@ -413,9 +440,10 @@ impl ModalStepper<'_> {
     }
 
     /// Adds the slopes of all link forces to modal jerks; modal accelerations stand in `scratch`.
-    pub(super) fn add_link_slopes(&mut self) {
+    pub(super) fn add_link_slopes(&mut self, grounds: &RunGrounds<'_>) {
         for link in &self.reduced.links {
-            let acceleration = link.closing_of(&self.scratch, 0);
+            let [.., moved] = link.moved_by_grounds(grounds, self.reduced, 0);
+            let acceleration = link.closing_of(&self.scratch, 0) + moved;
             let slope = link.force(link.closing(&self.rate[0]), acceleration);
             link.push.add(slope, &mut self.jerk);
         }

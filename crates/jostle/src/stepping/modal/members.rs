@@ -10,11 +10,10 @@ use super::mode_kernels::ROWS;
 use super::reduced::{Reduced, in_blocks};
 use super::unit_force::UnitForce;
 use crate::history::MemberHistory;
-use crate::motion::Ground;
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::member_ratios::MemberRatios;
-use crate::system::{BuildingSystem, System};
+use crate::system::{BuildingSystem, GroundsAt, System};
 
 /// Axial force, shear, moment.
 pub(super) const KINDS: usize = 3;
@@ -282,7 +281,7 @@ pub(super) struct Instant<'a> {
     /// Rates of accelerations without those of the loads.
     pub(super) jerk: &'a [f64],
     pub(super) time: f64,
-    pub(super) ground: Ground,
+    pub(super) ground: GroundsAt<'a>,
     pub(super) phases: &'a [ContactPhase],
     /// Whether accelerations followed a cubic since the last instant.
     pub(super) smooth: bool,
@@ -313,7 +312,8 @@ pub(super) struct MemberPeaks {
     /// Modal displacements, velocities, accelerations and jerks now and before, building by building.
     modal: [Vec<f64>; 2],
     time: f64,
-    ground: f64,
+    /// Ground acceleration of every building then.
+    ground: Vec<f64>,
     history: Option<MemberHistory>,
     /// Demand over capacity of those that are rated.
     ratios: Option<ModalRatios>,
@@ -378,7 +378,7 @@ impl MemberPeaks {
             is_linked: !reduced.links.is_empty(),
             modal: [(); 2].map(|()| vec![0.0; LISTS * reduced.modes()]),
             time: 0.0,
-            ground: 0.0,
+            ground: vec![0.0; reduced.buildings.len()],
             history: MemberHistory::new(system).filter(|_| records),
             ratios: ModalRatios::new(system, reduced),
             row: sizes().map(|n| vec![0.0; n]).collect(),
@@ -431,7 +431,7 @@ impl MemberPeaks {
                 let ends = StepEnds {
                     then: from,
                     now: to,
-                    ground: [self.ground, now.ground[0]],
+                    ground: [self.ground[index], now.ground.of(index)[0]],
                     moved: self.moved[index],
                     step,
                 };
@@ -439,7 +439,9 @@ impl MemberPeaks {
             }
         }
         self.time = now.time;
-        self.ground = now.ground[0];
+        for (index, ground) in self.ground.iter_mut().enumerate() {
+            *ground = now.ground.of(index)[0];
+        }
     }
 
     /// Replaces velocities, accelerations and jerks of the last instant, after they have jumped.
@@ -512,9 +514,10 @@ impl MemberPeaks {
             .each_ref()
             .map(|list| &list[first..first + LISTS * count]);
         let reach = &self.reach[index];
+        let ground = [self.ground[index], instant.ground.of(index)[0]];
         let drive = Drive {
             rates: reach.greatest_rates(),
-            ground: instant.ground[0].abs().max(self.ground.abs()),
+            ground: ground[0].abs().max(ground[1].abs()),
             pushes: instant.phases.iter().map(|phase| phase.force().abs()).sum(),
             phases: instant.phases,
         };
@@ -528,7 +531,7 @@ impl MemberPeaks {
             now,
             then,
             count,
-            ground: [self.ground, instant.ground[0]],
+            ground,
             drive,
             cubic: instant.smooth && step > 0.0,
             is_bounded: !self.is_linked,
@@ -563,7 +566,7 @@ impl MemberPeaks {
                 if !self.wanted[index][*form] {
                     continue;
                 }
-                let mut sum = passed.ground[row][0] * now.ground[0];
+                let mut sum = passed.ground[row][0] * now.ground.of(index)[0];
                 let count = own.modes.len();
                 for (part, modal) in [now.q, now.v, now.a].into_iter().enumerate() {
                     for mode in 0..count {

@@ -112,7 +112,7 @@ impl Reduction {
         let buildings = 0..system.buildings.len();
         let rates: Vec<Rates> = buildings.map(|index| rates(system, index)).collect();
         let closeness = FLEXIBILITY_SHARE * plan.tolerance().min(USUAL_TOLERANCE);
-        match Reduced::new(system, &rates, closeness, &mut work) {
+        match Reduced::new(system, &rates, closeness, plan.vertical, &mut work) {
             Ok(reduced) => Ok(Self { reduced, work }),
             Err((building, source)) => Err(StepError::NotPositive {
                 building: system.buildings[building].name.clone(),

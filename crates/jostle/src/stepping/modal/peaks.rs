@@ -13,7 +13,7 @@ use crate::motion::Ground;
 use crate::stepping::events::Cubic;
 use crate::stepping::outcome::PlanPeaks;
 use crate::stepping::recorder::{columns, greatest_in_step};
-use crate::system::{Direction, System};
+use crate::system::{Direction, GroundsAt, RunGrounds, System};
 
 /// Recorder of histories and peaks.
 pub(super) struct Peaks {
@@ -71,26 +71,31 @@ pub(super) struct Taken<'a> {
     pub(super) then: Watched<'a>,
     pub(super) now: Watched<'a>,
     /// Ground acceleration at both.
-    pub(super) ground: [Ground; 2],
+    pub(super) ground: [GroundsAt<'a>; 2],
     pub(super) start: f64,
     pub(super) step: f64,
     pub(super) motion: StepMotion<'a>,
 }
 
 impl Peaks {
-    pub(super) fn new(system: &System, reduced: &Reduced, interval: Option<f64>) -> Self {
+    pub(super) fn new(
+        system: &System,
+        grounds: &RunGrounds<'_>,
+        reduced: &Reduced,
+        interval: Option<f64>,
+    ) -> Self {
         let watched = reduced.watched();
         let (mut driven, mut spare) = (vec![0.0; watched], vec![0.0; watched]);
         let participation = &reduced.participation[..];
         reduced.show([participation, participation], [&mut driven, &mut spare]);
         let mut across = Vec::new();
-        if !reduced.across.is_empty() {
+        if !reduced.second().is_empty() {
             across.resize(watched, 0.0);
-            let participation = &reduced.across[..];
+            let participation = reduced.second();
             reduced.show([participation, participation], [&mut across, &mut spare]);
         }
         Self {
-            history: interval.map(|_| History::new(columns(system))),
+            history: interval.map(|_| History::new(columns(system, grounds))),
             interval: interval.unwrap_or(0.0),
             due: 0.0,
             floors: system
@@ -327,12 +332,12 @@ impl Peaks {
             step,
             ..
         } = *taken;
-        if !self.driven[1].is_empty() {
+        if !self.driven[1].is_empty() || ground[0].is_split() {
             // Places see different components of the ground motion.
             self.seen.fill(true);
             return true;
         }
-        let ground = ground.map(|ground| ground[0]);
+        let ground = ground.map(|ground| ground.common[0]);
         Arch::new().dispatch(Exceeds {
             limits: &self.limits,
             ends: [then.lists(), now.lists()],
@@ -359,13 +364,14 @@ impl Peaks {
             step,
             ..
         } = *taken;
-        let ground_rate = [0, 1].map(|axis| (ground[1][axis] - ground[0][axis]) / step);
         for (index, building) in system.buildings.iter().enumerate() {
             let own = &reduced.buildings[index];
             let blocks = own.watched.start / ROWS..own.watched.end / ROWS;
             if !self.seen[blocks].contains(&true) {
                 continue;
             }
+            let ground = ground.map(|all| all.of(index));
+            let ground_rate = [0, 1].map(|axis| (ground[1][axis] - ground[0][axis]) / step);
             let foot = |of: Watched<'_>| {
                 own.foot.map_or([0.0; 2], |foot| {
                     let at = own.watched.start + foot;
@@ -435,6 +441,14 @@ impl Peaks {
                 }
             }
             self.corners[index].follow(own, [then, now], start, step);
+            for &[floor, at] in &own.rising {
+                let ends = Ends {
+                    then: [then.u[at], then.rate[at]],
+                    now: [now.u[at], now.rate[at]],
+                };
+                let greatest = &mut self.floors[index][floor].vertical_displacement;
+                ends.widen(greatest, step);
+            }
             let shear = own.shear;
             let shears = Ends {
                 then: [then.u[shear], then.rate[shear]],
@@ -460,6 +474,7 @@ impl Peaks {
         watched: Watched<'_>,
         links: &[f64],
         energy: &Energy,
+        grounds: &RunGrounds<'_>,
     ) {
         let Some(history) = &mut self.history else {
             return;
@@ -481,11 +496,13 @@ impl Peaks {
             }
         };
         put(time);
-        put(ground[0]);
+        put(ground.common[0]);
         if !reduced.across.is_empty() {
-            put(ground[1]);
+            put(ground.common[1]);
         }
-        for (building, own) in system.buildings.iter().zip(&reduced.buildings) {
+        for (index, (building, own)) in system.buildings.iter().zip(&reduced.buildings).enumerate()
+        {
+            let ground = ground.of(index);
             for (floor, track) in building.tracks.iter().enumerate().take(own.floors) {
                 let at = own.watched.start + floor;
                 put(watched.u[at]);
@@ -510,7 +527,7 @@ impl Peaks {
         }
         let contacts = system.contacts.iter().enumerate();
         contacts
-            .filter(|(_, contact)| contact.is_between_floors())
+            .filter(|(_, contact)| grounds.part || contact.is_between_floors())
             .for_each(|(contact, _)| put(reduced.closing(contact, watched.u)));
         links.iter().for_each(|force| put(*force));
         for followed in &system.links_followed {
@@ -531,7 +548,12 @@ impl Peaks {
             energy.contact,
         ]
         .into_iter()
-        .for_each(put);
+        .for_each(&mut put);
+        if grounds.part {
+            std::iter::once(energy.ground)
+                .chain(grounds.displacements())
+                .for_each(put);
+        }
         debug_assert!(row.next().is_none(), "every column has a value");
     }
 }

@@ -19,7 +19,7 @@ use crate::interface::{DofRow, InterfaceGraph};
 use crate::linear::NotPositive;
 use crate::motion::Ground;
 use crate::simd;
-use crate::system::{BuildingSystem, Direction, System};
+use crate::system::{BuildingSystem, Direction, GroundsAt, System};
 
 /// A row of buildings as oscillators, with their displacements at floors and contacts.
 pub(super) struct Reduced {
@@ -30,6 +30,9 @@ pub(super) struct Reduced {
     /// Γ = φᵀM r along x, and across; the latter is empty in one plane \[kg^½\].
     pub(super) participation: Vec<f64>,
     pub(super) across: Vec<f64>,
+    /// Γ upwards; empty unless the ground shakes vertically \[kg^½\].
+    pub(super) upwards: Vec<f64>,
+    vertical: bool,
     /// Direction of every monitored displacement; points of contacts and links count as along x.
     pub(super) directions: Vec<Direction>,
     pub(super) buildings: Vec<ReducedBuilding>,
@@ -74,6 +77,8 @@ pub(super) struct ReducedBuilding {
     pub(super) floors: usize,
     /// Displacements of corners along x and across in turn, among all.
     pub(super) corners: Range<usize>,
+    /// Floors, from 0, and places of vertical displacements among all.
+    pub(super) rising: Vec<[usize; 2]>,
     pub(super) foot: Option<usize>,
     pub(super) shear: usize,
     /// Shapes at a block of monitored displacements, mode by mode; padding rows are zero \[kg^−½\].
@@ -120,11 +125,12 @@ impl Reduced {
         system: &System,
         rates: &[Rates],
         closeness: f64,
+        vertical: bool,
         work: &mut Work,
     ) -> Result<Self, (usize, NotPositive)> {
         let mut bases = Vec::with_capacity(system.buildings.len());
         for (index, building) in system.buildings.iter().enumerate() {
-            let Watched { places, ports, .. } = Watched::new(system, index);
+            let Watched { places, ports, .. } = Watched::new(system, index, vertical);
             let Rates { pushed, swaying } = rates[index];
             let [low, high] = COMPARED.map(|factor| factor * pushed);
             let mut struck = system.contacts.iter().filter(|contact| {
@@ -154,6 +160,7 @@ impl Reduced {
             let basis = if struck.next().is_some()
                 || building.modal_damping.is_some()
                 || building.is_in_space()
+                || vertical
             {
                 Basis::complete(building)
             } else {
@@ -164,7 +171,7 @@ impl Reduced {
             work.solves += basis.solves;
             bases.push(Arc::new(basis));
         }
-        Self::with_bases(system, bases, work)
+        Self::with_bases(system, bases, vertical, work)
     }
 
     /// The same with defects of some modes of every building added, or with all natural modes of these buildings.
@@ -192,12 +199,13 @@ impl Reduced {
             work.solves += basis.solves;
             bases.push(Arc::new(basis));
         }
-        Self::with_bases(system, bases, work)
+        Self::with_bases(system, bases, self.vertical, work)
     }
 
     fn with_bases(
         system: &System,
         bases: Vec<Arc<Basis>>,
+        vertical: bool,
         work: &mut Work,
     ) -> Result<Self, (usize, NotPositive)> {
         let mut contact_of: Vec<usize> = (0..system.contacts.len()).collect();
@@ -213,6 +221,8 @@ impl Reduced {
             stiffness: Vec::new(),
             participation: Vec::new(),
             across: Vec::new(),
+            upwards: Vec::new(),
+            vertical,
             directions: Vec::new(),
             buildings: Vec::new(),
             arch: Arch::new(),
@@ -248,7 +258,7 @@ impl Reduced {
 
     fn add_links(&mut self, system: &System) {
         let shown = |building: usize, row: DofRow| {
-            let Watched { places, .. } = Watched::new(system, building);
+            let Watched { places, .. } = Watched::new(system, building, self.vertical);
             let place = places.iter().position(|own| *own == row)?;
             Some(Shown {
                 building,
@@ -302,10 +312,16 @@ impl Reduced {
         let building = &system.buildings[index];
         let equations = &building.equations;
         let Watched {
-            places, corners, ..
-        } = Watched::new(system, index);
-        let corners = corners.start + self.watched()..corners.end + self.watched();
+            places,
+            corners,
+            rising,
+            ..
+        } = Watched::new(system, index, self.vertical);
         let watching = self.watched();
+        let rising = rising
+            .into_iter()
+            .map(|[floor, place]| [floor, watching + place]);
+        let corners = corners.start + self.watched()..corners.end + self.watched();
         let ends = system.edge_ends.iter().map(|end| &end.ports);
         let all = self.ports.iter_mut().zip(system.contact_ports());
         for (ports, pair) in all.chain(self.edge_ends.iter_mut().zip(ends)) {
@@ -333,6 +349,11 @@ impl Reduced {
         if building.is_in_space() {
             let driven = &equations.driven_across;
             self.across
+                .extend(basis.of_shapes(|vector| simd::dot(driven, vector)));
+        }
+        if self.vertical {
+            let driven = &equations.vertical_mass;
+            self.upwards
                 .extend(basis.of_shapes(|vector| simd::dot(driven, vector)));
         }
         let shear = basis.of_shapes(|vector| equations.base_shear(vector));
@@ -402,6 +423,7 @@ impl Reduced {
             floors: building.tracks.len(),
             foot: building.foot.map(|_| building.tracks.len()),
             corners,
+            rising: rising.collect(),
             shear: watching + shown.len() - 1,
             blocks,
             missed,
@@ -409,6 +431,47 @@ impl Reduced {
             basis,
         });
         Ok(())
+    }
+
+    /// Γ of the second component of the ground motion: across, or upwards.
+    pub(super) fn second(&self) -> &[f64] {
+        if self.across.is_empty() {
+            &self.upwards
+        } else {
+            &self.across
+        }
+    }
+
+    /// Number of contacts, without friction along their faces.
+    pub(super) fn unsplit_ports(&self) -> usize {
+        self.friction.len()
+    }
+
+    /// Modal loads of grounds.
+    pub(super) fn set_loads_of(&self, grounds: GroundsAt<'_>, loads: &mut [f64]) {
+        if !grounds.is_split() {
+            return self.set_ground_loads(grounds.common, loads);
+        }
+        for (index, building) in self.buildings.iter().enumerate() {
+            let ground = grounds.of(index);
+            let loads = &mut loads[building.modes.clone()];
+            loads.fill(0.0);
+            self.add_ground_loads(index, ground, loads);
+        }
+    }
+
+    /// Adds the loads of a ground acceleration to those of the modes of one building.
+    pub(super) fn add_ground_loads(&self, building: usize, ground: Ground, loads: &mut [f64]) {
+        let modes = self.buildings[building].modes.clone();
+        for (load, participation) in loads.iter_mut().zip(&self.participation[modes.clone()]) {
+            *load -= participation * ground[0];
+        }
+        if self.second().is_empty() {
+            return;
+        }
+        for (load, participation) in loads.iter_mut().zip(&self.second()[modes]) {
+            *load -= participation * ground[1];
+        }
     }
 
     /// Modal loads of the ground motion.
@@ -428,6 +491,18 @@ impl Reduced {
             0.0
         } else {
             simd::dot(&self.across, list)
+        };
+        [along, across]
+    }
+
+    /// The same of one building.
+    pub(super) fn driven_of(&self, building: usize, list: &[f64]) -> [f64; 2] {
+        let modes = self.buildings[building].modes.clone();
+        let along = simd::dot(&self.participation[modes.clone()], &list[modes.clone()]);
+        let across = if self.second().is_empty() {
+            0.0
+        } else {
+            simd::dot(&self.second()[modes.clone()], &list[modes])
         };
         [along, across]
     }
@@ -507,10 +582,15 @@ impl Reduced {
         }
     }
 
-    /// Left minus right of monitored values of a contact; a wall has zero.
+    /// Left minus right of monitored values of a contact; a wall has zero. Lists that go on beyond the monitored values
+    /// hold what the grounds add, contact by contact and link by link.
     #[inline]
     pub(super) fn closing(&self, contact: usize, values: &[f64]) -> f64 {
-        Self::apart(self.ports[contact], values)
+        let apart = Self::apart(self.ports[contact], values);
+        match values.get(self.watched() + contact) {
+            Some(grounds) => apart + grounds,
+            None => apart,
+        }
     }
 
     /// Left minus right of monitored values; a wall has zero.
@@ -571,10 +651,12 @@ struct Watched {
     ports: Vec<DofRow>,
     /// Corners in plan among the places.
     corners: Range<usize>,
+    /// Floors, from 0, and their vertical displacements among the places.
+    rising: Vec<[usize; 2]>,
 }
 
 impl Watched {
-    fn new(system: &System, index: usize) -> Self {
+    fn new(system: &System, index: usize, vertical: bool) -> Self {
         let building = &system.buildings[index];
         let floors = building.tracks.iter().map(|track| track.dof);
         let mut places: Vec<DofRow> = floors
@@ -583,6 +665,13 @@ impl Watched {
             .collect();
         let corners = places.len()..places.len() + 2 * building.corners.len();
         places.extend(building.corners.iter().flat_map(|corner| corner.rows));
+        let mut rising = Vec::new();
+        if vertical {
+            for (floor, dof) in building.vertical_points() {
+                rising.push([floor, places.len()]);
+                places.push(DofRow::single(dof - building.offset));
+            }
+        }
         let mut ports = Vec::new();
         let contacts = system.contact_ports().map(|ports| ports.0);
         let links = system.links.iter().map(|link| link.ports.0);
@@ -603,6 +692,7 @@ impl Watched {
             places,
             ports,
             corners,
+            rising,
         }
     }
 }

@@ -27,7 +27,7 @@ use crate::stepping::plan::Plan;
 use crate::stepping::predicted_force::PredictedForce;
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::stepping::step_friction::FrictionPath;
-use crate::system::System;
+use crate::system::{RunGrounds, System};
 
 /// Modal coordinates of all buildings, and how their steps are taken.
 pub(super) struct ModalStepper<'a> {
@@ -139,22 +139,28 @@ pub(super) fn finish(
 impl<'a> ModalStepper<'a> {
     fn new(run: &RunState<'a>, settings: Settings, reduced: &'a Reduced, division: u32) -> Self {
         let (system, motion, plan) = (run.system, run.motion, run.plan);
-        let ground = run.ground[0];
+        let grounds = run.grounds_at(0);
         let division = division * division_for_links(system, plan);
-        let (modes, watched) = (reduced.modes(), reduced.watched());
+        let (modes, watched) = (reduced.modes(), reduced.watched() + run.grounds.joints());
         let pair = |n: usize| [vec![0.0; n], vec![0.0; n]];
         let mut p = pair(modes);
-        reduced.set_ground_loads(ground, &mut p[0]);
+        reduced.set_loads_of(grounds, &mut p[0]);
         let contacts = system.contacts.len();
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
-        let mut peaks = Peaks::new(system, reduced, settings.record_interval);
+        let mut peaks = Peaks::new(system, &run.grounds, reduced, settings.record_interval);
         peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
         let mut acceleration = pair(watched);
         // At rest on moving ground buildings stay behind.
-        for (place, acceleration) in acceleration[0].iter_mut().enumerate() {
-            *acceleration = peaks.driven_by(place, ground.map(|value| -value));
+        for (index, building) in reduced.buildings.iter().enumerate() {
+            let ground = grounds.of(index).map(|value| -value);
+            for place in building.watched.clone() {
+                acceleration[0][place] = peaks.driven_by(place, ground);
+            }
+        }
+        for joint in 0..run.grounds.joints() {
+            acceleration[0][reduced.watched() + joint] = run.grounds.closing(joint, 0)[2];
         }
         Self {
             free_steps: FreeSteps::new(reduced),
@@ -317,6 +323,10 @@ impl<'a> ModalStepper<'a> {
     fn follow(&mut self, run: &mut RunState<'_>) {
         let watched = [&mut self.u[1][..], &mut self.rate[1][..]];
         self.reduced.show([&self.q[1], &self.v[1]], watched);
+        for joint in 0..run.grounds.joints() {
+            let place = self.reduced.watched() + joint;
+            [self.u[1][place], self.rate[1][place], _] = run.grounds.closing(joint, 1);
+        }
         self.read_trials(run);
     }
 
@@ -350,11 +360,12 @@ impl<'a> ModalStepper<'a> {
 
     /// Adds the peaks of an accepted step, whose modal accelerations at the end are in `scratch` and whose
     /// jerks without the load term, in `jerk`.
-    fn look(&mut self, run: &RunState<'_>, ground: [Ground; 2], start: f64, step: f64) {
+    fn look(&mut self, run: &RunState<'_>, common: [Ground; 2], start: f64, step: f64) {
         let reduced = self.reduced;
+        let ground = [run.grounds.at(1, common[0]), run.grounds.at(0, common[1])];
         self.acceleration.swap(0, 1);
         self.unloaded_jerk.swap(0, 1);
-        self.show_accelerations();
+        self.show_accelerations(&run.grounds);
         let at = |time: usize| Watched {
             u: &self.u[time],
             rate: &self.rate[time],
@@ -400,14 +411,18 @@ impl<'a> ModalStepper<'a> {
             a: &self.scratch,
             jerk: &self.jerk,
             time: run.time,
-            ground: run.ground[0],
+            ground: run.grounds_at(0),
             phases: &run.phases,
             smooth: open && !was_struck,
         };
         self.peaks.follow_forces(run.system, reduced, now);
     }
 
-    fn show_accelerations(&mut self) {
+    fn show_accelerations(&mut self, grounds: &RunGrounds<'_>) {
+        for joint in 0..grounds.joints() {
+            let place = self.reduced.watched() + joint;
+            self.acceleration[0][place] = grounds.closing(joint, 0)[2];
+        }
         self.reduced.show(
             [&self.scratch, &self.jerk],
             [&mut self.acceleration[0], &mut self.unloaded_jerk[0]],
@@ -418,7 +433,7 @@ impl<'a> ModalStepper<'a> {
     fn start_anew(&mut self, run: &RunState<'_>) {
         self.accelerations();
         self.jerks();
-        self.add_link_slopes();
+        self.add_link_slopes(&run.grounds);
         for index in 0..run.phases.len() {
             let slope = self.slope_from_here(run, index);
             if slope != 0.0 {
@@ -433,7 +448,7 @@ impl<'a> ModalStepper<'a> {
                 );
             }
         }
-        self.show_accelerations();
+        self.show_accelerations(&run.grounds);
         let jumped = [&self.v[0][..], &self.scratch, &self.jerk];
         self.peaks.restart(self.reduced, jumped);
     }
@@ -453,7 +468,7 @@ impl<'a> ModalStepper<'a> {
                 a: &self.scratch,
                 jerk: &self.jerk,
                 time: run.time,
-                ground: run.ground[0],
+                ground: run.grounds_at(0),
                 phases: &run.phases,
                 smooth: true,
             };
@@ -464,6 +479,7 @@ impl<'a> ModalStepper<'a> {
                 watched,
                 &self.links.forces,
                 energy,
+                &run.grounds,
             );
         }
     }
@@ -552,12 +568,12 @@ impl Stepper for ModalStepper<'_> {
         slot: usize,
         end: Clock,
     ) -> Result<(), StepError> {
-        run.ground[1] = run.motion.components(end.time());
-        self.reduced.set_ground_loads(run.ground[1], &mut self.p[1]);
+        run.move_grounds(end.time());
+        self.reduced.set_loads_of(run.grounds_at(1), &mut self.p[1]);
         self.predict_forces(run, self.tables[slot].step);
         self.advance_modes(slot);
         if !self.reduced.links.is_empty() {
-            self.press_links(slot);
+            self.press_links(&run.grounds, slot);
         }
         run.work.solves += 1;
         self.follow(run);
@@ -623,7 +639,7 @@ impl Stepper for ModalStepper<'_> {
         let free = (slot != 0 && !run.in_contact()).then_some(self.tables[slot].step);
         self.checks_errors = self.reached.widen(&self.scratch, free);
         self.jerks();
-        self.add_link_slopes();
+        self.add_link_slopes(&run.grounds);
     }
 
     fn end_slope(
@@ -635,7 +651,7 @@ impl Stepper for ModalStepper<'_> {
         step: f64,
     ) -> f64 {
         let law = &run.system.contacts[contact].law;
-        let acceleration = self.relative_acceleration(contact);
+        let acceleration = self.relative_acceleration(run, contact);
         let slope_at = |indentation: f64, rate: f64| {
             let response = law.follow(indentation, rate, &episode.memory);
             response.by_indentation * rate + response.by_rate * acceleration
@@ -704,7 +720,7 @@ impl Stepper for ModalStepper<'_> {
                 self.reduced,
                 &self.scratch,
                 watched,
-                run.ground[0],
+                run.grounds_at(0),
                 self.peaks.forces(),
             );
         }
@@ -743,6 +759,12 @@ impl Stepper for ModalStepper<'_> {
 
     fn change_force(&mut self, _: &RunState<'_>, contact: usize, change: f64) {
         self.reduced.push_apart(contact, change, &mut self.p[0]);
+    }
+
+    fn change_ground(&mut self, _: &RunState<'_>, building: usize, change: Ground) {
+        let modes = self.reduced.buildings[building].modes.clone();
+        self.reduced
+            .add_ground_loads(building, change, &mut self.p[0][modes]);
     }
 
     fn jump_velocities(

@@ -2,7 +2,7 @@
 //! modes answer at once.
 
 use super::reduced::{Reduced, Table};
-use crate::motion::Ground;
+use crate::system::GroundsAt;
 
 /// Levels of instants at which the exact motion is evaluated, each closer to the start than the one before.
 const LEVELS: usize = 3;
@@ -17,7 +17,7 @@ pub(super) struct StruckStep<'a> {
     pub(super) loads: [&'a [f64]; 2],
     pub(super) bend: &'a [f64],
     /// Ground acceleration at both ends \[m/s²\].
-    pub(super) ground: [Ground; 2],
+    pub(super) ground: [GroundsAt<'a>; 2],
     pub(super) step: f64,
 }
 
@@ -111,14 +111,18 @@ impl WithinStep {
             *a = p - d * v - k * q;
         }
         self.last.rotate_right(1);
-        let [g0, g1] = start.ground;
-        let ground = [0, 1].map(|axis| g0[axis] + (g1[axis] - g0[axis]) * time / start.step);
         let [latest, middle, first] = &mut self.last;
         latest.0 = time;
         let modal = [&self.modal[..], &self.modal];
         reduced.show(modal, [&mut latest.1, &mut self.spare]);
+        for (index, building) in reduced.buildings.iter().enumerate() {
+            let [g0, g1] = start.ground.map(|all| all.of(index));
+            let ground = [0, 1].map(|axis| g0[axis] + (g1[axis] - g0[axis]) * time / start.step);
+            for place in building.watched.clone() {
+                latest.1[place] += reduced.directions[place].of_ground(ground);
+            }
+        }
         for (place, greatest) in self.greatest.iter_mut().enumerate() {
-            latest.1[place] += reduced.directions[place].of_ground(ground);
             *greatest = greatest.max(latest.1[place].abs());
             if first.0.is_finite() {
                 let points = [&*first, &*middle, &*latest].map(|(time, list)| (*time, list[place]));

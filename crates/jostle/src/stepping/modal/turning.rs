@@ -5,9 +5,8 @@ use super::mode_kernels::LANES;
 use super::peaks::Ends;
 use super::reduced::{Reduced, filled};
 use super::response::Responses;
-use crate::motion::Ground;
 use crate::stepping::events::Cubic;
-use crate::system::Direction;
+use crate::system::{Direction, GroundsAt};
 
 /// Fraction of the greatest value so far from which turning points of cubics are looked at exactly.
 pub(super) const NEAR_GREATEST: f64 = 0.95;
@@ -21,7 +20,7 @@ pub(super) struct StepMotion<'a> {
     pub(super) start: [&'a [f64]; 2],
     pub(super) loads: Loads<'a>,
     /// Ground acceleration at both ends \[m/s²\].
-    pub(super) ground: [Ground; 2],
+    pub(super) ground: [GroundsAt<'a>; 2],
     pub(super) step: f64,
 }
 
@@ -40,7 +39,8 @@ impl StepMotion<'_> {
         let [first, last, bend] = match self.loads {
             Loads::Ground => {
                 let share = -reduced.participation[mode];
-                [share * self.ground[0][0], share * self.ground[1][0], 0.0]
+                let [then, now] = self.ground.map(|all| all.common[0]);
+                [share * then, share * now, 0.0]
             }
             Loads::Parabolas(lists) => lists.map(|list| list[mode]),
         };
@@ -62,7 +62,8 @@ impl StepMotion<'_> {
         tau: f64,
     ) -> [f64; 2] {
         let own = &reduced.buildings[building];
-        let [g0, g1] = self.ground.map(|ground| direction.of_ground(ground));
+        let grounds = self.ground.map(|all| all.of(building));
+        let [g0, g1] = grounds.map(|ground| direction.of_ground(ground));
         let mut sums = [g0 + (g1 - g0) * tau, (g1 - g0) / self.step];
         for first in own.modes.clone().step_by(LANES) {
             let modes = first..(first + LANES).min(own.modes.end);

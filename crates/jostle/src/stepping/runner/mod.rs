@@ -145,6 +145,7 @@ impl<S: Stepper> Runner<'_, S> {
     fn next_step(&self) -> NextStep {
         let next = self.run.clock.next_step(self.stepper.division(&self.run));
         let left = self.run.motion.duration - self.run.time;
+        let left = left.min(self.run.until_corner());
         if next.length > left * (1.0 + 1e-9) {
             return NextStep {
                 length: left,
@@ -153,6 +154,27 @@ impl<S: Stepper> Runner<'_, S> {
             };
         }
         next
+    }
+
+    /// Passes a jump of the ground acceleration of any building.
+    fn pass_ground_jump(&mut self) {
+        if !self.run.ground_jumps {
+            return;
+        }
+        let time = self.run.time;
+        let mut jumped = false;
+        for building in 0..self.run.system.buildings.len() {
+            let jump = self.run.grounds.jump(building, time);
+            if jump != [0.0; 2] {
+                self.stepper.change_ground(&self.run, building, jump);
+                jumped = true;
+            }
+        }
+        self.run.grounds.pass_jump(time);
+        if jumped {
+            self.stepper.restart(&self.run, false);
+            self.stepper.after_event(&self.run);
+        }
     }
 
     /// Moves on to the end of the tried step.
@@ -167,12 +189,15 @@ impl<S: Stepper> Runner<'_, S> {
         self.run.time = end.time();
         let ground = self.run.ground;
         self.run.ground[0] = ground[1];
+        self.run.grounds.accept();
         self.stepper.arrive(&mut self.run, slot);
         self.finish_episodes(step, start);
         self.stepper.relax_divisions(&mut self.run);
         self.run.work.steps += 1;
         self.run.work.contact_steps += u64::from(was_closed);
         self.stepper
-            .after_step(&mut self.run, start, step, ground, was_closed)
+            .after_step(&mut self.run, start, step, ground, was_closed)?;
+        self.pass_ground_jump();
+        Ok(())
     }
 }

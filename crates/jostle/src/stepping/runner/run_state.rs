@@ -11,7 +11,10 @@ use crate::stepping::face_forces::FaceForces;
 use crate::stepping::gap_forces::GapForces;
 use crate::stepping::outcome::{Pounding, Settings};
 use crate::stepping::plan::Plan;
-use crate::system::System;
+use crate::system::{GroundsAt, RunGrounds, System};
+
+/// Shortest step to a corner of a ground acceleration, in free-vibration steps.
+const SHORTEST_TO_CORNER: f64 = 1e-5;
 
 /// Clock, contacts and results of a run.
 pub(in crate::stepping) struct RunState<'a> {
@@ -24,6 +27,12 @@ pub(in crate::stepping) struct RunState<'a> {
     pub(in crate::stepping) time: f64,
     /// Ground acceleration now and at the end of the tried step \[m/s²\].
     pub(in crate::stepping) ground: [Ground; 2],
+    /// Grounds of the single buildings, if they have their own.
+    pub(in crate::stepping) grounds: RunGrounds<'a>,
+    /// Whether the accelerations of any of them may jump.
+    pub(in crate::stepping) ground_jumps: bool,
+    /// Whether steps end at corners that are not on the grid.
+    pub(in crate::stepping) cuts_at_corners: bool,
     pub(in crate::stepping) phases: Vec<ContactPhase>,
     /// Of contacts, then of links, or of friction along contacts in the order of contacts.
     pub(in crate::stepping) trials: Vec<ContactTrial>,
@@ -64,6 +73,9 @@ impl<'a> RunState<'a> {
             },
             time: 0.0,
             ground: [ground, ground],
+            grounds: RunGrounds::new(system, motion),
+            ground_jumps: motion.grounds.is_some(),
+            cuts_at_corners: plan.chooses_contact_steps() && motion.has_corners_off(plan.step),
             phases: vec![ContactPhase::Open; contacts],
             trials: vec![
                 ContactTrial::default();
@@ -79,6 +91,29 @@ impl<'a> RunState<'a> {
             impacts: Vec::new(),
             work: Work::default(),
         }
+    }
+
+    /// Time to the next corner of any ground acceleration that steps must end on, if buildings have grounds of their own:
+    /// every one that is not on the grid, and jumps \[s\].
+    pub(in crate::stepping) fn until_corner(&self) -> f64 {
+        if !self.ground_jumps {
+            return f64::INFINITY;
+        }
+        // What is so close has been reached.
+        let from = self.time + SHORTEST_TO_CORNER * self.plan.step;
+        let corner = self.grounds.next_corner(from, self.cuts_at_corners);
+        corner.map_or(f64::INFINITY, |corner| corner - self.time)
+    }
+
+    /// Ground accelerations now (0), or at the end of the tried step (1).
+    pub(in crate::stepping) fn grounds_at(&self, time: usize) -> GroundsAt<'_> {
+        self.grounds.at(time, self.ground[time])
+    }
+
+    /// Moves the grounds to the end of the tried step \[s\].
+    pub(in crate::stepping) fn move_grounds(&mut self, end: f64) {
+        self.ground[1] = self.motion.components(end);
+        self.grounds.try_end(end);
     }
 
     /// Whether the tried step has a closed contact.

@@ -208,6 +208,9 @@ pub(in crate::stepping) trait Stepper {
         let _ = contact;
     }
 
+    /// A sudden change of the ground acceleration of a building \[m/s²\].
+    fn change_ground(&mut self, run: &RunState<'_>, building: usize, change: Ground);
+
     /// A sudden change of a contact force \[N\].
     fn change_force(&mut self, run: &RunState<'_>, contact: usize, change: f64);
 

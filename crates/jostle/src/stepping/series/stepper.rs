@@ -95,7 +95,12 @@ impl SeriesStepper {
             work: spring.hysteresis.recoverable_energy(memory),
         });
         let contacts = system.contacts.iter().map(|contact| &contact.ports);
-        let mut recorder = Recorder::new(system, motion.duration, settings.record_interval);
+        let mut recorder = Recorder::new(
+            system,
+            &run.grounds,
+            motion.duration,
+            settings.record_interval,
+        );
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
@@ -116,7 +121,7 @@ impl SeriesStepper {
             open_steps: vec![0; system.contacts.len()],
             least_division: settings.rows_per_step(plan),
             length: 0.0,
-            audit: EnergyAudit::starting_from(system, &state),
+            audit: EnergyAudit::starting_from(system, &state, &run.grounds),
             recorder,
             peaks: SeriesPeaks::new(system, motion.duration, totals.collect()),
             stages: springs()
@@ -145,7 +150,7 @@ impl SeriesStepper {
         for spring in 0..self.stages.len() {
             self.note_stage(system, spring, None);
         }
-        let energy = self.audit.balance(system, &self.state);
+        let energy = self.audit.balance(system, &self.state, &run.grounds);
         let residual = self.residual();
         let step_of = |division: u32| run.plan.step / f64::from(division);
         let contact_step = Some(run.finest_in_contact)
@@ -355,7 +360,8 @@ impl SeriesStepper {
             state: &self.state,
             contacts: &run.phases,
             links: &[],
-            ground: run.ground[0][0],
+            grounds: &run.grounds,
+            ground: run.grounds_at(0),
         };
         self.recorder
             .record(run.system, &instant, wanted, &mut self.audit);
@@ -371,6 +377,9 @@ fn ground_line([start, end]: [Ground; 2], step: f64) -> GroundLine {
 }
 
 impl Stepper for SeriesStepper {
+    /// No run of this stepper has grounds of its own.
+    fn change_ground(&mut self, _: &RunState<'_>, _: usize, _: Ground) {}
+
     fn ends_steps_at_corners(&self, _: &RunState<'_>) -> bool {
         true
     }

@@ -1,0 +1,277 @@
+//! Ground that differs under the buildings of a model file: arrivals, own records, loss of coherency, and vertical shaking.
+
+use jostle::{GroundMotion, Grounds, OwnGround, Wave};
+use jostle_motion::{Accelerogram, Coherency, MotionFault, coherent_with};
+
+use crate::motion_spec::{MotionError, MotionSource, MotionSpec, Scaling};
+
+/// What `[motion]`, `[building.motion]` and positions say of grounds that differ.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GroundsSpec {
+    /// Speed at which waves pass along the row, > 0; arrivals are positions over it \[m/s\].
+    pub apparent_velocity: Option<f64>,
+    /// What becomes of velocities that drift; `None` refuses records that differ and drift apart.
+    pub baseline: Option<Baseline>,
+    /// Loss of coherency with distance.
+    pub coherency: Option<Coherency>,
+    /// Vertical shaking.
+    pub vertical: Option<Box<OwnMotionSpec>>,
+    /// The ground under every building, then under every wall.
+    pub own: Vec<OwnGroundSpec>,
+}
+
+/// The ground under one building or wall.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OwnGroundSpec {
+    /// Name of the building or wall.
+    pub name: String,
+    /// Place along the row \[m\].
+    pub position: Option<f64>,
+    /// When the motion arrives, ≥ 0 \[s\].
+    pub arrival: Option<f64>,
+    /// Its own motion.
+    pub motion: Option<Box<OwnMotionSpec>>,
+    /// Its own vertical motion.
+    pub vertical: Option<Box<OwnMotionSpec>>,
+    /// A wall without a position moves with the building of this index, which it faces.
+    pub like: Option<usize>,
+}
+
+/// A motion beside the common one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OwnMotionSpec {
+    /// Its source; `None` is that of the common motion.
+    pub source: Option<MotionSource>,
+    /// Its scaling; without one it has the factor of the common motion.
+    pub scaling: Scaling,
+    /// Whether its sign is changed.
+    pub reverse: bool,
+}
+
+/// What becomes of velocities that do not end at rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Baseline {
+    /// Nothing.
+    AsRecorded,
+    /// The slope of the straight line from rest that fits the velocity best is removed from the acceleration.
+    Linear,
+    /// The same with the slope of a parabola.
+    Quadratic,
+}
+
+impl Baseline {
+    /// Names in model files.
+    pub const NAMES: [&'static str; 3] = ["as-recorded", "linear", "quadratic"];
+
+    /// By its name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "as-recorded" => Some(Self::AsRecorded),
+            "linear" => Some(Self::Linear),
+            "quadratic" => Some(Self::Quadratic),
+            _ => None,
+        }
+    }
+
+    /// Corrects a record; waves given by a formula stay.
+    ///
+    /// # Errors
+    /// [`MotionFault`] for records that are too short.
+    pub(crate) fn correct(self, motion: &mut GroundMotion) -> Result<(), MotionFault> {
+        let degree = match self {
+            Self::AsRecorded => return Ok(()),
+            Self::Linear => 1,
+            Self::Quadratic => 2,
+        };
+        if let Wave::Sampled { step, acceleration } = &mut motion.wave {
+            let record = Accelerogram::new(*step, acceleration.clone())?;
+            let corrected = record.without_velocity_trend(degree)?;
+            *acceleration = corrected.acceleration().to_vec();
+        }
+        Ok(())
+    }
+}
+
+/// End velocities may differ by this share of the greatest ground velocity (theory, Eq. B16).
+const MOST_DRIFT: f64 = 0.01;
+
+impl GroundsSpec {
+    /// Whether every building stands on the common ground and nothing shakes vertically.
+    #[must_use]
+    pub fn is_common(&self) -> bool {
+        let own = |own: &OwnGroundSpec| {
+            own.motion.is_none() && own.vertical.is_none() && own.arrival.is_none_or(|at| at == 0.0)
+        };
+        let waves = self.apparent_velocity.is_some() || self.coherency.is_some();
+        self.vertical.is_none() && !waves && self.own.iter().all(own)
+    }
+
+    /// The ground that a building or wall stands on.
+    fn under(&self, index: usize) -> &OwnGroundSpec {
+        let own = &self.own[index];
+        own.like.and_then(|like| self.own.get(like)).unwrap_or(own)
+    }
+
+    /// When the motion arrives at a building or wall, numbered from the first building \[s\].
+    #[must_use]
+    pub fn arrival(&self, index: usize) -> f64 {
+        let own = self.under(index);
+        match (own.arrival, own.position, self.apparent_velocity) {
+            (Some(arrival), _, _) => arrival,
+            (None, Some(position), Some(velocity)) => position / velocity,
+            (None, _, _) => 0.0,
+        }
+    }
+
+    /// The grounds in numbers, `spec` being resolved already as `common`.
+    ///
+    /// # Errors
+    /// [`MotionError`] with the building where it is to be found.
+    pub(crate) fn resolve(
+        &self,
+        spec: &MotionSpec,
+        common: &GroundMotion,
+    ) -> Result<Option<Box<Grounds>>, MotionError> {
+        if self.is_common() {
+            return Ok(None);
+        }
+        let made = self.coherent(common)?;
+        let common_vertical = self.vertical.as_deref();
+        let common_vertical = common_vertical
+            .map(|vertical| {
+                let found = self.motion(vertical, spec, common);
+                found.map_err(|error| within("motion.vertical", error))
+            })
+            .transpose()?;
+        let mut grounds = Vec::with_capacity(self.own.len());
+        for index in 0..self.own.len() {
+            let own = self.under(index);
+            let building = own.like.unwrap_or(index);
+            let path = |key: &str| format!("building[{building}].motion{key}");
+            let motion = own.motion.as_deref();
+            let motion = motion.map(|motion| {
+                let found = self.motion(motion, spec, common);
+                found.map_err(|error| within(&path(""), error))
+            });
+            let vertical = own.vertical.as_deref();
+            let vertical = vertical.map(|motion| {
+                let found = self.motion(motion, spec, common);
+                found.map_err(|error| within(&path(".vertical"), error))
+            });
+            grounds.push(OwnGround {
+                arrival: self.arrival(index),
+                motion: motion.transpose()?.or_else(|| made[index].clone()),
+                vertical: vertical.transpose()?.or_else(|| common_vertical.clone()),
+            });
+        }
+        self.check_drift(common, &grounds)?;
+        let own = |own: &OwnGround| *own != OwnGround::default();
+        let differ = grounds.iter().any(own);
+        Ok(differ.then(|| Box::new(Grounds { own: grounds })))
+    }
+
+    /// A motion beside the common one.
+    fn motion(
+        &self,
+        own: &OwnMotionSpec,
+        spec: &MotionSpec,
+        common: &GroundMotion,
+    ) -> Result<GroundMotion, MotionError> {
+        let source = own.source.as_ref().unwrap_or(&spec.source);
+        let mut motion = MotionSpec {
+            source: source.clone(),
+            scaling: own.scaling.clone(),
+            reverse: own.reverse,
+            duration: None,
+            bearing: None,
+            grounds: Some(Box::new(Self {
+                baseline: self.baseline,
+                ..Self::default()
+            })),
+        }
+        .resolve()?;
+        // Records of one event keep their ratio, and a share of the common motion is a share.
+        match (&own.scaling, &own.source) {
+            (Scaling::AsRecorded, _) | (Scaling::Factor(_), None) => motion.scale *= common.scale,
+            _ => {}
+        }
+        Ok(motion)
+    }
+
+    /// Motions that have lost coherency with the record, which is that of position 0.
+    fn coherent(&self, common: &GroundMotion) -> Result<Vec<Option<GroundMotion>>, MotionError> {
+        let Some(coherency) = &self.coherency else {
+            return Ok(vec![None; self.own.len()]);
+        };
+        let error = |error| MotionError::Coherency { error };
+        let Wave::Sampled { step, acceleration } = &common.wave else {
+            return Err(MotionError::NoRecord);
+        };
+        let record = Accelerogram::new(*step, acceleration.clone()).map_err(error)?;
+        let place = |index: usize| self.under(index).position.unwrap_or(0.0);
+        let places: Vec<f64> = (0..self.own.len()).map(place).collect();
+        let made = coherent_with(&record, &places, coherency).map_err(error)?;
+        let made = made.into_iter().zip(&places).map(|(made, place)| {
+            (*place != 0.0).then(|| GroundMotion {
+                name: format!("{} at {place} m", common.name),
+                scale: common.scale,
+                ..GroundMotion::sampled("", *step, made.acceleration().to_vec())
+            })
+        });
+        Ok(made.collect())
+    }
+
+    /// Refuses different records whose end velocities differ (theory, Eq. B16).
+    fn check_drift(&self, common: &GroundMotion, grounds: &[OwnGround]) -> Result<(), MotionError> {
+        if self.baseline.is_some() || self.coherency.is_some() {
+            return Ok(());
+        }
+        let mut known: Vec<(&GroundMotion, [f64; 2])> = Vec::new();
+        for own in grounds {
+            let motion = own.motion.as_ref().unwrap_or(common);
+            if !known.iter().any(|(other, _)| *other == motion) {
+                known.push((motion, end_and_peak(motion)));
+            }
+        }
+        let peak = known.iter().map(|(_, [_, peak])| *peak);
+        let peak = peak.fold(0.0_f64, f64::max);
+        let ends = || known.iter().map(|(motion, [end, _])| (motion, *end));
+        let least = ends().min_by(|a, b| a.1.total_cmp(&b.1));
+        let most = ends().max_by(|a, b| a.1.total_cmp(&b.1));
+        match (least, most) {
+            (Some((first, least)), Some((second, most))) if most - least > MOST_DRIFT * peak => {
+                Err(MotionError::Drift {
+                    names: [first.name.clone(), second.name.clone()],
+                    ends: [least, most],
+                    peak,
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Velocity at the end of a motion, and the greatest of all \[m/s\].
+fn end_and_peak(motion: &GroundMotion) -> [f64; 2] {
+    let alone = GroundMotion {
+        grounds: None,
+        ..motion.clone()
+    };
+    let path = alone.under(0);
+    let steps = match &alone.wave {
+        Wave::Sampled { step, .. } => (alone.duration / step).round(),
+        Wave::Sine { .. } | Wave::Ricker { .. } => 2000.0,
+    };
+    let at = |i: u32| path.at(alone.duration * f64::from(i) / steps).velocity;
+    let all = (0..=steps as u32).map(at);
+    [at(steps as u32), all.fold(0.0, |most, v| most.max(v.abs()))]
+}
+
+/// Puts an error at the place of a motion beside the common one.
+fn within(path: &str, error: MotionError) -> MotionError {
+    MotionError::Own {
+        path: path.to_owned(),
+        error: Box::new(error),
+    }
+}

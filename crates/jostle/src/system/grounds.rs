@@ -1,0 +1,214 @@
+//! The grounds of a run: one under all buildings, or one under each.
+
+use super::System;
+use crate::interface::PortPair;
+use crate::motion::{Ground, GroundMotion, GroundPath, GroundPoint, Side};
+
+/// How the grounds of a run move, now and at the end of the tried step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RunGrounds<'a> {
+    /// Of the buildings of the system, then of its walls; empty where one ground is under all.
+    paths: Vec<GroundPath<'a>>,
+    points: [Vec<GroundPoint>; 2],
+    /// Numbers of buildings and of walls of the model.
+    structures: usize,
+    walls: usize,
+    /// Grounds of the two sides of every contact, then of every link, where they move apart.
+    sides: Vec<Option<[usize; 2]>>,
+    /// Whether any of them do.
+    pub(crate) part: bool,
+}
+
+/// Ground accelerations at one instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroundsAt<'a> {
+    /// Of the common motion \[m/s²\].
+    pub(crate) common: Ground,
+    own: &'a [GroundPoint],
+}
+
+impl GroundsAt<'_> {
+    /// One ground under all buildings.
+    pub(crate) fn common(ground: Ground) -> Self {
+        Self {
+            common: ground,
+            own: &[],
+        }
+    }
+
+    /// Ground acceleration of a building of the system \[m/s²\].
+    #[inline]
+    pub(crate) fn of(&self, building: usize) -> Ground {
+        self.own
+            .get(building)
+            .map_or(self.common, |point| point.acceleration)
+    }
+
+    /// Whether buildings have grounds of their own.
+    pub(crate) fn is_split(&self) -> bool {
+        !self.own.is_empty()
+    }
+}
+
+impl<'a> RunGrounds<'a> {
+    pub(crate) fn new(system: &System, motion: &'a GroundMotion) -> Self {
+        if motion.grounds.is_none() {
+            return Self::default();
+        }
+        let structures = system.structures().len();
+        // Grounds are listed by building and wall of the model, paths by building of the system, then by wall.
+        let of_wall = |wall: usize| structures + wall;
+        let of_building = |building: usize| {
+            let mut walls = system.walls.iter();
+            let wall = walls.position(|wall| wall.building == Some(building));
+            wall.map_or(building, of_wall)
+        };
+        let listed: Vec<usize> = (0..system.buildings.len())
+            .map(of_building)
+            .chain((0..system.walls.len()).map(of_wall))
+            .collect();
+        let paths: Vec<GroundPath<'_>> = listed.iter().map(|own| motion.under(*own)).collect();
+        let side = |ports: &PortPair, walls: [Option<usize>; 2], side: usize| {
+            let wall = walls[side].map(|wall| system.buildings.len() + wall);
+            ports.0[side].map(|port| port.building).or(wall)
+        };
+        let contacts = system.contacts.iter().map(|contact| &contact.ports);
+        let links = system.links.iter().map(|link| &link.ports);
+        let walls = system.rigid_walls.iter().copied();
+        let none = std::iter::repeat([None; 2]);
+        let sides: Vec<_> = contacts
+            .chain(links)
+            .zip(walls.chain(none))
+            .map(|(ports, walls)| {
+                let pair = [side(ports, walls, 0)?, side(ports, walls, 1)?];
+                let [left, right] = pair.map(|own| listed[own]);
+                (!motion.moves_alike(left, right)).then_some(pair)
+            })
+            .collect();
+        let start: Vec<GroundPoint> = paths.iter().map(|path| path.at(0.0)).collect();
+        Self {
+            part: sides.iter().any(Option::is_some),
+            points: [start.clone(), start],
+            structures,
+            walls: system.walls.len(),
+            paths,
+            sides,
+        }
+    }
+
+    /// Moves the end of the tried step to an instant \[s\].
+    pub(crate) fn try_end(&mut self, t: f64) {
+        for (point, path) in self.points[1].iter_mut().zip(&self.paths) {
+            *point = path.on_side(t, Side::Before);
+        }
+    }
+
+    /// The tried step has been accepted. Until the next is tried, (1) is its start.
+    pub(crate) fn accept(&mut self) {
+        self.points.swap(0, 1);
+    }
+
+    /// What the ground acceleration of a building jumps by now, which is `t` \[m/s²\].
+    pub(crate) fn jump(&self, building: usize, t: f64) -> Ground {
+        match (self.paths.get(building), self.points[0].get(building)) {
+            (Some(path), Some(point)) => {
+                let after = path.at(t).acceleration;
+                [0, 1].map(|axis| after[axis] - point.acceleration[axis])
+            }
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Moves past a jump of the accelerations at `t`.
+    pub(crate) fn pass_jump(&mut self, t: f64) {
+        for (point, path) in self.points[0].iter_mut().zip(&self.paths) {
+            *point = path.at(t);
+        }
+    }
+
+    /// The first corner of any ground after `t`; only jumps of accelerations unless `corners` are asked for \[s\].
+    pub(crate) fn next_corner(&self, t: f64, corners: bool) -> Option<f64> {
+        let all = self.paths.iter();
+        let first = all.filter_map(|path| path.next_corner(t, corners));
+        let first = first.fold(f64::INFINITY, f64::min);
+        first.is_finite().then_some(first)
+    }
+
+    /// Accelerations now (0), or at the end of the tried step (1).
+    pub(crate) fn at(&self, time: usize, common: Ground) -> GroundsAt<'_> {
+        GroundsAt {
+            common,
+            own: &self.points[time],
+        }
+    }
+
+    /// How much closer the grounds of a contact, or of a link counted after the contacts, have moved, and the rate and the
+    /// acceleration of that; now (0), or at the end of the tried step (1) \[m, m/s, m/s²\].
+    #[inline]
+    pub(crate) fn closing(&self, joint: usize, time: usize) -> [f64; 3] {
+        let Some(Some([left, right])) = self.sides.get(joint) else {
+            return [0.0; 3];
+        };
+        let [left, right] = [left, right].map(|own| self.points[time][*own]);
+        [
+            left.displacement - right.displacement,
+            left.velocity - right.velocity,
+            left.acceleration[0] - right.acceleration[0],
+        ]
+    }
+
+    /// How much closer the grounds of a contact or link have moved at an instant \[m\].
+    pub(crate) fn closing_at(&self, joint: usize, t: f64) -> f64 {
+        let Some(Some(sides)) = self.sides.get(joint) else {
+            return 0.0;
+        };
+        let [left, right] = sides.map(|own| self.paths[own].at(t).displacement);
+        left - right
+    }
+
+    /// Displacement of the ground of every building and wall of the model now, in its order \[m\].
+    pub(crate) fn displacements(&self) -> impl Iterator<Item = f64> {
+        let (buildings, others) = self.points[0].split_at(self.structures);
+        let walls = &others[others.len() - self.walls.min(others.len())..];
+        let all = buildings.iter().chain(walls);
+        all.map(|point| point.displacement)
+    }
+
+    /// Numbers of contacts and links whose grounds may move apart: none, or all.
+    pub(crate) fn joints(&self) -> usize {
+        if self.part { self.sides.len() } else { 0 }
+    }
+
+    /// How the grounds of a contact or link move over the tried step, whose length is `step` \[s\].
+    pub(crate) fn over_step(&self, joint: usize, step: f64) -> OverStep {
+        let [d, v, a] = self.closing(joint, 0);
+        let [end, _, last] = self.closing(joint, 1);
+        let (h, rise) = (step, last - a);
+        OverStep {
+            ends: [d, end],
+            area: h * (d + h * (v / 2.0 + h * (a / 6.0 + rise / 24.0))),
+            moment: h * (d / 2.0 + h * (v / 3.0 + h * (a / 8.0 + rise / 30.0))),
+        }
+    }
+}
+
+/// How much closer two grounds are over a step: a cubic D.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct OverStep {
+    ends: [f64; 2],
+    /// ∫ D dt \[m·s\].
+    pub(crate) area: f64,
+    /// ∫ τ D dt, with τ from 0 to 1 over the step \[m·s\].
+    pub(crate) moment: f64,
+}
+
+impl OverStep {
+    /// ∫ F Ḋ dt of a force F₀ + (F₁ − F₀)τ + b(τ² − τ), by parts \[J\].
+    pub(crate) fn work(&self, [first, last]: [f64; 2], bend: f64, step: f64) -> f64 {
+        let leaning = 2.0 * self.moment - self.area;
+        last * self.ends[1]
+            - first * self.ends[0]
+            - (last - first) * self.area / step
+            - bend * leaning / step
+    }
+}
