@@ -16,6 +16,7 @@ mod envelope;
 mod facts;
 mod floor_spectra;
 mod format;
+mod grounds;
 mod hinges;
 mod joints;
 mod members;

@@ -6,8 +6,8 @@ use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{
-    Page, calculation, contact_box, describe, devices, floor_spectra, format, hinges, joints,
-    members, method, payload, site_plan, spread, tables,
+    Page, calculation, contact_box, describe, devices, floor_spectra, format, grounds, hinges,
+    joints, members, method, payload, site_plan, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -85,6 +85,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         (tables::peaks(page))
                     }
                     @if let Some(site) = site_plan::section(page) { (site) }
+                    @if let Some(grounds) = grounds::section(page) { (grounds) }
                     @if let Some(members) = members::section(page) { (members) }
                     @if let Some(spectra) = floor_spectra::section(page) { (spectra) }
                     (calculation::motion_section(page))

@@ -540,10 +540,19 @@ fn table(
     pack: &mut Packer,
 ) -> Table {
     let time = history.column(Column::Time).unwrap_or_default();
-    let columns: Vec<(String, Vec<f64>)> = wanted(page, history, energies)
+    let mut columns: Vec<(String, Vec<f64>)> = wanted(page, history, energies)
         .into_iter()
         .filter_map(|(name, column)| Some((name, history.column(column)?)))
         .collect();
+    if let Some(of_grounds) = history.column(Column::Energy(EnergyTerm::Ground)) {
+        // What the other energies add up to.
+        for (_, input) in columns.iter_mut().filter(|(name, _)| name == "e:input") {
+            input
+                .iter_mut()
+                .zip(&of_grounds)
+                .for_each(|(input, ground)| *input += ground);
+        }
+    }
     let mut closed = vec![false; time.len()];
     for (row, closed) in closed.iter_mut().enumerate() {
         *closed = force.iter().any(|f| f.get(row).is_some_and(|f| *f != 0.0));

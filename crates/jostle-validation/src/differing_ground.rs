@@ -13,7 +13,7 @@ use crate::data::{at, document, list, number, numbers};
 use crate::row::Row;
 
 /// Fixed steps in free vibration and in contact \[s\], for a method of second order, and the tolerance of the comparison.
-const FINE: ([f64; 2], f64) = ([2.5e-4, 2.5e-5], 1e-4);
+const FINE: ([f64; 2], f64) = ([2.5e-4, 1e-4], 1e-4);
 /// Automatic steps at this tolerance.
 const AUTOMATIC: f64 = 1e-3;
 /// Closure of the energy balance \[–\].

@@ -11,6 +11,7 @@ mod extremes_are_survived;
 mod forces_never_pull;
 mod foundations;
 mod given_structures;
+mod grounds;
 mod harmonic_pounding;
 mod isolation;
 mod linked_modal_stepping;

@@ -1,0 +1,244 @@
+//! Ground that differs, in model files.
+
+use std::path::Path;
+
+use jostle_io::{Format, Input, InputError, read_model_text};
+
+const TOWERS: &str = r#"
+[[building]]
+name = "A"
+kind = "shear"
+mass = ["40 t", "40 t"]
+stiffness = "30 MN/m"
+A_KEYS
+[[building]]
+name = "B"
+kind = "shear"
+mass = ["40 t", "40 t"]
+stiffness = "30 MN/m"
+B_KEYS
+[[gap]]
+between = ["A", "B"]
+width = "20 mm"
+"#;
+
+fn read(motion: &str, a: &str, b: &str, rest: &str) -> Result<Input, InputError> {
+    let towers = TOWERS.replace("A_KEYS", a).replace("B_KEYS", b);
+    let text = format!("[motion]\n{motion}\n{towers}\n{rest}");
+    read_model_text("model.toml", &text, Format::Toml, Path::new(""))
+}
+
+const EL_CENTRO: &str = "record = \"el-centro-1940-ns\"";
+
+/// The message of a file that is refused, on reading or when its motion is resolved.
+fn refused(motion: &str, a: &str, b: &str, rest: &str) -> String {
+    let error = match read(motion, a, b, rest) {
+        Err(error) => error,
+        Ok(input) => input.ground_motion().expect_err("it is refused"),
+    };
+    error.to_string()
+}
+
+#[test]
+fn arrivals_follow_from_positions_and_velocity() {
+    let passing = format!("{EL_CENTRO}\napparent_velocity = \"600 m/s\"");
+    let input = read(&passing, "position = \"12 m\"", "position = \"48 m\"", "").expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    assert!((motion.under(0).arrival() - 0.02).abs() < 1e-15);
+    assert!((motion.under(1).arrival() - 0.08).abs() < 1e-15);
+    assert_eq!(motion.corner_step(), Some(0.02));
+    let input = read(EL_CENTRO, "", "motion = { arrival = \"30 ms\" }", "").expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    assert_eq!([0, 1].map(|b| motion.under(b).arrival()), [0.0, 0.03]);
+    assert_eq!(motion.corner_step(), Some(0.01));
+    // Nothing differs.
+    let input = read(EL_CENTRO, "", "motion = { arrival = 0 }", "").expect("sound");
+    assert!(input.ground_motion().expect("a motion").grounds.is_none());
+}
+
+#[test]
+fn own_motions_have_their_own_scale_or_that_of_all() {
+    let scaled = format!("{EL_CENTRO}\npga = \"0.1 g\"");
+    let own = "motion = { record = \"el-centro-1940-ns\", reverse = true }";
+    let input = read(&scaled, "", own, "").expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    let scale = motion.scale;
+    let under = &motion.grounds.as_ref().expect("grounds").own[1];
+    assert_eq!(under.motion.as_ref().expect("its own").scale, -scale);
+    let input = read(&scaled, "", "motion = { scale = 0.5 }", "").expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    let under = &motion.grounds.as_ref().expect("grounds").own[1];
+    assert_eq!(under.motion.as_ref().expect("its own").scale, 0.5 * scale);
+    let upwards = format!("{scaled}\nvertical = {{ scale = 0.67 }}");
+    let motion = read(&upwards, "", "", "").expect("sound").ground_motion();
+    let motion = motion.expect("a motion");
+    let vertical = motion.grounds.expect("grounds").own[0].vertical.clone();
+    assert!((vertical.expect("vertical").scale - 0.67 * scale).abs() < 1e-15);
+}
+
+#[test]
+fn coherent_motions_repeat_and_differ_by_their_seed() {
+    let make = |seed: u32| {
+        let motion = format!(
+            "{EL_CENTRO}\ncoherency = {{ alpha = 0.1, shear_wave_velocity = \"300 m/s\", seed = {seed} }}"
+        );
+        let input = read(&motion, "position = 0", "position = \"40 m\"", "").expect("sound");
+        input.ground_motion().expect("a motion")
+    };
+    assert_eq!(make(1), make(1));
+    assert_ne!(make(1), make(2));
+    let grounds = make(1).grounds.expect("grounds").own;
+    assert!(grounds[0].motion.is_none() && grounds[1].motion.is_some());
+}
+
+#[test]
+fn walls_stand_on_the_ground_that_they_face() {
+    let wall = "[[wall]]\nname = \"moat\"\n[[gap]]\nbetween = [\"B\", \"moat\"]\nwidth = \"1 m\"\n";
+    let late = "motion = { arrival = \"30 ms\" }";
+    let input = read(EL_CENTRO, "", late, wall).expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    assert!(motion.moves_alike(1, 2) && !motion.moves_alike(0, 2));
+}
+
+#[test]
+fn drifting_records_need_a_baseline() {
+    let folder = std::env::temp_dir().join(format!("jostle-grounds-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let rows = |drift: f64| -> String {
+        let row = |i: u32| {
+            let t = 0.01 * f64::from(i);
+            format!("{t:.2} {:.6}\n", 2.0 * (6.0 * t).sin() + drift)
+        };
+        (0..500).map(row).collect()
+    };
+    std::fs::write(folder.join("one.txt"), rows(0.0)).expect("a file");
+    std::fs::write(folder.join("two.txt"), rows(0.05)).expect("a file");
+    let file = |name: &str| {
+        format!(
+            "record = '{}'\nunit = \"m/s2\"",
+            folder.join(name).display()
+        )
+    };
+    let own = format!("[building.motion]\n{}", file("two.txt"));
+    let text = refused(&file("one.txt"), "", &own, "");
+    assert!(
+        text.contains("drift apart") && text.contains("baseline"),
+        "{text}"
+    );
+    for baseline in ["as-recorded", "linear", "quadratic"] {
+        let motion = format!("{}\nbaseline = \"{baseline}\"", file("one.txt"));
+        let input = read(&motion, "", &own, "").expect("sound");
+        let motion = input.ground_motion().expect("a motion");
+        let ends = [0, 1].map(|b| motion.under(b).at(4.99).velocity);
+        let apart = (ends[0] - ends[1]).abs();
+        assert_eq!(apart < 1e-3, baseline != "as-recorded", "{ends:?}");
+    }
+    std::fs::remove_dir_all(&folder).expect("it is there");
+}
+
+#[test]
+fn mistakes_name_their_place_and_the_remedy() {
+    let passing = format!("{EL_CENTRO}\napparent_velocity = \"600 m/s\"");
+    let coherent = format!(
+        "{EL_CENTRO}\ncoherency = {{ alpha = 0.1, shear_wave_velocity = \"300 m/s\", seed = 1 }}"
+    );
+    let wall = "[[wall]]\nname = \"moat\"\n[[gap]]\nbetween = [\"A\", \"moat\"]\nwidth = 1\n[[gap]]\nbetween = [\"moat\", \"B\"]\nwidth = 1\n";
+    for (motion, a, b, rest, words) in [
+        (
+            EL_CENTRO,
+            "",
+            "motion = { arrival = \"-30 ms\" }",
+            "",
+            "must not be negative",
+        ),
+        (
+            &passing,
+            "position = 0",
+            "position = 5\nmotion = { arrival = 1 }",
+            "",
+            "cannot stand beside position",
+        ),
+        (&passing, "position = 0", "", "", "position"),
+        (
+            &passing,
+            "position = 0",
+            "position = \"-5 m\"",
+            "",
+            "would arrive before it begins",
+        ),
+        (
+            EL_CENTRO,
+            "position = 0",
+            "position = 5",
+            "",
+            "has no use without apparent_velocity",
+        ),
+        (
+            EL_CENTRO,
+            "",
+            "motion = { duration = 5 }",
+            "",
+            "belongs under [motion] only",
+        ),
+        (
+            EL_CENTRO,
+            "",
+            "motion = { record = \"nowhere\" }",
+            "",
+            "there is no record \"nowhere\"",
+        ),
+        (
+            EL_CENTRO,
+            "",
+            "motion = { record = [\"a\", \"b\"] }",
+            "",
+            "must be one record here",
+        ),
+        (
+            EL_CENTRO,
+            "",
+            "motion = { unit = \"g\" }",
+            "",
+            "does not go with the record of [motion]",
+        ),
+        (
+            &coherent,
+            "position = 0",
+            "position = 5\nmotion = { record = \"el-centro-1940-ns\" }",
+            "",
+            "beside coherency",
+        ),
+        (
+            EL_CENTRO,
+            "",
+            "motion = { arrival = 1 }",
+            wall,
+            "whose grounds differ",
+        ),
+        (
+            "record = \"el-centro-1940-ns\"\nbaseline = \"cubic\"",
+            "",
+            "",
+            "",
+            "\"cubic\" is not known",
+        ),
+        (
+            "record = \"el-centro-1940-ns\"\ncoherency = { alpha = -1, shear_wave_velocity = 300, seed = 1 }",
+            "",
+            "",
+            "",
+            "must not be negative",
+        ),
+        (
+            "kind = \"sine\"\namplitude = 1\nperiod = 1\nduration = 5\ncoherency = { alpha = 1, shear_wave_velocity = 300, seed = 1 }",
+            "position = 0",
+            "position = 5",
+            "",
+            "coherency needs a record",
+        ),
+    ] {
+        let text = refused(motion, a, b, rest);
+        assert!(text.contains(words), "{words}: {text}");
+        assert!(text.contains("model.toml:"), "{text}");
+    }
+}

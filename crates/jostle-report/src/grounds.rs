@@ -1,0 +1,103 @@
+//! Ground that differs: displacements of the grounds, and what they add to the closing of neighbours.
+
+use maud::{Markup, html};
+
+use crate::static_plot::{Line, Plot};
+use crate::{Page, format};
+
+/// Buildings and pairs shown at most.
+const SHOWN: usize = 12;
+/// Instants of a plot whose motion is no record.
+const INSTANTS: f64 = 1000.0;
+
+/// The section; nothing where one ground is under all.
+pub(crate) fn section(page: &Page) -> Option<Markup> {
+    page.motion.grounds.as_ref()?;
+    let names: Vec<&str> = page.model.buildings.iter().map(|b| &b.name[..]).collect();
+    let duration = page.motion.duration;
+    let step = page.motion.corner_step().unwrap_or(duration / INSTANTS);
+    let times: Vec<f64> = (0..=(duration / step).ceil().min(1e6) as u32)
+        .map(|i| (f64::from(i) * step).min(duration))
+        .collect();
+    let shown = names.len().min(SHOWN);
+    let moved: Vec<Vec<f64>> = (0..shown)
+        .map(|building| {
+            let path = page.motion.under(building);
+            times
+                .iter()
+                .map(|t| 1e3 * path.at(*t).displacement)
+                .collect()
+        })
+        .collect();
+    let points = |values: &mut dyn Iterator<Item = f64>| -> Vec<[f64; 2]> {
+        times
+            .iter()
+            .zip(values)
+            .map(|(t, value)| [*t, value])
+            .collect()
+    };
+    let grounds = names.iter().zip(&moved).enumerate();
+    let grounds = grounds.map(|(colour, (name, moved))| Line {
+        name: (*name).to_owned(),
+        points: points(&mut moved.iter().copied()),
+        colour,
+        dashed: false,
+    });
+    let pairs = (1..shown).map(|right| Line {
+        name: format!("{} − {}", names[right - 1], names[right]),
+        points: points(
+            &mut moved[right - 1]
+                .iter()
+                .zip(&moved[right])
+                .map(|(l, r)| l - r),
+        ),
+        colour: right - 1,
+        dashed: false,
+    });
+    let plot = |title: &str, y_label: &str, lines: Vec<Line>| Plot {
+        title: title.to_owned(),
+        x_label: "time [s]".to_owned(),
+        y_label: y_label.to_owned(),
+        logarithmic: false,
+        aspect: 0.45,
+        lines,
+    };
+    let first = plot(
+        "Displacement of the grounds",
+        "displacement [mm]",
+        grounds.collect(),
+    );
+    let second = plot(
+        "Part of the closing of neighbours that the grounds contribute",
+        "d left − d right [mm]",
+        pairs.collect(),
+    );
+    let of_buildings = page.summary.buildings.iter();
+    let of_buildings = of_buildings.filter_map(|building| Some((building, building.ground?)));
+    Some(html! {
+        section #grounds {
+            h2 { "Ground under the buildings" }
+            p.quiet {
+                "Displacements of the ground are exact integrals, from rest, of the accelerations that shake. Displacements of floors are \
+                 relative to the ground of their own building, also in the animation; closings of contacts include those of the grounds."
+            }
+            div.static-plots {
+                (first.figure())
+                @if shown > 1 { (second.figure()) }
+            }
+            table {
+                thead { tr { th { "building" } th { "arrival [s]" } th { "greatest displacement [mm]" } th { "at the end [mm]" } } }
+                tbody {
+                    @for (building, ground) in of_buildings {
+                        tr {
+                            td { (building.name) }
+                            td { (format::fixed(ground.arrival_s, 3)) }
+                            td { (format::fixed(1e3 * ground.displacement_peak_m, 1)) }
+                            td { (format::fixed(1e3 * ground.displacement_end_m, 1)) }
+                        }
+                    }
+                }
+            }
+        }
+    })
+}
