@@ -355,3 +355,24 @@ def test_the_former_name_of_from_any_still_works() -> None:
     with pytest.warns(DeprecationWarning, match="from_any"):
         model = jostle.Model.of("paper")
     assert model.title == jostle.Model.from_any("paper").title
+
+
+def test_buildings_stand_on_soil() -> None:
+    foundation = {"length_m": 12, "width": "12 m", "mass_t": 120}
+    towers = [
+        Shear("A", storeys=2, mass_t=40, stiffness_mn_m=60, foundation=foundation),
+        Shear("B", storeys=2, mass_t=60, stiffness_mn_m=160, foundation=foundation),
+    ]
+    gap = Gap(width_mm=10, law="linear", stiffness="500 MN/m")
+    soil = jostle.Soil(shear_wave_velocity="150 m/s", density="1800 kg/m3", poisson_ratio=0.33, coupling="static")
+    model = Model(towers, gap, soil=soil, motion={"record": "el-centro-1940-ns", "duration": "3 s"})
+    for building in jostle.run(model).summary["buildings"]:
+        own = building["foundation"]
+        assert own["period_ratio"] > 1.0
+        assert 0.0 < own["rocking_peak_rad"] < 0.01
+        assert own["sway_stiffness_n_m"] == pytest.approx(1.339e9, rel=1e-3)
+    with pytest.raises(ModelError, match=r"needs \[soil\]"):
+        Model(towers, gap)
+    matrix = np.diag([1e9, 5e10])
+    one = Model(towers[:1], soil=jostle.Soil(coupling={"stiffness": matrix, "damping": matrix / 100}))
+    assert one.description

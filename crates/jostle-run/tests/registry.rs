@@ -104,6 +104,22 @@ floors = [[0, "wall"]]
 width = "10 mm"
 "#;
 
+/// A building that sways and rocks on its foundation.
+const FOUNDED: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "3 s" }
+[soil]
+shear_wave_velocity = "150 m/s"
+density = "1800 kg/m3"
+poisson_ratio = 0.33
+[[building]]
+name = "A"
+kind = "shear"
+mass = ["100 t", "100 t"]
+stiffness = "200 MN/m"
+storey_height = "3 m"
+foundation = { length = "12 m", width = "10 m", mass = "100 t" }
+"#;
+
 fn summary() -> Summary {
     summary_of(MODEL)
 }
@@ -150,6 +166,7 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
     let space = serde_json::to_value(summary_of(IN_SPACE)).expect("a summary is JSON");
     let in_space = |owner: &&Owner| owner.title.ends_with("in plan");
     let isolated = serde_json::to_value(summary_of(ISOLATED)).expect("a summary is JSON");
+    let founded = serde_json::to_value(summary_of(FOUNDED)).expect("a summary is JSON");
     let all = owners();
     for owner in all.iter().filter(|owner| !owner.key.is_empty()) {
         if in_space(&owner) {
@@ -158,6 +175,8 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
             compare(&space, &same_key.collect::<Vec<_>>());
         } else if matches!(owner.title, "Bearings" | "Walls") {
             compare(&isolated, &[owner]);
+        } else if owner.title == "Foundations" {
+            compare(&founded, &[owner]);
         } else {
             compare(&plane, &[owner]);
         }
