@@ -40,7 +40,7 @@ class Model:
         title: printed on summaries and reports.
         analysis: ``[analysis]`` of the model file: ``{"tolerance": 1e-4, "solver": "stiffness"}``.
         output: ``[output]`` of the model file: ``{"members": True}`` for forces of columns and beams,
-            ``{"capacity": "gb50010"}`` for their demand over capacity.
+            ``{"capacity": "gb50010"}`` for their demand over capacity, ``{"links": True}`` for strokes and speeds of links.
         codes: ``[codes]`` of the model file: ``{"show": ["en1998"], "behaviour_factor": 3.9}``.
 
     Raises:

@@ -65,13 +65,15 @@ class Contact:
 
 @dataclass(frozen=True, eq=False)
 class LinkedFloors:
-    """One spring or damper between two neighbours.
+    """One spring or damper between two neighbours, or inside a building.
 
     Attributes:
         between: names of the left and the right building, or ``"wall"``.
         floors: floors on the left and on the right, from 1; ``None`` for a point between floors, and for a wall.
         height: height above the base [m].
         force: force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
+        stroke: shortening since rest on these instants [m]; ``None`` unless the model has ``output={"links": True}``.
+        speed: its rate [m/s]; ``None`` likewise.
         peak_force: force of greatest magnitude, with its sign [N].
         peak_stroke: greatest change of length, either sign [m].
         dissipated: energy dissipated in the damper [J].
@@ -81,6 +83,8 @@ class LinkedFloors:
     floors: tuple[int | None, int | None]
     height: float
     force: npt.NDArray[np.float64]
+    stroke: npt.NDArray[np.float64] | None
+    speed: npt.NDArray[np.float64] | None
     peak_force: float
     peak_stroke: float
     dissipated: float
@@ -192,16 +196,20 @@ class Result:
 
     @property
     def links(self) -> tuple[LinkedFloors, ...]:
-        """All springs and dampers between buildings, link by link, each from the lowest up, with their forces."""
+        """All springs and dampers, link by link, each from the lowest up, with their forces; those of a building come last."""
         found: list[LinkedFloors] = []
         for link in self.summary["links"]:
             for floor in link["floors"]:
+                at = len(found)
+                moves = ("link", "stroke", at, 0) in self._rows
                 found.append(
                     LinkedFloors(
                         between=tuple(link["between"]),
                         floors=tuple(floor["floors"]),
                         height=floor["height_m"],
-                        force=self._history("link", "force", len(found)),
+                        force=self._history("link", "force", at),
+                        stroke=self._history("link", "stroke", at) if moves else None,
+                        speed=self._history("link", "speed", at) if moves else None,
                         peak_force=floor["peak_force_n"],
                         peak_stroke=floor["peak_stroke_m"],
                         dissipated=floor["dissipated_j"],

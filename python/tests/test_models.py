@@ -246,6 +246,31 @@ def test_records_are_found_beside_the_file(tmp_path: Path) -> None:
     assert jostle.run(lost, motion=jostle.Motion.read(tmp_path / "quake.csv")).completed
 
 
+def test_dampers_of_a_building_are_links_inside_it() -> None:
+    damper = {"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}
+    tower = Shear("a", storeys=2, mass="40 t", stiffness="60 MN/m", storey_height=3, damper=[damper])
+    plain = Shear("a", storeys=2, mass="40 t", stiffness="60 MN/m", storey_height=3)
+    link = Link(
+        ["a", "a"], floors=[[0, 1]], law="viscous", damping="200 kN.(s/m)^0.5", exponent=0.5
+    )
+    motion = jostle.Motion.el_centro().lasting("5 s")
+    models = [
+        Model([tower], motion=motion, output={"links": True}),
+        Model([plain], links=link, motion=motion, output={"links": True}),
+    ]
+    runs = [jostle.run(model) for model in models]
+    links = [run.summary["links"] for run in runs]
+    assert links[0] == links[1]
+    assert links[0][0]["dissipated_j"] > 0
+    [joined] = runs[0].links
+    assert joined.stroke is not None and joined.speed is not None
+    assert max(abs(joined.stroke)) == pytest.approx(links[0][0]["stroke_peak_m"], rel=1e-2)
+    assert max(abs(joined.speed)) == pytest.approx(links[0][0]["speed_peak_m_s"], rel=1e-2)
+    assert jostle.run(Model([tower], motion=motion)).links[0].stroke is None
+    with pytest.raises(ModelError, match=r"damper\[0\]\.floors: floor 5 does not exist"):
+        Model([Shear("a", mass=[4e4, 4e4], stiffness=[6e7, 6e7], damper=[{**damper, "floors": [0, 5]}])])
+
+
 def test_every_key_of_the_model_file_is_a_keyword() -> None:
     schema = json.loads(
         subprocess.run(

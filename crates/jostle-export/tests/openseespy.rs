@@ -270,3 +270,35 @@ hinges = { rule = "pinched", pinching = { deformation = 0.7, force = 0.3 }, unlo
         "{last:?}"
     );
 }
+
+const BEARINGS: &str = include_str!("../../jostle-validation/data/opensees/isolated.toml");
+
+#[test]
+fn bearings_walls_and_links_are_exported() {
+    let exported = export(&model(BEARINGS)).expect("it can be exported");
+    let links = table(&exported.text, "LINKS");
+    assert_eq!(links.len(), 7);
+    let materials = table(&exported.text, "MATERIALS");
+    let of = |name: &str| {
+        let quoted = format!("\"{name}\"");
+        materials.iter().filter(|row| row[0] == quoted).count()
+    };
+    // Viscous with a spring and maxwell; the stop, the wall's contact, cable and stopper.
+    assert_eq!((of("ViscousDamper"), of("ElasticPPGap")), (2, 4));
+    assert_eq!(table(&exported.text, "CONTACTS").len(), 1);
+    // No spring is empty.
+    for row in table(&exported.text, "SPRINGS") {
+        assert!(row.len() >= 5 && row[3].starts_with("(("), "{row:?}");
+    }
+}
+
+#[test]
+fn friction_that_rises_with_speed_is_refused() {
+    let text = BEARINGS.replace(
+        "friction = 0.05",
+        "friction = { slow = 0.03, fast = 0.05, rate = 50 }",
+    );
+    let faults = export(&model(&text)).expect_err("OpenSees cannot do it here");
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    assert_eq!(faults[0].path, "building[1].isolation.friction");
+}

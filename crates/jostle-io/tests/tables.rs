@@ -184,9 +184,11 @@ fn histories_have_named_columns() {
         Column::ContactForce { contact: 1 },
         Column::Closing { contact: 1 },
         Column::LinkForce { link: 0 },
+        Column::LinkStroke { link: 0 },
+        Column::LinkSpeed { link: 0 },
         Column::Energy(EnergyTerm::Input),
     ];
-    let values: Vec<f64> = (0..20).map(f64::from).collect();
+    let values: Vec<f64> = (0..24).map(f64::from).collect();
     let history = History::from_rows(columns, values);
     let folder = folder("history");
     let path = folder.join("history.parquet");
@@ -205,11 +207,13 @@ fn histories_have_named_columns() {
             "A__west-B.at4500mm.force_n",
             "A__west-B.at4500mm.closing_m",
             "A__west-B.link2-2.force_n",
+            "A__west-B.link2-2.stroke_m",
+            "A__west-B.link2-2.speed_m_s",
             "energy_input_j",
         ]
     );
     let second: Vec<Field> = rows[1].iter().map(|(_, value)| value.clone()).collect();
-    let wanted: Vec<Field> = (10..20)
+    let wanted: Vec<Field> = (12..24)
         .map(|value| Field::Double(f64::from(value)))
         .collect();
     assert_eq!(second, wanted);

@@ -9,7 +9,7 @@ mod fixture;
 
 use std::time::Instant;
 
-use fixture::{Run, alone, row_of_three, two_frames, walled, yielding};
+use fixture::{Run, alone, isolated, row_of_three, two_frames, walled, yielding};
 use jostle::results::contact_sensitivity::{
     BuildingChange, ContactSensitivity, ContactVariant, GapSpread, VariantResult,
 };
@@ -24,6 +24,7 @@ fn pages() -> Vec<(&'static str, Run)> {
         ("row-of-three", row_of_three()),
         ("yielding", yielding()),
         ("walled", walled()),
+        ("isolated", isolated()),
     ]
 }
 
@@ -470,5 +471,41 @@ fn pages_are_written() {
         let path = format!("{}/{name}.html", env!("CARGO_TARGET_TMPDIR"));
         std::fs::write(&path, render(&run.page())).unwrap();
         println!("{path}");
+    }
+}
+
+#[test]
+fn bearings_links_and_walls_have_loops_and_a_table() {
+    let run = isolated();
+    let text = render(&run.page());
+    assert!(text.contains("Bearings, links and dampers, walls"));
+    assert!(text.contains("moat &lt;b&gt;") && !text.contains("moat <b>"));
+    let section = text.split("id=\"devices\"").nth(1).unwrap();
+    let section = section.split("</section>").next().unwrap();
+    assert_eq!(
+        section.matches("<tr").count(),
+        1 + 4,
+        "bearings, wall and two links"
+    );
+    let payload = text.split("id=\"page-data\"").nth(1).unwrap();
+    let payload = payload
+        .split('>')
+        .nth(1)
+        .unwrap()
+        .split("</script")
+        .next()
+        .unwrap();
+    let data: serde_json::Value = serde_json::from_str(payload).expect("JSON");
+    let devices = data["devices"].as_array().expect("a list");
+    let over_time: Vec<bool> = devices
+        .iter()
+        .map(|device| device["over_time"].as_bool().expect("a flag"))
+        .collect();
+    assert_eq!(over_time, [false, false, true], "bearings, damper, cable");
+    assert_eq!(data["walls"][0]["beside"], serde_json::json!([null, 0]));
+    assert_eq!(data["gaps"][1]["walls"], serde_json::json!([0, null]));
+    let columns = data["run"]["columns"].as_array().expect("a list");
+    for name in ["u:0:0", "u:2:0"] {
+        assert!(columns.iter().any(|column| column[0] == name), "{name}");
     }
 }

@@ -567,6 +567,41 @@ mod tests {
         );
     }
 
+    /// A mat and a wall that give way both move: the gap is found at height 0.
+    #[test]
+    fn a_moat_has_a_smallest_gap() {
+        let text = include_str!("../../../examples/isolated_hospital.toml");
+        let input = jostle_io::read_model_text(
+            "hospital",
+            text,
+            jostle_io::Format::Toml,
+            std::path::Path::new(""),
+        );
+        let input = input.unwrap_or_else(|error| panic!("{error}"));
+        let motion = input
+            .ground_motion()
+            .unwrap_or_else(|error| panic!("{error}"));
+        let settings = GapSettings {
+            outcomes: false,
+            ..GapSettings::default()
+        };
+        let run = |model: &Model| {
+            let found = critical_gaps(model, &motion, &settings, &|| false, &|_| {});
+            found.unwrap_or_else(|error| panic!("{error}")).remove(0)
+        };
+        let found = run(&input.model);
+        assert_eq!(found.height_m, 0.0);
+        assert!(found.rules.iter().all(|rule| rule.gap_m.is_finite()));
+        // Less than both peaks together, and what the run without contact closes.
+        let sum = found.rules.iter().find(|rule| rule.rule == "ABS");
+        assert!(
+            sum.is_some_and(|sum| sum.gap_m > found.gap_m),
+            "{:?}",
+            found.gap_m
+        );
+        assert!((found.gap_m / found.closing_without_contact_m - 1.0).abs() < 2e-3);
+    }
+
     /// Gaps that cannot close are not run, none is run twice, and every run is reported.
     #[test]
     fn what_is_known_is_not_run() {

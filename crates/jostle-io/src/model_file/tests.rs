@@ -160,3 +160,131 @@ fn every_key_of_the_table_is_read() {
         "keys in the table that nobody reads: {unread:?}"
     );
 }
+
+/// A tower with dampers, and one link that is not.
+fn damped(dampers: &str) -> String {
+    format!(
+        r#"
+[[building]]
+name = "A"
+kind = "shear"
+storey_height = 3
+mass = [4e4, 4e4, 4e4]
+stiffness = [3e7, 3e7, 3e7]
+{dampers}
+[[link]]
+between = ["A", "wall"]
+floors = [[3, "wall"]]
+stiffness = 1e6
+"#
+    )
+}
+
+#[test]
+fn dampers_are_links_inside_their_building() {
+    let text = damped(
+        r#"
+[[building.damper]]
+floors = [0, 1]
+law = "viscous"
+damping = "200 kN.(s/m)^0.5"
+exponent = 0.5
+[[building.damper]]
+floors = [[1, 2], [2, 3]]
+law = "friction"
+slip_force = "60 kN"
+stick_stiffness = "100 MN/m"
+"#,
+    );
+    let read = |text: &str| {
+        let input = super::read_model_text("model.toml", text, Format::Toml, Path::new(""));
+        input.unwrap_or_else(|error| panic!("{error}")).model
+    };
+    let links = read(&text).links;
+    let spelt = damped("")
+        + r#"
+[[link]]
+between = ["A", "A"]
+floors = [[0, 1]]
+law = "viscous"
+damping = "200 kN.(s/m)^0.5"
+exponent = 0.5
+[[link]]
+between = ["A", "A"]
+floors = [[1, 2], [2, 3]]
+law = "friction"
+slip_force = "60 kN"
+stick_stiffness = "100 MN/m"
+"#;
+    assert_eq!(links, read(&spelt).links);
+    assert_eq!(links.len(), 3);
+}
+
+#[test]
+fn faults_of_dampers_point_to_them() {
+    let text = damped(
+        r#"
+[[building.damper]]
+floors = [0, 7]
+damping = 1e5
+[[building.damper]]
+floors = [[1, 2], [2, 2]]
+law = "friction"
+slip_force = 0
+stick_stiffness = 1e8
+[[building.damper]]
+floors = [1]
+damping = 1e5
+[[building.damper]]
+law = "cable"
+slip_force = 1
+"#,
+    );
+    let error = super::read_model_text("model.toml", &text, Format::Toml, Path::new(""))
+        .expect_err("it has faults")
+        .to_string();
+    let first = error.clone();
+    // Faults of the reader hide those of the model.
+    for wanted in [
+        "building[0].damper[2].floors: expected two floors, such as [0, 1]",
+        "building[0].damper[3].floors: is missing",
+        "building[0].damper[3].slip_force: has no meaning for law = \"cable\"",
+    ] {
+        assert!(first.contains(wanted), "{wanted} in {first}");
+    }
+    let text = text.replace("floors = [1]\n", "floors = [1, 2]\n");
+    let text = text
+        .split("[[building.damper]]\nlaw")
+        .next()
+        .unwrap_or("")
+        .to_owned();
+    let error = super::read_model_text("model.toml", &text, Format::Toml, Path::new(""))
+        .expect_err("it has faults")
+        .to_string();
+    for wanted in [
+        "building[0].damper[0].floors: floor 7 does not exist",
+        "building[0].damper[1].floors[1]: names the same floor twice",
+        "building[0].damper[1].slip_force: must be greater than 0",
+    ] {
+        assert!(error.contains(wanted), "{wanted} in {error}");
+    }
+}
+
+#[test]
+fn bearings_need_a_building_in_one_plane() {
+    let text = r#"
+[[building]]
+kind = "shear"
+plan = ["20 m", "12 m"]
+mass = [4e5]
+stiffness = [{ x = 1e8, y = 1e8, torsion = 1e10 }]
+isolation = { kind = "linear", stiffness = 1e7, mat_mass = 1e5 }
+"#;
+    let error = super::read_model_text("model.toml", text, Format::Toml, Path::new(""))
+        .expect_err("it cannot stand there")
+        .to_string();
+    assert!(
+        error.contains("building[0].isolation: is for frames and shear buildings in one plane"),
+        "{error}"
+    );
+}

@@ -253,7 +253,7 @@ fn check_matrix(faults: &mut Faults, path: &str, matrix: &[Vec<f64>], size: usiz
         .collect();
     let (values, _) = symmetric::eigen(&lower);
     let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);
-    if !(smallest >= least) {
+    if smallest.is_nan() || smallest < least {
         let wanted = if definite {
             "positive definite"
         } else {

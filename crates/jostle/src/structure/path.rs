@@ -36,8 +36,8 @@ impl Path {
                 carried || springs.any(|own| own.lever.is_some() && own.ends.contains(node))
             };
             let order = node_order(stick_model);
-            let last = order.iter().enumerate();
-            let last = last.filter(|(_, (_, node))| stands(node)).last();
+            let mut last = order.iter().enumerate();
+            let last = last.rfind(|(_, (_, node))| stands(node));
             if let (Some(root), Some((position, &(rank, _)))) = (turning, last) {
                 let after = Some((rank, THETA, position));
                 last_met[root] = last_met[root].max(after);

@@ -56,6 +56,7 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         gaps,
         links: Vec::new(),
         walls: Vec::new(),
+        soil: None,
         analysis: Analysis::default(),
     }
 }

@@ -361,9 +361,8 @@ impl ModalStepper<'_> {
                 self.reduced,
                 instant,
                 now,
-                &[],
+                (&[], &run.grounds),
                 &energy,
-                &run.grounds,
             );
         }
         run.work.steps += 1;

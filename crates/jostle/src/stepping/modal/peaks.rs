@@ -465,16 +465,15 @@ impl Peaks {
         self.history.is_some() && (wanted || time >= self.due)
     }
 
-    /// Adds a row: the instant, monitored quantities, and forces of links.
+    /// Adds a row: the instant, monitored quantities, and forces of links with the grounds under them.
     pub(super) fn record(
         &mut self,
         system: &System,
         reduced: &Reduced,
         now: Instant<'_>,
         watched: Watched<'_>,
-        links: &[f64],
+        (links, grounds): (&[f64], &RunGrounds<'_>),
         energy: &Energy,
-        grounds: &RunGrounds<'_>,
     ) {
         let Some(history) = &mut self.history else {
             return;

@@ -477,9 +477,8 @@ impl<'a> ModalStepper<'a> {
                 self.reduced,
                 instant,
                 watched,
-                &self.links.forces,
+                (&self.links.forces, &run.grounds),
                 energy,
-                &run.grounds,
             );
         }
     }
