@@ -12,6 +12,7 @@ class Case:
     model: str  # a built-in name, or a file in bench/models
     options: tuple[str, ...] = ()  # of jostle run and jostle export
     linear: bool = True  # whether nothing but contact is non-linear
+    solvers: tuple[str, ...] = ("riccati", "modal")  # of jostle, if they can
     quick: bool = False
     free_steps: tuple[float, ...] = (4e-3, 2e-3, 1e-3)  # tried for OpenSees, in free vibration [s]
     parts: tuple[int, ...] = (5, 10, 20)  # of them around contact
@@ -23,6 +24,7 @@ CASES = [
     Case("few", "J1 and J2, 220 cm/s², 100 mm: one impact", "paper", ("--pga", "220cm/s2", "--gap", "100mm")),
     Case("many", "J1 and J2, 70 cm/s², 10 mm: 21 impacts", "paper", ("--pga", "70cm/s2", "--gap", "10mm")),
     Case("inelastic", "J1 and J2 yielding, 400 cm/s², 100 mm, 15 s", "inelastic.toml", linear=False, free_steps=(2e-3, 1e-3), parts=(5, 10)),
+    Case("yielding-towers", "four beside six storeys that yield, 0.3 g, 31 s", "yielding-towers.toml", linear=False, solvers=("riccati", "series"), free_steps=(2e-3, 1e-3), parts=(5, 10)),
     Case("towers", "two towers, one mass each", "two-towers.toml", quick=True),
     Case("high-rise", "twenty beside forty storeys", "high-rise.toml", free_steps=(4e-3, 2e-3), parts=(5, 10)),
     Case("row", "ten frames in a row, 15 s", "row-of-ten.toml", free_steps=(4e-3, 2e-3), parts=(5, 10)),

@@ -43,7 +43,7 @@ def cheapest(case, solver, known):
 
 def compare(case, known):
     """Both programs on one case: jostle, OpenSees, jostle again."""
-    ways = [(solver, None) for solver in programs.SOLVERS if case.linear or solver != "modal"]
+    ways = [(solver, None) for solver in case.solvers if case.linear or solver != "modal"]
     ways += [(solver, tolerance) for solver, _ in ways if (tolerance := cheapest(case, solver, known))]
     rows = [programs.jostle(case, *way) for way in ways]
     settings = known.get("opensees", {}).get("settings", {"free": 2e-3, "parts": 10, "axial": "stiff"})

@@ -501,7 +501,7 @@ fn unsound_foundations_are_refused() {
     let changes: [Change; 14] = [
         ("building[0].foundation", |model| model.soil = None),
         ("soil.poisson_ratio", |model| {
-            half_space(model).poisson_ratio = 0.5
+            half_space(model).poisson_ratio = 0.5;
         }),
         ("soil.shear_wave_velocity", |model| {
             half_space(model).shear_wave_velocity = 0.0;
