@@ -54,7 +54,7 @@ fn base(base: &Base) -> Facts {
         };
         return vec![
             (
-                "foundation",
+                "size of the foundation",
                 format!(
                     "{} m × {} m{depth}",
                     metres(foundation.length),
