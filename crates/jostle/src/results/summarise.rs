@@ -551,6 +551,18 @@ fn warnings(run: &Run) -> Vec<String> {
             "the energies do not balance: {worst:.1e} of the energy is unaccounted for (tolerance {tolerance:.1e}); do not trust this run"
         ));
     }
+    let slides = |building: &crate::model::Building| {
+        let isolation = building.base.isolation.as_ref();
+        isolation.is_some_and(|own| matches!(own.isolator, crate::model::Isolator::Pendulum { .. }))
+    };
+    for building in run.model.buildings.iter().filter(|own| slides(own)) {
+        if run.motion.is_vertical() {
+            warnings.push(format!(
+                "the normal force of the sliding bearings of \"{}\" stays its weight: vertical shaking does not change their friction here",
+                building.name
+            ));
+        }
+    }
     // The trapezoidal rule may gain energy in impacts of few steps; the balance does not reveal it.
     let given = -energy.contact / energy.input.abs().max(f64::MIN_POSITIVE);
     if given > MOST_GIVEN {
