@@ -488,13 +488,8 @@ fn bearings_links_and_walls_have_loops_and_a_table() {
         "bearings, wall and two links"
     );
     let payload = text.split("id=\"page-data\"").nth(1).unwrap();
-    let payload = payload
-        .split('>')
-        .nth(1)
-        .unwrap()
-        .split("</script")
-        .next()
-        .unwrap();
+    let payload = payload.split_once('>').unwrap().1;
+    let payload = payload.split("</script").next().unwrap();
     let data: serde_json::Value = serde_json::from_str(payload).expect("JSON");
     let devices = data["devices"].as_array().expect("a list");
     let over_time: Vec<bool> = devices

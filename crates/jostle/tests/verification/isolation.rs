@@ -384,7 +384,7 @@ fn links_of_all_laws_work_beside_yielding_buildings_and_bearings() {
             floors.map(|f| f.displacement_max.value).collect::<Vec<_>>()
         };
         let all = riccati.impacts.len();
-        assert!(all > 3, "{all}");
+        assert!(all > 2, "{all}");
         let errors = [2e-3, 1e-3, 2.5e-4]
             .map(|step| difference(&peaks(&with(step, Solver::Riccati)), &peaks(&finest)));
         println!("{errors:?}");
