@@ -6,8 +6,8 @@ use jostle::hysteresis::HysteresisRule;
 use jostle::separation::{Code, HazardZone, JointSystem, MotionLevel};
 use jostle_motion::GoverningRule;
 
+use crate::baseline::Baseline;
 use crate::choices::{DesignKind, FragilityMethod, IntegratorMethod, Sampling, names};
-use crate::grounds_spec::Baseline;
 use crate::quantity::Dimension;
 use crate::record::RecordFormat;
 

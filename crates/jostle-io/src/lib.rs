@@ -3,6 +3,7 @@
 //! Parsers take text or bytes and never panic; only [`read_model_file`], [`read_record`] and the writers open a
 //! path. Everything that leaves this crate is in SI.
 
+mod baseline;
 mod bounded;
 mod builtin;
 mod builtin_model;
@@ -11,7 +12,6 @@ mod csv;
 mod fault;
 mod floor_table;
 mod grade;
-mod grounds_spec;
 mod keys;
 mod knobs;
 mod matrices;
@@ -40,6 +40,7 @@ mod tree;
 mod unit;
 mod unusual;
 
+pub use baseline::Baseline;
 #[cfg(target_family = "wasm")]
 pub use bounded::provide_file;
 pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_record};
@@ -48,7 +49,6 @@ pub use csv::csv_field;
 pub use fault::{Fault, InputError};
 pub use floor_table::{floor_spectra_columns, write_floor_spectra_parquet};
 pub use grade::{parse_concrete, parse_steel};
-pub use grounds_spec::{Baseline, GroundsSpec, OwnGroundSpec, OwnMotionSpec};
 /// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
 pub use jostle::statics::STANDARD_GRAVITY;
 pub use keys::LAW_NAMES;
@@ -59,7 +59,10 @@ pub use model_file::{
     read_model_file, read_model_text,
 };
 pub use model_tree::{ModelTree, PathError, TreeValue};
-pub use motion_spec::{MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
+pub use motion_spec::{
+    GroundsSpec, MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, OwnGroundSpec,
+    OwnMotionSpec, Scaling,
+};
 pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
 pub use pushover::{pushover_csv, pushover_json};
 pub use quantities_page::{quantity_list, quantity_reference};

@@ -1,5 +1,9 @@
 //! The ground motion of a model: its source and its values.
 
+mod grounds;
+
+pub use grounds::{GroundsSpec, OwnGroundSpec, OwnMotionSpec};
+
 use std::path::{Path, PathBuf};
 
 use jostle::{Bearing, GroundMotion, Wave};
@@ -8,7 +12,6 @@ use jostle_motion::{
 };
 
 use crate::builtin;
-use crate::grounds_spec::GroundsSpec;
 use crate::keys::nearest;
 use crate::record::{GREATEST_ACCELERATION, RecordError, RecordOptions, read_record};
 use crate::source::BACKSLASH;

@@ -118,7 +118,7 @@ fn faults_name_field_and_remedy() {
             "width = \"10 m\", mass = \"120 t\" }",
             "mass = \"120 t\" }",
             "building[0].foundation.width",
-            "width = \"12 m\"",
+            "is missing",
         ),
         (
             "mass = \"120 t\" }",

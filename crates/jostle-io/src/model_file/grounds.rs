@@ -6,9 +6,9 @@ use jostle::{Gap, Link};
 use jostle_motion::Coherency;
 
 use super::motion;
-use crate::grounds_spec::{Baseline, GroundsSpec, OwnGroundSpec, OwnMotionSpec};
+use crate::baseline::Baseline;
 use crate::keys::Section;
-use crate::motion_spec::{MotionSource, MotionSpec};
+use crate::motion_spec::{GroundsSpec, MotionSource, MotionSpec, OwnGroundSpec, OwnMotionSpec};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::record::RecordOptions;

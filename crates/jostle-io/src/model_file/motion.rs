@@ -5,9 +5,8 @@ use std::path::Path;
 use jostle_motion::GoverningRule;
 
 use super::{grounds, matching};
-use crate::grounds_spec::OwnMotionSpec;
 use crate::keys::{RECORD_FORMATS, Section, WAVES};
-use crate::motion_spec::{BearingSpec, MotionSource, MotionSpec, Scaling};
+use crate::motion_spec::{BearingSpec, MotionSource, MotionSpec, OwnMotionSpec, Scaling};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::record::{RecordFormat, RecordOptions, acceleration_unit};

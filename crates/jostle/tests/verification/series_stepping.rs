@@ -155,8 +155,10 @@ fn a_sliding_mass_goes_as_far_as_its_energy_takes_it() {
     building.hinges = Some(Hinges::Storeys(vec![spring]));
     let system = assembled(&row(vec![building], 1.0, law(LawKind::Linear, 1.0)));
     let motion = still(3.0);
-    let mut analysis = Analysis::default();
-    analysis.solver = Some(Solver::Series);
+    let analysis = Analysis {
+        solver: Some(Solver::Series),
+        ..Analysis::default()
+    };
     let plan = plan(&system, &motion, &analysis);
     for velocity in [0.2, 0.7] {
         let mut state = State::at_rest(&system, 0.0);

@@ -1,9 +1,10 @@
 //! Ground that differs under the buildings of a model file: arrivals, own records, loss of coherency, and vertical shaking.
 
 use jostle::{GroundMotion, Grounds, OwnGround, Wave};
-use jostle_motion::{Accelerogram, Coherency, MotionFault, coherent_with};
+use jostle_motion::{Accelerogram, Coherency, coherent_with};
 
-use crate::motion_spec::{MotionError, MotionSource, MotionSpec, Scaling};
+use super::{MotionError, MotionSource, MotionSpec, Scaling};
+use crate::baseline::Baseline;
 
 /// What `[motion]`, `[building.motion]` and positions say of grounds that differ.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,51 +47,6 @@ pub struct OwnMotionSpec {
     pub scaling: Scaling,
     /// Whether its sign is changed.
     pub reverse: bool,
-}
-
-/// What becomes of velocities that do not end at rest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Baseline {
-    /// Nothing.
-    AsRecorded,
-    /// The slope of the straight line from rest that fits the velocity best is removed from the acceleration.
-    Linear,
-    /// The same with the slope of a parabola.
-    Quadratic,
-}
-
-impl Baseline {
-    /// Names in model files.
-    pub const NAMES: [&'static str; 3] = ["as-recorded", "linear", "quadratic"];
-
-    /// By its name.
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        match name {
-            "as-recorded" => Some(Self::AsRecorded),
-            "linear" => Some(Self::Linear),
-            "quadratic" => Some(Self::Quadratic),
-            _ => None,
-        }
-    }
-
-    /// Corrects a record; waves given by a formula stay.
-    ///
-    /// # Errors
-    /// [`MotionFault`] for records that are too short.
-    pub(crate) fn correct(self, motion: &mut GroundMotion) -> Result<(), MotionFault> {
-        let degree = match self {
-            Self::AsRecorded => return Ok(()),
-            Self::Linear => 1,
-            Self::Quadratic => 2,
-        };
-        if let Wave::Sampled { step, acceleration } = &mut motion.wave {
-            let record = Accelerogram::new(*step, acceleration.clone())?;
-            let corrected = record.without_velocity_trend(degree)?;
-            *acceleration = corrected.acceleration().to_vec();
-        }
-        Ok(())
-    }
 }
 
 /// End velocities may differ by this share of the greatest ground velocity (theory, Eq. B16).
