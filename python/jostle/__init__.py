@@ -13,6 +13,7 @@ Examples:
 from ._animation import Animation
 from ._builders import Frame, Gap, Given, Link, Shear, Soil, Wall
 from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
+from ._compare import Comparison, compare
 from ._contact_advice import ContactAdvice, StiffnessEstimate, StiffnessRange, WaveEstimate, contact_advice
 from ._errors import (
     AnalysisError,
@@ -44,6 +45,7 @@ __all__ = [
     "BuildingModes",
     "CapacityCurve",
     "Collision",
+    "Comparison",
     "Contact",
     "ContactAdvice",
     "ContactLaw",
@@ -83,6 +85,7 @@ __all__ = [
     "__version__",
     "collide",
     "collide_all",
+    "compare",
     "contact_advice",
     "contact_laws",
     "critical_gap",

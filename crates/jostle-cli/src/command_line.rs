@@ -47,6 +47,8 @@ pub(crate) enum Command {
     Modes(ModesArgs),
     /// Collide two free masses under one contact law, or under all laws
     Collide(Box<CollideArgs>),
+    /// Run a model on the recorded motion of a shake table and score it against the measurements
+    Compare(crate::compare::CompareArgs),
     /// Estimate contact stiffness and restitution from slabs, material and colliding masses
     ContactAdvice(Box<crate::contact_advice::ContactAdviceArgs>),
     /// Write the model as a script for another program, to compare results
@@ -62,6 +64,8 @@ pub(crate) enum Command {
     Study(crate::study::StudyArgs),
     /// Find the smallest gap without pounding, and compare it with rules and codes
     Gap(crate::gap::GapArgs),
+    /// Search the least damper, gap or other key that keeps conditions, such as no impact
+    Size(Box<crate::size::SizeArgs>),
     /// Open a local page that runs the model after every change
     Live(crate::live::LiveArgs),
     /// Run a pushover analysis to a target drift or loss of strength

@@ -4,6 +4,7 @@ mod args;
 mod check;
 mod collide;
 mod command_line;
+mod compare;
 mod completions;
 mod contact_advice;
 mod export;
@@ -22,6 +23,7 @@ mod pushover_text;
 mod replace;
 mod run;
 mod section;
+mod size;
 mod starter;
 mod stop;
 mod study;
@@ -43,6 +45,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Check(args) => check::check(&args),
         Command::Modes(args) => modes::modes(&args),
         Command::Collide(args) => collide::collide(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::ContactAdvice(args) => contact_advice::contact_advice(&args),
         Command::Export(args) => export::export(&args),
         Command::Method(args) => method::method(&args),
@@ -52,6 +55,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Live(args) => live::live(&args),
         Command::Motion(command) => motion::run(&command),
         Command::Section(args) => section::section(&args),
+        Command::Size(args) => size::size(&args),
         Command::New(args) => starter::new(&args),
         Command::Completions(args) => completions::completions(&args, Args::command()),
         Command::Man(args) => man::man(&args, Args::command()),

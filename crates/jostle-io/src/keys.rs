@@ -117,6 +117,12 @@ pub(crate) enum Section {
     Sensitivity,
     /// The code by which the records of a study are checked.
     Selection,
+    /// A map of a comparison with measurements.
+    Comparison,
+    /// A measured history in it.
+    ComparedColumn,
+    /// Measured impacts in it.
+    ComparedImpacts,
 }
 
 /// Type of a value.
@@ -358,7 +364,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
     optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
 
-    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, miniSEED, SAC. A run, a study and jostle gap use all records of a list; the other keys apply to each."),
+    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, NEES asc, miniSEED, SAC. A run, a study and jostle gap use all records of a list; the other keys apply to each."),
     optional(S::Motion, "kind", Choice(WAVES), "An analytic motion instead of a record."),
     optional(S::Motion, "amplitude", Quantity(D::Acceleration), "Amplitude of the analytic motion."),
     optional(S::Motion, "period", Quantity(D::Time), "Period of the analytic motion."),
@@ -794,6 +800,32 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Selection, "damping", Quantity(D::Dimensionless), "0.05", "Damping ratio of all spectra."),
     default(S::Selection, "pga", Quantity(D::Acceleration), "that of the code", "Peak to which every motion is scaled first; a match of the model takes precedence."),
     default(S::Selection, "unscaled", Flag, "false", "Use the motions as recorded."),
+
+    optional(S::Comparison, "table_acceleration", Text, "Column of the table's acceleration: its name, or its number from 1 after the times."),
+    optional(S::Comparison, "table_displacement", Text, "Column of the table's displacement instead; it is differentiated twice."),
+    default(S::Comparison, "reverse", Flag, "false", "Change the sign of the table's motion."),
+    optional(S::Comparison, "low_pass", Quantity(D::Frequency), "Corner of a Butterworth filter of order 4, forwards and backwards, on the table's acceleration."),
+    default(S::Comparison, "start", Quantity(D::Time), "the first instant", "Instant of the data at which the run begins, from rest."),
+    default(S::Comparison, "end", Quantity(D::Time), "the last instant", "Instant of the data at which it ends."),
+    optional(S::Comparison, "column", Tables(&[S::ComparedColumn]), "Histories to compare."),
+    optional(S::Comparison, "impacts", Tables(&[S::ComparedImpacts]), "Impacts to compare."),
+
+    required(S::ComparedColumn, "measured", Text, "Column of the data."),
+    required(S::ComparedColumn, "computed", Text, "Column of history.parquet, such as J1.floor1.displacement_m."),
+    optional(S::ComparedColumn, "relative_to", Text, "Column of the data that is subtracted, such as the displacement of the table from displacements in the laboratory."),
+    default(S::ComparedColumn, "reverse", Flag, "false", "Change the sign of the measured values."),
+    optional(S::ComparedColumn, "zero", Quantity(D::Time), "Subtract the mean of the measured values over this time from the first instant of the data on, while all is at rest."),
+
+    optional(S::ComparedImpacts, "acceleration", Text, "Column of an acceleration with a spike at every impact."),
+    optional(S::ComparedImpacts, "above", Quantity(D::Acceleration), "There is an impact when its magnitude rises above this."),
+    optional(S::ComparedImpacts, "sensor", Text, "Column of a contact sensor instead."),
+    optional(S::ComparedImpacts, "level", Quantity(D::Dimensionless), "There is contact when its magnitude rises above this, in the unit of the file."),
+    optional(S::ComparedImpacts, "closing", TextOrTexts, "Columns of the displacements left and right of the gap instead."),
+    default(S::ComparedImpacts, "width", Quantity(D::Length), "that of the model", "There is contact when left less right rises above this."),
+    default(S::ComparedImpacts, "contact", Text, "all contacts", "Gap or contact that they are compared with, such as J1-J2 or J1-J2.floor5-5."),
+    default(S::ComparedImpacts, "window", Quantity(D::Time), "\"20 ms\"", "Greatest distance in time of a matched pair."),
+    default(S::ComparedImpacts, "separation", Quantity(D::Time), "\"50 ms\"", "Measured signs that follow each other sooner are one impact."),
+    optional(S::ComparedImpacts, "zero", Quantity(D::Time), "Subtract the mean of the measured values over this time from the first instant of the data on, while all is at rest."),
 ];
 
 /// The keys of some sections, in order.
@@ -802,7 +834,7 @@ pub(crate) fn keys_of(sections: &[Section]) -> impl Iterator<Item = &'static Key
 }
 
 /// The known key spelt most like a wrong one, if any is close.
-pub(crate) fn nearest<'a>(wrong: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(wrong: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let wrong: String = wrong.chars().take(64).collect::<String>().to_lowercase();
     let allowed = 1 + wrong.chars().count() / 4;
     known

@@ -8,6 +8,7 @@ mod bounded;
 mod builtin;
 mod builtin_model;
 mod choices;
+mod comparison_map;
 mod csv;
 mod fault;
 mod floor_table;
@@ -15,6 +16,7 @@ mod grade;
 mod keys;
 mod knobs;
 mod matrices;
+mod measured;
 mod model_file;
 mod model_tree;
 mod motion_spec;
@@ -45,6 +47,9 @@ pub use baseline::Baseline;
 pub use bounded::provide_file;
 pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_record};
 pub use builtin_model::{builtin_model, model_names, model_text};
+pub use comparison_map::{
+    ComparedColumn, ComparedImpacts, ComparisonMap, ImpactSign, NamedColumn, TableMotion,
+};
 pub use csv::csv_field;
 pub use fault::{Fault, InputError};
 pub use floor_table::{floor_spectra_columns, write_floor_spectra_parquet};
@@ -52,8 +57,10 @@ pub use grade::{parse_concrete, parse_steel};
 /// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
 pub use jostle::statics::STANDARD_GRAVITY;
 pub use keys::LAW_NAMES;
+pub use keys::nearest as nearest_name;
 pub use knobs::{Knob, KnobKind};
 pub use matrices::numpy_archive;
+pub use measured::{MeasuredColumn, MeasuredTable};
 pub use model_file::{
     CapacityRequest, FloorSpectraRequest, Input, OverrideError, Overrides, ReinforcedMember,
     read_model_file, read_model_text,
@@ -66,7 +73,7 @@ pub use motion_spec::{
 pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
 pub use pushover::{pushover_csv, pushover_json};
 pub use quantities_page::{quantity_list, quantity_reference};
-pub use quantity::{Dimension, QuantityError, parse_quantity};
+pub use quantity::{Dimension, QuantityError, in_unit_of, parse_quantity};
 pub use record::{
     Channel, Direction, Record, RecordError, RecordFormat, RecordInfo, RecordOptions,
     describe_record, parse_info, parse_record, parse_record_and_info, read_record,
@@ -86,9 +93,10 @@ pub use study_file::{
     StudyFile,
 };
 pub use tables::{
-    Values, capacity_columns, encode_values_parquet, history_names, impact_columns, member_columns,
-    member_history_columns, write_capacity_parquet, write_columns_parquet, write_hinges_parquet,
-    write_history_parquet, write_impacts_parquet, write_members_parquet, write_values_parquet,
+    Values, capacity_columns, contact_names, encode_values_parquet, history_names, impact_columns,
+    member_columns, member_history_columns, write_capacity_parquet, write_columns_parquet,
+    write_hinges_parquet, write_history_parquet, write_impacts_parquet, write_members_parquet,
+    write_values_parquet,
 };
 pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
 pub use templates::{TEMPLATE_NAMES, template};

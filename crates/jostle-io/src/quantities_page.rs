@@ -37,7 +37,11 @@ pub fn quantity_list() -> String {
 fn write_owner(page: &mut String, owner: &Owner) -> std::fmt::Result {
     let mut places = Vec::new();
     if !owner.key.is_empty() {
-        places.push(format!("`{}` in `summary.json`", owner.key));
+        let (file, key) = owner
+            .key
+            .split_once(": ")
+            .unwrap_or(("summary.json", owner.key));
+        places.push(format!("`{key}` in `{file}`"));
     }
     if let Some(table) = owner.table {
         places.push(format!("one row each in `{table}`"));

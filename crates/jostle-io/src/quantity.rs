@@ -294,6 +294,23 @@ pub(crate) fn unit_size(
     Err(QuantityError::WrongDimension { expected, found })
 }
 
+/// A quantity in the unit of another one: `100 MN/m` beside `10 kN/m` is `100000 kN/m`. `None` if one of them has no unit or if
+/// their dimensions differ.
+#[must_use]
+pub fn in_unit_of(other: &str, text: &str) -> Option<String> {
+    let [(_, wanted), (number, own)] = [split_number(other)?, split_number(text)?];
+    let [wanted, own] = [wanted.trim(), own.trim()];
+    let [to, from] = [Unit::parse(wanted).ok()?, Unit::parse(own).ok()?];
+    if wanted.is_empty() || own.is_empty() || !from.has_dimension(to.exponents) {
+        return None;
+    }
+    // Fifteen digits, so that no rounding of the factors shows.
+    let value: f64 = format!("{:.14e}", number * (from.factor / to.factor))
+        .parse()
+        .ok()?;
+    value.is_finite().then(|| format!("{value} {wanted}"))
+}
+
 /// The number at the start, and the rest.
 pub(crate) fn split_number(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();

@@ -178,6 +178,21 @@ const TABLES: &[(Section, &str, &str)] = &[
         "Study file: `[selection]`",
         "Whether the records are suitable for time-history analysis, by the rules of the code of the spectrum.",
     ),
+    (
+        Section::Comparison,
+        "Map of a comparison: top",
+        "A file of its own, for `jostle compare`; see [Compare with a shake-table test](how-to/shake-table.md).",
+    ),
+    (
+        Section::ComparedColumn,
+        "Map of a comparison: `[[column]]`",
+        "",
+    ),
+    (
+        Section::ComparedImpacts,
+        "Map of a comparison: `[[impacts]]`",
+        "",
+    ),
 ];
 
 /// The page of all keys, with a final line break.

@@ -499,7 +499,8 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
 }
 
 /// Names of the contacts in the order of the history's contact indices.
-fn contact_names(summary: &Summary) -> Vec<String> {
+#[must_use]
+pub fn contact_names(summary: &Summary) -> Vec<String> {
     let mut names = Vec::new();
     for gap in &summary.gaps {
         let pair = gap.between.each_ref().map(|name| plain(name)).join("-");

@@ -3,6 +3,7 @@
 //! The user-facing part (units, keywords, drawings, tables) is written in Python, in `python/jostle`.
 
 mod collide;
+mod compare;
 mod describe;
 mod error;
 mod histories;
@@ -26,6 +27,8 @@ mod _jostle {
     use super::collide::{collide, contact_advice, contact_laws};
     #[pymodule_export]
     use super::command_line;
+    #[pymodule_export]
+    use super::compare::{Comparison, compare};
     #[pymodule_export]
     use super::live::{Live, live_page};
     #[pymodule_export]

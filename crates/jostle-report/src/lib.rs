@@ -6,6 +6,7 @@
 mod backbones;
 mod calculation;
 mod collisions;
+mod comparison;
 mod contact_box;
 mod describe;
 mod devices;
@@ -40,6 +41,7 @@ mod walls;
 
 pub use calculation::Calculation;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
+pub use comparison::{ComparedHistory, ComparedImpactTimes, ComparisonPage, render_comparison};
 pub use contact_box::ContactBox;
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};

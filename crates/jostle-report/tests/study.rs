@@ -18,6 +18,7 @@ fn page() -> StudyPage {
         link: (index == 2).then(|| "runs/case-2/report.html".into()),
     });
     StudyPage {
+        kind: String::new(),
         title: "A <study> & more".into(),
         headline: vec!["The buildings pound in 5 of 6 cases.".into()],
         facts: vec![("cases".into(), "6".into())],

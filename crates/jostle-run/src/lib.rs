@@ -7,6 +7,7 @@
 mod calculation;
 mod case_cache;
 mod collide;
+mod comparison;
 mod contact_advice;
 mod contact_sensitivity;
 mod critical_gap;
@@ -31,6 +32,10 @@ mod summary_text;
 
 pub use case_cache::{CaseCache, CaseError};
 pub use collide::{CollideOptions, collide, collision_json};
+pub use comparison::{
+    Comparison, HistoryComparison, ImpactComparison, Measurements, PreparedComparison,
+    earlier_comparison, prepare_comparison,
+};
 pub use contact_advice::{
     AdviceOptions, ContactAdvice, LEAST_TRANSITS, RangeAdvice, StiffnessEstimate, WaveAdvice,
     contact_advice,

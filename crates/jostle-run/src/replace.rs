@@ -70,6 +70,26 @@ impl FileKind {
         name: "result of jostle pushover",
         marks: &["\"curves\":", "\"jostle\":", "\"title\":"],
     };
+    /// Pages of `jostle size`.
+    pub const SIZE_PAGE: Self = Self {
+        name: "page of jostle size",
+        marks: &["<html", " – sizing</title>"],
+    };
+    /// Numbers of `jostle size`.
+    pub const SIZE_NUMBERS: Self = Self {
+        name: "result of jostle size",
+        marks: &["\"minimise\":", "\"keep\":", "\"jostle\":"],
+    };
+    /// Pages of `jostle compare`.
+    pub const COMPARISON_PAGE: Self = Self {
+        name: "page of jostle compare",
+        marks: &["<html", " – comparison</title>"],
+    };
+    /// Numbers of `jostle compare`.
+    pub const COMPARISON_NUMBERS: Self = Self {
+        name: "result of jostle compare",
+        marks: &["\"columns\":", "\"table_motion\":", "\"jostle\":"],
+    };
     /// Curves of `jostle collide`.
     pub const COLLISION_CURVES: Self = Self {
         name: "table of jostle collide",

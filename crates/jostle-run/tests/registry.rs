@@ -168,7 +168,9 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
     let isolated = serde_json::to_value(summary_of(ISOLATED)).expect("a summary is JSON");
     let founded = serde_json::to_value(summary_of(FOUNDED)).expect("a summary is JSON");
     let all = owners();
-    for owner in all.iter().filter(|owner| !owner.key.is_empty()) {
+    // Numbers of other files have their own tests.
+    let in_summary = |owner: &&Owner| !owner.key.is_empty() && !owner.key.contains(": ");
+    for owner in all.iter().filter(in_summary) {
         if in_space(&owner) {
             // The same objects have the numbers of one plane as well.
             let same_key = all.iter().filter(|other| other.key == owner.key);

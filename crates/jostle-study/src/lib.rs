@@ -15,6 +15,7 @@ mod row;
 mod runner;
 pub mod sampling;
 mod single;
+pub mod size;
 pub mod statistics;
 mod study;
 pub mod suite;

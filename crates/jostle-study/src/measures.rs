@@ -3,8 +3,8 @@
 use jostle::quantity::Read;
 use jostle::results::response::{BuildingResponse, FloorResponse};
 use jostle::results::summary::{
-    BuildingSummary, CapacitySummary, ContactSummary, EnergySummary, GapSummary, MotionSummary,
-    WorkSummary,
+    BuildingSummary, CapacitySummary, ContactSummary, EnergySummary, GapSummary, LinkSummary,
+    MotionSummary, WorkSummary,
 };
 use jostle::{GroundMotion, Quantity, Summary, Wave};
 use jostle_motion::{Accelerogram, Reading, response_spectrum};
@@ -97,6 +97,19 @@ pub(crate) fn measures(summary: &Summary, motion: &GroundMotion, compares: bool)
             };
             list.add(&place, ContactSummary::QUANTITIES, contact);
         }
+    }
+    for (index, link) in summary.links.iter().enumerate() {
+        let pair = link.between.join("-");
+        let same = |other: &&LinkSummary| other.between == link.between;
+        // Several [[link]] between the same two are numbered in the order of the file.
+        let place = match summary.links.iter().filter(same).count() {
+            1 => format!("{pair}.link."),
+            _ => {
+                let before = summary.links[..index].iter().filter(same).count();
+                format!("{pair}.link{}.", before + 1)
+            }
+        };
+        list.add(&place, LinkSummary::QUANTITIES, link);
     }
     let spectra = spectral_accelerations(summary, motion);
     for (building, sa) in summary.buildings.iter().zip(spectra) {

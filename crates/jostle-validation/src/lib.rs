@@ -12,6 +12,7 @@ pub mod differing_ground;
 pub mod document;
 pub mod frames;
 pub mod ground;
+pub mod harmonic;
 pub mod links;
 pub mod loops;
 pub mod modes;

@@ -6,11 +6,12 @@ use std::process::ExitCode;
 use jostle_io::write_atomically;
 use jostle_validation::certify::record::{self, Record};
 use jostle_validation::{
-    Extent, bits, certify, document, families, loops, misses, pairs, paper, work_precision,
+    Extent, bits, certify, document, families, harmonic, loops, misses, pairs, paper,
+    work_precision,
 };
 
 const USAGE: &str = "\
-usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [TOLERANCE]]] [--work-precision] [--figures]
+usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [TOLERANCE]]] [--work-precision] [--figures] [--harmonic]
   --full        small steps as well; takes minutes
   --check       writes nothing; exits with 1 if a number misses
   --family T    prints every comparison of the family with that title
@@ -18,6 +19,7 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
                 the distribution of the errors; takes minutes
   --work-precision  writes docs/work-precision.md and its figure; takes minutes
   --figures     writes the figure of the contact laws
+  --harmonic    writes docs/harmonic-pounding.md and its figures; takes minutes
   --certify N [--seed S] [--only K] [--json FILE]  holds every promised number of N random models against a reference of
                 other means; FILE gets every ratio
   --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files
@@ -64,6 +66,22 @@ fn main() -> ExitCode {
             &in_crate("../../docs/figures/contact-loops.svg"),
             &loops::figure(),
         );
+    }
+    if arguments.first().is_some_and(|a| a == "--harmonic") {
+        let study = harmonic::study();
+        for (name, text) in [
+            ("figures/harmonic-speed.svg", harmonic::speed_figure(&study)),
+            (
+                "figures/harmonic-poincare.svg",
+                harmonic::section_figure(&study),
+            ),
+            ("harmonic-pounding.md", harmonic::page(&study)),
+        ] {
+            if written(&in_crate("../../docs").join(name), &text) == ExitCode::FAILURE {
+                return ExitCode::FAILURE;
+            }
+        }
+        return ExitCode::SUCCESS;
     }
     let asked = |option: &str| arguments.iter().any(|argument| argument == option);
     if let Some(unknown) = arguments

@@ -34,6 +34,8 @@ impl Unit {
     pub const J: Self = Self { symbol: "J", suffix: "_j" };
     pub const N_PER_M: Self = Self { symbol: "N/m", suffix: "_n_m" };
     pub const NS_PER_M: Self = Self { symbol: "N·s/m", suffix: "_n_s_m" };
+    /// Numbers of any column of a history.
+    pub const OF_COLUMN: Self = Self { symbol: "of the column", suffix: "" };
     pub const NM_PER_RAD: Self = Self { symbol: "N·m/rad", suffix: "_n_m_rad" };
     pub const NMS_PER_RAD: Self = Self { symbol: "N·m·s/rad", suffix: "_n_m_s_rad" };
     /// Deformations of hinges and of storeys.

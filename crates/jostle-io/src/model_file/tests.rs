@@ -139,6 +139,17 @@ responses = ["x"]
 spectrum = { code = "gb50011", intensity = 7, site = "II", group = 1 }
 "#;
 
+/// A map of a comparison that has every table.
+const MAP: &str = r#"
+table_acceleration = "A0"
+[[column]]
+measured = "D1"
+computed = "J1.floor1.displacement_m"
+[[impacts]]
+acceleration = "A1"
+above = "2 g"
+"#;
+
 #[test]
 fn every_key_of_the_table_is_read() {
     let mut asked = BTreeSet::new();
@@ -153,6 +164,9 @@ fn every_key_of_the_table_is_read() {
     let source = Source::new("study.toml", STUDY);
     let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
     asked.extend(crate::study_file::keys_asked(&source, &root));
+    let source = Source::new("map.toml", MAP);
+    let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+    asked.extend(crate::comparison_map::keys_asked(&source, &root));
     let known: BTreeSet<_> = KEYS.iter().map(|key| (key.section, key.name)).collect();
     let unread: Vec<_> = known.difference(&asked).collect();
     assert!(

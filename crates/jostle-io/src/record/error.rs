@@ -346,6 +346,28 @@ pub enum RecordError {
         /// Columns of the first line.
         expected: usize,
     },
+    /// A table of measurements without names or units of its columns.
+    #[error(
+        ": {problem}; a NEES .asc file has six header rows, among them the names of the columns (Time, …) and their units (sec, …), and numbers from line 7 on"
+    )]
+    MeasuredHeader {
+        /// What is missing.
+        problem: String,
+    },
+    /// A cell of such a table that is not a number.
+    #[error(
+        ":{line}: column {column} ({name}): \"{found}\" is not a number; correct the value, or remove the row and those after it"
+    )]
+    MeasuredCell {
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1, that of the times included.
+        column: usize,
+        /// Name of the column.
+        name: String,
+        /// The text.
+        found: String,
+    },
     /// Numbers far too large for g.
     #[error(
         ": the largest number is {largest}, surely not g; say the right unit, for example unit = \"cm/s2\""

@@ -18,6 +18,8 @@ use std::path::Path;
 pub use channel::{Channel, Direction};
 pub use error::RecordError;
 pub use formats::RecordFormat;
+pub(crate) use formats::{HEADER_ROWS, Times, check_text};
+pub(crate) use lines::{Lines, check_end, number, without_fill};
 pub(crate) use units::acceleration_unit;
 
 use crate::bounded::read_at_most;

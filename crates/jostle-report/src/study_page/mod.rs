@@ -34,6 +34,8 @@ pub struct Axis {
 /// Everything the page of a study shows; numbers are in the units of their axes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StudyPage {
+    /// What it is the page of; empty for a study.
+    pub kind: String,
     /// Title.
     pub title: String,
     /// What it says, in sentences.
@@ -74,6 +76,11 @@ pub struct Section {
 /// The whole page; it loads nothing from outside.
 #[must_use]
 pub fn render_study(page: &StudyPage) -> String {
+    let kind = if page.kind.is_empty() {
+        "Study"
+    } else {
+        &page.kind
+    };
     let markup = html! {
         (DOCTYPE)
         html lang="en" {
@@ -82,14 +89,14 @@ pub fn render_study(page: &StudyPage) -> String {
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="description" content=(page.headline.join(" "));
-                title { (page.title) " – study" }
+                title { (page.title) " – " (kind.to_lowercase()) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
             }
             body {
                 header.head {
                     div {
-                        p.kicker { "Study" }
+                        p.kicker { (kind) }
                         h1 { (page.title) }
                     }
                     (theme_button())

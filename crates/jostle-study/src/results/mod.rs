@@ -222,6 +222,7 @@ impl Results<'_> {
             Some((*case, what.join(", "), self.link(*case)?))
         });
         StudyPage {
+            kind: String::new(),
             title: study.file.title.clone(),
             headline,
             facts,

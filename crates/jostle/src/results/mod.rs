@@ -1,6 +1,7 @@
 //! Results of a run as numbers to report.
 
 mod capacity;
+pub mod comparison;
 pub mod contact_sensitivity;
 mod counted_impact;
 pub mod floor_spectra;

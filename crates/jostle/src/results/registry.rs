@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::comparison::{HistoryScore, ImpactScore};
 use super::floor_spectra::{self, FilterSummary, FloorSpectra, FloorSpectrum};
 use super::ground::GroundSummary;
 use super::in_plan::{BuildingInPlan, FloorInPlan};
@@ -20,7 +21,7 @@ use crate::quantity::{Places, Quantity};
 pub struct Owner {
     /// Its name, in the plural.
     pub title: &'static str,
-    /// Where it stands in `summary.json`; empty for the file itself.
+    /// Where it stands in `summary.json`, or in another file whose name precedes it; empty for the file itself.
     pub key: &'static str,
     /// The table with one row for each, if there is one.
     pub table: Option<&'static str>,
@@ -83,7 +84,7 @@ pub fn owners() -> Vec<Owner> {
         owner("Gaps", "gaps[]", None, "J1-J2.", &[entries(GapSummary::QUANTITIES), entries(GapSummary::WITHOUT_CONTACT)]),
         owner("Contacts", "gaps[].contacts[]", None, "J1-J2.floor5-5.", &[entries(ContactSummary::QUANTITIES)]),
         owner("Impacts", "gaps[].contacts[].impacts[]", Some("impacts.parquet"), "", &[entries(ImpactSummary::QUANTITIES)]),
-        owner("Links", "links[]", None, "", &[entries(LinkSummary::QUANTITIES)]),
+        owner("Links", "links[]", None, "J1-J2.link.", &[entries(LinkSummary::QUANTITIES)]),
         owner("Linked floors", "links[].floors[]", None, "", &[entries(LinkFloorSummary::QUANTITIES)]),
         owner("Walls", "walls[]", None, "", &[entries(WallSummary::QUANTITIES)]),
         owner("Floor spectra", "floor_spectra", None, "", &[entries(FloorSpectra::QUANTITIES)]),
@@ -92,5 +93,7 @@ pub fn owners() -> Vec<Owner> {
         owner("Energies", "energy", None, "energy_", &[entries(EnergySummary::QUANTITIES)]),
         owner("Accuracy", "promise", None, "", &[entries(PromiseSummary::QUANTITIES)]),
         owner("Work", "work", None, "", &[entries(WorkSummary::QUANTITIES)]),
+        owner("Histories compared with measurements", "compare.json: columns[].score", None, "", &[entries(HistoryScore::QUANTITIES)]),
+        owner("Impacts compared with measurements", "compare.json: impacts[].score", None, "", &[entries(ImpactScore::QUANTITIES)]),
     ]
 }

@@ -19,6 +19,7 @@ mod esm;
 mod geonet;
 mod knet;
 mod miniseed;
+mod nees;
 mod sac;
 mod smc;
 
@@ -44,6 +45,8 @@ pub enum RecordFormat {
     GeoNet,
     /// AFAD (Türkiye), three columns below a header.
     Afad,
+    /// NEES `.asc` of shake tables: six header rows, then one row per instant.
+    Nees,
     /// miniSEED 2 and 3.
     MiniSeed,
     /// SAC, binary, of either byte order.
@@ -52,7 +55,7 @@ pub enum RecordFormat {
 
 impl RecordFormat {
     /// Every format.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::At2,
         Self::Columns,
         Self::Cosmos,
@@ -62,6 +65,7 @@ impl RecordFormat {
         Self::Smc,
         Self::GeoNet,
         Self::Afad,
+        Self::Nees,
         Self::MiniSeed,
         Self::Sac,
     ];
@@ -85,6 +89,7 @@ impl RecordFormat {
             Self::Smc => Facts::text("smc", "USGS SMC", smc::read),
             Self::GeoNet => Facts::text("geonet", "GeoNet", |bytes, _| geonet::read(bytes)),
             Self::Afad => Facts::text("afad", "AFAD", |bytes, _| afad::read(bytes)),
+            Self::Nees => Facts::text("nees", "NEES asc", |bytes, _| nees::read(bytes)),
             Self::MiniSeed => Facts::binary("miniseed", "miniSEED", |bytes, _| miniseed::read(bytes)),
             Self::Sac => Facts::binary("sac", "SAC", sac::read),
         }
@@ -190,7 +195,7 @@ const WRAPPED: &[(&[u8], &str, &str)] = &[
 ];
 
 /// Refuses what cannot be read as text.
-fn check_text(bytes: &[u8]) -> Result<(), RecordError> {
+pub(crate) fn check_text(bytes: &[u8]) -> Result<(), RecordError> {
     if let Some((_, what, remedy)) = WRAPPED.iter().find(|(mark, ..)| bytes.starts_with(mark)) {
         return Err(RecordError::Wrapped { what, remedy });
     }
@@ -255,6 +260,9 @@ fn is_usc(lines: &[Cow<'_, str>]) -> bool {
     !header.is_empty() && header.iter().all(numbered)
 }
 
+pub(crate) use columns::Times;
+pub(crate) use nees::HEADER_ROWS;
+
 /// Lines that can identify a format.
 const FIRST_LINES: usize = 64;
 /// Lines of AT2 in which NPTS must stand.
@@ -306,7 +314,11 @@ fn detect_text(bytes: &[u8]) -> RecordFormat {
             return F::At2;
         }
     }
-    if npts { F::At2 } else { F::Columns }
+    match npts {
+        true => F::At2,
+        false if nees::is_nees(bytes) => F::Nees,
+        false => F::Columns,
+    }
 }
 
 /// `2 CORRECTED ACCELEROGRAM` and its like.

@@ -39,10 +39,10 @@ impl LinkSummary {
         Quantity::<Self>::real("damping_n_s_m", Unit::NS_PER_M, "damping of each dashpot; with an exponent α in N·(s/m)^α", |l| l.damping_n_s_m),
         Quantity::<Self>::real("exponent", Unit::NONE, "exponent α of viscous links, otherwise 1", |l| l.exponent),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any of them", |l| l.peak_force_n),
-        Quantity::<Self>::real("force_peak_n", Unit::N, "the same, under the name of the other peaks", |l| l.force_peak_n),
-        Quantity::<Self>::real("stroke_peak_m", Unit::M, "greatest change of length of any of them", |l| l.stroke_peak_m),
+        Quantity::<Self>::real("force_peak_n", Unit::N, "the same, under the name of the other peaks", |l| l.force_peak_n).in_study(),
+        Quantity::<Self>::real("stroke_peak_m", Unit::M, "greatest change of length of any of them", |l| l.stroke_peak_m).in_study(),
         Quantity::<Self>::real("speed_peak_m_s", Unit::M_S, "greatest rate of change of length of any of them", |l| l.speed_peak_m_s),
-        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in dashpots and sliders", |l| l.dissipated_j),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in dashpots and sliders", |l| l.dissipated_j).in_study(),
     ];
 }
 

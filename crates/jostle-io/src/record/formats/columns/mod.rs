@@ -15,7 +15,7 @@ use crate::record::formats::RecordFormat;
 use crate::record::lines::{LineMap, Lines, check_end, number};
 
 use header::{Header, apply_options, bad_number, read_column_names, read_comment};
-use times::Times;
+pub(crate) use times::Times;
 
 /// Lines without numbers accepted before the data.
 const MOST_HEADER_ROWS: usize = 50;

@@ -1,0 +1,170 @@
+//! `jostle size`: the least of something that keeps conditions.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use jostle_io::{Dimension, ModelTree, parse_option};
+use jostle_study::size::{Over, SizeProblem, SizeProgress, SizeRequest, earlier_size_files};
+
+use crate::failure::Failure;
+use crate::stop::stop_on_interrupt;
+use crate::terminal;
+
+/// Shortest duration with a progress bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Keys and results have the names of `jostle study`. link, gap, contact, building and floor stand for the greatest\n\
+                  of their kind: floor.displacement_max_m. A key of a list without a number means all of its entries.\n\n  \
+                  jostle size mine.toml --vary \"link.damping=10 kN.s/m..10 MN.s/m\" --keep \"impact_count == 0\" --minimise link.force_peak_n\n  \
+                  jostle size mine.toml --vary \"gap.width=5 mm..300 mm\" --keep \"impact_count == 0\" --minimise gap.width"
+)]
+pub(crate) struct SizeArgs {
+    /// Model file (TOML or JSON), or the name of a built-in example
+    model: PathBuf,
+    /// Vary this key between bounds, NAME=LOW..HIGH; without bounds, between a tenth and ten times the value of the model;
+    /// several separated by commas, or repeat
+    #[arg(long, value_name = "KEY", value_delimiter = ',', required = true)]
+    vary: Vec<String>,
+    /// Keep this condition, such as "impact_count == 0" or "floor.displacement_max_m <= 50 mm"; repeat for several
+    #[arg(long, value_name = "CONDITION")]
+    keep: Vec<String>,
+    /// Minimise this: a key, a result, or a sum such as "2 * link.force_peak_n + gap.peak_force_n"
+    #[arg(long, value_name = "EXPRESSION", alias = "minimize")]
+    minimise: String,
+    /// Use these ground motions: a built-in name or a file; repeat for a set [default: those of the model]
+    #[arg(long, value_name = "RECORD")]
+    record: Vec<String>,
+    /// Scale the motions to this peak ground acceleration
+    #[arg(long, value_name = "QUANTITY")]
+    pga: Option<String>,
+    /// Of several records, the worst counts, or their mean
+    #[arg(long, value_name = "RULE", default_value = "worst", value_parser = Over::NAMES)]
+    over: String,
+    /// Seed of the search
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Most trials
+    #[arg(long, value_name = "N", default_value_t = 600)]
+    trials: usize,
+    /// End the search when the objectives of a generation differ by less than this part
+    #[arg(long, value_name = "NUMBER", default_value_t = 1e-4)]
+    tolerance: f64,
+    /// Number of runs at the same time [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    jobs: Option<u32>,
+    /// Folder for the results [default: jostle-out/MODEL-size; with --json, none]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print size.json and nothing else
+    #[arg(long)]
+    json: bool,
+    /// Replace files in the results folder that jostle did not write
+    #[arg(long)]
+    force: bool,
+}
+
+pub(crate) fn size(args: &SizeArgs) -> Result<(), Failure> {
+    if let Some(pga) = &args.pga {
+        parse_option("--pga", pga, Dimension::Acceleration).map_err(Failure::Input)?;
+    }
+    let tree = ModelTree::find(&args.model)?;
+    let request = SizeRequest {
+        vary: args.vary.clone(),
+        keep: args.keep.clone(),
+        minimise: args.minimise.clone(),
+        records: args.record.clone(),
+        pga: args.pga.clone(),
+        over: Over::from_name(&args.over).unwrap_or(Over::Worst),
+        seed: args.seed,
+        trials: args.trials,
+        tolerance: args.tolerance,
+    };
+    let problem = SizeProblem::new(tree, &request)?;
+    terminal::warn_all(problem.warnings());
+    let out = folder(args);
+    if let Some(out) = &out {
+        let earlier = earlier_size_files(out, args.force)?;
+        if !earlier.is_empty() {
+            terminal::remark(&format!(
+                "{} holds an earlier search, which goes on if it is the same: {}",
+                out.display(),
+                earlier.join(", ")
+            ));
+        }
+    }
+    let stop = stop_on_interrupt();
+    let bar = Bar::new(args.trials as u64);
+    let shown = bar.clone();
+    let progress = Box::new(move |progress| shown.show(progress));
+    let done = problem.run(
+        out.as_deref(),
+        args.jobs.map(|jobs| jobs as usize),
+        &stop,
+        progress,
+    );
+    bar.0.finish_and_clear();
+    let results = done?;
+    if args.json {
+        terminal::print(&format!("{:#}", results.json()))?;
+    } else {
+        if results.earlier > 0 {
+            terminal::remark(&format!("{} trials were finished already", results.earlier));
+        }
+        let page = out.as_deref().map(|out| out.join("size.html"));
+        terminal::print(&results.describe(page.as_deref()))?;
+    }
+    if results.stopped {
+        terminal::remark(match out {
+            Some(_) => "stopped; the same command continues from here",
+            None => "stopped",
+        });
+        return Err(Failure::Stopped);
+    }
+    if results.best.is_none() {
+        return Err(Failure::Analysis("no trial keeps the conditions".into()));
+    }
+    Ok(())
+}
+
+/// The folder for results, if any are to be written.
+fn folder(args: &SizeArgs) -> Option<PathBuf> {
+    let name = args.model.file_stem().map_or_else(
+        || "model".to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    );
+    let default = || (!args.json).then(|| Path::new("jostle-out").join(format!("{name}-size")));
+    args.out.clone().or_else(default)
+}
+
+/// A bar over the trials, which appears only on a terminal and only after a while.
+#[derive(Clone)]
+struct Bar(ProgressBar, Instant);
+
+impl Bar {
+    fn new(trials: u64) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(trials), ProgressDrawTarget::hidden());
+        let template = "{wide_bar} {pos} of {len} trials  {msg}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        Self(bar, Instant::now())
+    }
+
+    fn show(&self, progress: SizeProgress) {
+        if self.0.is_hidden() && terminal::is_watched() && self.1.elapsed() > PATIENCE {
+            self.0
+                .set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
+        }
+        self.0.set_position(progress.trials as u64);
+        self.0.set_message(match progress.best {
+            Some(best) => format!("generation {}, least {best:.5e}", progress.generation),
+            None => format!(
+                "generation {}, none keeps the conditions",
+                progress.generation
+            ),
+        });
+    }
+}

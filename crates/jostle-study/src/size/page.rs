@@ -1,0 +1,226 @@
+//! The page of a search: the best trial, what it costs to keep more or less, how the search went.
+
+use jostle_report::{Axis, Chart, Level, Section, Series, Stroke, StudyPage, render_study};
+
+use super::text::{number, rounded, shown};
+use super::{SizeResults, Trial};
+use crate::row::Status;
+
+/// Trials in the table of the best.
+const BEST: usize = 20;
+
+fn axis(name: &str, suffix: &str) -> Axis {
+    Axis {
+        name: name.into(),
+        unit: shown(suffix).0.into(),
+    }
+}
+
+fn series(name: &str, points: Vec<[f64; 2]>, stroke: Stroke, colour: usize) -> Series {
+    Series {
+        name: name.into(),
+        points,
+        band: Vec::new(),
+        stroke,
+        colour,
+    }
+}
+
+impl SizeResults {
+    /// The page; it loads nothing from outside.
+    #[must_use]
+    pub fn page(&self) -> String {
+        let mut facts = vec![
+            ("minimised".to_owned(), self.objective.text.clone()),
+            ("trials".into(), self.trials.len().to_string()),
+            ("seed".into(), self.seed.to_string()),
+        ];
+        for condition in &self.conditions {
+            facts.insert(1, ("kept".into(), condition.text.clone()));
+        }
+        if self.records.len() > 1 {
+            let records = format!("{}, {}", self.records.len(), self.over);
+            facts.push(("records".into(), records));
+        }
+        let mut sections = Vec::new();
+        for index in 0..self.conditions.len() {
+            sections.push(self.trade_off_section(index));
+        }
+        sections.push(self.course());
+        sections.push(self.over_inputs());
+        sections.push(self.table());
+        render_study(&StudyPage {
+            kind: "Sizing".into(),
+            title: self.title.clone(),
+            headline: self.headline(),
+            facts,
+            sections: sections
+                .into_iter()
+                .filter(|s| !s.charts.is_empty() || s.table.is_some())
+                .collect(),
+            files: vec![
+                (
+                    "size.json".into(),
+                    "the best trial and the trade-offs".into(),
+                ),
+                ("trials.parquet".into(), "one row per trial".into()),
+                (
+                    "trials.journal".into(),
+                    "finished trials, from which the same command goes on".into(),
+                ),
+            ],
+            ..StudyPage::default()
+        })
+    }
+
+    /// Objective of completed trials over something, those that keep all conditions apart.
+    fn dots(&self, x: impl Fn(&Trial) -> Option<f64>, colour: [usize; 2]) -> Vec<Series> {
+        let size = shown(&self.objective.suffix).1;
+        let points = |keeps: bool| -> Vec<[f64; 2]> {
+            let trials = self.trials.iter();
+            let fitting = trials.filter(|t| t.status == Status::Completed && t.keeps() == keeps);
+            fitting
+                .filter_map(|t| Some([x(t)?, size * t.objective?]))
+                .collect()
+        };
+        let both = [
+            ("misses a condition", false, colour[1]),
+            ("keeps all", true, colour[0]),
+        ];
+        both.into_iter()
+            .map(|(name, keeps, colour)| series(name, points(keeps), Stroke::Dots, colour))
+            .filter(|series| !series.points.is_empty())
+            .collect()
+    }
+
+    fn trade_off_section(&self, index: usize) -> Section {
+        let condition = &self.conditions[index];
+        let (size, own) = (
+            shown(&self.objective.suffix).1,
+            shown(&condition.left.suffix).1,
+        );
+        let front = self.trade_off(index);
+        let front = front
+            .iter()
+            .map(|[left, objective]| [own * left, size * objective]);
+        let mut all = self.dots(|trial| Some(own * trial.kept[index]?), [0, 6]);
+        all.push(series("least", front.collect(), Stroke::Dotted, 1));
+        Section {
+            title: format!(
+                "Trade-off: {} against {}",
+                self.objective.text, condition.left.text
+            ),
+            remark: format!(
+                "The line joins trials that no other beats in both. Kept: {}.",
+                condition.text
+            ),
+            charts: vec![Chart {
+                title: String::new(),
+                x: axis(&condition.left.text, &condition.left.suffix),
+                y: axis(&self.objective.text, &self.objective.suffix),
+                series: all,
+                levels: Vec::new(),
+                reach: 0.0,
+                ordered: false,
+            }],
+            ..Section::default()
+        }
+    }
+
+    /// The least objective after every trial.
+    fn course(&self) -> Section {
+        let size = shown(&self.objective.suffix).1;
+        let mut best: Option<f64> = None;
+        let mut points = Vec::new();
+        for (index, trial) in self.trials.iter().enumerate() {
+            if let (true, Some(objective)) = (trial.keeps(), trial.objective)
+                && best.is_none_or(|best| objective < best)
+            {
+                best = Some(objective);
+            }
+            if let Some(best) = best {
+                points.push([index as f64, size * best]);
+            }
+        }
+        let levels = best.map(|best| Level {
+            name: number(best, &self.objective.suffix),
+            value: size * best,
+        });
+        Section {
+            title: "Course of the search".into(),
+            remark: "The least objective among the trials so far that keep all conditions.".into(),
+            charts: if points.len() < 2 {
+                Vec::new()
+            } else {
+                vec![Chart {
+                    title: String::new(),
+                    x: axis("trial", ""),
+                    y: axis(&self.objective.text, &self.objective.suffix),
+                    series: vec![series("", points, Stroke::Line, 0)],
+                    levels: levels.into_iter().collect(),
+                    reach: 0.0,
+                    ordered: false,
+                }]
+            },
+            ..Section::default()
+        }
+    }
+
+    /// The objective over every varied key.
+    fn over_inputs(&self) -> Section {
+        let charts = self
+            .inputs
+            .iter()
+            .enumerate()
+            .map(|(index, (name, column))| {
+                let suffix = ["_n_s_m", "_m_s2", "_n_m", "_m_s", "_m", "_n", "_s", "_kg"];
+                let suffix = suffix.into_iter().find(|suffix| column.ends_with(suffix));
+                let suffix = suffix.unwrap_or_default();
+                let size = shown(suffix).1;
+                Chart {
+                    title: String::new(),
+                    x: axis(name, suffix),
+                    y: axis(&self.objective.text, &self.objective.suffix),
+                    series: self.dots(|trial| Some(size * trial.inputs[index].0?), [0, 6]),
+                    levels: Vec::new(),
+                    reach: 0.0,
+                    ordered: false,
+                }
+            });
+        Section {
+            title: "Objective over the varied keys".into(),
+            remark: String::new(),
+            charts: charts.collect(),
+            ..Section::default()
+        }
+    }
+
+    fn table(&self) -> Section {
+        let mut best: Vec<&Trial> = self.trials.iter().filter(|trial| trial.keeps()).collect();
+        best.sort_by(|a, b| {
+            let value = |trial: &Trial| trial.objective.unwrap_or(f64::INFINITY);
+            value(a).total_cmp(&value(b))
+        });
+        let mut heads: Vec<String> = self.inputs.iter().map(|(name, _)| name.clone()).collect();
+        heads.push(self.objective.text.clone());
+        heads.extend(self.conditions.iter().map(|c| c.left.text.clone()));
+        let rows = best.into_iter().take(BEST).map(|trial| {
+            let mut row: Vec<String> = trial.inputs.iter().map(|(_, text)| rounded(text)).collect();
+            row.push(number(
+                trial.objective.unwrap_or(f64::NAN),
+                &self.objective.suffix,
+            ));
+            let lefts = self.conditions.iter().zip(&trial.kept);
+            row.extend(lefts.map(|(condition, left)| {
+                left.map_or_else(|| "–".into(), |left| number(left, &condition.left.suffix))
+            }));
+            row
+        });
+        let rows: Vec<Vec<String>> = rows.collect();
+        Section {
+            title: "The best trials".into(),
+            table: (!rows.is_empty()).then_some((heads, rows)),
+            ..Section::default()
+        }
+    }
+}
