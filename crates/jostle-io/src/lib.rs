@@ -16,10 +16,10 @@ mod grade;
 mod keys;
 mod knobs;
 mod matrices;
-mod measured;
 mod model_file;
 mod model_tree;
 mod motion_spec;
+mod nearest;
 mod output;
 mod pushover;
 mod quantities_page;
@@ -57,10 +57,8 @@ pub use grade::{parse_concrete, parse_steel};
 /// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
 pub use jostle::statics::STANDARD_GRAVITY;
 pub use keys::LAW_NAMES;
-pub use keys::nearest as nearest_name;
 pub use knobs::{Knob, KnobKind};
 pub use matrices::numpy_archive;
-pub use measured::{MeasuredColumn, MeasuredTable};
 pub use model_file::{
     CapacityRequest, FloorSpectraRequest, Input, OverrideError, Overrides, ReinforcedMember,
     read_model_file, read_model_text,
@@ -70,10 +68,12 @@ pub use motion_spec::{
     GroundsSpec, MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, OwnGroundSpec,
     OwnMotionSpec, Scaling,
 };
+pub use nearest::nearest as nearest_name;
 pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
 pub use pushover::{pushover_csv, pushover_json};
 pub use quantities_page::{quantity_list, quantity_reference};
 pub use quantity::{Dimension, QuantityError, in_unit_of, parse_quantity};
+pub use record::measured::{MeasuredColumn, MeasuredTable};
 pub use record::{
     Channel, Direction, Record, RecordError, RecordFormat, RecordInfo, RecordOptions,
     describe_record, parse_info, parse_record, parse_record_and_info, read_record,

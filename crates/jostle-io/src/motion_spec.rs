@@ -12,7 +12,7 @@ use jostle_motion::{
 };
 
 use crate::builtin;
-use crate::keys::nearest;
+use crate::nearest::nearest;
 use crate::record::{GREATEST_ACCELERATION, RecordError, RecordOptions, read_record};
 use crate::source::BACKSLASH;
 

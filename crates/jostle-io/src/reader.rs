@@ -2,7 +2,8 @@
 
 use crate::fault::{Fault, InputError};
 use crate::grade::{ConcreteGrade, cylinder_strength};
-use crate::keys::{Section, keys_of, nearest};
+use crate::keys::{Section, keys_of};
+use crate::nearest::nearest;
 use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten};
 use crate::source::{Source, Span};
 use crate::tree::{Node, Table, Value};

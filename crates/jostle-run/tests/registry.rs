@@ -120,6 +120,27 @@ storey_height = "3 m"
 foundation = { length = "12 m", width = "10 m", mass = "100 t" }
 "#;
 
+/// Two buildings that the motion reaches one after the other.
+const DELAYED: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "3 s" }
+[[building]]
+name = "A"
+kind = "shear"
+mass = ["100 t", "100 t"]
+stiffness = "200 MN/m"
+storey_height = "3 m"
+[[building]]
+name = "B"
+kind = "shear"
+mass = ["100 t", "100 t"]
+stiffness = "100 MN/m"
+storey_height = "3 m"
+motion = { arrival = "40 ms" }
+[[gap]]
+between = ["A", "B"]
+width = "5 mm"
+"#;
+
 fn summary() -> Summary {
     summary_of(MODEL)
 }
@@ -167,6 +188,7 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
     let in_space = |owner: &&Owner| owner.title.ends_with("in plan");
     let isolated = serde_json::to_value(summary_of(ISOLATED)).expect("a summary is JSON");
     let founded = serde_json::to_value(summary_of(FOUNDED)).expect("a summary is JSON");
+    let delayed = serde_json::to_value(summary_of(DELAYED)).expect("a summary is JSON");
     let all = owners();
     // Numbers of other files have their own tests.
     let in_summary = |owner: &&Owner| !owner.key.is_empty() && !owner.key.contains(": ");
@@ -177,6 +199,8 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
             compare(&space, &same_key.collect::<Vec<_>>());
         } else if matches!(owner.title, "Bearings" | "Walls") {
             compare(&isolated, &[owner]);
+        } else if owner.title == "Ground under a building" {
+            compare(&delayed, &[owner]);
         } else if owner.title == "Foundations" {
             compare(&founded, &[owner]);
         } else {

@@ -3,7 +3,7 @@
 use jostle::model::LEVEL_TOLERANCE;
 use jostle::{Building, FloorPairs, Level, Structure, Wall};
 
-use crate::keys::nearest;
+use crate::nearest::nearest;
 use crate::quantity::{Dimension, shorten};
 use crate::reader::{Field, Reader, View};
 

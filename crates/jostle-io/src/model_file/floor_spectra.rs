@@ -3,7 +3,8 @@
 use jostle::model::Building;
 use jostle_motion::spaced_periods;
 
-use crate::keys::{Section, nearest};
+use crate::keys::Section;
+use crate::nearest::nearest;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
 use crate::tree::Value;

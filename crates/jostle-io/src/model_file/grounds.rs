@@ -231,7 +231,10 @@ fn read_building(
         ground.arrival = Some(value.max(0.0));
     }
     let others = ["record", "kind", "scale", "pga", "match", "reverse"];
-    if others.into_iter().any(|key| view.has(key)) {
+    let of_sources = ["amplitude", "period", "centre"]
+        .iter()
+        .chain(motion::RECORD_KEYS);
+    if others.iter().chain(of_sources).any(|key| view.has(key)) {
         ground.motion = motion::read_own(reader, &view, base).map(Box::new);
     }
     let vertical = reader.get(&view, "vertical");

@@ -13,7 +13,7 @@ use crate::record::{RecordFormat, RecordOptions, acceleration_unit};
 use crate::tree::Value;
 
 /// Keys about a record file.
-const RECORD_KEYS: &[&str] = &[
+pub(super) const RECORD_KEYS: &[&str] = &[
     "unit",
     "step",
     "column",

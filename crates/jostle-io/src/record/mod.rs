@@ -11,6 +11,7 @@ mod fixed;
 mod formats;
 mod header;
 mod lines;
+pub(crate) mod measured;
 mod units;
 
 use std::path::Path;

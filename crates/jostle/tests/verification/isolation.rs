@@ -344,7 +344,7 @@ fn everything(own: Option<Isolation>) -> Model {
 /// The recursion and the elimination of whole matrices share only the elements; energy is kept; halving steps converges.
 #[test]
 fn links_of_all_laws_work_beside_yielding_buildings_and_bearings() {
-    let mut motion = shaking(1.5);
+    let mut motion = shaking(2.5);
     motion.scale = 1.2;
     for own in [None, Some(lead_rubber()), Some(pendulum())] {
         let model = everything(own);

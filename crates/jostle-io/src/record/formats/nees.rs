@@ -4,7 +4,6 @@
 //! The other four are free text, such as the test, the date, the numbers of sensors and their places. Cells are separated
 //! by tabs, else by commas or semicolons, else by blanks. The rows may come in any order, and numbers begin in line 7.
 
-use crate::measured::MeasuredTable;
 use crate::quantity::Dimension;
 use crate::record::channel::Direction;
 use crate::record::contents::{Contents, Scale, Trace};
@@ -12,6 +11,7 @@ use crate::record::error::RecordError;
 use crate::record::formats::RecordFormat;
 use crate::record::header::malformed;
 use crate::record::lines::{LineMap, Lines};
+use crate::record::measured::MeasuredTable;
 
 const FORMAT: RecordFormat = RecordFormat::Nees;
 /// Rows above the numbers.
@@ -50,7 +50,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
 
 /// Whether the first lines are the header of such a file.
 pub(crate) fn is_nees(bytes: &[u8]) -> bool {
-    crate::measured::find_header(bytes).is_ok()
+    crate::record::measured::find_header(bytes).is_ok()
         && Lines::new(bytes)
             .nth(HEADER_ROWS)
             .is_some_and(|row| !row.text.trim().is_empty())

@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use crate::bounded::read_at_most;
-use crate::keys::nearest;
+use crate::nearest::nearest;
 use crate::quantity::{Dimension, shorten};
 use crate::record::{
     HEADER_ROWS, Lines, RecordError, Times, acceleration_unit, check_end, check_text, number,
