@@ -10,6 +10,7 @@ from typing_extensions import CapsuleType
 
 __version__: str
 __all__ = [
+    "Comparison",
     "Live",
     "Model",
     "Motion",
@@ -20,6 +21,7 @@ __all__ = [
     "__version__",
     "collide",
     "command_line",
+    "compare",
     "contact_advice",
     "contact_laws",
     "critical_gaps",

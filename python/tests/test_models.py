@@ -383,10 +383,10 @@ def test_the_former_name_of_from_any_still_works() -> None:
 
 
 def test_buildings_stand_on_soil() -> None:
-    foundation = {"length_m": 12, "width": "12 m", "mass_t": 120}
+    foundation = {"length": "12 m", "width": "12 m", "mass": "120 t"}
     towers = [
-        Shear("A", storeys=2, mass_t=40, stiffness_mn_m=60, foundation=foundation),
-        Shear("B", storeys=2, mass_t=60, stiffness_mn_m=160, foundation=foundation),
+        Shear("A", storeys=2, storey_height="3 m", mass_t=40, stiffness_mn_m=60, foundation=foundation),
+        Shear("B", storeys=2, storey_height="3 m", mass_t=60, stiffness_mn_m=160, foundation=foundation),
     ]
     gap = Gap(width_mm=10, law="linear", stiffness="500 MN/m")
     soil = jostle.Soil(shear_wave_velocity="150 m/s", density="1800 kg/m3", poisson_ratio=0.33, coupling="static")
