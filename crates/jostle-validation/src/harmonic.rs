@@ -622,9 +622,9 @@ pub fn section_figure(study: &Study) -> String {
                 .unwrap_or(rough)
         };
         let repeats = match s.period {
-            Some(1) => "repeats every cycle".to_owned(),
-            Some(n) => format!("repeats every {n} cycles"),
-            None => format!("does not repeat within {LONGEST} cycles"),
+            Some(1) => "every cycle".to_owned(),
+            Some(n) => format!("every {n} cycles"),
+            None => "no repetition".to_owned(),
         };
         let stiff = if index == 3 {
             STIFFER[STIFFER.len() - 1]
@@ -632,7 +632,7 @@ pub fn section_figure(study: &Study) -> String {
             STIFF
         };
         let title = format!(
-            "stiff tower {stiff} Hz, ground {:.4} Hz: {repeats}",
+            "stiff tower {stiff} Hz, at {:.4} Hz: {repeats}",
             s.frequency
         );
         panel.frame(
