@@ -5,6 +5,7 @@
 
 mod acceleration_parts;
 mod clock;
+mod collapse;
 mod contact_parabola;
 mod control;
 mod coupling;

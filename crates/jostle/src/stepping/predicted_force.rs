@@ -3,6 +3,8 @@
 use crate::interface::Contact;
 use crate::state::Episode;
 
+/// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
+pub(super) const AHEAD: f64 = 1e-3;
 /// Parts of a step in which a force sets in or ends.
 const CORNER_PARTS: u32 = 16;
 

@@ -18,6 +18,7 @@ use crate::simd;
 use crate::state::{ContactPhase, Episode, State};
 use crate::statics::STANDARD_GRAVITY;
 use crate::stepping::clock::{Clock, NextStep};
+use crate::stepping::collapse::check_collapse;
 use crate::stepping::control::{Observed, half_cycle, next_division};
 use crate::stepping::energy::EnergyAudit;
 use crate::stepping::events::Cubic;
@@ -84,9 +85,6 @@ pub(super) struct Direct<E: StepEquations> {
 /// Parts of a free-vibration step after a jump of velocities, and the number of such steps. Average acceleration turns
 /// what dashpots take within a step into an oscillation of accelerations from step to step, which decays slowly.
 const AFTER_JUMP: u32 = 64;
-
-/// Storey drift from which a building that yields or leans has collapsed \[–\].
-pub(super) const COLLAPSE_DRIFT: f64 = 0.25;
 
 impl<E: StepEquations> Direct<E> {
     fn new(run: &RunState<'_>, settings: Settings, state: State) -> Self {
@@ -236,28 +234,6 @@ impl<E: StepEquations> Direct<E> {
         let law = &run.system.contacts[contact].law;
         let response = law.follow(indentation, rate, &episode.memory);
         response.by_indentation * rate + response.by_rate * acceleration
-    }
-
-    /// Elastic buildings may lean as far as they like: their numbers are those of their model.
-    fn check_collapse(&self, run: &RunState<'_>) -> Result<(), StepError> {
-        for (building, floors) in run.system.buildings.iter().zip(&self.recorder.floors) {
-            if building.equations.springs.is_empty() {
-                continue;
-            }
-            let worst = floors
-                .iter()
-                .enumerate()
-                .max_by(|a, b| a.1.storey_drift.total_cmp(&b.1.storey_drift));
-            if let Some((storey, peaks)) = worst.filter(|(_, p)| p.storey_drift > COLLAPSE_DRIFT) {
-                return Err(StepError::Collapse {
-                    building: building.name.clone(),
-                    storey: storey + 1,
-                    drift: peaks.storey_drift,
-                    time: run.time,
-                });
-            }
-        }
-        Ok(())
     }
 
     /// What will be out of balance at the end of the step (theory, Eq. N4): nothing, unless equilibrium is shifted.
@@ -506,7 +482,7 @@ impl<E: StepEquations> Stepper for Direct<E> {
         self.recorder.after_step(run.system, &instant, step);
         self.follow_members(run);
         self.record(run, was_closed);
-        self.check_collapse(run)
+        check_collapse(run.system, &self.recorder.floors, run.time)
     }
 
     /// Changes the accelerations of the two faces (theory, Eq. H2).

@@ -4,7 +4,7 @@ use super::stepper::ModalStepper;
 use crate::contact::momentum;
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::coupling::Closed;
-use crate::stepping::predicted_force::{Drift, PredictedForce};
+use crate::stepping::predicted_force::{AHEAD, Drift, PredictedForce};
 use crate::stepping::runner::{Jump, RunState};
 use crate::stepping::step_friction::{FRICTION_PARTS, StepFriction};
 
@@ -15,8 +15,6 @@ const AFTER_JUMP: [u32; 2] = [16, 1024];
 pub(super) const STRUCK_STEPS: u32 = 2;
 /// Steps per radian of the highest mode after a momentum impact.
 const STEPS_PER_RADIAN: f64 = 2.0;
-/// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
-pub(super) const AHEAD: f64 = 1e-3;
 /// Friction of a closed contact, if it has any.
 fn friction_of(run: &RunState<'_>, contact: usize, episode: &Episode) -> Option<StepFriction> {
     let law = run.system.contacts[contact].friction?.law;

@@ -1,6 +1,6 @@
 //! Stepping in modal coordinates.
 
-use super::closed_contacts::{AHEAD, STRUCK_STEPS};
+use super::closed_contacts::STRUCK_STEPS;
 use super::damped::Rules;
 use super::energy::Audit;
 use super::estimate::{Estimate, Reached};
@@ -24,7 +24,7 @@ use crate::stepping::member_ratios::MemberRatios;
 use crate::stepping::near_contacts::{self, NearContacts, Touch};
 use crate::stepping::outcome::{Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
-use crate::stepping::predicted_force::PredictedForce;
+use crate::stepping::predicted_force::{AHEAD, PredictedForce};
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::stepping::step_friction::FrictionPath;
 use crate::system::{RunGrounds, System};

@@ -5,11 +5,9 @@ use super::stepper::SeriesStepper;
 use crate::state::ContactPhase;
 use crate::stepping::coupling::Closed;
 use crate::stepping::outcome::StepError;
-use crate::stepping::predicted_force::{Drift, PredictedForce};
+use crate::stepping::predicted_force::{AHEAD, Drift, PredictedForce};
 use crate::stepping::runner::RunState;
 
-/// How far ahead the slope of a force is taken, as a share of a step: past any corner at which the last step has ended.
-pub(super) const AHEAD: f64 = 1e-3;
 /// Rounds between the forces and the motion under them.
 const MOST_ROUNDS: usize = 20;
 /// Change of the forces, relative to the greatest, at convergence.

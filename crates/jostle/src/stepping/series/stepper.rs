@@ -1,7 +1,6 @@
 //! Stepping by power series.
 
 use super::building_motion::{BuildingMotion, GAUSS, GroundLine, Push};
-use super::contacts::AHEAD;
 use super::peaks::SeriesPeaks;
 use crate::contact::momentum;
 use crate::history::{FoundationPeaks, MemberHistory, SpringEvent, SpringTotals};
@@ -11,8 +10,8 @@ use crate::motion::{Ground, GroundMotion};
 use crate::simd;
 use crate::state::{Episode, State};
 use crate::stepping::clock::{Clock, NextStep};
+use crate::stepping::collapse::check_collapse;
 use crate::stepping::contact_parabola;
-use crate::stepping::direct::COLLAPSE_DRIFT;
 use crate::stepping::energy::EnergyAudit;
 use crate::stepping::events::Cubic;
 use crate::stepping::force_equations::ForceEquations;
@@ -22,7 +21,7 @@ use crate::stepping::outcome::{
     Accuracy, Observer, Outcome, PlanPeaks, RunEnd, Settings, StepError,
 };
 use crate::stepping::plan::Plan;
-use crate::stepping::predicted_force::PredictedForce;
+use crate::stepping::predicted_force::{AHEAD, PredictedForce};
 use crate::stepping::recorder::{Instant, Recorder, greatest_in_step};
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::system::System;
@@ -330,25 +329,6 @@ impl SeriesStepper {
         }
     }
 
-    fn check_collapse(&self, run: &RunState<'_>) -> Result<(), StepError> {
-        for (building, floors) in run.system.buildings.iter().zip(&self.peaks.floors) {
-            if building.equations.springs.is_empty() {
-                continue;
-            }
-            let storeys = floors.iter().enumerate();
-            let worst = storeys.max_by(|a, b| a.1.storey_drift.total_cmp(&b.1.storey_drift));
-            if let Some((storey, peaks)) = worst.filter(|(_, p)| p.storey_drift > COLLAPSE_DRIFT) {
-                return Err(StepError::Collapse {
-                    building: building.name.clone(),
-                    storey: storey + 1,
-                    drift: peaks.storey_drift,
-                    time: run.time,
-                });
-            }
-        }
-        Ok(())
-    }
-
     /// A row of the history, where one is due.
     fn record(&mut self, run: &RunState<'_>, wanted: bool) {
         if !self.recorder.is_due(run.time, wanted) {
@@ -589,7 +569,7 @@ impl Stepper for SeriesStepper {
         }
         self.audit.look(kinetic, strain);
         self.record(run, was_closed);
-        self.check_collapse(run)
+        check_collapse(run.system, &self.peaks.floors, run.time)
     }
 
     fn before_touch(&mut self, run: &RunState<'_>, contact: usize, rate: f64) {
