@@ -34,7 +34,10 @@ proptest! {
             }
             work += last.work;
             let scale = case.force_scale() * (target - here).abs();
-            prop_assert!((work - straight.work).abs() <= 1e-12 * scale, "{work} and {}", straight.work);
+            // At every stop the slip is a difference of positions, each rounded.
+            let stops = (cuts.len() + 1) as f64;
+            let rounding = 2.0 * stops * f64::EPSILON * case.force_scale() * target.abs().max(here.abs());
+            prop_assert!((work - straight.work).abs() <= 1e-12 * scale + rounding, "{work} and {}", straight.work);
             (memory, here) = (straight.memory, target);
         }
     }
