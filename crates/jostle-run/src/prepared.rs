@@ -101,7 +101,8 @@ impl Prepared {
         outcome: &mut Outcome,
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) {
-        find_sensitivity(&self.system, &self.motion, &self.plan, outcome, watch);
+        let (system, motion, plan) = (&self.system, &self.motion, &self.plan);
+        find_sensitivity(system, motion, plan, self.shapes.as_deref(), outcome, watch);
     }
 
     /// Whether results can be compared with a run without contact: there is a gap, and the run came to its end.

@@ -210,7 +210,7 @@ fn digest(case: &Case) -> Option<String> {
         let go_on = |_| ControlFlow::Continue(());
         let mut outcome = simulate(&system, &motion, &plan, settings, go_on);
         if pounding == Pounding::Included {
-            find_sensitivity(&system, &motion, &plan, &mut outcome, go_on);
+            find_sensitivity(&system, &motion, &plan, None, &mut outcome, go_on);
         }
         let summary = Summary::new(&Run {
             model: &model,

@@ -85,7 +85,7 @@ fn ran(
         ControlFlow::Continue(())
     });
     let seconds = begun.elapsed().as_secs_f64();
-    find_sensitivity(system, motion, &plan, &mut outcome, |_| {
+    find_sensitivity(system, motion, &plan, None, &mut outcome, |_| {
         ControlFlow::Continue(())
     });
     let summary = Summary::new(&Run {

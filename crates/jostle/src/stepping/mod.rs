@@ -26,6 +26,7 @@ mod peak_change;
 mod plan;
 mod predicted_force;
 mod recorder;
+mod refined;
 mod runner;
 mod sensitivity;
 pub mod series;

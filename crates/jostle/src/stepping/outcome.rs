@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use super::member_ratios::MemberRatios;
 use super::plan::Plan;
+use super::refined::Refined;
 use crate::history::{
     Energy, Extreme, FaceImpact, FloorPeaks, FoundationPeaks, History, Impact, LinkTotals,
     MemberHistory, SectionRatio, SpringEvent, SpringHistory, SpringTotals, SupportPeaks, Work,
@@ -152,6 +153,8 @@ pub struct Outcome {
     pub state: State,
     /// Estimated errors of reported peaks, if any.
     pub accuracy: Option<Accuracy>,
+    /// How a run by modes was refined.
+    pub(crate) refined: Refined,
     /// Reason for the end.
     pub end: RunEnd,
 }
@@ -324,6 +327,7 @@ impl Outcome {
             contact_step: None,
             state: State::at_rest(system, 0.0),
             accuracy: None,
+            refined: Refined::default(),
             end: RunEnd::Failed(error),
         }
     }

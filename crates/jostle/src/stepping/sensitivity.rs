@@ -3,10 +3,11 @@
 
 use std::ops::ControlFlow;
 
-use super::outcome::{Observer, Outcome, Progress, RunEnd, Settings};
+use super::modal::Reduction;
+use super::outcome::{Observer, Outcome, Progress, RunEnd};
 use super::peak_change::{change_of_peaks, impacts};
 use super::plan::Plan;
-use super::simulate::simulate_once;
+use super::simulate::simulate_like;
 use crate::interface::Contact;
 use crate::model::Solver;
 use crate::motion::GroundMotion;
@@ -35,14 +36,17 @@ const FEW_IMPACTS: usize = 12;
 /// made narrower instead, so that the contact is made. Where the tolerance is not met and impacts differ between two step
 /// sizes, the instant is not later than the first of these. Other runs with at most twelve impacts, none of them
 /// doubtful, are not repeated; nor are those of buildings that yield, unless they are stepped by power series.
+///
+/// `shapes`: those that the run by modes began with, if they are at hand; they are found again without.
 pub fn find_sensitivity(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
+    shapes: Option<&Reduction>,
     outcome: &mut Outcome,
     mut observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) {
-    let found = sensitive_from(system, motion, plan, outcome, &mut observer);
+    let found = sensitive_from(system, motion, plan, shapes, outcome, &mut observer);
     if let Some(accuracy) = &mut outcome.accuracy {
         accuracy.sensitive_from = found;
     }
@@ -52,6 +56,7 @@ fn sensitive_from(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
+    shapes: Option<&Reduction>,
     outcome: &Outcome,
     observer: &mut Observer<'_>,
 ) -> Option<f64> {
@@ -81,17 +86,7 @@ fn sensitive_from(
         let sway = SWAY * greatest_displacement(contact, outcome);
         contact.width += change * tolerance * contact.width.max(closing.value).max(sway);
     }
-    let settings = Settings {
-        record_interval: None,
-        ..Settings::default()
-    };
-    let other = simulate_once(
-        &changed,
-        motion,
-        &plan.with_step(outcome.free_step),
-        settings,
-        observer,
-    );
+    let other = simulate_like(outcome, &changed, motion, plan, shapes, observer);
     if other.end != RunEnd::Completed {
         return unresolved;
     }

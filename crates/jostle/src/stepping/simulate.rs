@@ -108,17 +108,33 @@ fn step_through(
     }
 }
 
-/// Runs a system from rest with the steps of the plan, without an estimate of the error.
-pub(super) fn simulate_once(
+/// Runs a system from rest without an estimate of the error, with the steps and shapes of an outcome: of the same
+/// system, or of one with other gap widths. `shapes`: those with which the outcome began, if they are at hand.
+pub(super) fn simulate_like(
+    outcome: &Outcome,
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
-    settings: Settings,
+    shapes: Option<&modal::Reduction>,
     observer: &mut Observer<'_>,
 ) -> Outcome {
+    let plan = &plan.with_step(outcome.free_step);
+    let settings = Settings {
+        record_interval: None,
+        ..Settings::default()
+    };
     let rest = || State::at_rest_on(system, motion);
     match plan.solver {
-        Solver::Modal => simulate(system, motion, plan, settings, observer),
+        Solver::Modal => {
+            let refined = &outcome.refined;
+            if let Some(shapes) = shapes {
+                return modal::simulate_as(refined, system, motion, plan, shapes, observer);
+            }
+            match modal::Reduction::new(system, plan) {
+                Ok(own) => modal::simulate_as(refined, system, motion, plan, &own, observer),
+                Err(error) => Outcome::not_begun(system, error),
+            }
+        }
         Solver::Series => series::run(system, motion, plan, settings, rest(), observer),
         Solver::Riccati => {
             run_directly::<RiccatiSweep>(system, motion, plan, settings, rest(), observer)

@@ -27,6 +27,7 @@ use crate::stepping::outcome::{
 };
 use crate::stepping::plan::Plan;
 use crate::stepping::recorder::{Instant, Recorder};
+use crate::stepping::refined::Refined;
 use crate::stepping::runner::{ContactTrial, Jump, LinkTouch, RunState, Runner, Stepper};
 use crate::structure::StepEquations;
 use crate::system::System;
@@ -165,6 +166,7 @@ impl<E: StepEquations> Direct<E> {
             contact_step,
             state: self.state,
             accuracy,
+            refined: Refined::default(),
             end,
         }
     }

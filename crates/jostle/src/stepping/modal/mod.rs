@@ -33,9 +33,11 @@ mod unit_force;
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::outcome::{Accuracy, Observer, Outcome, Progress, RunEnd, Settings, StepError};
 use super::plan::{Plan, USUAL_TOLERANCE};
+use super::refined::{MoreShapes, Refined};
 use crate::history::Work;
 use crate::model::Integrator;
 use crate::motion::GroundMotion;
@@ -92,10 +94,25 @@ const FLEXIBILITY_SHARE: f64 = 0.02;
 /// The shapes of the buildings of a system. They depend on buildings, contacts and their laws, and on the
 /// tolerance, but not on gap widths or motions, so runs that differ only in these may share them.
 pub struct Reduction {
-    reduced: Reduced,
+    reduced: Arc<Reduced>,
+    /// Work for their computation.
+    work: Work,
+    /// Shapes that runs needed besides, for the next run that needs the same.
+    enriched: Mutex<Vec<Enriched>>,
+}
+
+/// Shapes with more shapes added.
+#[derive(Clone)]
+struct Enriched {
+    to: Arc<Reduced>,
+    added: MoreShapes,
+    reduced: Arc<Reduced>,
     /// Work for their computation.
     work: Work,
 }
+
+/// Largest number of enriched shapes that are kept.
+const KEPT: usize = 16;
 
 impl Reduction {
     /// Computes the shapes for the tolerance of the plan.
@@ -113,13 +130,48 @@ impl Reduction {
         let rates: Vec<Rates> = buildings.map(|index| rates(system, index)).collect();
         let closeness = FLEXIBILITY_SHARE * plan.tolerance().min(USUAL_TOLERANCE);
         match Reduced::new(system, &rates, closeness, plan.vertical, &mut work) {
-            Ok(reduced) => Ok(Self { reduced, work }),
+            Ok(reduced) => Ok(Self {
+                reduced: Arc::new(reduced),
+                work,
+                enriched: Mutex::default(),
+            }),
             Err((building, source)) => Err(StepError::NotPositive {
                 building: system.buildings[building].name.clone(),
                 time: 0.0,
                 source,
             }),
         }
+    }
+
+    /// Shapes with more added, and the work of finding them, whoever found them first.
+    fn enrich(
+        &self,
+        system: &System,
+        to: &Arc<Reduced>,
+        added: &MoreShapes,
+    ) -> Option<(Arc<Reduced>, Work)> {
+        {
+            let known = self.enriched.lock().unwrap_or_else(PoisonError::into_inner);
+            let found = known
+                .iter()
+                .find(|known| Arc::ptr_eq(&known.to, to) && known.added == *added);
+            if let Some(found) = found {
+                return Some((Arc::clone(&found.reduced), found.work));
+            }
+        }
+        let mut work = Work::default();
+        let reduced = to.enriched(system, &added.lacking, added.all, &mut work);
+        let reduced = Arc::new(reduced.ok()?);
+        let mut known = self.enriched.lock().unwrap_or_else(PoisonError::into_inner);
+        if known.len() < KEPT {
+            known.push(Enriched {
+                to: Arc::clone(to),
+                added: added.clone(),
+                reduced: Arc::clone(&reduced),
+                work,
+            });
+        }
+        Some((reduced, work))
     }
 }
 
@@ -150,11 +202,11 @@ pub(super) fn simulate_with(
         division: 1,
         work: reduction.work,
     };
-    let mut enriched: Option<Reduced> = None;
+    let mut reduced = Arc::clone(&reduction.reduced);
+    let mut shapes: Vec<MoreShapes> = Vec::new();
     let mut left = MOST_REPEATS;
     loop {
-        let reduced = enriched.as_ref().unwrap_or(&reduction.reduced);
-        let run = runner(system, motion, plan, settings, reduced, refinement);
+        let run = runner(system, motion, plan, settings, &reduced, refinement);
         let (mut outcome, verdict) = finish(run, observer);
         let between = verdict.estimate.between;
         let residual = verdict.estimate.both();
@@ -165,6 +217,10 @@ pub(super) fn simulate_with(
             doubtful_from: verdict.doubtful_from,
             sensitive_from: None,
         });
+        outcome.refined = Refined {
+            shapes: shapes.clone(),
+            division: refinement.division,
+        };
         if outcome.end != RunEnd::Completed {
             return outcome;
         }
@@ -182,11 +238,17 @@ pub(super) fn simulate_with(
         };
         if more {
             // If one enrichment is not enough, all natural modes are taken.
-            let all = enriched.is_some() && work.repeated_runs > 1;
-            match reduced.enriched(system, &verdict.lacking, all, &mut work) {
-                Ok(more) => enriched = Some(more),
-                Err(_) => return outcome,
-            }
+            let added = MoreShapes {
+                lacking: verdict.lacking,
+                all: !shapes.is_empty() && work.repeated_runs > 1,
+            };
+            let Some((more, found)) = reduction.enrich(system, &reduced, &added) else {
+                return outcome;
+            };
+            work.factorizations += found.factorizations;
+            work.solves += found.solves;
+            reduced = more;
+            shapes.push(added);
         }
         if finer {
             // Errors of cubics fall with the fourth power of the step.
@@ -195,6 +257,34 @@ pub(super) fn simulate_with(
         }
         refinement.work = work;
     }
+}
+
+/// Runs a system once with the shapes and steps with which a run of it, or of one with other gap widths, met its
+/// tolerance.
+pub(super) fn simulate_as(
+    refined: &Refined,
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    reduction: &Reduction,
+    observer: &mut Observer<'_>,
+) -> Outcome {
+    let mut reduced = Arc::clone(&reduction.reduced);
+    for added in &refined.shapes {
+        if let Some((more, _)) = reduction.enrich(system, &reduced, added) {
+            reduced = more;
+        }
+    }
+    let refinement = Refinement {
+        division: refined.division.max(1),
+        work: Work::default(),
+    };
+    let settings = Settings {
+        record_interval: None,
+        ..Settings::default()
+    };
+    let run = runner(system, motion, plan, settings, &reduced, refinement);
+    finish(run, observer).0
 }
 
 /// Largest number of repetitions with more shapes or finer steps.

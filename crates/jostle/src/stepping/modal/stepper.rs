@@ -25,6 +25,7 @@ use crate::stepping::near_contacts::{self, NearContacts, Touch};
 use crate::stepping::outcome::{Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::predicted_force::{AHEAD, PredictedForce};
+use crate::stepping::refined::Refined;
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::stepping::step_friction::FrictionPath;
 use crate::system::{RunGrounds, System};
@@ -262,6 +263,7 @@ impl<'a> ModalStepper<'a> {
             contact_step,
             state,
             accuracy: None,
+            refined: Refined::default(),
             end,
         }
     }

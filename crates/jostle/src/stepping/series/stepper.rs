@@ -23,6 +23,7 @@ use crate::stepping::outcome::{
 use crate::stepping::plan::Plan;
 use crate::stepping::predicted_force::{AHEAD, PredictedForce};
 use crate::stepping::recorder::{Instant, Recorder, greatest_in_step};
+use crate::stepping::refined::Refined;
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::system::System;
 
@@ -189,6 +190,7 @@ impl SeriesStepper {
                 doubtful_from: self.near.doubtful_from,
                 sensitive_from: None,
             }),
+            refined: Refined::default(),
             end,
         }
     }
