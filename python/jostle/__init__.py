@@ -35,7 +35,7 @@ from ._own_law import Experiment, experiment
 from ._pushover import CapacityCurve, pushover
 from ._result import Contact, Floor, LinkedFloors, Result
 from ._run import run
-from ._study import CriticalGap, RuleGap, Study, StudyResult, critical_gap
+from ._study import CriticalGap, GapPoint, RuleGap, Study, StudyResult, critical_gap
 from ._suite import Governing, Suite, run_suite
 from ._table import Table
 
@@ -55,6 +55,7 @@ __all__ = [
     "Floor",
     "Frame",
     "Gap",
+    "GapPoint",
     "Given",
     "Governing",
     "InterruptedWarning",

@@ -289,6 +289,25 @@ class RuleGap:
 
 
 @dataclass(frozen=True)
+class GapPoint:
+    """What a width of a gap leads to.
+
+    Attributes:
+        width: width [m].
+        impact_count: impacts in the gap.
+        peak_force: greatest contact force in the gap [N].
+        first_impact: first impact [s]; ``None`` without one.
+        met: whether the run met its tolerance; ``None`` without an estimate.
+    """
+
+    width: float
+    impact_count: int
+    peak_force: float
+    first_impact: float | None
+    met: bool | None
+
+
+@dataclass(frozen=True)
 class CriticalGap:
     """The smallest gap without pounding between two neighbours under one motion.
 
@@ -301,6 +320,7 @@ class CriticalGap:
         closing_without_contact: peak closing of the buildings without contact [m].
         rules: gaps required by rules and codes.
         left_out: rules that cannot be applied, and the keys of ``[codes]`` that they need.
+        curve: force and impacts over the gap, from zero to ``gap``; empty unless asked for.
     """
 
     between: tuple[str, str]
@@ -311,6 +331,7 @@ class CriticalGap:
     closing_without_contact: float
     rules: tuple[RuleGap, ...]
     left_out: tuple[tuple[str, str], ...] = ()
+    curve: tuple[GapPoint, ...] = ()
 
 
 def critical_gap(
@@ -322,6 +343,7 @@ def critical_gap(
     system: str | None = None,
     codes: Sequence[str] = (),
     outcomes: bool = True,
+    curve: int = 0,
 ) -> list[CriticalGap]:
     """Returns the smallest gap without pounding, by bracketing with runs, compared with ABS, SRSS, DDC and codes.
 
@@ -334,6 +356,8 @@ def critical_gap(
             ``[codes]`` in the model file.
         codes: codes whose rules are listed, such as ``["en1998", "asce7"]``; by default those of ``[codes]``, else all.
         outcomes: true also runs the model with the gap of every rule.
+        curve: number of equally spaced widths from zero to the smallest gap at which force and impacts are computed too, 2 to
+            10000; 0 for none.
 
     Returns:
         One entry for every gap of the model and every motion.
@@ -342,6 +366,8 @@ def critical_gap(
         ModelError: model, motion or an argument is wrong.
         AnalysisError: a run failed.
     """
+    if curve and not 2 <= curve <= 10000:
+        raise ModelError(f"curve: must be 0 or 2 to 10000, found {curve}")
     if not isinstance(model, Model):
         model = Model.load(model)
     found: list[CriticalGap] = []
@@ -350,7 +376,7 @@ def critical_gap(
         one = model
         if motion is not None or pga is not None:
             one = model.changed(motion=motion, pga=pga)
-        for gap in json.loads(_jostle.critical_gaps(one._core, tolerance, system, list(codes), outcomes)):
+        for gap in json.loads(_jostle.critical_gaps(one._core, tolerance, system, list(codes), outcomes, curve)):
             rules = tuple(
                 RuleGap(
                     rule["rule"],
@@ -374,6 +400,16 @@ def critical_gap(
                     gap["closing_without_contact_m"],
                     rules,
                     tuple((rule["rule"], rule["needs"]) for rule in gap["left_out"]),
+                    tuple(
+                        GapPoint(
+                            point["width_m"],
+                            point["impact_count"],
+                            point["peak_force_n"],
+                            point["first_impact_s"],
+                            point["met"],
+                        )
+                        for point in gap.get("curve", ())
+                    ),
                 )
             )
     return found

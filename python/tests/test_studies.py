@@ -112,6 +112,12 @@ def test_the_smallest_gap(tmp_path: Path) -> None:
         assert jostle.run(towers(), gap=gap.pounding_at).summary["gaps"][0]["impact_count"] > 0
     widths = {rule.rule: rule.gap for rule in gap.rules}
     assert widths["SRSS"] <= widths["ABS"] and widths["ABS"] >= gap.gap
+    (curve,) = jostle.critical_gap(towers(), outcomes=False, curve=5)
+    assert [point.width for point in curve.curve] == pytest.approx([0.25 * n * gap.gap for n in range(5)])
+    assert curve.curve[0].impact_count > 0 and curve.curve[0].peak_force > 0
+    assert (curve.curve[-1].impact_count, curve.curve[-1].first_impact) == (0, None)
+    with pytest.raises(jostle.ModelError, match="curve: must be"):
+        jostle.critical_gap(towers(), curve=1)
     stronger = jostle.critical_gap(
         towers(), motions=["el-centro-1940-ns", "nanjing-artificial"], pga="0.6 g", outcomes=False
     )

@@ -1,7 +1,7 @@
 //! `jostle gap`: the smallest gap without pounding, compared with rules and codes.
 
 use std::cell::RefCell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use jostle::separation::{Code, CodeInputs, JointSystem};
@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::progress::TimeBar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
-use jostle_run::{counted, kn, mm};
+use jostle_run::{counted, earlier_gap_curves, kn, mm, write_gap_curves};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct GapArgs {
@@ -41,6 +41,16 @@ pub(crate) struct GapArgs {
     /// Do not run the model with the gaps of the rules
     #[arg(long)]
     no_outcomes: bool,
+    /// Also compute force and impacts at N equally spaced widths from zero to the smallest gap, 2 to 10000, as a page and a
+    /// table
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    curve: Option<u32>,
+    /// Folder for the curve [default: jostle-out/MODEL-gap; with --json, none]
+    #[arg(long, value_name = "DIR", requires = "curve")]
+    out: Option<PathBuf>,
+    /// Replace files in the folder that jostle did not write
+    #[arg(long, requires = "curve")]
+    force: bool,
     /// Print JSON and nothing else
     #[arg(long)]
     json: bool,
@@ -63,6 +73,7 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
     };
     let mut found: Vec<CriticalGap> = Vec::new();
     let (mut title, mut notes) = (String::new(), Vec::new());
+    let mut out = None;
     for record in records {
         let model = ModelArgs {
             model: args.model.clone(),
@@ -77,7 +88,11 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
             tolerance,
             codes: args.codes(&opened.input.codes),
             outcomes: !args.no_outcomes,
+            curve: args.curve.map_or(0, |points| points as usize),
         };
+        if out.is_none() {
+            out = args.folder(&opened.name)?;
+        }
         title.clone_from(&opened.input.model.title);
         for warning in &opened.input.warnings {
             note(&mut notes, warning);
@@ -98,13 +113,44 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
             })?);
         }
     }
+    if let Some(out) = &out {
+        write_gap_curves(out, &title, &found)?;
+    }
     if args.json {
         return terminal::print(&json(&title, &found, &notes));
     }
-    terminal::print(&describe(&title, &found))
+    let mut text = describe(&title, &found);
+    if let Some(out) = &out {
+        let page = out.join("gap_curve.html");
+        text += &format!("\nforce over gap: {}\n", page.display());
+    }
+    terminal::print(&text)
 }
 
 impl GapArgs {
+    /// The folder for the curve, made and looked through, if one is to be written.
+    fn folder(&self, name: &str) -> Result<Option<PathBuf>, Failure> {
+        let default = || {
+            let wanted = self.curve.is_some() && !self.json;
+            wanted.then(|| Path::new("jostle-out").join(format!("{name}-gap")))
+        };
+        let Some(out) = self.out.clone().or_else(default) else {
+            return Ok(None);
+        };
+        std::fs::create_dir_all(&out).map_err(|error| {
+            Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
+        })?;
+        let earlier = earlier_gap_curves(&out, self.force)?;
+        if !earlier.is_empty() {
+            terminal::remark(&format!(
+                "{} holds an earlier curve, which is replaced: {}",
+                out.display(),
+                earlier.join(", ")
+            ));
+        }
+        Ok(Some(out))
+    }
+
     /// Inputs of the model, changed by the options.
     fn codes(&self, of_model: &CodeInputs) -> CodeInputs {
         let mut codes = of_model.clone();

@@ -232,6 +232,7 @@ pub(crate) fn marks(
     let settings = GapSettings {
         tolerance: 1e-5,
         outcomes: false,
+        curve: 0,
         codes: prepared.input.codes.clone(),
     };
     let found = critical_gaps(

@@ -243,6 +243,7 @@ pub(crate) fn critical_gaps(
     system: Option<&str>,
     codes: Vec<String>,
     outcomes: bool,
+    curve: usize,
 ) -> PyResult<String> {
     let system = match system {
         None => None,
@@ -273,6 +274,7 @@ pub(crate) fn critical_gaps(
         tolerance,
         codes: inputs,
         outcomes,
+        curve,
     };
     let halt = AtomicBool::new(false);
     let mut stopped: Option<PyErr> = None;

@@ -4,11 +4,11 @@ use jostle::separation::{
     Code, CodeInputs, Neighbours, Place, Requirement, Requirements, Side, ddc_coefficient,
     floors_are_level, peak_at_height, required_gaps,
 };
-use jostle::{
-    GroundMotion, Model, Outcome, Plan, Pounding, RunEnd, Settings, Summary, System, simulate,
-};
+use jostle::{GroundMotion, Model, Pounding};
+use rayon::prelude::*;
 use serde::Serialize;
-use std::ops::ControlFlow;
+
+use crate::gap_runs::{GapError, GapPoint, GapRuns, Tried};
 
 /// Settings of a search.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +19,8 @@ pub struct GapSettings {
     pub codes: CodeInputs,
     /// Whether every rule's gap is run too, to see what it would have led to.
     pub outcomes: bool,
+    /// Points of the curve of force over gap, from zero to the smallest gap without pounding; 0 for none, else at least 2.
+    pub curve: usize,
 }
 
 impl Default for GapSettings {
@@ -27,6 +29,7 @@ impl Default for GapSettings {
             tolerance: 1e-4,
             codes: CodeInputs::default(),
             outcomes: true,
+            curve: 0,
         }
     }
 }
@@ -60,6 +63,9 @@ pub struct CriticalGap {
     pub rules: Vec<RuleGap>,
     /// Rules that cannot be applied, and what they need.
     pub left_out: Vec<LeftOutRule>,
+    /// Force and impacts over the gap, from zero to `gap_m`; only if asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub curve: Vec<GapPoint>,
 }
 
 /// A rule that cannot be applied.
@@ -94,26 +100,6 @@ pub struct RuleGap {
     pub inputs: Vec<String>,
     /// Distances of the left and the right building from the property line between them, of rules for such lines \[m\].
     pub setbacks_m: Option<[f64; 2]>,
-}
-
-/// Why a search failed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum GapError {
-    /// The model has no gap.
-    #[error("the model has no gap")]
-    NoGap,
-    /// The neighbours have no common heights.
-    #[error("{0} have no place where they could touch")]
-    NoContact(String),
-    /// The model or its steps are wrong.
-    #[error("{0}")]
-    Model(String),
-    /// A run failed.
-    #[error("{0}")]
-    Run(String),
-    /// Asked to stop.
-    #[error("stopped")]
-    Stopped,
 }
 
 /// How far a search has come.
@@ -160,10 +146,11 @@ pub fn critical_gaps(
     if model.gaps.is_empty() {
         return Err(GapError::NoGap);
     }
+    let runs = GapRuns::new(model, motion, stop)?;
     let search = Search {
         model,
         motion,
-        stop,
+        runs,
         report,
     };
     let widths = vec![NEVER; model.gaps.len()];
@@ -183,16 +170,8 @@ pub fn critical_gaps(
 struct Search<'a> {
     model: &'a Model,
     motion: &'a GroundMotion,
-    stop: &'a (dyn Fn() -> bool + Sync),
+    runs: GapRuns<'a>,
     report: &'a dyn Fn(&GapProgress),
-}
-
-/// Outcome with a gap width.
-#[derive(Clone, Copy)]
-struct Led {
-    impact_count: usize,
-    peak_force_n: f64,
-    first_impact_s: Option<f64>,
 }
 
 /// One gap, while all others are out of reach.
@@ -203,7 +182,7 @@ struct OneGap<'a> {
     /// Greatest closing without contact \[m\].
     closing: f64,
     /// Widths that were run, and what they led to.
-    known: Vec<(f64, Led)>,
+    known: Vec<GapPoint>,
 }
 
 impl OneGap<'_> {
@@ -212,20 +191,26 @@ impl OneGap<'_> {
         self.known.len() + 1
     }
 
-    /// Outcome with a width; runs the model only if it is not known yet.
-    fn at(&mut self, width: f64) -> Result<Led, GapError> {
-        if width >= self.closing * (1.0 + BEYOND) + LEAST_BEYOND {
-            return Ok(Led {
-                impact_count: 0,
-                peak_force_n: 0.0,
-                first_impact_s: None,
-            });
-        }
-        if let Some((_, led)) = self.known.iter().find(|(known, _)| *known == width) {
-            return Ok(*led);
-        }
+    /// Widths that are not hit, since the buildings never come so close.
+    fn is_out_of_reach(&self, width: f64) -> bool {
+        width >= self.closing * (1.0 + BEYOND) + LEAST_BEYOND
+    }
+
+    /// The widths of all gaps, all others out of reach.
+    fn widths(&self, width: f64) -> Vec<f64> {
         let mut widths = vec![NEVER; self.search.model.gaps.len()];
         widths[self.gap] = width;
+        widths
+    }
+
+    /// Outcome with a width; runs the model only if it is not known yet.
+    fn at(&mut self, width: f64) -> Result<GapPoint, GapError> {
+        if self.is_out_of_reach(width) {
+            return Ok(GapPoint::without_impact(width));
+        }
+        if let Some(point) = self.known.iter().find(|known| known.width_m == width) {
+            return Ok(*point);
+        }
         let progress = GapProgress {
             between: Some(self.between.clone()),
             run: self.runs() + 1,
@@ -233,15 +218,65 @@ impl OneGap<'_> {
             time: 0.0,
             duration: 0.0,
         };
+        let widths = self.widths(width);
         let tried = self.search.run(&widths, Pounding::Included, progress)?;
-        let gap = &tried.summary.gaps[self.gap];
-        let led = Led {
-            impact_count: gap.impact_count,
-            peak_force_n: gap.peak_force_n,
-            first_impact_s: gap.first_impact_s,
-        };
-        self.known.push((width, led));
-        Ok(led)
+        let point = GapPoint::new(width, self.gap, &tried);
+        self.known.push(point);
+        Ok(point)
+    }
+
+    /// Force and impacts at equally spaced widths from zero to the smallest without an impact, on all cores.
+    fn curve(&mut self, count: usize, free: f64) -> Result<Vec<GapPoint>, GapError> {
+        let share = 1.0 / (count.max(2) - 1) as f64;
+        let widths: Vec<f64> = (0..count).map(|i| share * i as f64 * free).collect();
+        let mut points = Vec::with_capacity(count);
+        // Progress is told from here, so a few at a time.
+        for several in widths.chunks(4 * rayon::current_num_threads()) {
+            (self.search.report)(&GapProgress {
+                between: Some(self.between.clone()),
+                run: self.runs() + 1,
+                width: several.first().copied(),
+                time: points.len() as f64,
+                duration: count as f64,
+            });
+            let (one, runs) = (&*self, &self.search.runs);
+            let (gap, known) = (one.gap, &one.known);
+            let some: Vec<Curved> = several
+                .iter()
+                .map(
+                    |width| match known.iter().find(|known| known.width_m == *width) {
+                        Some(point) => Curved::Known(*point),
+                        None if one.is_out_of_reach(*width) => {
+                            Curved::Known(GapPoint::without_impact(*width))
+                        }
+                        None => Curved::Open(*width, one.widths(*width)),
+                    },
+                )
+                .collect();
+            let found: Vec<Result<GapPoint, GapError>> = some
+                .into_par_iter()
+                .map(|curved| match curved {
+                    Curved::Known(point) => Ok(point),
+                    Curved::Open(width, widths) => {
+                        let tried = runs.run(&widths, Pounding::Included, &mut |_| {})?;
+                        Ok(GapPoint::new(width, gap, &tried))
+                    }
+                })
+                .collect();
+            for point in found {
+                let point = point?;
+                if !self
+                    .known
+                    .iter()
+                    .any(|known| known.width_m == point.width_m)
+                    && !self.is_out_of_reach(point.width_m)
+                {
+                    self.known.push(point);
+                }
+                points.push(point);
+            }
+        }
+        Ok(points)
     }
 
     /// Narrows down the smallest gap without an impact, beginning with the closing of a run without contact.
@@ -295,11 +330,10 @@ impl OneGap<'_> {
     }
 }
 
-/// A run and what it belongs to.
-struct Tried {
-    system: System,
-    outcome: Outcome,
-    summary: Summary,
+/// A width of a curve: what is known there, or the widths to run.
+enum Curved {
+    Known(GapPoint),
+    Open(f64, Vec<f64>),
 }
 
 impl Search<'_> {
@@ -309,47 +343,9 @@ impl Search<'_> {
         pounding: Pounding,
         mut progress: GapProgress,
     ) -> Result<Tried, GapError> {
-        let mut model = self.model.clone();
-        for (gap, width) in model.gaps.iter_mut().zip(widths) {
-            gap.set_width(*width);
-        }
-        let wrong = |faults: Vec<jostle::ModelFault>| {
-            let faults: Vec<String> = faults.iter().map(ToString::to_string).collect();
-            GapError::Model(faults.join("; "))
-        };
-        let system = System::assemble(&model).map_err(wrong)?;
-        let plan = Plan::choose(&system, self.motion, &model.analysis).map_err(wrong)?;
-        let settings = Settings {
-            pounding,
-            record_interval: None,
-        };
-        let outcome = simulate(&system, self.motion, &plan, settings, |reached| {
+        self.runs.run(widths, pounding, &mut |reached| {
             (progress.time, progress.duration) = (reached.time, reached.duration);
             (self.report)(&progress);
-            if (self.stop)() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        match &outcome.end {
-            RunEnd::Completed => {}
-            RunEnd::Stopped => return Err(GapError::Stopped),
-            RunEnd::Failed(error) => return Err(GapError::Run(error.to_string())),
-        }
-        let summary = Summary::new(&jostle::Run {
-            model: &model,
-            system: &system,
-            motion: self.motion,
-            plan: &plan,
-            outcome: &outcome,
-            without_contact: None,
-            wall: 0.0,
-        });
-        Ok(Tried {
-            system,
-            outcome,
-            summary,
         })
     }
 
@@ -421,6 +417,10 @@ impl Search<'_> {
                 rule.first_impact_s = led.first_impact_s;
             }
         }
+        let curve = match settings.curve {
+            0 => Vec::new(),
+            count => one.curve(count, bracket.free)?,
+        };
         Ok(CriticalGap {
             between,
             motion: self.motion.name.clone(),
@@ -442,6 +442,7 @@ impl Search<'_> {
                     needs: rule.needs,
                 })
                 .collect(),
+            curve,
         })
     }
 
@@ -648,7 +649,8 @@ mod tests {
         let search = Search {
             model: &input.model,
             motion: &motion,
-            stop: &|| false,
+            runs: GapRuns::new(&input.model, &motion, &|| false)
+                .unwrap_or_else(|error| panic!("{error}")),
             report: &|_| {},
         };
         for width in [
@@ -665,6 +667,57 @@ mod tests {
             let tried = search.run(&[width], Pounding::Included, progress);
             let tried = tried.unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(tried.summary.gaps[0].impact_count, 0, "at {width}");
+        }
+    }
+
+    /// Every point of the curve is the run of a model with that width, assembled by itself.
+    #[test]
+    fn points_of_the_curve_are_runs() {
+        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
+        if let Some(motion) = &mut input.motion {
+            motion.duration = Some(6.0);
+        }
+        let motion = input
+            .ground_motion()
+            .unwrap_or_else(|error| panic!("{error}"));
+        let settings = GapSettings {
+            outcomes: false,
+            curve: 9,
+            ..GapSettings::default()
+        };
+        let found = critical_gaps(&input.model, &motion, &settings, &|| false, &|_| {});
+        let gap = &found.unwrap_or_else(|error| panic!("{error}"))[0];
+        assert_eq!(gap.curve.len(), 9);
+        assert_eq!(
+            (gap.curve[0].width_m, gap.curve[8].width_m),
+            (0.0, gap.gap_m)
+        );
+        assert!(gap.curve[0].impact_count > 0 && gap.curve[8].impact_count == 0);
+        for point in &gap.curve {
+            let mut model = input.model.clone();
+            model.gaps[0].set_width(point.width_m);
+            let system = jostle::System::assemble(&model).expect("sound");
+            let plan = jostle::Plan::choose(&system, &motion, &model.analysis).expect("sound");
+            let settings = jostle::Settings {
+                record_interval: None,
+                ..jostle::Settings::default()
+            };
+            let outcome = jostle::simulate(&system, &motion, &plan, settings, |_| {
+                std::ops::ControlFlow::Continue(())
+            });
+            let force = outcome
+                .impacts
+                .iter()
+                .map(|i| i.peak_force)
+                .fold(0.0, f64::max);
+            assert!(point.peak_force_n >= force, "{point:?}");
+            let first = outcome.impacts.iter().map(|impact| impact.start);
+            assert_eq!(
+                point.first_impact_s,
+                first.min_by(f64::total_cmp),
+                "{point:?}"
+            );
+            assert_eq!(point.impact_count, outcome.impacts.len(), "{point:?}");
         }
     }
 }

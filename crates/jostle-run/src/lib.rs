@@ -15,6 +15,8 @@ mod error;
 mod files;
 mod floor_spectra;
 mod floor_spectra_text;
+mod gap_page;
+mod gap_runs;
 mod modes;
 mod numbers;
 mod observer;
@@ -41,11 +43,13 @@ pub use contact_advice::{
     contact_advice,
 };
 pub use critical_gap::{
-    CriticalGap, GapError, GapProgress, GapSettings, LeftOutRule, RuleGap, critical_gaps,
+    CriticalGap, GapProgress, GapSettings, LeftOutRule, RuleGap, critical_gaps,
 };
 pub use error::RunError;
 pub use files::{Content, earlier_files};
 pub use floor_spectra::RunFloorSpectra;
+pub use gap_page::{earlier_gap_curves, gap_curve_csv, gap_curve_page, write_gap_curves};
+pub use gap_runs::{GapError, GapPoint};
 pub use modes::{ListedModes, floor_shape, list_modes, modes_json};
 pub use numbers::{counted, counted_grouped, grouped, kn, mm};
 pub use observer::{Observer, Stage, stopped_by};

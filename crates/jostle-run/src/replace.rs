@@ -80,6 +80,16 @@ impl FileKind {
         name: "result of jostle size",
         marks: &["\"minimise\":", "\"keep\":", "\"jostle\":"],
     };
+    /// Pages of `jostle gap --curve`.
+    pub const GAP_CURVE_PAGE: Self = Self {
+        name: "page of jostle gap",
+        marks: &["<html", " – force over gap</title>"],
+    };
+    /// Tables of `jostle gap --curve`.
+    pub const GAP_CURVE: Self = Self {
+        name: "table of jostle gap",
+        marks: &["left,right,motion,pga_m_s2,width_m,"],
+    };
     /// Pages of `jostle compare`.
     pub const COMPARISON_PAGE: Self = Self {
         name: "page of jostle compare",

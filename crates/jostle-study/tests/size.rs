@@ -79,6 +79,7 @@ fn critical(text: &str) -> [f64; 2] {
         tolerance: 1e-6,
         codes: input.codes.clone(),
         outcomes: false,
+        curve: 0,
     };
     let gaps = critical_gaps(&input.model, &motion, &settings, &|| false, &|_| {});
     let gap = &gaps.unwrap_or_else(|error| panic!("{error}"))[0];

@@ -89,7 +89,7 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
 /// Impact speed for the time scale of a contact \[m/s\].
 const TYPICAL_SPEED: f64 = 0.5;
 /// Fraction of the tolerance for flexibilities.
-const FLEXIBILITY_SHARE: f64 = 0.02;
+const FLEXIBILITY_SHARE: f64 = 0.004;
 
 /// The shapes of the buildings of a system. They depend on buildings, contacts and their laws, and on the
 /// tolerance, but not on gap widths or motions, so runs that differ only in these may share them.

@@ -1,0 +1,246 @@
+//! Force over gap as a page and a table.
+
+use jostle_report::{Axis, Chart, Section, Series, Stroke, StudyPage, render_study};
+
+use std::path::Path;
+
+use jostle_io::write_atomically;
+
+use crate::critical_gap::CriticalGap;
+use crate::error::RunError;
+use crate::numbers::{counted, kn, mm};
+use crate::replace::{FileKind, may_write};
+
+/// Page of the curves.
+const PAGE: &str = "gap_curve.html";
+/// Their table.
+const TABLE: &str = "gap_curve.csv";
+
+/// First line of the table.
+const HEAD: &str =
+    "left,right,motion,pga_m_s2,width_m,impact_count,peak_force_n,first_impact_s,met\n";
+
+/// The curves of all gaps and motions as a table: one row per width, cells without a value empty.
+#[must_use]
+pub fn gap_curve_csv(found: &[CriticalGap]) -> String {
+    let mut text = HEAD.to_owned();
+    for gap in found {
+        for point in &gap.curve {
+            let cells = [
+                quoted(&gap.between[0]),
+                quoted(&gap.between[1]),
+                quoted(&gap.motion),
+                gap.pga_m_s2.to_string(),
+                point.width_m.to_string(),
+                point.impact_count.to_string(),
+                point.peak_force_n.to_string(),
+                point
+                    .first_impact_s
+                    .map_or(String::new(), |t| t.to_string()),
+                point.met.map_or(String::new(), |met| met.to_string()),
+            ];
+            text += &cells.join(",");
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// Files of earlier curves in a folder, which new ones replace.
+///
+/// # Errors
+/// [`RunError`] if a file that jostle did not write is in the way and `force` is not set.
+pub fn earlier_gap_curves(folder: &Path, force: bool) -> Result<Vec<&'static str>, RunError> {
+    let files = [
+        (PAGE, FileKind::GAP_CURVE_PAGE),
+        (TABLE, FileKind::GAP_CURVE),
+    ];
+    let mut earlier = Vec::new();
+    for (name, kind) in files {
+        if may_write(&folder.join(name), Some(kind), force)? {
+            earlier.push(name);
+        }
+    }
+    Ok(earlier)
+}
+
+/// Writes page and table of the curves into a folder that exists; each is whole or not there.
+///
+/// # Errors
+/// [`RunError::Output`] with path and reason.
+pub fn write_gap_curves(folder: &Path, title: &str, found: &[CriticalGap]) -> Result<(), RunError> {
+    write_atomically(&folder.join(TABLE), gap_curve_csv(found).as_bytes())?;
+    write_atomically(&folder.join(PAGE), gap_curve_page(title, found).as_bytes())?;
+    Ok(())
+}
+
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        return format!("\"{}\"", text.replace('"', "\"\""));
+    }
+    text.to_owned()
+}
+
+/// The page of the curves; it loads nothing from outside.
+#[must_use]
+pub fn gap_curve_page(title: &str, found: &[CriticalGap]) -> String {
+    let mut pairs: Vec<&[String; 2]> = Vec::new();
+    for gap in found {
+        if !pairs.contains(&&gap.between) {
+            pairs.push(&gap.between);
+        }
+    }
+    let sections = pairs.into_iter().flat_map(|pair| {
+        let of_pair: Vec<&CriticalGap> = found.iter().filter(|gap| gap.between == *pair).collect();
+        sections_of(pair, &of_pair)
+    });
+    render_study(&StudyPage {
+        kind: "Force over gap".into(),
+        title: title.into(),
+        headline: found.iter().map(headline).collect(),
+        sections: sections.collect(),
+        files: vec![(TABLE.into(), "one row per width".into())],
+        ..StudyPage::default()
+    })
+}
+
+fn headline(gap: &CriticalGap) -> String {
+    let pair = gap.between.join(" and ");
+    let most = gap
+        .curve
+        .iter()
+        .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
+    let strongest = most.filter(|point| point.impact_count > 0).map(|point| {
+        format!(
+            " The greatest force, {} kN, comes at a gap of {} mm.",
+            kn(point.peak_force_n),
+            mm(point.width_m)
+        )
+    });
+    format!(
+        "Under {} with {:.1} cm/s², {pair} do not touch from {} mm on.{}",
+        gap.motion,
+        100.0 * gap.pga_m_s2,
+        mm(gap.gap_m),
+        strongest.unwrap_or_default()
+    )
+}
+
+fn axis(name: &str, unit: &str) -> Axis {
+    Axis {
+        name: name.into(),
+        unit: unit.into(),
+    }
+}
+
+/// Charts of one pair of neighbours, one line for each motion, and its rules.
+fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
+    let chart = |y: Axis, of: &dyn Fn(&crate::GapPoint) -> f64, dots: bool| {
+        let mut series: Vec<Series> = gaps
+            .iter()
+            .enumerate()
+            .map(|(colour, gap)| Series {
+                name: gap.motion.clone(),
+                points: gap.curve.iter().map(|p| [1e3 * p.width_m, of(p)]).collect(),
+                band: Vec::new(),
+                stroke: Stroke::Line,
+                colour,
+            })
+            .collect();
+        if dots {
+            for (index, gap) in gaps.iter().enumerate() {
+                let rules = gap.rules.iter().filter(|rule| rule.gap_m <= gap.gap_m);
+                let points: Vec<[f64; 2]> = rules
+                    .filter_map(|rule| Some([1e3 * rule.gap_m, 1e-3 * rule.peak_force_n?]))
+                    .collect();
+                if !points.is_empty() {
+                    series.push(Series {
+                        name: "gaps of rules".into(),
+                        points,
+                        band: Vec::new(),
+                        stroke: Stroke::Dots,
+                        colour: gaps.len() + index,
+                    });
+                }
+            }
+        }
+        Chart {
+            title: y.name.clone(),
+            x: axis("gap", "mm"),
+            y,
+            series,
+            levels: Vec::new(),
+            reach: 0.0,
+            ordered: false,
+        }
+    };
+    let unmet: usize = gaps
+        .iter()
+        .flat_map(|gap| &gap.curve)
+        .filter(|point| point.met == Some(false))
+        .count();
+    let warning = if unmet > 0 {
+        format!(
+            " {} did not meet the tolerance (column met).",
+            counted(unmet, "point")
+        )
+    } else {
+        String::new()
+    };
+    let mut sections = vec![Section {
+        title: pair.join(" – "),
+        remark: format!(
+            "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dots: the \
+             gaps of rules that are narrower than needed. Where neighbouring points jump, a slightly different gap leads to other \
+             impacts.{warning}"
+        ),
+        charts: vec![
+            chart(
+                axis("greatest contact force", "kN"),
+                &|p| 1e-3 * p.peak_force_n,
+                true,
+            ),
+            chart(axis("impacts", ""), &|p| p.impact_count as f64, false),
+        ],
+        ..Section::default()
+    }];
+    for gap in gaps.iter().filter(|gap| !gap.rules.is_empty()) {
+        let heads = [
+            "rule",
+            "gap mm",
+            "÷ smallest",
+            "impacts",
+            "greatest force kN",
+        ];
+        let rows = gap.rules.iter().map(|rule| {
+            vec![
+                rule.rule.clone(),
+                mm(rule.gap_m),
+                rule.ratio.map_or("–".into(), |ratio| format!("{ratio:.2}")),
+                rule.impact_count.map_or("–".into(), |n| n.to_string()),
+                rule.peak_force_n.map_or("–".into(), kn),
+            ]
+        });
+        sections.push(Section {
+            title: format!("Rules under {}", gap.motion),
+            remark: format!(
+                "Smallest gap without pounding: {} mm. Sources: jostle gap --json.",
+                mm(gap.gap_m)
+            ),
+            table: Some((heads.map(Into::into).to_vec(), rows.collect())),
+            ..Section::default()
+        });
+    }
+    sections
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_with_commas_are_quoted() {
+        assert_eq!(quoted("J1"), "J1");
+        assert_eq!(quoted("east, \"new\""), "\"east, \"\"new\"\"\"");
+    }
+}
