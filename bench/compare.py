@@ -12,8 +12,10 @@ import machine
 import page
 import programs
 import reference
+import scaling
 import studies
 import validation
+import whole
 from cases import CASES
 
 HERE = Path(__file__).resolve().parent
@@ -41,6 +43,37 @@ def cheapest(case, solver, known):
     return found
 
 
+def peaks(found):
+    """Peaks that both programs report, those of a kind and building or gap in one list: displacements of floors, contact forces, forces
+    of links."""
+    kinds = []
+    for building in found["buildings"]:
+        floors = building["floors"]
+        kinds.append([value for floor in floors for value in (floor["displacement_max_m"], floor["displacement_min_m"])])
+    if "gaps" in found:
+        gaps = [gap["contacts"] for gap in found["gaps"]]
+    else:
+        numbers = sorted({contact["gap"] for contact in found["contacts"]})
+        gaps = [[contact for contact in found["contacts"] if contact["gap"] == number] for number in numbers]
+    for contacts in gaps:
+        in_order = sorted(contacts, key=lambda contact: (contact["height_m"], contact["floors"]))
+        kinds.append([contact["peak_force_n"] for contact in in_order])
+    kinds.append([link["peak_force_n"] for link in found.get("links", [])])
+    return kinds
+
+
+def largest_error(kinds, converged):
+    """The largest difference, relative to the greatest of its kind; None if the lists do not belong together."""
+    if [len(kind) for kind in kinds] != [len(kind) for kind in converged]:
+        return None
+    worst = 0.0
+    for kind, limit in zip(kinds, converged):
+        scale = max(map(abs, limit), default=0.0)
+        if scale > 0.0:
+            worst = max(worst, *(abs(a - b) / scale for a, b in zip(kind, limit)))
+    return worst
+
+
 def compare(case, known):
     """Both programs on one case: jostle, OpenSees, jostle again."""
     ways = [(solver, None) for solver in case.solvers if case.linear or solver != "modal"]
@@ -60,6 +93,10 @@ def compare(case, known):
     usual = programs.opensees(case, axial="ties", uniform=USUAL_STEP, duration=case.piece)
     whole = best["duration_s"] / usual["duration_s"]
     usual |= {"cpu_s": usual["cpu_s"] * whole, "steps": round(usual["steps"] * whole), "estimated_from_s": case.piece}
+    converged = peaks(programs.jostle(case, ways[0][0], 1e-6, least=0.0, fewest=1)["summary"])
+    for row in rows:
+        row["error_of_peaks"] = largest_error(peaks(row["summary"]), converged)
+    best["error_of_peaks"] = largest_error(peaks(best["result"]), converged)
     for row in rows + [best]:
         limit = known.get("jostle" if row["program"] == "jostle" else "opensees", {}).get("peak_force_n")
         row["error"] = None if limit is None else abs(row["peak_force_n"] / limit - 1.0)
@@ -73,6 +110,31 @@ def compare(case, known):
     return {"case": case.name, "title": case.title, "rows": rows + [best, usual], "limits_apart": apart}
 
 
+# What is measured besides the cases, by name.
+WHOLE = {
+    "pairs": whole.pairs, "curve": whole.curve, "start": whole.start, "promise": whole.promise, "space": whole.space,
+    "growth": scaling.measure,
+}
+
+
+def measure_whole(names):
+    """Measures some of these, or all, and keeps them in one file."""
+    path = RESULTS / "whole.json"
+    results = json.loads(path.read_text()) if path.exists() else {}
+    for name in names or WHOLE:
+        say(f"== {name}")
+        found = WHOLE[name](say)
+        if found is None:
+            continue
+        results[name] = found
+        results["machine"] = machine.describe()
+        results["at"] = datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
+        path.with_suffix(".tmp").write_text(json.dumps(results, indent=1, ensure_ascii=False) + "\n")
+        os.replace(path.with_suffix(".tmp"), path)
+    if "growth" in results:
+        scaling.draw(results["growth"])
+
+
 def main():
     parser = argparse.ArgumentParser(prog="bench/run", description=__doc__)
     parser.add_argument("cases", nargs="*", help=f"of {', '.join(case.name for case in CASES)}; without: all")
@@ -80,6 +142,7 @@ def main():
     parser.add_argument("--reference", action="store_true", help="find settings and converged values again")
     parser.add_argument("--validation", action="store_true", help="OpenSees' answers for the models of the validation")
     parser.add_argument("--study", nargs="*", choices=["study", "cores"], help="a thousand cases against OpenSees, and how well two cores are used")
+    parser.add_argument("--whole", nargs="*", choices=sorted(WHOLE), help="whole programs, space and growth, jostle alone")
     parser.add_argument("--keep-page", action="store_true", help="leave docs/performance.md alone")
     args = parser.parse_args()
     unknown = set(args.cases) - {case.name for case in CASES}
@@ -88,6 +151,11 @@ def main():
     if args.study is not None:
         RESULTS.mkdir(exist_ok=True)
         return studies.main(RESULTS, say, args.study)
+    if args.whole is not None:
+        RESULTS.mkdir(exist_ok=True)
+        measure_whole(args.whole)
+        page.rewrite(RESULTS, [case.name for case in CASES])
+        return 0
     if args.validation:
         return validation.main(say)
     chosen = [case for case in CASES if (not args.cases or case.name in args.cases) and (case.quick or not args.quick)]
@@ -113,6 +181,9 @@ def main():
         path.with_suffix(".tmp").write_text(json.dumps(result, indent=1, ensure_ascii=False) + "\n")
         os.replace(path.with_suffix(".tmp"), path)
         print(page.table([result]), flush=True)
+    if not args.cases and not args.quick:
+        studies.main(RESULTS, say, [])
+        measure_whole([])
     if not args.keep_page and not args.quick:
         page.rewrite(RESULTS, [case.name for case in CASES])
     return 1 if failed else 0
