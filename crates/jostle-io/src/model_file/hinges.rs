@@ -53,13 +53,9 @@ fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule>
     Some(match HysteresisRule::from_name(name?)? {
         HysteresisRule::Takeda { .. } => HysteresisRule::Takeda { exponent },
         HysteresisRule::Pinched(_) => HysteresisRule::Pinched(pinching?),
-        rule @ (HysteresisRule::Elastic
-        | HysteresisRule::Bilinear
-        | HysteresisRule::Normal
-        | HysteresisRule::PeakOriented
-        | HysteresisRule::DegradingTrilinear) => rule,
+        rule if !rule.has_parameters() => rule,
         // Those of bearings have no name among the rules.
-        HysteresisRule::Sliding { .. } | HysteresisRule::Stop { .. } => return None,
+        _ => return None,
     })
 }
 

@@ -69,6 +69,35 @@ impl HysteresisRule {
         Self::ALL.into_iter().find(|rule| rule.name() == name)
     }
 
+    /// Whether the rule has parameters besides its backbone.
+    #[must_use]
+    pub const fn has_parameters(&self) -> bool {
+        match self {
+            Self::Elastic
+            | Self::Bilinear
+            | Self::Normal
+            | Self::PeakOriented
+            | Self::DegradingTrilinear => false,
+            Self::Takeda { .. } | Self::Sliding { .. } | Self::Stop { .. } | Self::Pinched(_) => true,
+        }
+    }
+
+    /// Whether the force depends on the rate of deformation, so that no straight line holds it between two corners.
+    #[must_use]
+    pub(crate) const fn depends_on_rate(&self) -> bool {
+        match self {
+            Self::Sliding { .. } => true,
+            Self::Elastic
+            | Self::Bilinear
+            | Self::Normal
+            | Self::PeakOriented
+            | Self::Takeda { .. }
+            | Self::DegradingTrilinear
+            | Self::Stop { .. }
+            | Self::Pinched(_) => false,
+        }
+    }
+
     /// Name in model files.
     #[must_use]
     pub const fn name(&self) -> &'static str {

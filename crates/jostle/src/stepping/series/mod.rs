@@ -16,7 +16,6 @@ mod stepper;
 
 pub(super) use stepper::run;
 
-use crate::hysteresis::HysteresisRule;
 use crate::model::Integrator;
 use crate::motion::GroundMotion;
 use crate::state::State;
@@ -62,17 +61,7 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
             reasons.push(format!("forces of members of \"{name}\" are asked for"));
         }
         let mut springs = building.equations.springs.iter();
-        if springs.any(|spring| match spring.hysteresis.rule() {
-            HysteresisRule::Sliding { .. } => true,
-            HysteresisRule::Elastic
-            | HysteresisRule::Bilinear
-            | HysteresisRule::Normal
-            | HysteresisRule::PeakOriented
-            | HysteresisRule::Takeda { .. }
-            | HysteresisRule::DegradingTrilinear
-            | HysteresisRule::Stop { .. }
-            | HysteresisRule::Pinched(_) => false,
-        }) {
+        if springs.any(|spring| spring.hysteresis.rule().depends_on_rate()) {
             reasons.push(format!("friction of \"{name}\" may depend on speed"));
         }
     }
