@@ -78,7 +78,9 @@ impl HysteresisRule {
             | Self::Normal
             | Self::PeakOriented
             | Self::DegradingTrilinear => false,
-            Self::Takeda { .. } | Self::Sliding { .. } | Self::Stop { .. } | Self::Pinched(_) => true,
+            Self::Takeda { .. } | Self::Sliding { .. } | Self::Stop { .. } | Self::Pinched(_) => {
+                true
+            }
         }
     }
 
