@@ -11,6 +11,8 @@ BEGIN_STUDIES = "<!-- bench/run --study: what follows is written by it -->"
 END_STUDIES = "<!-- bench/run --study: end -->"
 BEGIN_GLANCE = "<!-- bench/run, at a glance: what follows is written by it -->"
 END_GLANCE = "<!-- bench/run, at a glance: end -->"
+BEGIN_LIMITS = "<!-- bench/run, limits: what follows is written by it -->"
+END_LIMITS = "<!-- bench/run, limits: end -->"
 # What the project set itself: case, solver, ratio to OpenSees at its best.
 TARGETS = {
     ("few", "modal"): 5000, ("many", "modal"): 5000, ("high-rise", "modal"): 1000, ("row", "modal"): 3000, ("linked-row", "modal"): 3000,
@@ -122,6 +124,48 @@ def glance(results, study, whole):
     return "\n".join(lines)
 
 
+def limits(results, study, whole):
+    """Why no more is reached, with counts."""
+    by_case = {result["case"]: result for result in results}
+
+    def row(case, way):
+        rows = by_case[case]["rows"] if case in by_case else []
+        return next((row for row in rows if row["way"] == way and row.get("matched")), None)
+
+    lines, free, closed = [], row("few", "modal"), row("many", "modal")
+    if free and closed:
+        each = (closed["cpu_s"] - free["cpu_s"]) / max(1, closed["short_steps"] - free["short_steps"])
+        lines.append(
+            f"- *Elastic buildings* take one step per point of the record, and short steps around contacts: {free['steps']} steps, {free['short_steps']} of them in contact, "
+            f"for one impact in {seconds(free['cpu_s'])}. A step in contact takes some {1e6 * each:.1f} µs: it solves for the forces of all closed contacts and checks peaks and energy."
+        )
+    one = study.get("study")
+    if one and free:
+        aim = one["opensees_mean_cpu_s"] / 20000
+        lines.append(
+            f"- *A study* at 20 000 times the speed of OpenSees would leave {seconds(aim)} per case, less than the {seconds(free['cpu_s'])} of a single run with one impact. It takes "
+            f"{seconds(one['cpu_s'] / one['cases'])} per case, because narrow gaps have hundreds of impacts, and runs with more than twelve are made twice to see whether they are "
+            "sensitive. To come nearer, a case would have to skip the time before its first and after its last impact."
+        )
+    yielding = row("inelastic", "riccati")
+    if yielding:
+        lines.append(
+            f"- *Yielding frames* solve for 260 and 770 displacements in each of {yielding['steps']} steps, and change the factors {yielding['factorisations']} times where hinges change. "
+            "A thousand times OpenSees needs longer steps with hinge changes found inside them, or displacements of joints alone."
+        )
+    pairs = whole.get("pairs")
+    series = row("yielding-towers", "series")
+    if pairs and series:
+        lines.append(
+            f"- *Yielding shear buildings* take {series['solutions']} pieces of motion between changes of springs and rounds of contact forces, "
+            f"{1e6 / pairs['per_second'] / series['solutions']:.1f} µs each with everything around them. Expansion, search of changes, peaks and energy take similar shares."
+        )
+    slow = row("few", "riccati")
+    if slow:
+        lines.append(f"- *Riccati* moves all 840 displacements of the built-in example in {slow['steps']} steps, {1e6 * slow['cpu_s'] / slow['steps']:.1f} µs each, the coarser run for its estimate included.")
+    return "\n".join(lines)
+
+
 def rewrite(folder, order):
     """The section between the marks, from everything that lies in the folder."""
     results = [json.loads((folder / f"{name}.json").read_text()) for name in order if (folder / f"{name}.json").exists()]
@@ -133,6 +177,7 @@ def rewrite(folder, order):
     apart = [result["limits_apart"] for result in results if result["limits_apart"] is not None]
     study, whole = (json.loads(path.read_text()) if path.exists() else {} for path in (folder / "study.json", folder / "whole.json"))
     put_between(BEGIN_GLANCE, END_GLANCE, "\n".join([BEGIN_GLANCE, "", glance(results, study, whole), "", END_GLANCE]))
+    put_between(BEGIN_LIMITS, END_LIMITS, "\n".join([BEGIN_LIMITS, "", limits(results, study, whole), "", END_LIMITS]))
     text = "\n".join([
         BEGIN,
         "",
