@@ -228,6 +228,9 @@ class Shear(Part):
         eccentricity: centre of stiffness from the centre of mass; 0 by default.
         element: columns and walls at points of the plan, instead of ``stiffness``:
             ``[{"at": ["1 m", "1 m"], "stiffness": {"x": "10 MN/m", "y": "12 MN/m"}}]``.
+        frame: plane frames at lines of the plan, beside ``stiffness`` or ``element``, or alone; the building is then of the kind
+            ``"frame"``: ``[{"name": "1", "at": ["0 m", "0 m"], "direction": "x", "spans": ["6 m", "6 m"], "column": …, "beam": …,
+            "concrete": "C30", "lines": ["A1", "B1", "C1"]}]``.
         **units: the same with units in names, as in ``mass_t=[40, 40]``.
 
     Raises:
@@ -262,12 +265,13 @@ class Shear(Part):
         polar_mass: Quantities | None = None,
         eccentricity: Sequence[Any] | None = None,
         element: Sequence[Any] | None = None,
+        frame: Sequence[Table] | None = None,
         **units: Unpack[ShearUnits],
     ) -> None:
         super().__init__(
             {
                 "name": name,
-                "kind": "shear",
+                "kind": "shear" if frame is None else "frame",
                 "storeys": storeys,
                 "storey_height": storey_height,
                 "mass": mass,
@@ -290,6 +294,7 @@ class Shear(Part):
                 "polar_mass": polar_mass,
                 "eccentricity": eccentricity,
                 "element": element,
+                "frame": frame,
             },
             units,
         )
@@ -533,6 +538,9 @@ class Wall(Part):
         mass: mass that moves where it is struck, > 0; required with a stiffness.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion; without it the wall stands on the
             ground of the building that it faces.
+        from_: among buildings with a plan, one end of its face on the site, ``["21 m", "0 m"]``; ``from`` in a model file. The wall is
+            solid on the right of the way to the other end.
+        to: the other end.
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
@@ -546,6 +554,8 @@ class Wall(Part):
         damping: Quantity | None = None,
         mass: Quantity | None = None,
         position: Quantity | None = None,
+        from_: Sequence[Quantity] | None = None,
+        to: Sequence[Quantity] | None = None,
     ) -> None:
         super().__init__(
             {
@@ -554,6 +564,8 @@ class Wall(Part):
                 "damping": damping,
                 "mass": mass,
                 "position": position,
+                "from": from_,
+                "to": to,
             },
             {},
         )

@@ -284,9 +284,9 @@ def test_every_key_of_the_model_file_is_a_keyword() -> None:
     def keywords(part: type) -> set[str]:
         return set(inspect.signature(part).parameters) - {"units"}
 
-    frame, shear, given = schema["building"]["items"]["oneOf"]
+    frame, in_plan, shear, given = schema["building"]["items"]["oneOf"]
     assert keywords(Frame) == keys(frame)
-    assert keywords(Shear) == keys(shear)
+    assert keywords(Shear) == keys(shear) == keys(in_plan)
     # "units" is a key of its own there; floors is another name of storeys, and gravity is part of the matrices.
     without = {"floors", "gravity", "p_delta", "units"}
     assert keywords(jostle.Given) - {"units_in_names"} == keys(given) - without
@@ -295,6 +295,28 @@ def test_every_key_of_the_model_file_is_a_keyword() -> None:
     laws = set(schema["gap"]["items"]["properties"]["law"]["enum"])
     literal = inspect.getsource(_builders).split("_Law = Literal[")[1].split("]")[0]
     assert set(re.findall(r'"([^"]+)"', literal)) == laws
+
+
+def test_frames_stand_at_lines_of_a_plan_before_a_wall() -> None:
+    frame = {
+        "spans": ["6 m", "6 m"],
+        "column": {"width": "500 mm", "depth": "500 mm"},
+        "beam": {"width": "300 mm", "depth": "600 mm"},
+        "concrete": "C30",
+    }
+    frames = [
+        {**frame, "name": "x", "at": [["0 m", "0 m"], ["0 m", "12 m"]]},
+        {**frame, "name": "y", "at": [["0 m", "0 m"], ["12 m", "0 m"]], "direction": "y"},
+    ]
+    tower = Shear("a", mass="150 t", storeys=3, storey_height="3.2 m", plan=["12 m", "12 m"], frame=frames)
+    wall = jostle.Wall("boundary", from_=["12.01 m", "0 m"], to=["12.01 m", "12 m"])
+    gap = Gap(between=["a", "boundary"], width="10 mm", law="kelvin", stiffness="100 MN/m")
+    motion = jostle.Motion.el_centro().scaled(pga="0.3 g").lasting("6 s")
+    model = Model([tower], gap, motion=motion, walls=[wall])
+    run = jostle.run(model, record_interval=None)
+    assert run.summary["buildings"][0]["floors"][2]["displacement_across_max_m"] < 1e-6
+    assert run.summary["gaps"][0]["peak_force_n"] > 0
+    assert len(jostle.modes(model)["a"].periods) > 3
 
 
 def test_given_buildings_are_those_of_their_matrices() -> None:

@@ -98,6 +98,11 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             Structure::Shear(shear) => {
                 format!("shear building, {}", counted(shear.mass.len(), "storey"))
             }
+            Structure::Tiers(tiers) if !tiers.frames.is_empty() => format!(
+                "{} at lines of a plan, {}",
+                counted(tiers.frames.len(), "frame"),
+                counted(tiers.floors.len(), "storey")
+            ),
             Structure::Tiers(tiers) => format!(
                 "shear building with a plan, {}",
                 counted(tiers.floors.len(), "storey")

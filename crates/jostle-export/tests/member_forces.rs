@@ -51,7 +51,7 @@ fn opensees_finds_the_same_forces() {
         let building = &system.buildings[*building];
         let own = &building.members.members[*member];
         assert!(["foot", "left"].contains(&section_name(own.place, own.sections[0].at)));
-        let due = &due[&member_name(building, own.place)[..]];
+        let due = &due[&member_name(building, own)[..]];
         for value in 0..4 {
             let sizes = due.iter().map(|row| row[1 + value].abs());
             let scale = sizes.fold(0.0, f64::max);

@@ -33,6 +33,8 @@ pub(crate) enum Section {
     PlanStiffness,
     /// Column or wall at a point of a plan.
     Element,
+    /// Plane frame at a line of a plan.
+    PlanFrame,
     /// Further keys of `kind = "given"`.
     Given,
     /// Files of its matrices.
@@ -131,6 +133,8 @@ pub(crate) enum Kind {
     Text,
     /// A text, or a list of them.
     TextOrTexts,
+    /// A list of texts.
+    Texts,
     /// A name, or a number from 1.
     Component,
     /// A whole number, not negative.
@@ -456,6 +460,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Shear, "polar_mass", PerStorey(D::PolarMass), "mass spread evenly over the plan", "Mass moment of inertia about a vertical axis through the centre of mass."),
     default(S::Shear, "eccentricity", Kind::PlanPoints, "0", "Centre of stiffness of a storey, from the centre of mass of the floor above it."),
     optional(S::Shear, "element", Tables(&[S::Element]), "Columns and walls at points of the plan, instead of stiffness."),
+    optional(S::Shear, "frame", Tables(&[S::PlanFrame]), "For kind = \"frame\" with a plan: plane frames at lines of the plan, beside stiffness or elements, or alone."),
     optional(S::FloorPlan, "size", Quantities(D::Length), "Width along x and depth across."),
     optional(S::FloorPlan, "corners", Kind::PlanPoints, "Corners, counter-clockwise."),
     required(S::PlanStiffness, "x", Quantity(D::Stiffness), "Along x."),
@@ -464,6 +469,26 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::Element, "at", Kind::PlanPoints, "Place, from the origin of the plan."),
     required(S::Element, "stiffness", Kind::PlanStiffness, "Along x and across."),
     default(S::Element, "storeys", Modes, "all", "First and last storey."),
+    default(S::PlanFrame, "name", Text, "\"1\", \"2\", …", "Name of the frame. Frames at several places are numbered: \"1.1\", \"1.2\", …"),
+    required(S::PlanFrame, "at", Kind::PlanPoints, "Foot of its first column line, from the origin of the plan; or a list of places of equal frames."),
+    default(S::PlanFrame, "direction", WordOr("x", D::Dimensionless), "\"x\"", "From its first column line to its last: \"x\", \"y\" (across), or the angle from x, counter-clockwise, such as \"30 deg\"."),
+    default(S::PlanFrame, "storeys", Count, "all", "Number of its storeys, the lowest ones of the building."),
+    optional(S::PlanFrame, "lines", Kind::Texts, "Names of its column lines, \"\" for none. Columns of the same name in two frames are one column, whose axial forces add."),
+    required(S::PlanFrame, "spans", Quantities(D::Length), "Widths of its bays, from the first column line on."),
+    required(S::PlanFrame, "column", TablePerStorey(S::Column), "Column section: one, or a list from the ground up."),
+    required(S::PlanFrame, "beam", TablePerStorey(S::Beam), "Beam section: one, or a list from the ground up."),
+    optional(S::PlanFrame, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity of columns and beams."),
+    optional(S::PlanFrame, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus, as for a plane frame."),
+    default(S::PlanFrame, "stiffness_factor", NumberOrTable(S::StiffnessFactor), "1", "Factor on every EI, for cracked sections."),
+    default(S::PlanFrame, "density", Quantity(D::Density), "0", "Density of columns, if mass of the building does not include them."),
+    default(S::PlanFrame, "beam_mass", PerStorey(D::LineMass), "0", "Mass carried by the beams, if mass of the building does not include it."),
+    default(S::PlanFrame, "column_segments", Count, "1", "Segments of a column in one storey; k segments have k − 1 lumped masses between them, if columns have mass."),
+    default(S::PlanFrame, "beam_segments", CountPerSpan, "1", "Segments of the beams: one value, or one per span."),
+    default(S::PlanFrame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"rigid\"", "Axial deformation of columns; floors are rigid."),
+    default(S::PlanFrame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
+    default(S::PlanFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus."),
+    optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
+    default(S::PlanFrame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
     optional(S::Shear, "hinges", Kind::Table(S::StoreyHinges), "Cracking and yield of the storeys; without it they are elastic."),
 
     optional(S::Given, "matrices", TextOrTable(S::Matrices), "NumPy archive (.npz) with the arrays K and M, or a table of Matrix Market files, relative to this file. C is the damping matrix, r the displacements when the ground moves by 1, h their heights."),
@@ -677,6 +702,8 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::LinkHinge, "post_yield", Quantity(D::Dimensionless), "Ratio of the stiffness after yield to the stiffness of the link."),
 
     required(S::Wall, "name", Text, "Name by which gaps and links know it."),
+    optional(S::Wall, "from", Kind::PlanPoints, "Among buildings with a plan: one end of its face, on the site. The wall is solid on the right of the way to the other end."),
+    optional(S::Wall, "to", Kind::PlanPoints, "The other end."),
     optional(S::Wall, "stiffness", Quantity(D::Stiffness), "Force per displacement where it is struck, soil included; without it the wall is rigid."),
     optional(S::Wall, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]; without it the wall stands on the ground of the building that it faces."),
     default(S::Wall, "damping", Quantity(D::Damping), "0", "Dashpot of the wall, such as that of the soil behind it."),

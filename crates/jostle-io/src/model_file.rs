@@ -23,6 +23,7 @@ mod motion;
 mod output;
 mod partial;
 mod plan;
+mod plan_frames;
 mod reinforced;
 mod section;
 mod shear;

@@ -36,7 +36,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "The keys of `[motion]` about the record and its scaling, and this one.",
     ),
     (Section::Frame, "`[[building]]` with `kind = \"frame\"`", ""),
-    (Section::Shear, "`[[building]]` with `kind = \"shear\"`", ""),
+    (
+        Section::Shear,
+        "`[[building]]` with `kind = \"shear\"`",
+        "And with `kind = \"frame\"` and a `plan`.",
+    ),
     (Section::FloorPlan, "`plan` of a floor, in a list", ""),
     (
         Section::PlanStiffness,
@@ -44,6 +48,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "",
     ),
     (Section::Element, "`[[building.element]]`", ""),
+    (
+        Section::PlanFrame,
+        "`[[building.frame]]`",
+        "With `kind = \"frame\"` and a `plan`; the building then has the keys of `kind = \"shear\"`. See [Frames at lines of a plan](how-to/frames-in-plan.md).",
+    ),
     (
         Section::Given,
         "`[[building]]` with `kind = \"given\"`",
@@ -283,6 +292,7 @@ fn value(key: &Key) -> String {
     match key.kind {
         Kind::Text => "text".into(),
         Kind::TextOrTexts => "text, or a list of texts".into(),
+        Kind::Texts => "list of texts".into(),
         Kind::Component => "text or number".into(),
         Kind::Count => "whole number".into(),
         Kind::Any => "value or list".into(),

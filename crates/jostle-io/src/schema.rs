@@ -43,18 +43,23 @@ fn table(sections: &[Section]) -> Value {
 
 /// A building: the keys of its kind.
 fn building() -> Value {
-    let of_kind = |section, kind: &str, named: bool| {
+    let of_kind = |section, kind: &str, named: &[&str]| {
         let mut schema = table(&[Section::Building, section]);
         schema["properties"]["kind"] = json!({ "const": kind });
-        if named {
+        if !named.is_empty() {
             match schema["required"].as_array_mut() {
-                Some(required) => required.push(json!("kind")),
-                None => schema["required"] = json!(["kind"]),
+                Some(required) => required.extend(named.iter().map(|key| json!(key))),
+                None => schema["required"] = json!(named),
             }
         }
         schema
     };
-    json!({ "oneOf": [of_kind(Section::Frame, "frame", false), of_kind(Section::Shear, "shear", true), of_kind(Section::Given, "given", true)] })
+    json!({ "oneOf": [
+        of_kind(Section::Frame, "frame", &[]),
+        of_kind(Section::Shear, "frame", &["kind", "plan", "frame"]),
+        of_kind(Section::Shear, "shear", &["kind"]),
+        of_kind(Section::Given, "given", &["kind"]),
+    ] })
 }
 
 fn property(key: &Key) -> Value {
@@ -76,6 +81,7 @@ fn kind(kind: Kind) -> Value {
             { "type": "string" },
             { "type": "array", "items": { "type": "string" }, "minItems": 1, "uniqueItems": true },
         ] }),
+        Kind::Texts => json!({ "type": "array", "items": { "type": "string" } }),
         Kind::Component => {
             json!({ "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 1 }] })
         }

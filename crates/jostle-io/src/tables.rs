@@ -402,7 +402,7 @@ pub fn member_history_columns(
         for section in &member.sections {
             let struck = matches!(section.at, SectionAt::Below | SectionAt::Above);
             sections.push((
-                member_name(building, member.place),
+                member_name(building, member),
                 section_name(member.place, section.at),
                 struck.then_some(section.height),
             ));

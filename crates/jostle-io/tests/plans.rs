@@ -418,3 +418,164 @@ fn a_gap_for_all_neighbours_says_what_it_lacks() {
         "{plane}"
     );
 }
+
+const FRAMES: &str = r#"
+[[building]]
+name = "A"
+kind = "frame"
+storeys = 3
+plan = ["12 m", "10 m"]
+mass = "150 t"
+at = ["100 m", "50 m"]
+
+[[building.frame]]
+name = "1"
+at = ["0 m", "0 m"]
+lines = ["A1", "", "C1"]
+spans = ["6 m", "6 m"]
+column = { width = "500 mm", depth = "500 mm" }
+beam = { width = "300 mm", depth = "600 mm" }
+concrete = "C30"
+
+[[building.frame]]
+name = "y"
+at = [["0 m", "0 m"], ["12 m", "0 m"]]
+direction = "y"
+spans = ["5 m", "5 m"]
+column = { width = "500 mm", depth = "500 mm" }
+beam = { width = "300 mm", depth = "600 mm" }
+elastic_modulus = "30 GPa"
+
+[[building.frame]]
+at = ["1 m", "2 m"]
+direction = "30 deg"
+storeys = 2
+spans = ["4 m"]
+column = { EI = "150 MN.m2" }
+beam = { EI = "160 MN.m2" }
+base = { rotational_stiffness = "400 MN.m/rad" }
+"#;
+
+#[test]
+fn frames_stand_where_the_file_says() {
+    let input = read(FRAMES).expect("a sound model");
+    let own = tiers(&input, 0);
+    let names: Vec<&str> = own.frames.iter().map(|frame| &frame.name[..]).collect();
+    assert_eq!(names, ["1", "y.1", "y.2", "3"]);
+    assert!(own.storeys.is_empty());
+    assert_eq!(own.frames[2].at, [112.0, 50.0]);
+    assert_eq!(own.frames[2].direction, [0.0, 1.0]);
+    assert_eq!(own.frames[2].line_at(2), [112.0, 60.0]);
+    let askew = &own.frames[3];
+    assert!((askew.direction[0] - 0.75_f64.sqrt()).abs() < 1e-12);
+    assert_eq!(askew.frame.storey_heights.len(), 2);
+    assert_eq!(askew.base.rotational_stiffness, Some(4e8));
+    assert_eq!(own.frames[0].lines[0].as_deref(), Some("A1"));
+    assert_eq!(own.frames[0].lines[1], None);
+    // Without density the mass of the floors is all.
+    let system = System::assemble(&input.model).expect("a sound model");
+    assert_eq!(system.buildings[0].equations.total_mass(), 450e3);
+    assert_eq!(system.buildings[0].modes.len(), 9);
+}
+
+#[test]
+fn frames_in_plan_that_do_not_fit_are_refused_with_the_remedy() {
+    let changed = |from: &str, to: &str| {
+        assert!(FRAMES.contains(from), "{from}");
+        said(&FRAMES.replacen(from, to, 1))
+    };
+    for (from, to, expected) in [
+        ("kind = \"frame\"", "kind = \"shear\"", "kind = \"frame\""),
+        ("plan = [\"12 m\", \"10 m\"]\n", "", "plan"),
+        ("direction = \"y\"", "direction = \"z\"", "direction"),
+        ("storeys = 2", "storeys = 4", "between 1 and 3"),
+        (
+            "lines = [\"A1\", \"\", \"C1\"]",
+            "lines = [\"A1\"]",
+            "1 names for 3 column lines",
+        ),
+        (
+            "name = \"y\"",
+            "name = \"y\"\nlines = [\"A1\", \"\", \"A3\"]",
+            "several places",
+        ),
+        ("name = \"1\"", "name = \"3\"", "another frame is called"),
+        (
+            "storeys = 2",
+            "storeys = 2\ndensity = 2500\ncolumn_segments = 2",
+            "column_segments",
+        ),
+        (
+            "mass = \"150 t\"",
+            "mass = \"150 t\"\ngravity = true",
+            "gravity",
+        ),
+        (
+            "mass = \"150 t\"",
+            "mass = \"150 t\"\nhinges = { rule = \"bilinear\" }",
+            "hinges",
+        ),
+        (
+            "mass = \"150 t\"",
+            "mass = \"150 t\"\neccentricity = [0, 0]",
+            "eccentricity",
+        ),
+        ("at = [\"0 m\", \"0 m\"]", "", "add at"),
+        (
+            "base = {",
+            "base = { horizontal_hinge = { rule = \"bilinear\", yield = \"10 kN\" }, horizontal_stiffness = \"1 MN/m\",",
+            "cannot yield",
+        ),
+    ] {
+        let said = changed(from, to);
+        assert!(said.contains(expected), "{from} → {to}:\n{said}");
+    }
+    // Two frames in one direction alone hold no floor.
+    let end = FRAMES
+        .find("[[building.frame]]\nname = \"y\"")
+        .expect("there");
+    let single = said(&FRAMES[..end]);
+    assert!(single.contains("do not hold floor 1"), "{single}");
+    // A column line that two frames name differently stands elsewhere.
+    let apart = FRAMES.replacen(
+        "at = [[\"0 m\", \"0 m\"], [\"12 m\", \"0 m\"]]",
+        "at = [\"1 m\", \"0 m\"]\nlines = [\"A1\", \"\", \"A3\"]",
+        1,
+    );
+    let said = said(&apart);
+    assert!(said.contains("puts column \"A1\""), "{said}");
+}
+
+#[test]
+fn walls_stand_on_the_site() {
+    let text = |wall: &str| {
+        format!(
+            "{A}at = [\"0 m\", \"0 m\"]\n[[wall]]\nname = \"boundary\"\n{wall}\n[[gap]]\nbetween = [\"A\", \"boundary\"]\n"
+        )
+    };
+    let sound = text("from = [\"20.03 m\", \"0 m\"]\nto = [\"20.03 m\", \"9 m\"]");
+    let input = read(&sound).expect("a sound model");
+    assert_eq!(
+        input.model.walls[0].line,
+        Some([[20.03, 0.0], [20.03, 9.0]])
+    );
+    // The width follows from the places.
+    assert!((input.model.gaps[0].width() - 0.03).abs() < 1e-12);
+    let system = System::assemble(&input.model).expect("a sound model");
+    assert_eq!(system.contacts.len(), 5);
+    for (wall, expected) in [
+        ("from = [\"20.03 m\", \"0 m\"]", "add to = "),
+        ("", "add from and to"),
+        (
+            "from = [\"20.03 m\", \"9 m\"]\nto = [\"20.03 m\", \"0 m\"]",
+            "inside of the wall",
+        ),
+        (
+            "from = [\"20.03 m\", \"0 m\"]\nto = [\"20.03 m\", \"9 m\"]\nstiffness = \"100 MN/m\"\nmass = \"20 t\"",
+            "walls are rigid there",
+        ),
+    ] {
+        let said = said(&text(wall));
+        assert!(said.contains(expected), "{wall}:\n{said}");
+    }
+}

@@ -218,6 +218,21 @@ fn shear_facts(shear: &Shear, facts: &mut Facts) {
 fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
     let masses: Vec<f64> = tiers.floors.iter().map(|floor| floor.mass).collect();
     facts.push(("floor mass", grouped(&masses, format::tonnes)));
+    if !tiers.frames.is_empty() {
+        let frames = tiers.frames.iter().map(|frame| {
+            let spans: Vec<String> = frame
+                .frame
+                .spans
+                .iter()
+                .map(|span| format::plain(*span, 3))
+                .collect();
+            format!("{} ({} m)", frame.name, spans.join(" + "))
+        });
+        facts.push(("frames (spans)", frames.collect::<Vec<_>>().join(", ")));
+    }
+    if tiers.storeys.is_empty() {
+        return;
+    }
     for (label, axis) in [
         ("storey stiffness along x", 0),
         ("storey stiffness across", 1),

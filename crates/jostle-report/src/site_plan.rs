@@ -116,11 +116,21 @@ fn drawing(page: &Page) -> Markup {
                                 polygon.plan points=(scale.path(tier.plan.iter().copied())) {}
                             }
                         }
-                        @if let (Some(tier), Some(storey)) = (tiers.floors.first(), tiers.storeys.first()) {
+                        @for frame in &tiers.frames {
+                            @let lines = (0..frame.column_lines()).map(|line| frame.line_at(line));
+                            polyline.frame fill="none" points=(scale.path(lines.clone())) { title { "frame " (frame.name) } }
+                            @for line in lines {
+                                @let [x, y] = scale.place(line);
+                                rect.column x=(format!("{:.1}", x - 2.5)) y=(format!("{:.1}", y - 2.5)) width="5" height="5" {}
+                            }
+                        }
+                        @if let Some(tier) = tiers.floors.first() {
                             @let [x, y] = scale.place(tier.centre);
-                            @let [sx, sy] = scale.place(storey.centre);
                             circle.mass cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="4" { title { "centre of mass" } }
-                            rect.stiffness x=(format!("{:.1}", sx - 3.5)) y=(format!("{:.1}", sy - 3.5)) width="7" height="7" { title { "centre of stiffness" } }
+                            @if let Some(storey) = tiers.storeys.first() {
+                                @let [sx, sy] = scale.place(storey.centre);
+                                rect.stiffness x=(format!("{:.1}", sx - 3.5)) y=(format!("{:.1}", sy - 3.5)) width="7" height="7" { title { "centre of stiffness" } }
+                            }
                             text x=(format!("{:.1}", x + 8.0)) y=(format!("{:.1}", y - 8.0)) { (page.model.buildings[index].name) }
                         }
                     }

@@ -69,6 +69,8 @@ fn building(
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -141,6 +141,7 @@ fn model_of(inputs: &Value) -> Model {
             stiffness: Some(number(stored, "/stiffness_n_m")),
             damping: number(stored, "/damping_n_s_m"),
             mass: number(stored, "/mass_kg"),
+            line: None,
         });
         let contact = at(inputs, "/contact");
         let law = at(contact, "/law").as_str().expect("a law");
@@ -342,6 +343,8 @@ fn block_case(source: &str, case: &Value) -> Vec<Row> {
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
     };
     let system = System::of_buildings(vec![BuildingSystem::new("block", discretization)]);
     let motion = motion(inputs);

@@ -11,6 +11,7 @@ pub mod collisions;
 pub mod differing_ground;
 pub mod document;
 pub mod frames;
+pub mod free_bodies;
 pub mod ground;
 pub mod harmonic;
 pub mod links;
@@ -57,7 +58,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 18] = [
+const FAMILIES: [(&str, &str, Make); 19] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -93,6 +94,13 @@ const FAMILIES: [(&str, &str, Make); 18] = [
          offset in plan at 30°, three buildings around a corner. Expected values: modes in free flight, an integrator of \
          eighth order in contact, every touch and opening located; checked by fixed steps of 2 µs.",
         |_| space::rows(),
+    ),
+    (
+        "Free floors in space",
+        "One impact of two free floors from given velocities, by faces and by a corner, without and with friction, under four \
+         contact laws. Expected values: an integrator of eighth order, confirmed by momentum, energy, closed forms of rigid \
+         bodies and fixed steps of 0.5 µs; with friction also by another program. The floors stand on springs of 10⁻⁴ rad/s.",
+        |_| free_bodies::rows(),
     ),
     (
         "Isolation and walls",

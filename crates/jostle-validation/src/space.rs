@@ -73,12 +73,12 @@ pub fn rows() -> Vec<Row> {
     rows
 }
 
-fn point(value: &Value) -> PlanPoint {
+pub(crate) fn point(value: &Value) -> PlanPoint {
     let values = numbers(value, "");
     [values[0], values[1]]
 }
 
-fn points(value: &Value) -> Vec<PlanPoint> {
+pub(crate) fn points(value: &Value) -> Vec<PlanPoint> {
     value
         .as_array()
         .expect("a list")
@@ -110,6 +110,7 @@ fn building(stored: &Value) -> Building {
             floors: floors.collect(),
             storeys: storeys.collect(),
             storey_heights: heights.collect(),
+            frames: Vec::new(),
         }),
         damping: Damping::Rayleigh {
             alpha: number(stored, "/alpha_1_s"),
@@ -611,6 +612,7 @@ fn polygons() -> Vec<Row> {
                     }],
                     floors: vec![tier],
                     storey_heights: vec![3.0],
+                    frames: Vec::new(),
                 }),
                 damping: Damping::Ratio {
                     ratio: 0.05,

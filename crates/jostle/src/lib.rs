@@ -118,8 +118,8 @@ pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Foundation, FoundationSprings, Frame,
     FrameHinges, Gap, Given, Gravity, HalfSpace, Hinges, Integrator, Isolation, Isolator,
     IsolatorDamping, Joint, Level, Link, LinkLaw, MemberRequest, Model, ModelFault, PlanArea,
-    PlanContact, PlanPoint, Section, Shear, Soil, SoilCoupling, Solver, SpeedFriction, Stop,
-    Structure, Tier, TierStorey, Tiers, Wall,
+    PlanContact, PlanFrame, PlanPoint, Section, Shear, Soil, SoilCoupling, Solver, SpeedFriction,
+    Stop, Structure, Tier, TierStorey, Tiers, Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

@@ -136,6 +136,7 @@ fn links_that_are_not_linear_bearings_and_walls_allocate_nothing_either() {
         stiffness: Some(1e8),
         damping: 1e6,
         mass: 2e4,
+        line: None,
     });
     let mut moat = Gap::between([Some(2), Some(0)], 0.015, model.gaps[0].law);
     moat.floors = FloorPairs::Listed(vec![[Level::Wall, Level::Floor(0)]]);

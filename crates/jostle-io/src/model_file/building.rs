@@ -82,7 +82,14 @@ pub(super) fn read_all(
 
 /// Keys that need a plan.
 fn refuse_plan_keys(reader: &mut Reader<'_>, view: &View<'_>) {
-    for key in ["at", "mass_centre", "polar_mass", "eccentricity", "element"] {
+    for key in [
+        "at",
+        "mass_centre",
+        "polar_mass",
+        "eccentricity",
+        "element",
+        "frame",
+    ] {
         if let Some(field) = reader.get(view, key) {
             *reader.bad(&field, "needs a plan") =
                 Some("add plan = [\"20 m\", \"12 m\"], or corners".into());
@@ -112,6 +119,7 @@ fn read(
     let view = match kind {
         Kind::Shear => reader.open(field, &[Section::Building, Section::Shear]),
         Kind::Frame => reader.open(field, &[Section::Building, Section::Frame]),
+        Kind::FramesInPlan => reader.open(field, &[Section::Building, Section::Shear]),
         Kind::Given => reader.open(field, &[Section::Building, Section::Given]),
     }?;
     let name = reader
@@ -132,13 +140,30 @@ fn read(
                 "kind",
                 "add kind = \"given\" for matrices or modes of another program",
             ),
+            Kind::FramesInPlan => reader.missing(
+                &view,
+                "kind",
+                "add kind = \"frame\" for frames at lines of a plan",
+            ),
             Kind::Frame => {}
         },
     }
     let mut damped = None;
     let structure = match kind {
         Kind::Shear if view.has("plan") => {
-            let read = plan::read(reader, &view);
+            if let Some(field) = reader.get(&view, "frame") {
+                *reader.bad(&field, "needs kind = \"frame\"") =
+                    Some("write kind = \"frame\"; stiffness and elements may stay".into());
+            }
+            let read = plan::read(reader, &view, false);
+            *at = read.at;
+            Structure::Tiers(read.tiers)
+        }
+        Kind::FramesInPlan => {
+            if !view.has("plan") {
+                reader.missing(&view, "plan", "add plan = [\"20 m\", \"12 m\"], or corners");
+            }
+            let read = plan::read(reader, &view, true);
             *at = read.at;
             Structure::Tiers(read.tiers)
         }
@@ -166,7 +191,7 @@ fn read(
     };
     let is_shear = kind == Kind::Shear;
     if kind != Kind::Given {
-        building.base = read_base(reader, &view, is_shear);
+        building.base = read_base(reader, &view, kind != Kind::Frame);
         building.base.isolation = isolation::read(reader, &view);
         building.base.foundation = soil::read_foundation(reader, &view);
     }
@@ -203,7 +228,7 @@ fn read(
     };
     let stated = match kind {
         Kind::Given => None,
-        Kind::Frame | Kind::Shear => reader.get(&view, "hinges"),
+        Kind::Frame | Kind::Shear | Kind::FramesInPlan => reader.get(&view, "hinges"),
     };
     building.hinges = match &building.structure {
         Structure::Shear(shear) => {
@@ -297,6 +322,8 @@ enum Kind {
     Frame,
     Shear,
     Given,
+    /// Frames at lines of a plan.
+    FramesInPlan,
 }
 
 /// The kind of a building. If `kind` is absent or misspelt, the other keys decide, so that one mistake gives one fault.
@@ -308,7 +335,11 @@ fn kind_of(field: &Field<'_>) -> Kind {
     match table.get("kind").map(|kind| &kind.value) {
         Some(Value::Text(kind)) if kind == "shear" => Kind::Shear,
         Some(Value::Text(kind)) if kind == "given" => Kind::Given,
+        Some(Value::Text(kind)) if kind == "frame" && (has("plan") || has("frame")) => {
+            Kind::FramesInPlan
+        }
         Some(Value::Text(kind)) if kind == "frame" => Kind::Frame,
+        _ if has("frame") && (has("plan") || has("mass")) => Kind::FramesInPlan,
         _ if has("matrices") || has("ports") || has("shapes") => Kind::Given,
         _ if (has("mass") || has("stiffness")) && !has("spans") && !has("column") => Kind::Shear,
         _ => Kind::Frame,
@@ -471,7 +502,7 @@ fn read_damping(
 }
 
 /// Springs and dashpots under the building.
-fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool) -> Base {
+pub(super) fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool) -> Base {
     let Some(field) = reader.get(view, "base") else {
         return Base::default();
     };

@@ -37,10 +37,57 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
         }
     };
     let storey_heights = height.unwrap_or_else(|| vec![3.0; count.unwrap_or(1)]);
+    let masses = |reader: &mut Reader<'_>| masses(reader, view, count);
+    read_members(reader, view, count, storey_heights, masses, &PLANE)
+}
+
+/// Reads the keys of a frame at a line of a plan, which has these storeys.
+pub(super) fn read_in_plan(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    storey_heights: &[f64],
+) -> Frame {
+    let count = storey_heights.len();
+    let masses = |reader: &mut Reader<'_>| {
+        let field = reader.get(view, "beam_mass");
+        let own =
+            field.and_then(|field| per_storey(reader, &field, Dimension::LineMass, Some(count)));
+        (own.unwrap_or_else(|| vec![0.0; count]), vec![0.0; count])
+    };
+    let heights = storey_heights.to_vec();
+    read_members(reader, view, Some(count), heights, masses, &IN_PLAN)
+}
+
+/// What is absent from a file.
+struct Defaults {
+    density: f64,
+    segments: usize,
+}
+
+/// Of a plane frame.
+const PLANE: Defaults = Defaults {
+    density: CONCRETE_DENSITY,
+    segments: 4,
+};
+
+/// Of a frame in a plan: the masses of the floors include it.
+const IN_PLAN: Defaults = Defaults {
+    density: 0.0,
+    segments: 1,
+};
+
+fn read_members(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    count: Option<usize>,
+    storey_heights: Vec<f64>,
+    masses: impl FnOnce(&mut Reader<'_>) -> (Vec<f64>, Vec<f64>),
+    defaults: &Defaults,
+) -> Frame {
     let spans = read_spans(reader, view);
 
     let (modulus, modulus_is_bad) = read_modulus(reader, view);
-    let density = read_density(reader, view);
+    let density = read_density(reader, view, defaults.density);
     let (column_factor, beam_factor) = stiffness_factors(reader, view);
     let shears = flexible_members(reader, view, "shear", Section::ShearDeformation);
     let poisson_ratio = read_poisson_ratio(reader, view);
@@ -61,14 +108,14 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
         material(column_factor, shears.0),
     );
     let beams = read_sections(reader, view, "beam", count, material(beam_factor, shears.1));
-    let (beam_mass, floor_mass) = masses(reader, view, count);
+    let (beam_mass, floor_mass) = masses(reader);
     let column_segments = match reader.get(view, "column_segments") {
         Some(field) => reader.count(&field).unwrap_or(1),
-        None => 4,
+        None => defaults.segments,
     };
     let axial = flexible_members(reader, view, "axial", Section::Axial);
     Frame {
-        beam_segments: beam_segments(reader, view, spans.len()),
+        beam_segments: beam_segments(reader, view, spans.len(), defaults.segments),
         storey_heights,
         spans,
         columns,
@@ -85,16 +132,16 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Frame {
 }
 
 /// Density of the columns \[kg/m³\].
-fn read_density(reader: &mut Reader<'_>, view: &View<'_>) -> f64 {
+fn read_density(reader: &mut Reader<'_>, view: &View<'_>, usual: f64) -> f64 {
     let Some(field) = reader.get(view, "density") else {
-        return CONCRETE_DENSITY;
+        return usual;
     };
     match reader.quantity(&field, Dimension::Density) {
         Some(density) if density < 0.0 => {
             reader.bad(&field, "must not be negative");
-            CONCRETE_DENSITY
+            usual
         }
-        density => density.unwrap_or(CONCRETE_DENSITY),
+        density => density.unwrap_or(usual),
     }
 }
 
@@ -182,9 +229,14 @@ fn masses(reader: &mut Reader<'_>, view: &View<'_>, count: Option<usize>) -> (Ve
     )
 }
 
-fn beam_segments(reader: &mut Reader<'_>, view: &View<'_>, spans: usize) -> Vec<usize> {
+fn beam_segments(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    spans: usize,
+    usual: usize,
+) -> Vec<usize> {
     let Some(field) = reader.get(view, "beam_segments") else {
-        return vec![4; spans];
+        return vec![usual; spans];
     };
     match field.entries() {
         Some(entries) => entries

@@ -1,9 +1,10 @@
-//! Plans of shear buildings: floors that move in both horizontal directions and turn.
+//! Plans of buildings: floors that move in both horizontal directions and turn.
 
 use jostle::interface::narrowest_gap;
 use jostle::{Building, Gap, Model, PlanArea, PlanPoint, Structure, Tier, TierStorey, Tiers};
 
 use super::building::{has_length, per_storey, storeys};
+use super::plan_frames;
 use super::shear::DEFAULT_STOREY_HEIGHT;
 use crate::keys::Section;
 use crate::quantity::Dimension;
@@ -13,17 +14,18 @@ use crate::reader::{Field, Reader, View};
 const AGREES: f64 = 1e-3;
 
 /// A building with a plan, and where it stands; `None` stands in a row.
-pub(super) struct Read {
+pub(super) struct Planned {
     pub(super) tiers: Tiers,
     pub(super) at: Option<PlanPoint>,
 }
 
-/// Reads the keys of a shear building that has a plan; after a fault, harmless values are used.
-pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Read {
+/// Reads the keys of a building that has a plan; `has_frames`: whether it is of frames. After a fault, harmless values are used.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, has_frames: bool) -> Planned {
     let elements = reader
         .get(view, "element")
         .and_then(|field| field.entries());
-    let lists: &[&'static str] = if elements.is_some() {
+    let springs_may_lack = has_frames && !view.has("stiffness");
+    let lists: &[&'static str] = if elements.is_some() || springs_may_lack {
         &["mass", "storey_height"]
     } else {
         &["mass", "stiffness", "storey_height"]
@@ -86,13 +88,26 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Read {
             }
             of_elements(reader, &entries, count)
         }
+        None if springs_may_lack => {
+            if let Some(field) = reader.get(view, "eccentricity") {
+                *reader.bad(&field, "is that of stiffness, which is not given") =
+                    Some("remove eccentricity; the places of the frames give it".into());
+            }
+            Vec::new()
+        }
         None => of_stiffness(reader, view, &floors, &plans),
     };
-    Read {
+    let storey_heights = heights.unwrap_or_else(|| vec![DEFAULT_STOREY_HEIGHT; count]);
+    let frames = match has_frames {
+        true => plan_frames::read_all(reader, view, &storey_heights),
+        false => Vec::new(),
+    };
+    Planned {
         tiers: Tiers {
             floors,
             storeys,
-            storey_heights: heights.unwrap_or_else(|| vec![DEFAULT_STOREY_HEIGHT; count]),
+            storey_heights,
+            frames,
         },
         at,
     }
@@ -109,7 +124,7 @@ fn is_single_floor(reader: &mut Reader<'_>, view: &View<'_>) -> bool {
 }
 
 /// Two lengths.
-fn pair(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<PlanPoint> {
+pub(super) fn pair(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<PlanPoint> {
     let entries = field.entries().unwrap_or_default();
     let [x, y] = &entries[..] else {
         let found = field.node.describe();

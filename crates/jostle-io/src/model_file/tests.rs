@@ -22,6 +22,11 @@ kind = "shear"
 plan = [1, 1]
 mass = 1
 element = [{ at = [0, 0], stiffness = 1, storeys = [1, 1] }]
+[[building]]
+kind = "frame"
+plan = [1, 1]
+mass = 1
+frame = [{ at = [0, 0], lines = ["A"], stiffness_factor = { column = 1 }, axial = { columns = "rigid" }, shear = { columns = "flexible" }, joint = {}, base = { mass = 1 }, column = { EI = 1 }, beam = { EI = 1 } }]
 "#,
     r#"
 [motion]

@@ -2,6 +2,7 @@
 
 use jostle::Wall;
 
+use super::plan;
 use crate::keys::Section;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
@@ -38,6 +39,20 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Wall> {
             None
         }
     };
+    let mut end = |key| {
+        reader
+            .get(&view, key)
+            .map(|field| plan::pair(reader, &field))
+    };
+    let line = match [end("from"), end("to")] {
+        [None, None] => None,
+        [Some(from), Some(to)] => Some([from?, to?]),
+        [from, _] => {
+            let key = if from.is_some() { "to" } else { "from" };
+            reader.missing(&view, key, format!("add {key} = [\"21 m\", \"0 m\"]"));
+            return None;
+        }
+    };
     let mut quantity = |key, dimension| match reader.get(&view, key) {
         Some(field) => reader.quantity(&field, dimension).map(Some),
         None => Some(None),
@@ -50,5 +65,6 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Wall> {
         stiffness: stiffness?,
         damping: damping?.unwrap_or(0.0),
         mass: mass?.unwrap_or(0.0),
+        line,
     })
 }

@@ -156,8 +156,27 @@ pub(super) fn check_walls(faults: &mut Faults, model: &Model) {
                 || "is needed for a wall with damping or mass; without it the wall is rigid".into(),
             ),
         }
-        faults.require(!model.is_in_space(), path.as_str(), || {
-            "cannot stand among buildings with a plan yet; leave it out".into()
-        });
+        match (model.is_in_space(), wall.line) {
+            (false, None) => {}
+            (false, Some(_)) => faults.add(
+                format!("{path}.from"),
+                "is for walls among buildings with a plan; remove from and to",
+            ),
+            (true, None) => faults.add(
+                format!("{path}.from"),
+                "is needed among buildings with a plan: add from and to, the ends of its face, solid on the right of the way",
+            ),
+            (true, Some(_)) => {
+                let finite = wall.line.iter().flatten().flatten().all(|v| v.is_finite());
+                faults.require(
+                    finite && wall.plan().is_some(),
+                    format!("{path}.to"),
+                    || "must be another point than from".into(),
+                );
+                faults.require(wall.is_rigid(), format!("{path}.stiffness"), || {
+                    "is not possible among buildings with a plan yet: walls are rigid there; leave it out".into()
+                });
+            }
+        }
     }
 }

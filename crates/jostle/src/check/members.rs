@@ -1,11 +1,15 @@
 //! Names of members whose histories are asked for.
 
 use super::Faults;
-use crate::model::{Building, Model, Structure};
+use crate::model::{Building, Frame, Model, PlanFrame, Structure, Tiers};
 
 pub(super) fn check_members(faults: &mut Faults, model: &Model) {
     let request = &model.analysis.members;
-    let has_frame = |building: &Building| matches!(building.structure, Structure::Frame(_));
+    let has_frame = |building: &Building| match &building.structure {
+        Structure::Frame(_) => true,
+        Structure::Tiers(tiers) => !tiers.frames.is_empty(),
+        Structure::Shear(_) | Structure::Given(_) => false,
+    };
     faults.require(
         !request.envelopes || model.buildings.iter().any(has_frame),
         "output.members",
@@ -31,12 +35,40 @@ fn fault_of(name: &str, model: &Model) -> Option<String> {
             model.buildings.first().map_or("J1", |first| &first.name)
         ));
     };
+    if let Structure::Tiers(tiers) = &building.structure
+        && !tiers.frames.is_empty()
+    {
+        return fault_in_plan(name, &place, building, tiers);
+    }
     let Structure::Frame(frame) = &building.structure else {
         return Some(format!(
             "\"{name}\": \"{}\" is no frame and has no columns and beams; its storey shears are in every summary",
             building.name
         ));
     };
+    fault_in_frame(name, &place, &building.name, frame)
+}
+
+/// The same for frames that stand in a plan, whose names come before those of their members.
+fn fault_in_plan(name: &str, place: &str, building: &Building, tiers: &Tiers) -> Option<String> {
+    let rest = |frame: &PlanFrame| -> Option<String> {
+        let rest = place.strip_prefix(frame.name.as_str())?;
+        rest.strip_prefix('.').map(str::to_owned)
+    };
+    let found = tiers.frames.iter().filter_map(|f| Some((f, rest(f)?)));
+    let Some((frame, place)) = found.max_by_key(|(frame, _)| frame.name.len()) else {
+        let first = tiers.frames.first().map_or("1", |frame| &frame.name);
+        return Some(format!(
+            "\"{name}\" names no frame of \"{own}\"; write {own}.FRAME.column.LINE.STOREY or {own}.FRAME.beam.FLOOR.SPAN, such as \"{own}.{first}.column.1.1\"",
+            own = building.name
+        ));
+    };
+    let own = format!("{}.{}", building.name, frame.name);
+    fault_in_frame(name, &place, &own, &frame.frame)
+}
+
+/// What is wrong with the place of a member in a frame of this name.
+fn fault_in_frame(name: &str, place: &str, own: &str, frame: &Frame) -> Option<String> {
     let storeys = frame.storey_heights.len();
     let lines = frame.spans.len() + 1;
     let within = |text: &str, most: usize| {
@@ -50,7 +82,6 @@ fn fault_of(name: &str, model: &Model) -> Option<String> {
         _ => false,
     };
     (!known).then(|| {
-        let own = &building.name;
         let to = |most: usize| if most == 1 { "1".to_owned() } else { format!("1…{most}") };
         format!(
             "\"{name}\" is no member of \"{own}\"; it has {own}.column.LINE.STOREY with line {} and storey {}, and {own}.beam.FLOOR.SPAN with floor {} and span {}",

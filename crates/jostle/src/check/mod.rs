@@ -5,6 +5,7 @@ mod isolation;
 mod members;
 mod neighbours;
 mod plan;
+mod plan_frames;
 mod soil;
 
 use members::check_members;
@@ -266,6 +267,27 @@ fn check_hinges(faults: &mut Faults, path: &str, hinges: &Hinges, structure: &St
 }
 
 fn check_frame(faults: &mut Faults, path: &str, frame: &Frame) {
+    check_members_of(faults, path, frame);
+    let storeys = frame.storey_heights.len();
+    let floors_have_mass = (0..storeys).all(|floor| {
+        let above = frame
+            .columns
+            .get(floor + 1)
+            .map_or(0.0, |section| section.line_mass);
+        let here = [frame.beam_mass.get(floor), frame.floor_mass.get(floor)];
+        let column = frame
+            .columns
+            .get(floor)
+            .map_or(0.0, |section| section.line_mass);
+        here.into_iter().flatten().sum::<f64>() + above + column > 0.0
+    });
+    faults.require(floors_have_mass, format!("{path}.floor_mass"), || {
+        "every floor needs some mass: set beam_mass, floor_mass or a column density".into()
+    });
+}
+
+/// Members and masses of a frame, each by itself.
+fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
     let storeys = frame.storey_heights.len();
     faults.require(storeys >= 1, format!("{path}.storeys"), || {
         "a frame needs at least one storey".into()
@@ -312,21 +334,6 @@ fn check_frame(faults: &mut Faults, path: &str, frame: &Frame) {
     for (field, mass) in each(&frame.floor_mass, &format!("{path}.floor_mass")) {
         faults.not_negative(*mass, field, "kg");
     }
-    let floors_have_mass = (0..storeys).all(|floor| {
-        let above = frame
-            .columns
-            .get(floor + 1)
-            .map_or(0.0, |section| section.line_mass);
-        let here = [frame.beam_mass.get(floor), frame.floor_mass.get(floor)];
-        let column = frame
-            .columns
-            .get(floor)
-            .map_or(0.0, |section| section.line_mass);
-        here.into_iter().flatten().sum::<f64>() + above + column > 0.0
-    });
-    faults.require(floors_have_mass, format!("{path}.floor_mass"), || {
-        "every floor needs some mass: set beam_mass, floor_mass or a column density".into()
-    });
     faults.require(
         (1..=64).contains(&frame.column_segments),
         format!("{path}.column_segments"),

@@ -1,10 +1,10 @@
 //! Faults of buildings with plans, and of gaps between them.
 
-use super::{Faults, each};
+use super::{Faults, each, plan_frames};
 use crate::contact::LawKind;
 use crate::interface::faces_of_gap;
 use crate::interface::plan_contacts::MOST_POINTS;
-use crate::model::{Base, Building, Gap, Model, PlanArea, PlanPoint, Structure, Tiers};
+use crate::model::{Base, Building, Gap, Model, PlanArea, PlanPoint, Structure, Tiers, Wall};
 
 /// Whether all buildings have plans, or none has.
 pub(super) fn check_space(faults: &mut Faults, model: &Model) {
@@ -27,11 +27,13 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
     let n = tiers.floors.len();
     let at = |field: &str| format!("{path}.{field}");
     faults.require(n >= 1, at("mass"), || "needs at least one floor".into());
+    let has_frames = !tiers.frames.is_empty();
     for (field, count) in [
         ("stiffness", tiers.storeys.len()),
         ("storey_height", tiers.storey_heights.len()),
     ] {
-        faults.require(count == n, at(field), || {
+        let none = has_frames && field == "stiffness" && count == 0;
+        faults.require(count == n || none, at(field), || {
             format!("has {count} entries for {n} floors; give one per storey from the ground up")
         });
     }
@@ -79,7 +81,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
             ("y", storey.stiffness[1], "N/m"),
             ("torsion", storey.stiffness[2], "N.m/rad"),
         ] {
-            let usable = value.is_finite() && value > 0.0;
+            let usable = value.is_finite() && (value > 0.0 || has_frames && value == 0.0);
             let remedy = match key {
                 "torsion" => "; with elements, put two of them at different points",
                 _ => "",
@@ -94,8 +96,9 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
             || "must be finite".into(),
         );
     }
+    plan_frames::check_plan_frames(faults, path, tiers, building);
     faults.require(building.base == Base::default(), at("base"), || {
-        "is not possible for a building with a plan yet; leave it out".into()
+        "is not possible for a building with a plan yet; leave it out, or give it to a frame".into()
     });
     faults.require(building.hinges.is_none(), at("hinges"), || {
         "are not possible for a building with a plan yet; leave them out".into()
@@ -248,18 +251,20 @@ fn check_overlaps(faults: &mut Faults, model: &Model) {
 pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
     let last = model.buildings.len();
     let between = match gap.between {
-        [Some(a), Some(b)] if a != b && a < last && b < last => [a, b],
+        [Some(a), Some(b)] if a != b && a.min(b) < last && a.max(b) < last + model.walls.len() => {
+            [a, b]
+        }
         [None, _] | [_, None] => {
             faults.add(
                 format!("{path}.between"),
-                "names a wall, which buildings with a plan cannot have yet; name two buildings",
+                "names a wall without a place on the site; add a [[wall]] with name, from and to, and name it",
             );
             return;
         }
         _ => {
             faults.add(
                 format!("{path}.between"),
-                "must name two different buildings",
+                "must name two different buildings, or a building and a wall",
             );
             return;
         }
@@ -283,6 +288,13 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
     if contact.points < 2 || contact.reach <= 0.0 || contact.reach.is_nan() {
         return;
     }
+    if overlaps_wall(model, between) {
+        faults.add(
+            format!("{path}.between"),
+            "has the building inside of the wall: it is solid on the right of the way from its point from to its point to; exchange them, or move one of the two",
+        );
+        return;
+    }
     let touches = faces_of_gap(model, gap).is_none_or(|faces| !faces.is_empty());
     faults.require(touches, format!("{path}.reach"), || {
         format!(
@@ -292,6 +304,20 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
             model.buildings[between[1]].name
         )
     });
+}
+
+/// Whether a floor of the building lies inside of the wall of a gap, if it has one.
+fn overlaps_wall(model: &Model, between: [usize; 2]) -> bool {
+    let wall = between.iter().find_map(|side| model.wall(Some(*side)));
+    let building = between.iter().find_map(|side| model.buildings.get(*side));
+    let (Some(solid), Some(building)) = (wall.and_then(Wall::plan), building) else {
+        return false;
+    };
+    let Structure::Tiers(tiers) = &building.structure else {
+        return false;
+    };
+    let mut plans = tiers.floors.iter().map(|floor| &floor.plan);
+    plans.any(|plan| polygon_fault(plan).is_none() && overlap(plan, &solid))
 }
 
 /// Faults of friction along the faces of a gap.

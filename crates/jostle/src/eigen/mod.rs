@@ -69,9 +69,8 @@ impl Mode {
             along(&equations.vertical_mass),
         );
         let across = along(&equations.driven_across);
-        let polar = equations.polar_mass();
-        let turning = along(&polar);
-        let turns: f64 = polar.iter().sum();
+        let turning = along(&equations.driven_turning);
+        let turns = equations.polar_mass;
         // Sign: positive participation along x, or across where that is greater.
         let norm = inner(&equations.mass, &shape, &shape).sqrt();
         let sign = if across.abs() > x.abs() { across } else { x };
@@ -82,10 +81,10 @@ impl Mode {
         let (x, y, total) = (x * scale, y * scale, equations.total_mass());
         Self {
             circular_frequency: squared_frequency.sqrt(),
-            effective_mass_ratio_x: x * x / total,
+            effective_mass_ratio_x: x * x / equations.moved_mass[0],
             effective_mass_ratio_y: y * y / total,
-            effective_mass_ratio_across: (across * scale).powi(2) / total,
-            effective_mass_ratio_torsion: match polar.is_empty() {
+            effective_mass_ratio_across: (across * scale).powi(2) / equations.moved_mass[1],
+            effective_mass_ratio_torsion: match equations.driven_turning.is_empty() {
                 true => 0.0,
                 false => (turning * scale).powi(2) / turns,
             },

@@ -2,36 +2,59 @@
 
 use super::contact_points::point_pairs;
 use super::plan_contacts::{PlanFace, plan_faces};
-use crate::model::{Gap, Model, Structure, Tiers};
+use crate::model::{Gap, Model, PlanPoint, Structure};
 
-/// Faces of a gap with the indices of their floors, from the lowest up; `None` where its buildings or floors do not fit.
-pub(crate) fn faces_of_gap(model: &Model, gap: &Gap) -> Option<Vec<([usize; 2], PlanFace)>> {
-    let [a, b] = gap.between;
-    let tiers = |building: Option<usize>| -> Option<&Tiers> {
-        match &model.buildings.get(building?)?.structure {
-            Structure::Tiers(tiers) => Some(tiers),
+/// Plans on one side of a gap, from the ground up, with the heights of the floors; that of a wall stands for every height.
+struct Side {
+    plans: Vec<Vec<PlanPoint>>,
+    heights: Vec<f64>,
+}
+
+impl Side {
+    fn new(model: &Model, side: Option<usize>) -> Option<Self> {
+        if let Some(wall) = model.wall(side) {
+            return Some(Self {
+                plans: vec![wall.plan()?],
+                heights: Vec::new(),
+            });
+        }
+        let building = model.buildings.get(side?)?;
+        match &building.structure {
+            Structure::Tiers(tiers) => Some(Self {
+                plans: tiers
+                    .floors
+                    .iter()
+                    .map(|floor| floor.plan.clone())
+                    .collect(),
+                heights: building.floor_heights(),
+            }),
             _ => None,
         }
-    };
-    let sides = [tiers(a)?, tiers(b)?];
+    }
+
+    /// Index of the floor at a height; 0 for a wall, which has none.
+    fn floor(&self, height: Option<f64>) -> Option<usize> {
+        match height {
+            Some(_) => self.heights.iter().position(|own| Some(*own) == height),
+            None => self.heights.is_empty().then_some(0),
+        }
+    }
+}
+
+/// Faces of a gap with the indices of their floors, from the lowest up, 0 for a wall; `None` where its buildings or floors do
+/// not fit.
+pub(crate) fn faces_of_gap(model: &Model, gap: &Gap) -> Option<Vec<([usize; 2], PlanFace)>> {
+    let [a, b] = gap.between;
+    let sides = [Side::new(model, a)?, Side::new(model, b)?];
     let neighbours = model.neighbours(gap.between);
     let pairs = point_pairs(&gap.floors, neighbours, gap.level_tolerance).ok()?;
-    let heights = [
-        neighbours[0]?.floor_heights(),
-        neighbours[1]?.floor_heights(),
-    ];
     let mut found = Vec::new();
     for pair in pairs {
-        let floor = |side: usize| {
-            heights[side]
-                .iter()
-                .position(|own| Some(*own) == pair[side])
-        };
-        let (Some(i), Some(j)) = (floor(0), floor(1)) else {
+        let [Some(i), Some(j)] = [0, 1].map(|side: usize| sides[side].floor(pair[side])) else {
             continue;
         };
-        let plans = (sides[0].floors.get(i)?, sides[1].floors.get(j)?);
-        let faces = plan_faces(&plans.0.plan, &plans.1.plan, &gap.in_plan);
+        let plans = (sides[0].plans.get(i)?, sides[1].plans.get(j)?);
+        let faces = plan_faces(plans.0, plans.1, &gap.in_plan);
         found.extend(faces.into_iter().map(|face| ([i, j], face)));
     }
     found.sort_by_key(|(floors, _)| *floors);

@@ -1,4 +1,6 @@
-//! A shear building in space: floors that move in both horizontal directions and turn about a vertical axis.
+//! A building in space: floors that move in both horizontal directions and turn about a vertical axis.
+
+use super::PlanFrame;
 
 /// A point or a vector in plan: x along the row, y across it \[m\].
 pub type PlanPoint = [f64; 2];
@@ -22,6 +24,7 @@ pub type PlanPoint = [f64; 2];
 ///     floors: vec![tier],
 ///     storeys: vec![storey],
 ///     storey_heights: vec![3.2],
+///     frames: Vec::new(),
 /// };
 /// assert_eq!(tiers.floors.len(), tiers.storeys.len());
 /// ```
@@ -29,10 +32,12 @@ pub type PlanPoint = [f64; 2];
 pub struct Tiers {
     /// Floors from the ground up.
     pub floors: Vec<Tier>,
-    /// Storeys from the ground up, as many as floors.
+    /// Storeys from the ground up, as many as floors; none where frames alone hold the floors.
     pub storeys: Vec<TierStorey>,
     /// Storey heights from the ground up, > 0 \[m\].
     pub storey_heights: Vec<f64>,
+    /// Plane frames at lines of the plan, which hold the floors beside the springs of the storeys.
+    pub frames: Vec<PlanFrame>,
 }
 
 /// A floor in plan.
@@ -49,6 +54,8 @@ pub struct Tier {
 }
 
 /// Springs of a storey.
+///
+/// Beside frames some of them may be 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TierStorey {
     /// Along x, across, and in torsion about the centre of stiffness, > 0 \[N/m, N/m, N·m/rad\].
@@ -129,6 +136,9 @@ impl Tiers {
         self.storeys
             .iter_mut()
             .for_each(|storey| shift(&mut storey.centre));
+        self.frames
+            .iter_mut()
+            .for_each(|frame| shift(&mut frame.at));
     }
 
     /// Least and greatest x of its corners \[m\].

@@ -234,7 +234,7 @@ fn first_of(building: usize, run: &Run) -> Option<ExceededSummary> {
                 };
                 if first.as_ref().is_none_or(|(known, _)| time < *known) {
                     let found = ExceededSummary {
-                        member: member_name(own, member.place),
+                        member: member_name(own, member),
                         kind,
                         at: section_name(member.place, section.at),
                         at_s: time,

@@ -20,10 +20,11 @@ pub fn section_name(place: MemberPlace, at: SectionAt) -> &'static str {
     }
 }
 
-/// Full name of a member, such as `J1.column.2.3`.
+/// Full name of a member, such as `J1.column.2.3`, or `Tower.frame 1.column.2.3` where frames stand in a plan.
 #[must_use]
-pub fn member_name(building: &BuildingSystem, place: MemberPlace) -> String {
-    format!("{}.{place}", building.name)
+pub fn member_name(building: &BuildingSystem, member: &MemberSections) -> String {
+    let own = member.local_name(&building.discretization.frames);
+    format!("{}.{own}", building.name)
 }
 
 pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
@@ -46,7 +47,8 @@ pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
             let ratios = capacity::ratios_of(index, place, run);
             let (ends, struck) = member.sections.split_at(2);
             MemberSummary {
-                name: member_name(building, member.place),
+                name: member_name(building, member),
+                shared_column: member.shared.clone(),
                 ends: ends.iter().map(|end| section(member, end)).collect(),
                 struck: struck
                     .chunks_exact(2)

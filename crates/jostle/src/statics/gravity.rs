@@ -178,11 +178,12 @@ fn hung_on_nodes(
         for (_, a, b, value) in element::of_member(member, &stick_model.nodes).entries {
             if a.1 == Y {
                 // The member holds the node up with −K u.
-                let (b, share) = stick_model.carried(b);
-                hung[a.0] += building
-                    .equations
-                    .dof(b)
-                    .map_or(0.0, |dof| value * share * displacement[dof]);
+                for &(b, share) in &*stick_model.carried(b) {
+                    hung[a.0] += building
+                        .equations
+                        .dof(b)
+                        .map_or(0.0, |dof| value * share * displacement[dof]);
+                }
             }
         }
     }

@@ -52,7 +52,8 @@ pub fn simulate(
 }
 
 /// Runs a system from a given state at time zero. Where that state is not in equilibrium, the missing load
-/// appears within the first step. [`Solver::Modal`] starts from rest only, and refuses every other state.
+/// appears within the first step. [`Solver::Modal`] takes displacements and velocities of masses from the state, with the
+/// energy of these as input; it begins with open contacts, and from rest where links act.
 pub fn simulate_from(
     system: &System,
     motion: &GroundMotion,
@@ -88,11 +89,12 @@ fn step_through(
     }
     match plan.solver {
         Solver::Modal if !modal::is_rest(&state) => {
-            let reason = "modal stepping starts from rest".to_owned();
-            Outcome::not_begun(system, StepError::Unsuited { reason })
+            modal::simulate_from(system, motion, plan, settings, &state, observer)
         }
         Solver::Modal => match modal::Reduction::new(system, plan) {
-            Ok(shapes) => modal::simulate_with(system, motion, plan, settings, &shapes, observer),
+            Ok(shapes) => {
+                modal::simulate_with(system, motion, plan, settings, &shapes, None, observer)
+            }
             Err(error) => Outcome::not_begun(system, error),
         },
         Solver::Series => series::simulate(system, motion, plan, settings, state, observer),

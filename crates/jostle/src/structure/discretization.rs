@@ -7,7 +7,8 @@ use super::stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Supp
 use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
-    Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, Section, Shear, Structure,
+    Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, Section, SharedColumn,
+    Shear, Structure,
 };
 
 /// A stick model and where its floors and faces are.
@@ -31,6 +32,10 @@ pub struct Discretization {
     pub members: Vec<FrameMember>,
     /// Centre of mass of every floor on the site, from the ground up; empty for a building in one plane \[m\].
     pub centres: Vec<[f64; 2]>,
+    /// Names of the frames that stand in a plan.
+    pub frames: Vec<String>,
+    /// Columns that two of these frames share.
+    pub shared_columns: Vec<SharedColumn>,
 }
 
 /// A mat on bearings.
@@ -109,6 +114,8 @@ impl Discretization {
             spring_places: Vec::new(),
             members: Vec::new(),
             centres: Vec::new(),
+            frames: Vec::new(),
+            shared_columns: Vec::new(),
         }
     }
 
@@ -337,7 +344,7 @@ impl StickModel {
     }
 }
 
-fn discretize_frame(
+pub(super) fn discretize_frame(
     frame: &Frame,
     base: &Base,
     hinges: &FrameHinges,
@@ -362,6 +369,8 @@ fn discretize_frame(
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
     };
     // Hinges come before springs, in the order of the stick model.
     let at_the_base =
@@ -410,6 +419,7 @@ fn discretize_frame(
                 frame.axial.columns_flexible,
             );
             discretization.members.push(FrameMember {
+                frame: None,
                 place: MemberPlace::Column {
                     line: line + 1,
                     storey: storey + 1,
@@ -449,6 +459,7 @@ fn discretize_frame(
                 frame.axial.beams_flexible,
             );
             discretization.members.push(FrameMember {
+                frame: None,
                 place: MemberPlace::Beam {
                     floor: storey + 1,
                     span: bay + 1,
@@ -548,6 +559,8 @@ fn discretize_given(given: &Given) -> Discretization {
         stick_model,
         members: Vec::new(),
         centres: Vec::new(),
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
         foot: Some(ground),
         mat: None,
         left_face: floors.clone(),
@@ -630,5 +643,7 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
         spring_places,
         members: Vec::new(),
         centres: Vec::new(),
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
     }
 }

@@ -47,7 +47,9 @@ pub(crate) struct ElementStiffness {
 pub(crate) fn stiffnesses(stick_model: &StickModel) -> impl Iterator<Item = ElementStiffness> + '_ {
     let foundation = stick_model.foundation.as_ref();
     untied(stick_model).map(move |mut element| {
-        if let Some(foundation) = foundation {
+        if !stick_model.frame_nodes.is_empty() {
+            element.tie_to_floors(stick_model);
+        } else if let Some(foundation) = foundation {
             for (_, a, b, value) in &mut element.entries {
                 for place in [a, b] {
                     let share;
@@ -89,11 +91,67 @@ impl RigidFoundation {
     }
 }
 
+/// Displacements to which one is tied, each with its share of it.
+pub(crate) struct Carriers {
+    list: [(Place, f64); 3],
+    count: usize,
+}
+
+impl Carriers {
+    fn single(place: Place, share: f64) -> Self {
+        Self {
+            list: [(place, share); 3],
+            count: 1,
+        }
+    }
+}
+
+impl std::ops::Deref for Carriers {
+    type Target = [(Place, f64)];
+
+    fn deref(&self) -> &[(Place, f64)] {
+        &self.list[..self.count]
+    }
+}
+
 impl StickModel {
-    /// The displacement to which one is tied, and its share of it.
-    pub(crate) fn carried(&self, place: Place) -> (Place, f64) {
-        let foundation = self.foundation.as_ref();
-        foundation.map_or((place, 1.0), |foundation| foundation.carries(place))
+    /// The displacements to which one is tied; itself if it is free.
+    pub(crate) fn carried(&self, place: Place) -> Carriers {
+        if let Some(floor) = self.floor_of(place) {
+            return floor;
+        }
+        match &self.foundation {
+            Some(foundation) => {
+                let (place, share) = foundation.carries(place);
+                Carriers::single(place, share)
+            }
+            None => Carriers::single(place, 1.0),
+        }
+    }
+
+    /// The displacements of a floor that move a node of a frame along its line.
+    fn floor_of(&self, (node, component): Place) -> Option<Carriers> {
+        let own = self.frame_nodes.get(node)?.as_ref()?;
+        let floor = own.floor.filter(|_| component == X)?;
+        let [x, y, turn] = own.shares;
+        Some(Carriers {
+            list: [((floor, X), x), ((floor, Y), y), ((floor, THETA), turn)],
+            count: 3,
+        })
+    }
+
+    /// What a force at a displacement adds to the horizontal forces along x and across, and to the torque about the centre of the
+    /// floor at its height, or of the next one above; none for what is vertical or in one plane.
+    pub(crate) fn horizontal_shares(&self, (node, component): Place) -> [f64; 3] {
+        match self.frame_nodes.get(node) {
+            Some(Some(own)) if component == X => own.shares,
+            Some(Some(_)) => [0.0; 3],
+            _ => {
+                let mut shares = [0.0; 3];
+                shares[component] = 1.0;
+                shares
+            }
+        }
     }
 }
 
@@ -246,6 +304,21 @@ pub(crate) fn part_of(proportional_damping: bool) -> Part {
 }
 
 impl ElementStiffness {
+    /// Replaces displacements of frames by those of the floors to which they are tied.
+    fn tie_to_floors(&mut self, stick_model: &StickModel) {
+        let entries = std::mem::take(&mut self.entries);
+        for (part, a, b, value) in entries {
+            for &(a, of_a) in &*stick_model.carried(a) {
+                for &(b, of_b) in &*stick_model.carried(b) {
+                    let value = value * of_a * of_b;
+                    if value != 0.0 {
+                        self.entries.push((part, a, b, value));
+                    }
+                }
+            }
+        }
+    }
+
     /// A spring that the sum of displacements times their shares stretches.
     pub(crate) fn combine(&mut self, part: Part, shares: &[(Place, f64)], value: f64) {
         for &(a, of_a) in shares {

@@ -19,6 +19,13 @@ pub struct Equations {
     pub vertical_mass: Vec<f64>,
     /// M r across the row: the mass on which ground acceleration across acts; empty in one plane \[kg\].
     pub driven_across: Vec<f64>,
+    /// M r of a rotation of every floor about its centre of mass; used for participation only; empty in one plane \[kg·m,
+    /// kg·m²\].
+    pub driven_turning: Vec<f64>,
+    /// rᵀ M r of that rotation \[kg·m²\].
+    pub polar_mass: f64,
+    /// rᵀ M r of a motion of everything along x, and across; both the total mass in one plane \[kg\].
+    pub moved_mass: [f64; 2],
     /// K: stiffness of members and joints, which takes part in stiffness-proportional damping.
     pub stiffness: SparseSymmetric,
     /// K′: stiffness without stiffness-proportional damping: P-Delta, and base springs.
@@ -88,14 +95,41 @@ impl Equations {
         let n = path.len();
         let (mut mass, mut driven_mass, mut vertical_mass) =
             (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        let mut driven_across = vec![0.0; if stick_model.in_plan { n } else { 0 }];
+        let in_plan = if stick_model.in_plan { n } else { 0 };
+        let (mut driven_across, mut driven_turning) = (vec![0.0; in_plan], vec![0.0; in_plan]);
+        let (mut polar_mass, mut moved_mass) = (0.0, [0.0; 2]);
         let mut total_mass = 0.0;
         for (index, node) in stick_model.nodes.iter().enumerate() {
+            if let Some(Some(own)) = stick_model.frame_nodes.get(index) {
+                let masses = [node.mass, own.vertical_mass, node.rotary_inertia];
+                for (component, value) in masses.into_iter().enumerate() {
+                    // That of a node on a floor is part of the floor.
+                    let Some(dof) = path.dof(index, component) else {
+                        continue;
+                    };
+                    mass[dof] += value;
+                    if component == X {
+                        let [along, across, turning] = own.shares;
+                        driven_mass[dof] += value * along;
+                        driven_across[dof] += value * across;
+                        driven_turning[dof] += value * turning;
+                        polar_mass += value * turning * turning;
+                        moved_mass[0] += value * along * along;
+                        moved_mass[1] += value * across * across;
+                    }
+                }
+                if node.support != Support::Fixed && !own.counted_elsewhere {
+                    total_mass += node.mass;
+                }
+                continue;
+            }
             for (component, value) in [node.mass, node.mass, node.rotary_inertia]
                 .into_iter()
                 .enumerate()
             {
-                let (place, share) = stick_model.carried((index, component));
+                let [(place, share)] = stick_model.carried((index, component))[..] else {
+                    continue;
+                };
                 let Some(dof) = path.dof(place.0, place.1) else {
                     continue;
                 };
@@ -104,18 +138,36 @@ impl Equations {
                     X => driven_mass[dof] += value,
                     Y if stick_model.in_plan => driven_across[dof] += value,
                     Y => vertical_mass[dof] += value * share,
+                    _ if stick_model.in_plan => {
+                        driven_turning[dof] += value;
+                        polar_mass += value;
+                    }
                     _ => {}
                 }
             }
             if node.support != Support::Fixed {
                 total_mass += node.mass;
+                moved_mass = moved_mass.map(|moved| moved + node.mass);
+            }
+        }
+        for &(node, component, value) in &stick_model.one_way_masses {
+            if let Some(dof) = path.dof(node, component) {
+                mass[dof] += value;
+                let (driven, moved) = if component == X {
+                    (&mut driven_mass, &mut moved_mass[0])
+                } else {
+                    (&mut driven_across, &mut moved_mass[1])
+                };
+                driven[dof] += value;
+                *moved += value;
             }
         }
         let mut triplets = [Vec::new(), Vec::new(), Vec::new()];
         let mut base_shear = Vec::new();
         // What couplings leave of a row at the ground is no force there: the base shear is the sum of all rows.
         let on_soil = stick_model.foundation.is_some();
-        let of_supports = stick_model.couplings.is_empty() || on_soil;
+        let of_supports =
+            stick_model.couplings.is_empty() && stick_model.frame_nodes.is_empty() || on_soil;
         // Over a foundation, the base shear is what it takes from the building above.
         let sway = stick_model.foundation.as_ref();
         let sway = sway.and_then(|foundation| path.dof(foundation.node, X));
@@ -148,12 +200,13 @@ impl Equations {
                 }
                 _ => {}
             }
+            let [along, ..] = stick_model.horizontal_shares(a);
             if let (false, Some(_), Some(column)) = (
-                of_supports || a.1 != X || part == Part::Dashpot,
+                of_supports || along == 0.0 || part == Part::Dashpot,
                 path.dof(a.0, a.1),
                 path.dof(b.0, b.1),
             ) {
-                base_shear.push((column, value));
+                base_shear.push((column, along * value));
             }
         }
         if !of_supports || on_soil {
@@ -167,6 +220,9 @@ impl Equations {
             driven_mass,
             vertical_mass,
             driven_across,
+            driven_turning,
+            polar_mass,
+            moved_mass,
             springs: yielding_springs(stick_model, &path),
             stiffness,
             undamped,
@@ -177,16 +233,6 @@ impl Equations {
             base_shear,
             total_mass,
         }
-    }
-
-    /// M r of a turn about every centre of mass; empty in one plane \[kg·m²\].
-    #[must_use]
-    pub fn polar_mass(&self) -> Vec<f64> {
-        let driven = self.driven_mass.iter().zip(&self.driven_across);
-        let masses = self.mass.iter().zip(driven);
-        masses
-            .map(|(mass, (along, across))| mass - along - across)
-            .collect()
     }
 
     /// Initial stiffness of every spring that yields \[N·m/rad, N/m\].

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::model::SharedColumn;
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y};
 use crate::structure::{AssembledBuilding, Member, MemberEnd, SpringPlace};
 
@@ -36,6 +37,8 @@ impl std::fmt::Display for MemberPlace {
 /// A column or a beam of a frame, and the massless members of the stick model that it consists of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameMember {
+    /// Index of its frame in [`crate::structure::Discretization::frames`]; `None` where the building is one frame.
+    pub frame: Option<usize>,
     /// Where it is.
     pub place: MemberPlace,
     /// Its members of the stick model, upwards or from left to right.
@@ -71,10 +74,26 @@ pub struct MemberSection {
 /// The sections of one member: its two ends, then below and above every struck point, from the lowest up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MemberSections {
+    /// Index of its frame in [`crate::structure::Discretization::frames`]; `None` where the building is one frame.
+    pub frame: Option<usize>,
     /// Where the member is.
     pub place: MemberPlace,
     /// Its sections.
     pub sections: Vec<MemberSection>,
+    /// Name of the column that two frames share: the axial forces are those of both frames together.
+    pub shared: Option<String>,
+}
+
+impl MemberSections {
+    /// Its name within the building: `column.LINE.STOREY` or `beam.FLOOR.SPAN`, with the name of its frame before where frames
+    /// stand in a plan. `frames`: their names.
+    #[must_use]
+    pub fn local_name(&self, frames: &[String]) -> String {
+        match self.frame.and_then(|frame| frames.get(frame)) {
+            Some(frame) => format!("{frame}.{}", self.place),
+            None => self.place.to_string(),
+        }
+    }
 }
 
 /// How the forces of members follow from the motion of a building.
@@ -219,11 +238,42 @@ impl MemberForces {
             });
             let sections = sections.collect();
             forces.members.push(MemberSections {
+                frame: member.frame,
                 place: member.place,
                 sections,
+                shared: None,
             });
         }
+        forces.share_columns(&building.discretization.shared_columns);
         forces
+    }
+
+    /// Adds up the axial forces that two frames give to one column.
+    fn share_columns(&mut self, columns: &[SharedColumn]) {
+        for column in columns {
+            let storeys_of = |[frame, line]: [usize; 2]| -> Vec<usize> {
+                let all = self.members.iter().enumerate();
+                let own = all.filter(|(_, member)| {
+                    let on_line = |place| matches!(place, MemberPlace::Column { line: on, .. } if on == line + 1);
+                    member.frame == Some(frame) && on_line(member.place)
+                });
+                own.map(|(index, _)| index).collect()
+            };
+            let [first, second] = column.lines.map(storeys_of);
+            for (a, b) in first.into_iter().zip(second) {
+                for end in 0..2 {
+                    let [of_a, of_b] = [a, b].map(|own| self.members[own].sections[end].forms[0]);
+                    let sum = self.forms[of_a].plus(&self.forms[of_b]);
+                    self.forms.push(sum);
+                    for own in [a, b] {
+                        self.members[own].sections[end].forms[0] = self.forms.len() - 1;
+                    }
+                }
+                for own in [a, b] {
+                    self.members[own].shared = Some(column.name.clone());
+                }
+            }
+        }
     }
 
     /// Where a form stands in the list, to which it is added if it is new.
@@ -288,10 +338,11 @@ impl<'a> Cuts<'a> {
         let mut rows = vec![[const { Vec::new() }; 3]; nodes.len()];
         for (part, a, b, value) in element::untied(stick_model).flat_map(|element| element.entries)
         {
-            let (b, share) = stick_model.carried(b);
-            let value = value * share;
-            if let Some(dof) = building.equations.dof(b) {
-                rows[a.0][a.1].push((part, dof, value));
+            for &(b, share) in &*stick_model.carried(b) {
+                let value = value * share;
+                if let Some(dof) = building.equations.dof(b) {
+                    rows[a.0][a.1].push((part, dof, value));
+                }
             }
         }
         Self {
@@ -308,12 +359,13 @@ impl<'a> Cuts<'a> {
         let place = (element.ends[side], component);
         let mut form = LinearForm::default();
         for (part, a, b, value) in &element.stiffness.entries {
-            if *a == place
-                && *part != Part::Dashpot
-                && let (b, share) = self.building.discretization.stick_model.carried(*b)
-                && let Some(dof) = self.building.equations.dof(b)
-            {
-                form.displacement.push((dof, sign * value * share));
+            if *a != place || *part == Part::Dashpot {
+                continue;
+            }
+            for &(b, share) in &*self.building.discretization.stick_model.carried(*b) {
+                if let Some(dof) = self.building.equations.dof(b) {
+                    form.displacement.push((dof, sign * value * share));
+                }
             }
         }
         form.displacement = merged(form.displacement);
@@ -360,6 +412,8 @@ impl<'a> Cuts<'a> {
         let cut = &self.elements[element];
         match (cut.rigid, cut.vertical) {
             (true, true) => self.carried_by_column(cut),
+            // A rigid floor holds the beams of frames in plan, whatever their stiffness.
+            (_, false) if self.building.discretization.stick_model.in_plan => LinearForm::default(),
             (true, false) => self.passed_through_beam(cut),
             (false, vertical) => {
                 let component = if vertical { Y } else { X };
@@ -387,9 +441,11 @@ impl<'a> Cuts<'a> {
                     form.displacement.push((*dof, -value));
                 }
             }
-            let (place, share) = stick_model.carried((index, Y));
+            let [(place, share)] = stick_model.carried((index, Y))[..] else {
+                continue;
+            };
             if let Some(dof) = equations.dof(place) {
-                let mass = node.mass * share;
+                let mass = stick_model.vertical_mass(index) * share;
                 form.acceleration.push((dof, -mass));
                 form.velocity.push((dof, -equations.alpha * mass));
             }
@@ -439,6 +495,24 @@ impl<'a> Cuts<'a> {
 }
 
 impl LinearForm {
+    /// The sum of two forces.
+    fn plus(&self, other: &Self) -> Self {
+        let both = |of: fn(&Self) -> &Vec<(usize, f64)>| {
+            let entries = of(self).iter().chain(of(other));
+            entries.copied().collect::<Vec<_>>()
+        };
+        Self {
+            displacement: both(|form| &form.displacement),
+            velocity: both(|form| &form.velocity),
+            acceleration: both(|form| &form.acceleration),
+            springs: both(|form| &form.springs),
+            ground: self.ground + other.ground,
+            constant: self.constant + other.constant,
+            ..Self::default()
+        }
+        .tidy()
+    }
+
     fn tidy(mut self) -> Self {
         self.displacement = merged(self.displacement);
         self.velocity = merged(self.velocity);

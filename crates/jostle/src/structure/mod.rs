@@ -8,6 +8,7 @@ mod foundation;
 mod member_end;
 mod member_forces;
 mod path;
+mod plan_frames;
 mod spring_place;
 mod step_equations;
 mod stick_model;
@@ -27,7 +28,7 @@ pub use member_forces::{
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{
-    Coupling, Hinge, Member, Node, RigidFoundation, Spring, StickModel, Support,
+    Coupling, FrameNode, Hinge, Member, Node, RigidFoundation, Spring, StickModel, Support,
 };
 pub use storey_forces::{StoreyForce, StoreyForces};
 pub(crate) use tiers::motion_at;

@@ -125,6 +125,12 @@ impl Ties {
                 }
             }
         }
+        // What a floor moves along the line of a frame is no displacement of its own.
+        for (node, own) in stick_model.frame_nodes.iter().enumerate() {
+            if own.is_some_and(|own| own.floor.is_some()) {
+                ties.merge(Self::place(node, X), GROUND);
+            }
+        }
         if let Some(foundation) = &stick_model.foundation {
             for &foot in &foundation.feet {
                 for component in [X, THETA] {

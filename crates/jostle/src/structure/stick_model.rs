@@ -18,6 +18,11 @@ pub struct StickModel {
     /// Whether nodes are floors in plan: their vertical displacement is then the one across the row, and their rotation is
     /// about a vertical axis.
     pub in_plan: bool,
+    /// Nodes of plane frames that stand in a plan: they move in the plane of their frame. Empty without such frames, otherwise as
+    /// long as the nodes; `None` is a floor or the ground.
+    pub frame_nodes: Vec<Option<FrameNode>>,
+    /// Masses that act on one displacement of a node alone: node, displacement, mass \[kg\].
+    pub one_way_masses: Vec<(usize, usize, f64)>,
     /// Rigid foundation on springs and dashpots, if it stands on one.
     pub foundation: Option<RigidFoundation>,
 }
@@ -36,6 +41,33 @@ pub struct RigidFoundation {
     pub stiffness: [f64; 3],
     /// Dashpots of the soil over the same \[N·s/m, N·s, N·m·s\].
     pub damping: [f64; 3],
+}
+
+/// A node of a plane frame that stands at a line of a plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameNode {
+    /// How far motions of the floor at its height, or of the next one above, would move it along its line if it were part of that
+    /// floor: along x, across, and by rotation about the centre of the floor \[–, –, m\].
+    pub shares: [f64; 3],
+    /// Node of the floor to which it belongs; its displacement along its line is that of the floor.
+    pub floor: Option<usize>,
+    /// Index of that floor, or of the next one above.
+    pub level: usize,
+    /// Whether its mass is part of that of a floor, or of another frame that shares the column.
+    pub counted_elsewhere: bool,
+    /// Mass that rises and sinks with it, without what another frame that shares the column counts \[kg\].
+    pub vertical_mass: f64,
+}
+
+impl StickModel {
+    /// Mass that rises and sinks with a node \[kg\].
+    #[must_use]
+    pub fn vertical_mass(&self, node: usize) -> f64 {
+        match self.frame_nodes.get(node) {
+            Some(Some(own)) => own.vertical_mass,
+            _ => self.nodes[node].mass,
+        }
+    }
 }
 
 /// A point that moves by x (right), y (up) and θ (counter-clockwise).

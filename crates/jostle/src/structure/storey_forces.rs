@@ -122,12 +122,15 @@ impl StoreyForces {
                 };
                 let floor = tops.partition_point(|top| *top + LEVEL_TOLERANCE < height);
                 let [x, y] = centres[floor.min(centres.len() - 1)];
-                let share = match (direction, a.1) {
-                    (THETA, X) => axis[1] - y,
-                    (THETA, Y) => x - axis[0],
-                    (own, component) if own == component => 1.0,
-                    _ => continue,
+                // Along x, across, and the torque about the centre of that floor.
+                let acts = stick_model.horizontal_shares(a);
+                let share = match direction {
+                    THETA => acts[2] + acts[0] * (axis[1] - y) + acts[1] * (x - axis[0]),
+                    own => acts[own],
                 };
+                if share == 0.0 && direction != THETA {
+                    continue;
+                }
                 let force = share * value;
                 storey.of_displacements.push((dof, [force, arm * force]));
             }

@@ -2,8 +2,11 @@
 
 use super::discretization::Discretization;
 use super::element::{THETA, X, Y};
+use super::plan_frames::add_frames;
 use super::stick_model::{Coupling, Node, StickModel, Support};
-use crate::model::{Gravity, PlanArea, PlanPoint, STANDARD_GRAVITY, TierStorey, Tiers};
+use crate::model::{
+    Gravity, LumpedFloor, PlanArea, PlanPoint, STANDARD_GRAVITY, Tier, TierStorey, Tiers,
+};
 
 /// Displacements of a floor.
 const COMPONENTS: [usize; 3] = [X, Y, THETA];
@@ -20,6 +23,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
         in_plan: true,
         ..StickModel::default()
     };
+    let lumped = tiers.lumped_floors();
     let mut height = 0.0;
     let mut add = |height: f64, support, mass, rotary_inertia| {
         stick_model.nodes.push(Node {
@@ -33,36 +37,43 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
     };
     let ground = add(0.0, Support::Fixed, 0.0, 0.0);
     let mut floors = Vec::with_capacity(tiers.floors.len());
-    for (floor, storey_height) in tiers.floors.iter().zip(&tiers.storey_heights) {
+    let own = lumped.iter().map(|floor| &floor.tier);
+    for (floor, storey_height) in own.zip(&tiers.storey_heights) {
         height += storey_height;
         floors.push(add(height, Support::Free, floor.mass, floor.polar_mass));
     }
     let n = floors.len();
     let mut matrix = PlanMatrix::new(3 * n);
-    for (index, storey) in tiers.storeys.iter().enumerate().take(n) {
-        matrix.add_storey(tiers, index, storey, Part::Stiffness);
+    for index in 0..n {
+        if let Some(storey) = tiers.storeys.get(index) {
+            matrix.add_storey(&lumped, index, storey, Part::Stiffness);
+        }
         if gravity.p_delta {
-            let softening = softening(tiers, index);
-            matrix.add_storey(tiers, index, &softening, Part::Softening);
+            let softening = softening(tiers, &lumped, index);
+            matrix.add_storey(&lumped, index, &softening, Part::Softening);
         }
     }
     stick_model.couplings = matrix.couplings(ground, &floors);
-    Discretization {
+    let mut discretization = Discretization {
         stick_model,
         foot: None,
         mat: None,
         left_face: Vec::new(),
         right_face: Vec::new(),
-        centres: tiers.floors.iter().map(|floor| floor.centre).collect(),
+        centres: lumped.iter().map(|floor| floor.tier.centre).collect(),
         floors,
         spring_places: Vec::new(),
         members: Vec::new(),
-    }
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
+    };
+    add_frames(tiers, &lumped, &mut discretization);
+    discretization
 }
 
 /// (P/h) diag(1, 1, ρ²) at the centroid of what the storey carries, ρ² = (I_xx + I_yy)/A of its upper floor.
-fn softening(tiers: &Tiers, storey: usize) -> TierStorey {
-    let above = &tiers.floors[storey..];
+fn softening(tiers: &Tiers, lumped: &[LumpedFloor], storey: usize) -> TierStorey {
+    let above: Vec<&Tier> = lumped[storey..].iter().map(|floor| &floor.tier).collect();
     let mass: f64 = above.iter().map(|floor| floor.mass).sum();
     let moment = |axis: usize| above.iter().map(|f| f.mass * f.centre[axis]).sum::<f64>();
     let push = mass * STANDARD_GRAVITY / tiers.storey_heights[storey];
@@ -93,11 +104,17 @@ impl PlanMatrix {
     }
 
     /// Adds Bᵀ diag(k) B of a storey.
-    fn add_storey(&mut self, tiers: &Tiers, index: usize, storey: &TierStorey, part: Part) {
-        let upper = motion_at(storey.centre, tiers.floors[index].centre);
+    fn add_storey(
+        &mut self,
+        floors: &[LumpedFloor],
+        index: usize,
+        storey: &TierStorey,
+        part: Part,
+    ) {
+        let upper = motion_at(storey.centre, floors[index].tier.centre);
         let mut places: Vec<(usize, [f64; 3])> = Vec::with_capacity(6);
         if index > 0 {
-            let lower = motion_at(storey.centre, tiers.floors[index - 1].centre);
+            let lower = motion_at(storey.centre, floors[index - 1].tier.centre);
             places.extend((0..3).map(|c| (3 * (index - 1) + c, [0, 1, 2].map(|r| -lower[r][c]))));
         }
         places.extend((0..3).map(|c| (3 * index + c, [0, 1, 2].map(|r| upper[r][c]))));
@@ -134,7 +151,9 @@ impl PlanMatrix {
             }
         }
         for (at, sum) in sums.into_iter().enumerate() {
-            list.push(coupling([(ground, X), place(at)], sum));
+            if sum != [0.0; 2] {
+                list.push(coupling([(ground, X), place(at)], sum));
+            }
         }
         list
     }

@@ -9,7 +9,8 @@ use crate::interface::{
     faces_of_gap, narrowest, sticking_stiffness,
 };
 use crate::model::{
-    Base, Building, Damping, FloorPairs, Level, Link, Model, ModelFault, PlanPoint, Structure, Tier,
+    Base, Building, Damping, FloorPairs, Level, Link, LumpedFloor, Model, ModelFault, PlanPoint,
+    Structure,
 };
 use crate::structure::{Discretization, Support};
 
@@ -305,7 +306,7 @@ fn couple_foundations(
     Ok(split.between)
 }
 
-/// Contacts of a gap between two buildings with plans, from the lowest floor up, face by face; faces are numbered from
+/// Contacts of a gap between two buildings with plans, or one and a wall, from the lowest floor up, face by face; faces are numbered from
 /// `first`.
 ///
 /// The width of the gap is that of its narrowest point; all others are as much wider as the plans say. The stiffness of a
@@ -321,27 +322,28 @@ fn plan_contacts(
     let [Some(a), Some(b)] = gap.between else {
         return Default::default();
     };
-    let tiers = |building: usize| match &model.buildings[building].structure {
-        Structure::Tiers(tiers) => Some(tiers),
-        _ => None,
+    // None of a wall.
+    let floors = |side: usize| match model.buildings.get(side).map(|own| &own.structure) {
+        Some(Structure::Tiers(tiers)) => tiers.lumped_floors(),
+        _ => Vec::new(),
     };
-    let (Some(own), Some(other)) = (tiers(a), tiers(b)) else {
-        return Default::default();
-    };
+    let (own, other) = (floors(a), floors(b));
     let found = faces_of_gap(model, gap).unwrap_or_default();
     let narrowest = narrowest(&found).unwrap_or_default();
     let wider = gap.width() - narrowest;
     let (mut contacts, mut ends) = (Vec::new(), Vec::new());
     for (number, ([i, j], face)) in found.iter().enumerate() {
-        let moving = |tier: &Tier| {
+        let moving = |floor: &LumpedFloor| {
+            let tier = &floor.tier;
             let arm = [
                 face.middle[0] - tier.centre[0],
                 face.middle[1] - tier.centre[1],
             ];
             let lever = arm[0] * face.normal[1] - arm[1] * face.normal[0];
-            1.0 / (1.0 / tier.mass + lever * lever / tier.polar_mass)
+            1.0 / (1.0 / floor.mass_along(face.normal) + lever * lever / tier.polar_mass)
         };
-        let masses = [moving(&own.floors[*i]), moving(&other.floors[*j])];
+        let masses = [own.get(*i), other.get(*j)];
+        let masses = masses.map(|floor| floor.map_or(f64::INFINITY, moving));
         let whole = match gap.in_plan.per_length {
             true if face.overlap > 0.0 => gap.law.stiffness * face.overlap,
             _ => gap.law.stiffness,
@@ -355,7 +357,10 @@ fn plan_contacts(
         });
         for point in &face.points {
             let port = |building: usize, floor: usize, mass: f64, direction: PlanPoint| {
-                let own = &system.buildings[building];
+                let own = system.buildings.get(building)?;
+                if building >= model.buildings.len() {
+                    return None;
+                }
                 Some(Port {
                     building,
                     row: own.row_at(floor, point.at, direction),

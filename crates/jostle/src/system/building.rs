@@ -4,13 +4,15 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::soil::FoundationPlace;
-use crate::eigen::{Mode, lateral_modes_along, modes_dense, symmetric, vertical_modes_along};
+use crate::eigen::{
+    LATERAL_SHARE, Mode, lateral_modes_along, modes_dense, symmetric, vertical_modes_along,
+};
 use crate::interface::DofRow;
 use crate::model::{Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, usual_damping_modes};
 use crate::motion::Ground;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::motion_at;
-use crate::structure::{AssembledBuilding, Discretization, MemberForces, SpringPlace};
+use crate::structure::{AssembledBuilding, Discretization, MemberForces, SpringPlace, Support};
 use crate::transfer::riccati::RiccatiSweep;
 
 /// One building of a system: its equations, and where they stand among those of the others.
@@ -357,6 +359,9 @@ impl BuildingSystem {
 
     /// Circular frequencies with all displacements but those along x held, rising \[rad/s\].
     fn frequencies_along(&self) -> Vec<f64> {
+        if !self.discretization.frames.is_empty() {
+            return self.frequencies_of_frames_along();
+        }
         let equations = &self.equations;
         let along: Vec<usize> = (0..equations.len())
             .filter(|dof| equations.driven_mass[*dof] > 0.0)
@@ -375,6 +380,21 @@ impl BuildingSystem {
         }
         let (values, _) = symmetric::eigen(&lower);
         values.into_iter().map(f64::sqrt).collect()
+    }
+
+    /// The same for a building with frames: lateral modes of the building whose floors neither move across nor turn.
+    fn frequencies_of_frames_along(&self) -> Vec<f64> {
+        let mut held = self.discretization.clone();
+        for &floor in &held.floors {
+            held.stick_model.nodes[floor].support = Support::Guided;
+        }
+        let held = AssembledBuilding::new(&self.name, held);
+        let sweep = RiccatiSweep::through(&held.equations);
+        let modes = lateral_modes_along(&held, &sweep).unwrap_or_default();
+        let along = modes
+            .iter()
+            .filter(|mode| mode.effective_mass_ratio_x >= LATERAL_SHARE);
+        along.map(|mode| mode.circular_frequency).collect()
     }
 
     /// Places the corners of its floors, given on the site from the ground up \[m\].

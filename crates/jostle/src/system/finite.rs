@@ -84,10 +84,17 @@ fn cause(building: &Building) -> String {
             let storeys = tiers.storeys.iter().enumerate();
             let floors = tiers.floors.iter().enumerate();
             let least = |k: &[f64; 3]| k[0].min(k[1]);
+            let storeys =
+                storeys.map(|(i, storey)| (format!("storey {}", i + 1), least(&storey.stiffness)));
+            let columns = tiers.frames.iter().flat_map(|own| {
+                let columns = own.frame.columns.iter().zip(&own.frame.storey_heights);
+                columns.enumerate().map(|(i, (section, height))| {
+                    let name = format!("columns of frame {}, storey {}", own.name, i + 1);
+                    (name, 12.0 * section.flexural_rigidity / height.powi(3))
+                })
+            });
             (
-                storeys
-                    .map(|(i, storey)| (format!("storey {}", i + 1), least(&storey.stiffness)))
-                    .collect(),
+                storeys.chain(columns).collect(),
                 floors
                     .map(|(i, floor)| (format!("floor {}", i + 1), floor.mass))
                     .collect(),

@@ -54,7 +54,8 @@ impl System {
             .find_map(|(index, building)| {
                 let place = wanted.strip_prefix(&building.name[..])?.strip_prefix('.')?;
                 let mut members = building.members.members.iter();
-                let member = members.position(|member| member.place.to_string() == place)?;
+                let frames = &building.discretization.frames;
+                let member = members.position(|member| member.local_name(frames) == place)?;
                 Some([index, member])
             })
     }

@@ -87,6 +87,8 @@ pub(crate) fn assembled(stick_model: StickModel, floors: Vec<usize>) -> Building
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -251,6 +251,8 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
     };
     BuildingSystem::new("beam", discretization)
 }

@@ -54,6 +54,7 @@ impl Site {
                 floors: vec![tier],
                 storeys: vec![storey],
                 storey_heights: vec![3.0],
+                frames: Vec::new(),
             }),
             damping: Damping::Rayleigh {
                 alpha: 0.5,

@@ -288,6 +288,7 @@ fn walls_stand_on_their_own_ground() {
         stiffness: None,
         damping: 0.0,
         mass: 0.0,
+        line: None,
     });
     let mut gap = Gap::between([Some(0), Some(1)], 1.0, law(LawKind::Linear));
     gap.floors = FloorPairs::Listed(vec![[Level::Floor(2), Level::Wall]]);

@@ -43,6 +43,8 @@ fn between_stops(mass: f64, stiffness: f64, stop: Stop) -> System {
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
         stick_model,
         floors: vec![1],
         left_face: vec![1],
@@ -333,6 +335,7 @@ fn everything(own: Option<Isolation>) -> Model {
             stiffness: Some(1e8),
             damping: 1e6,
             mass: 2e4,
+            line: None,
         });
         let mut moat = Gap::between([Some(2), Some(0)], 0.03, law(LawKind::Linear, 1.0));
         moat.floors = FloorPairs::Listed(vec![[Level::Wall, Level::Floor(0)]]);

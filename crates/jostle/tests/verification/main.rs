@@ -21,6 +21,7 @@ mod modal_stepping;
 mod monolith;
 mod newmark_is_second_order;
 mod no_impact_is_lost_or_counted_twice;
+mod plan_frames;
 mod riccati_equals_direct_stiffness;
 mod rows_of_buildings;
 mod same_input_same_bits;

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use jostle::{
     Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome,
     Plan, PlanArea, PlanContact, PlanPoint, RestitutionIs, Settings, Shear, Solver, Structure,
-    System, Tier, TierStorey, Tiers, Wave, simulate,
+    System, Tier, TierStorey, Tiers, Wall, Wave, simulate,
 };
 
 const LAW: ContactLaw = ContactLaw {
@@ -70,6 +70,7 @@ fn tower(
             floors: vec![tier; storeys],
             storeys: vec![storey; storeys],
             storey_heights: vec![3.0; storeys],
+            frames: Vec::new(),
         }),
     )
 }
@@ -522,6 +523,22 @@ fn plans_that_do_not_fit_are_refused() {
     let mut wall = gaps.clone();
     wall[0].between = [Some(0), None];
     assert!(said(buildings.clone(), wall).contains("names a wall"));
+    let on_site = |from: PlanPoint, to: PlanPoint| -> String {
+        let mut own = model(
+            buildings.clone(),
+            vec![Gap::between([Some(2), Some(3)], 0.02, LAW)],
+        );
+        own.walls = vec![super::space::wall("moat", from, to)];
+        match own.check() {
+            Ok(()) => String::new(),
+            Err(faults) => faults.iter().map(ToString::to_string).collect(),
+        }
+    };
+    let (left, right) = ([1.0, 18.04], [11.0, 18.04]);
+    assert_eq!(on_site(right, left), "");
+    assert!(on_site(left, right).contains("inside of the wall"));
+    assert!(on_site(left, left).contains("must be another point"));
+    assert!(on_site([0.0, 30.0], [-9.0, 30.0]).contains("finds no edges of"));
     let mut mixed = buildings.clone();
     mixed[1].structure = Structure::Shear(Shear {
         mass: vec![1e5],
@@ -529,4 +546,149 @@ fn plans_that_do_not_fit_are_refused() {
         storey_heights: vec![3.0],
     });
     assert!(said(mixed, gaps).contains("building[1].plan"));
+}
+
+fn wall(name: &str, from: PlanPoint, to: PlanPoint) -> Wall {
+    Wall {
+        name: name.to_owned(),
+        stiffness: None,
+        damping: 0.0,
+        mass: 0.0,
+        line: Some([from, to]),
+    }
+}
+
+/// A wall across the row is the wall of the plane.
+#[test]
+fn a_wall_on_the_site_is_that_of_the_plane() {
+    let own = [150e3, 90e6];
+    let mut plane = model(
+        vec![building(
+            "A",
+            Structure::Shear(Shear {
+                mass: vec![own[0]; 4],
+                stiffness: vec![own[1]; 4],
+                storey_heights: vec![3.0; 4],
+            }),
+        )],
+        Vec::new(),
+    );
+    plane.gaps = vec![Gap::between([Some(0), None], 0.02, LAW)];
+    let mut space = model(
+        vec![tower(
+            "A",
+            4,
+            own,
+            &rectangle(0.0, 0.0, 12.0, 10.0),
+            [0.0; 2],
+        )],
+        vec![Gap::between([Some(0), Some(1)], 0.02, LAW)],
+    );
+    // Solid on the right of the way upwards.
+    space.walls = vec![wall("boundary", [12.02, -1.0], [12.02, 11.0])];
+    let motion = shaking("along", 7.0);
+    let (_, flat) = run(&plane, &motion);
+    let (system, outcome) = run(&space, &motion);
+    assert!(flat.impacts.len() > 4, "{} impacts", flat.impacts.len());
+    assert_eq!(outcome.face_impacts.len(), flat.impacts.len());
+    assert_eq!(system.contacts.len(), 4 * 5);
+    let strongest = |peaks: &mut dyn Iterator<Item = f64>| peaks.fold(0.0, f64::max);
+    let face = strongest(&mut outcome.face_impacts.iter().map(|i| i.peak_force.value));
+    let contact = strongest(&mut flat.impacts.iter().map(|i| i.peak_force));
+    close(face, contact, contact, 1e-9, "force");
+    for (a, b) in outcome.floors[0].iter().zip(&flat.floors[0]) {
+        let scale = b.displacement_max.value - b.displacement_min.value;
+        close(
+            a.displacement_max.value,
+            b.displacement_max.value,
+            scale,
+            1e-9,
+            "right",
+        );
+        close(
+            a.displacement_min.value,
+            b.displacement_min.value,
+            scale,
+            1e-9,
+            "left",
+        );
+    }
+}
+
+/// Walls on two sides of a square building that is shaken along the diagonal: the same impacts on both. A wall is a neighbour that
+/// does not move, whichever of both is named first.
+#[test]
+fn walls_around_a_corner_are_neighbours_that_stand_still() {
+    let square = rectangle(0.0, 0.0, 10.0, 10.0);
+    let mut own = tower("A", 3, [120e3, 70e6], &square, [0.0; 2]);
+    if let Structure::Tiers(tiers) = &mut own.structure {
+        for storey in &mut tiers.storeys {
+            storey.stiffness[1] = storey.stiffness[0];
+        }
+    }
+    let mut motion = shaking("diagonal", 7.0);
+    motion.bearing = Some(Box::new(Bearing {
+        angle: 0.25 * PI,
+        across: None,
+    }));
+    let mut corner = model(
+        vec![own.clone()],
+        vec![
+            Gap::between([Some(0), Some(1)], 0.02, LAW),
+            Gap::between([Some(2), Some(0)], 0.02, LAW),
+        ],
+    );
+    corner.walls = vec![
+        wall("right", [10.02, 0.0], [10.02, 10.0]),
+        wall("behind", [10.0, 10.02], [0.0, 10.02]),
+    ];
+    let (_, outcome) = run(&corner, &motion);
+    assert!(
+        outcome.face_impacts.len() > 8,
+        "{}",
+        outcome.face_impacts.len()
+    );
+    for (a, b) in outcome.floors[0].iter().zip(&outcome.in_plan[0].across) {
+        let scale = a.displacement_max.value;
+        close(
+            scale,
+            b.displacement_max.value,
+            scale,
+            1e-9,
+            "right and behind",
+        );
+        close(
+            a.displacement_min.value,
+            b.displacement_min.value,
+            scale,
+            1e-9,
+            "left and before",
+        );
+    }
+    // A neighbour 10⁷ times as heavy and stiff in place of the wall on the right, an eccentric building, and friction.
+    let eccentric = tower("A", 3, [120e3, 70e6], &square, [0.8, -0.5]);
+    let mut beside = model(
+        vec![eccentric.clone()],
+        vec![Gap::between([Some(0), Some(1)], 0.02, LAW)],
+    );
+    beside.gaps[0].in_plan.friction = 0.3;
+    beside.gaps[0].in_plan.tangential_stiffness = Some(150e6);
+    let mut heavy = beside.clone();
+    beside.walls = vec![wall("right", [10.02, 2.0], [10.02, 10.0])];
+    let still = rectangle(10.02, 2.0, 9.0, 8.0);
+    heavy
+        .buildings
+        .push(tower("B", 3, [1e13, 1e20], &still, [0.0; 2]));
+    let (_, expected) = run(&heavy, &motion);
+    let (_, got) = run(&beside, &motion);
+    assert!(got.face_impacts.len() > 4, "{}", got.face_impacts.len());
+    assert_eq!(got.face_impacts.len(), expected.face_impacts.len());
+    for (a, b) in got.face_impacts.iter().zip(&expected.face_impacts) {
+        let most = b.peak_force.value;
+        close(a.peak_force.value, most, most, 2e-3, "force");
+    }
+    for (a, b) in got.floors[0].iter().zip(&expected.floors[0]) {
+        let scale = b.displacement_max.value;
+        close(a.displacement_max.value, scale, scale, 1e-3, "right");
+    }
 }

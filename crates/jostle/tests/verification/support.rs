@@ -311,6 +311,8 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
         spring_places: Vec::new(),
         members: Vec::new(),
         centres: Vec::new(),
+        frames: Vec::new(),
+        shared_columns: Vec::new(),
         stick_model,
         floors: vec![1],
         left_face: vec![1],

@@ -8,8 +8,12 @@ use crate::quantity::{Quantity, Unit};
 /// Greatest forces of one column or beam.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct MemberSummary {
-    /// `J1.column.LINE.STOREY` or `J1.beam.FLOOR.SPAN`, counted from 1.
+    /// `J1.column.LINE.STOREY` or `J1.beam.FLOOR.SPAN`, counted from 1; `J1.FRAME.column.LINE.STOREY` and so on where frames
+    /// stand in a plan.
     pub name: String,
+    /// Name of the column that two frames share, whose axial forces are those of both frames together; absent for others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shared_column: Option<String>,
     /// Foot and head of a column, left and right end of a beam.
     pub ends: Vec<SectionSummary>,
     /// Points of a column between its ends where a neighbour can strike it, from the lowest up.

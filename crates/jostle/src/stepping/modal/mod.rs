@@ -26,6 +26,7 @@ mod reduced;
 mod response;
 mod series;
 mod span;
+mod start;
 mod stepper;
 mod struck;
 mod turning;
@@ -143,6 +144,23 @@ impl Reduction {
         }
     }
 
+    /// The same with all natural modes.
+    fn complete(system: &System, plan: &Plan) -> Result<Self, StepError> {
+        let usual = Self::new(system, plan)?;
+        let all = MoreShapes {
+            lacking: vec![vec![0]; system.buildings.len()],
+            all: true,
+        };
+        let Some((reduced, work)) = usual.enrich(system, &usual.reduced, &all) else {
+            return Ok(usual);
+        };
+        Ok(Self {
+            reduced,
+            work,
+            enriched: Mutex::default(),
+        })
+    }
+
     /// Shapes with more added, and the work of finding them, whoever found them first.
     fn enrich(
         &self,
@@ -185,16 +203,51 @@ pub fn simulate(
     reduction: &Reduction,
     mut observer: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Outcome {
-    simulate_with(system, motion, plan, settings, reduction, &mut observer)
+    simulate_with(
+        system,
+        motion,
+        plan,
+        settings,
+        reduction,
+        None,
+        &mut observer,
+    )
 }
 
-/// [`simulate`] for any observer.
+/// Runs a system from displacements and velocities that are given, with all natural modes.
+pub(super) fn simulate_from(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    settings: Settings,
+    start: &State,
+    observer: &mut Observer<'_>,
+) -> Outcome {
+    if let Some(reason) = start::refusal(system, start) {
+        return Outcome::not_begun(system, StepError::Unsuited { reason });
+    }
+    match Reduction::complete(system, plan) {
+        Ok(shapes) => simulate_with(
+            system,
+            motion,
+            plan,
+            settings,
+            &shapes,
+            Some(start),
+            observer,
+        ),
+        Err(error) => Outcome::not_begun(system, error),
+    }
+}
+
+/// [`simulate`] for any observer; `start`: a state other than rest.
 pub(super) fn simulate_with(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
     settings: Settings,
     reduction: &Reduction,
+    start: Option<&State>,
     observer: &mut Observer<'_>,
 ) -> Outcome {
     let tolerance = plan.tolerance();
@@ -206,7 +259,10 @@ pub(super) fn simulate_with(
     let mut shapes: Vec<MoreShapes> = Vec::new();
     let mut left = MOST_REPEATS;
     loop {
-        let run = runner(system, motion, plan, settings, &reduced, refinement);
+        let mut run = runner(system, motion, plan, settings, &reduced, refinement);
+        if let Some(start) = start {
+            run.stepper.begin_from(&run.run, start);
+        }
         let (mut outcome, verdict) = finish(run, observer);
         let between = verdict.estimate.between;
         let residual = verdict.estimate.both();

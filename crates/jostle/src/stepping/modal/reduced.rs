@@ -96,7 +96,7 @@ pub(super) struct ReducedBuilding {
     pub(super) missed: Vec<[f64; ROWS]>,
     /// Number of degrees of freedom, and the shapes over all of them.
     size: usize,
-    basis: Arc<Basis>,
+    pub(super) basis: Arc<Basis>,
 }
 
 /// Damping ratio above which missing shapes respond statically to the residuals, from random models \[–\].

@@ -352,7 +352,7 @@ impl<'a> ModalStepper<'a> {
     }
 
     /// Modal jerks now without the load term, into `jerk`; the modal accelerations are in `scratch`.
-    fn jerks(&mut self) {
+    pub(super) fn jerks(&mut self) {
         let modes = self.scratch.iter().zip(&self.v[0]);
         let factors = self.reduced.damping.iter().zip(&self.reduced.stiffness);
         for (jerk, ((a, v), (d, k))) in self.jerk.iter_mut().zip(modes.zip(factors)) {
@@ -420,7 +420,7 @@ impl<'a> ModalStepper<'a> {
         self.peaks.follow_forces(run.system, reduced, now);
     }
 
-    fn show_accelerations(&mut self, grounds: &RunGrounds<'_>) {
+    pub(super) fn show_accelerations(&mut self, grounds: &RunGrounds<'_>) {
         for joint in 0..grounds.joints() {
             let place = self.reduced.watched() + joint;
             self.acceleration[0][place] = grounds.closing(joint, 0)[2];

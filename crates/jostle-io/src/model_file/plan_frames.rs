@@ -1,0 +1,155 @@
+//! `[[building.frame]]`: plane frames at lines of a plan.
+
+use jostle::{PlanFrame, PlanPoint};
+
+use super::building::read_base;
+use super::frame;
+use super::plan::pair;
+use crate::keys::Section;
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// Most frames of a building.
+const MOST_FRAMES: usize = 200;
+
+/// Reads the frames of a building with these storeys.
+pub(super) fn read_all(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    storey_heights: &[f64],
+) -> Vec<PlanFrame> {
+    let entries = reader
+        .get(view, "frame")
+        .and_then(|field| field.entries().filter(|list| !list.is_empty()));
+    let Some(entries) = entries else {
+        reader.missing(
+            view,
+            "frame",
+            "add [[building.frame]] with at, direction, spans, column and beam; or write kind = \"shear\" for storey springs",
+        );
+        return Vec::new();
+    };
+    let mut frames = Vec::new();
+    for (index, entry) in entries.iter().enumerate() {
+        let Some(view) = reader.open(entry, &[Section::PlanFrame]) else {
+            continue;
+        };
+        frames.extend(read(reader, &view, index, storey_heights));
+        if frames.len() > MOST_FRAMES {
+            reader.bad(
+                entry,
+                format!("is one too many; at most {MOST_FRAMES} frames are possible"),
+            );
+            break;
+        }
+    }
+    frames
+}
+
+/// One frame, or equal ones at several places.
+fn read(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    index: usize,
+    storey_heights: &[f64],
+) -> Vec<PlanFrame> {
+    let name = reader
+        .get(view, "name")
+        .and_then(|field| reader.text(&field));
+    let name = name.unwrap_or_else(|| (index + 1).to_string());
+    let places = match reader.get(view, "at") {
+        Some(field) => read_places(reader, &field),
+        None => {
+            reader.missing(view, "at", "add at = [\"0 m\", \"6 m\"]");
+            Vec::new()
+        }
+    };
+    let direction = reader
+        .get(view, "direction")
+        .map_or(Some([1.0, 0.0]), |field| read_direction(reader, &field));
+    let most = storey_heights.len();
+    let storeys = match reader.get(view, "storeys") {
+        Some(field) => {
+            let count = reader.count(&field).unwrap_or(most);
+            if !(1..=most).contains(&count) {
+                reader.bad(
+                    &field,
+                    format!("must lie between 1 and {most}, found {count}"),
+                );
+            }
+            count.clamp(1, most)
+        }
+        None => most,
+    };
+    let frame = frame::read_in_plan(reader, view, &storey_heights[..storeys]);
+    let base = read_base(reader, view, false);
+    let lines = match reader.get(view, "lines") {
+        Some(field) => {
+            let names = read_lines(reader, &field);
+            if places.len() > 1 {
+                *reader.bad(&field, "names the columns of frames at several places") =
+                    Some("give every place its own [[building.frame]], or leave lines out".into());
+            }
+            names
+        }
+        None => Vec::new(),
+    };
+    let single = places.len() == 1;
+    let numbered = places.into_iter().enumerate();
+    numbered
+        .map(|(number, at)| PlanFrame {
+            name: match single {
+                true => name.clone(),
+                false => format!("{name}.{}", number + 1),
+            },
+            at,
+            direction: direction.unwrap_or([1.0, 0.0]),
+            lines: lines.clone(),
+            base,
+            frame: frame.clone(),
+        })
+        .collect()
+}
+
+/// One place, or a list of places.
+fn read_places(reader: &mut Reader<'_>, field: &Field<'_>) -> Vec<PlanPoint> {
+    let entries = field.entries().unwrap_or_default();
+    let is_list = entries
+        .first()
+        .is_some_and(|entry| entry.entries().is_some());
+    if !is_list {
+        return pair(reader, field).into_iter().collect();
+    }
+    let places = entries.iter().map(|entry| pair(reader, entry));
+    places.collect::<Vec<_>>().into_iter().flatten().collect()
+}
+
+/// `"x"`, `"y"`, or an angle from x, as a unit vector.
+fn read_direction(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<PlanPoint> {
+    match field.as_text() {
+        Some("x") => Some([1.0, 0.0]),
+        Some("y") => Some([0.0, 1.0]),
+        _ => {
+            let angle = reader.quantity(field, Dimension::Dimensionless)?;
+            Some([angle.cos(), angle.sin()])
+        }
+    }
+}
+
+/// Names of column lines; an empty one names none.
+fn read_lines(reader: &mut Reader<'_>, field: &Field<'_>) -> Vec<Option<String>> {
+    let Some(entries) = field.entries() else {
+        let found = field.node.describe();
+        reader.bad(
+            field,
+            format!("expected a list of names, such as [\"A1\", \"\", \"C1\"]; found {found}"),
+        );
+        return Vec::new();
+    };
+    let names = entries.iter().map(|entry| reader.text(entry));
+    let names: Vec<Option<String>> = names.collect();
+    names
+        .into_iter()
+        .map(|name| name.filter(|name| !name.trim().is_empty()))
+        .collect()
+}

@@ -1,0 +1,197 @@
+//! Faults of plane frames at lines of a plan.
+
+use super::{Faults, check_base, check_members_of};
+use crate::model::{Building, PlanFrame, SharedColumn, TierStorey, Tiers};
+
+/// Storey heights of a frame and of its building may differ by rounding only \[m\].
+const SAME_HEIGHT: f64 = 1e-9;
+
+/// Sine of the angle below which two frames are parallel \[–\].
+const PARALLEL: f64 = 1e-6;
+
+/// Least eigenvalue, relative to the greatest, of directions in which a floor is held \[–\].
+const HELD: f64 = 1e-9;
+
+pub(super) fn check_plan_frames(
+    faults: &mut Faults,
+    path: &str,
+    tiers: &Tiers,
+    building: &Building,
+) {
+    if tiers.frames.is_empty() {
+        return;
+    }
+    let before = faults.0.len();
+    for (index, frame) in tiers.frames.iter().enumerate() {
+        let at = format!("{path}.frame[{index}]");
+        check_one(faults, &at, frame, tiers);
+        let namesake = tiers.frames[..index]
+            .iter()
+            .any(|own| own.name == frame.name);
+        faults.require(!namesake, format!("{at}.name"), || {
+            format!(
+                "another frame is called \"{}\" too; give every frame its own name",
+                frame.name
+            )
+        });
+    }
+    faults.require(!building.gravity.preload, format!("{path}.gravity"), || {
+        "is not possible with frames in a plan yet: forces of members are those of the motion; leave it out, or take p_delta alone".into()
+    });
+    if faults.0.len() > before {
+        return;
+    }
+    check_columns(faults, path, tiers);
+    check_held(faults, path, tiers);
+}
+
+fn check_one(faults: &mut Faults, at: &str, own: &PlanFrame, tiers: &Tiers) {
+    let name = own.name.trim();
+    faults.require(
+        !name.is_empty() && name == own.name,
+        format!("{at}.name"),
+        || "must not be empty, nor begin or end with a blank".into(),
+    );
+    let frame = &own.frame;
+    check_members_of(faults, at, frame);
+    check_base(faults, &format!("{at}.base"), &own.base, false);
+    let yields = own.base.rotational_hinge.is_some() || own.base.horizontal_hinge.is_some();
+    faults.require(!yields, format!("{at}.base"), || {
+        "cannot yield under a frame in a plan yet; leave its hinges out".into()
+    });
+    let rests = own.base.isolation.is_some() || own.base.foundation.is_some();
+    faults.require(!rests, format!("{at}.base"), || {
+        "takes springs and dashpots only under a frame in a plan".into()
+    });
+    let heights = frame.storey_heights.iter().zip(&tiers.storey_heights);
+    let same = heights
+        .clone()
+        .all(|(own, other)| (own - other).abs() <= SAME_HEIGHT);
+    let storeys = frame.storey_heights.len();
+    let most = tiers.floors.len();
+    faults.require(
+        (1..=most).contains(&storeys) && same,
+        format!("{at}.storeys"),
+        || format!("must lie between 1 and {most}, and its storeys are the lowest ones of the building; found {storeys}"),
+    );
+    let finite = own.at.iter().chain(&own.direction).all(|v| v.is_finite());
+    let length = own.direction[0].hypot(own.direction[1]);
+    faults.require(
+        finite && (length - 1.0).abs() < 1e-9,
+        format!("{at}.direction"),
+        || "must be \"x\", \"y\", or an angle from x, counter-clockwise, such as \"30 deg\"".into(),
+    );
+    let lines = own.column_lines();
+    faults.require(
+        own.lines.is_empty() || own.lines.len() == lines,
+        format!("{at}.lines"),
+        || {
+            format!(
+                "has {} names for {lines} column lines; give one per line, \"\" for a column without a name",
+                own.lines.len()
+            )
+        },
+    );
+    let of_joint = frame.joint.horizontal_stiffness;
+    faults.require(
+        of_joint.is_none(),
+        format!("{at}.joint.horizontal_stiffness"),
+        || "has nothing to do here: rigid floors hold the ends of beams; leave it out".into(),
+    );
+    faults.require(
+        own.is_along_an_axis() || !own.has_masses_between_floors(),
+        format!("{at}.column_segments"),
+        || "must be 1 for columns with mass in a frame that stands neither along x nor across: masses between floors would couple both directions; or set density = 0 and count the columns in mass".into(),
+    );
+}
+
+/// Columns of the same name in two frames are one column.
+fn check_columns(faults: &mut Faults, path: &str, tiers: &Tiers) {
+    let shared = tiers.shared_columns();
+    for (index, column) in shared.iter().enumerate() {
+        let SharedColumn { name, lines } = column;
+        let [[first, _], [second, line]] = *lines;
+        let at = format!("{path}.frame[{second}].lines[{line}]");
+        if first == second {
+            faults.add(
+                at,
+                format!("names two columns of one frame \"{name}\"; give each its own name"),
+            );
+            continue;
+        }
+        let again = shared[..index].iter().any(|own| own.name == *name);
+        faults.require(!again, at.clone(), || {
+            format!("is the third column \"{name}\"; two frames can share a column")
+        });
+        let [a, b] = [first, second].map(|own| &tiers.frames[own]);
+        faults.require(tiers.stands_at_one_point(column), at.clone(), || {
+            let [p, q] = lines.map(|[frame, line]| tiers.frames[frame].line_at(line));
+            format!(
+                "puts column \"{name}\" at ({:.3} m, {:.3} m) on the site, but frame \"{}\" puts it at ({:.3} m, {:.3} m); correct at, direction or spans, or give it another name",
+                q[0], q[1], a.name, p[0], p[1]
+            )
+        });
+        let sine = a.direction[0] * b.direction[1] - a.direction[1] * b.direction[0];
+        faults.require(sine.abs() > PARALLEL, at, || {
+            format!(
+                "shares column \"{name}\" with frame \"{}\", which stands in the same direction; make them one frame",
+                a.name
+            )
+        });
+    }
+}
+
+/// Whether frames and springs hold every floor along x, across and in torsion.
+fn check_held(faults: &mut Faults, path: &str, tiers: &Tiers) {
+    for (storey, floor) in tiers.floors.iter().enumerate() {
+        let length = floor.plan_radius();
+        let mut sum = tiers.held(storey, floor.centre, length);
+        if let Some(springs) = tiers.storeys.get(storey) {
+            add_springs(&mut sum, springs, floor.centre, length);
+        }
+        if is_positive(sum) {
+            continue;
+        }
+        faults.add(
+            format!("{path}.frame"),
+            format!(
+                "do not hold floor {} in every direction: frames need two directions and must not all pass through one point; add a frame, or stiffness or elements for the storey",
+                storey + 1
+            ),
+        );
+        return;
+    }
+}
+
+/// Adds the directions in which springs hold a floor.
+fn add_springs(sum: &mut [[f64; 3]; 3], springs: &TierStorey, centre: [f64; 2], length: f64) {
+    let arm = [0, 1].map(|axis| (springs.centre[axis] - centre[axis]) / length);
+    let rows = [[1.0, 0.0, -arm[1]], [0.0, 1.0, arm[0]], [0.0, 0.0, 1.0]];
+    for (row, stiffness) in rows.iter().zip(springs.stiffness) {
+        if stiffness <= 0.0 {
+            continue;
+        }
+        for (i, a) in row.iter().enumerate() {
+            for (j, b) in row.iter().enumerate() {
+                sum[i][j] += a * b;
+            }
+        }
+    }
+}
+
+/// Whether a symmetric matrix is positive definite by more than rounding.
+fn is_positive(mut m: [[f64; 3]; 3]) -> bool {
+    let most = (0..3).map(|k| m[k][k]).fold(0.0, f64::max);
+    for k in 0..3 {
+        if m[k][k].is_nan() || m[k][k] <= HELD * most {
+            return false;
+        }
+        for i in k + 1..3 {
+            let factor = m[i][k] / m[k][k];
+            for j in k..3 {
+                m[i][j] -= factor * m[k][j];
+            }
+        }
+    }
+    true
+}

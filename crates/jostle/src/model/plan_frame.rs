@@ -1,0 +1,370 @@
+//! Plane frames standing at lines of a plan, tied together by rigid floors.
+
+use super::{Base, Frame, PlanArea, PlanPoint, Tier, Tiers};
+
+/// Column lines closer than this stand at one point \[m\].
+const SAME_POINT: f64 = 0.01;
+
+/// Sines of angles below this count as zero: frames along x or across.
+const PARALLEL: f64 = 1e-9;
+
+/// A plane frame that stands at a line of a plan.
+///
+/// Its floors move as far along its line as the rigid floors of the building do: u = d · u(c), c being a point of the line and d its
+/// direction. Everything between floors, and every joint, keeps displacements of its own. It has no stiffness out of its plane
+/// (E. L. Wilson, H. H. Dovey, Three dimensional analysis of building systems: TABS, UCB/EERC 72-8, 1972).
+///
+/// ```
+/// use jostle::{Axial, Base, Frame, Joint, PlanFrame, Section};
+///
+/// let section = |width: f64, depth: f64| Section {
+///     flexural_rigidity: 30e9 * width * depth.powi(3) / 12.0,
+///     axial_rigidity: None,
+///     shear_rigidity: None,
+///     line_mass: 0.0, // the masses of the floors count all
+/// };
+/// let frame = PlanFrame {
+///     name: "2".to_owned(),
+///     at: [0.0, 6.0],
+///     direction: [1.0, 0.0],
+///     lines: vec![Some("A2".to_owned()), None, Some("C2".to_owned())],
+///     base: Base::default(),
+///     frame: Frame {
+///         storey_heights: vec![3.2; 2],
+///         spans: vec![6.0, 5.0],
+///         columns: vec![section(0.5, 0.5); 2],
+///         beams: vec![section(0.3, 0.6); 2],
+///         beam_mass: vec![0.0; 2],
+///         floor_mass: vec![0.0; 2],
+///         column_segments: 1,
+///         beam_segments: vec![1, 1],
+///         axial: Axial::default(),
+///         joint: Joint::default(),
+///     },
+/// };
+/// assert_eq!(frame.line_at(2), [11.0, 6.0]);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanFrame {
+    /// Name, unique among the frames of a building.
+    pub name: String,
+    /// Foot of its first column line on the site \[m\].
+    pub at: PlanPoint,
+    /// Unit vector along its line, from its first column line to its last \[–\].
+    pub direction: PlanPoint,
+    /// Names of its column lines, or none: lines of the same name in two frames are one column, whose axial forces add. Empty, or
+    /// one entry per column line.
+    pub lines: Vec<Option<String>>,
+    /// Springs and dashpots under every column.
+    pub base: Base,
+    /// Columns, beams and masses; its storeys are the lowest ones of the building.
+    pub frame: Frame,
+}
+
+/// A column that belongs to two frames.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SharedColumn {
+    /// Its name.
+    pub name: String,
+    /// Frame and column line of both, from 0.
+    pub lines: [[usize; 2]; 2],
+}
+
+/// A floor with everything that moves with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LumpedFloor {
+    /// Mass that moves with it in both directions, polar mass about the centre, centre and plan.
+    pub tier: Tier,
+    /// Mass that moves with it along x alone, and across alone: columns between floors in the frames of the other direction
+    /// \[kg\].
+    pub one_way: [f64; 2],
+}
+
+impl LumpedFloor {
+    /// Mass that resists a push in the direction of a unit vector \[kg\].
+    #[must_use]
+    pub fn mass_along(&self, direction: PlanPoint) -> f64 {
+        if self.one_way == [0.0; 2] {
+            return self.tier.mass;
+        }
+        let moved = direction.iter().zip(self.one_way);
+        1.0 / moved
+            .map(|(share, extra)| share * share / (self.tier.mass + extra))
+            .sum::<f64>()
+    }
+}
+
+impl PlanFrame {
+    /// Where a column line stands on the site, counted from 0 \[m\].
+    #[must_use]
+    pub fn line_at(&self, line: usize) -> PlanPoint {
+        let along: f64 = self.frame.spans.iter().take(line).sum();
+        self.point_at(along)
+    }
+
+    /// The point of its line at a distance from the first column line \[m\].
+    #[must_use]
+    pub fn point_at(&self, along: f64) -> PlanPoint {
+        [0, 1].map(|axis| self.at[axis] + along * self.direction[axis])
+    }
+
+    /// Number of column lines.
+    #[must_use]
+    pub fn column_lines(&self) -> usize {
+        self.frame.spans.len() + 1
+    }
+
+    /// Whether columns have lumped masses between floors.
+    #[must_use]
+    pub fn has_masses_between_floors(&self) -> bool {
+        let heavy = self.frame.columns.iter().any(|own| own.line_mass > 0.0);
+        heavy && self.frame.column_segments > 1
+    }
+
+    /// Whether it stands along x or across.
+    #[must_use]
+    pub fn is_along_an_axis(&self) -> bool {
+        self.direction.iter().any(|part| part.abs() <= PARALLEL)
+    }
+
+    /// How far a displacement of a floor moves its line, the centre of the floor being at `centre`: along x, across, and by
+    /// rotation.
+    #[must_use]
+    pub fn shares(&self, centre: PlanPoint) -> [f64; 3] {
+        let [dx, dy] = self.direction.map(rounded);
+        let arm = [self.at[0] - centre[0], self.at[1] - centre[1]];
+        [dx, dy, arm[0] * dy - arm[1] * dx]
+    }
+}
+
+/// A component of a direction; exactly zero along the axes.
+fn rounded(part: f64) -> f64 {
+    if part.abs() <= PARALLEL { 0.0 } else { part }
+}
+
+impl Tiers {
+    /// Columns that two frames share by name, in the order of the frames.
+    #[must_use]
+    pub fn shared_columns(&self) -> Vec<SharedColumn> {
+        let named: Vec<([usize; 2], &str)> = self
+            .frames
+            .iter()
+            .enumerate()
+            .flat_map(|(index, frame)| {
+                let lines = frame.lines.iter().enumerate();
+                lines.filter_map(move |(line, name)| Some(([index, line], name.as_deref()?)))
+            })
+            .collect();
+        let mut shared = Vec::new();
+        for (at, (place, name)) in named.iter().enumerate() {
+            let first = named[..at].iter().find(|(_, other)| other == name);
+            shared.extend(first.map(|(other, _)| SharedColumn {
+                name: (*name).to_owned(),
+                lines: [*other, *place],
+            }));
+        }
+        shared
+    }
+
+    /// Whether the two column lines of a shared column stand at one point.
+    #[must_use]
+    pub fn stands_at_one_point(&self, column: &SharedColumn) -> bool {
+        let [a, b] = column
+            .lines
+            .map(|[frame, line]| self.frames[frame].line_at(line));
+        (a[0] - b[0]).hypot(a[1] - b[1]) <= SAME_POINT
+    }
+
+    /// Floors with the masses of the frames. Their centres are those that leave no coupling between the masses.
+    ///
+    /// Joints and beams move with the floor in both directions. Columns between floors have displacements of their own in the
+    /// plane of their frame; out of it they move with the two floors, in proportion to the distance from them. A column that two
+    /// frames share counts once.
+    #[must_use]
+    pub fn lumped_floors(&self) -> Vec<LumpedFloor> {
+        let shared = self.shared_columns();
+        let mut masses = vec![FloorMasses::default(); self.floors.len()];
+        for (index, frame) in self.frames.iter().enumerate() {
+            let doubled = |line: usize| {
+                let mut columns = shared.iter();
+                columns.any(|own| own.lines[1] == [index, line])
+            };
+            let crossed = |line: usize| {
+                let mut columns = shared.iter();
+                columns.any(|own| own.lines.contains(&[index, line]))
+            };
+            frame.add_masses(&mut masses, doubled, crossed);
+        }
+        let floors = self.floors.iter().zip(&masses);
+        floors.map(|(floor, masses)| masses.on(floor)).collect()
+    }
+
+    /// Total mass of the columns between floors, which the floors do not include, counted once \[kg\].
+    #[must_use]
+    pub fn mass_between_floors(&self) -> f64 {
+        let shared = self.shared_columns();
+        let frames = self.frames.iter().enumerate();
+        frames
+            .map(|(index, frame)| {
+                let lines = (0..frame.column_lines()).filter(|line| {
+                    let mut columns = shared.iter();
+                    !columns.any(|own| own.lines[1] == [index, *line])
+                });
+                let k = frame.frame.column_segments as f64;
+                let storeys = frame.frame.columns.iter().zip(&frame.frame.storey_heights);
+                let line: f64 = storeys
+                    .map(|(own, height)| own.line_mass * height * (k - 1.0) / k)
+                    .sum();
+                line * lines.count() as f64
+            })
+            .sum()
+    }
+
+    /// Sum over the frames of a storey, counted from 0, of rᵀr, r being the motion of a line by a displacement of the floor, with
+    /// torsion about `about` in units of `length`: positive definite if the frames hold the floor in every direction.
+    #[must_use]
+    pub fn held(&self, storey: usize, about: PlanPoint, length: f64) -> [[f64; 3]; 3] {
+        let mut sum = [[0.0; 3]; 3];
+        for frame in &self.frames {
+            if storey >= frame.frame.storey_heights.len() {
+                continue;
+            }
+            let [x, y, turn] = frame.shares(about);
+            let row = [x, y, turn / length];
+            for (i, a) in row.iter().enumerate() {
+                for (j, b) in row.iter().enumerate() {
+                    sum[i][j] += a * b;
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// Point masses that a floor carries: both ways, along x alone, across alone.
+#[derive(Clone, Debug, Default)]
+struct FloorMasses([Vec<(f64, PlanPoint)>; 3]);
+
+/// Lists of [`FloorMasses`].
+const BOTH_WAYS: usize = 0;
+
+impl PlanFrame {
+    /// Adds its lumped masses to those of the floors. `doubled`: column lines that another frame counts; `crossed`: those that
+    /// another frame holds out of the plane of this one.
+    fn add_masses(
+        &self,
+        floors: &mut [FloorMasses],
+        doubled: impl Fn(usize) -> bool,
+        crossed: impl Fn(usize) -> bool,
+    ) {
+        let frame = &self.frame;
+        let lines: Vec<f64> = std::iter::once(0.0)
+            .chain(frame.spans.iter().scan(0.0, |at, span| {
+                *at += span;
+                Some(*at)
+            }))
+            .collect();
+        // Out of the plane of a frame along x is across.
+        let out_of_plane = if self.direction[0].abs() > self.direction[1].abs() {
+            2
+        } else {
+            1
+        };
+        let k = frame.column_segments.max(1);
+        for storey in 0..frame.storey_heights.len().min(floors.len()) {
+            let column = frame.columns.get(storey).map_or(0.0, |own| own.line_mass)
+                * frame.storey_heights[storey];
+            for (line, along) in lines.iter().enumerate() {
+                let at = self.point_at(*along);
+                let mut add = |floor: Option<usize>, kind: usize, mass: f64| {
+                    if let Some(floor) = floor.filter(|_| mass > 0.0) {
+                        floors[floor].0[kind].push((mass, at));
+                    }
+                };
+                let below = storey.checked_sub(1);
+                if !doubled(line) {
+                    let end = 0.5 * column / k as f64;
+                    add(below, BOTH_WAYS, end);
+                    add(Some(storey), BOTH_WAYS, end);
+                }
+                let floor_mass = frame.floor_mass.get(storey).copied();
+                let joint = floor_mass.unwrap_or(0.0) / lines.len() as f64;
+                add(Some(storey), BOTH_WAYS, joint);
+                if !crossed(line) {
+                    for cut in 1..k {
+                        let share = cut as f64 / k as f64;
+                        add(below, out_of_plane, (1.0 - share) * column / k as f64);
+                        add(Some(storey), out_of_plane, share * column / k as f64);
+                    }
+                }
+            }
+            for (bay, span) in frame.spans.iter().enumerate() {
+                let segments = frame.beam_segments.get(bay).copied().unwrap_or(1).max(1);
+                let mass = frame.beam_mass.get(storey).copied().unwrap_or(0.0) * span;
+                for cut in 0..=segments {
+                    let ends = if cut == 0 || cut == segments {
+                        0.5
+                    } else {
+                        1.0
+                    };
+                    let along = lines[bay] + cut as f64 / segments as f64 * span;
+                    let own = ends * mass / segments as f64;
+                    if own > 0.0 {
+                        floors[storey].0[BOTH_WAYS].push((own, self.point_at(along)));
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl FloorMasses {
+    /// With the mass of the floor itself.
+    fn on(&self, floor: &Tier) -> LumpedFloor {
+        if self.0.iter().all(Vec::is_empty) {
+            return LumpedFloor {
+                tier: floor.clone(),
+                one_way: [0.0; 2],
+            };
+        }
+        let [both, along, across] = &self.0;
+        let mass = floor.mass + both.iter().map(|(mass, _)| mass).sum::<f64>();
+        let one_way = [along, across].map(|list| list.iter().map(|(mass, _)| mass).sum::<f64>());
+        // What moves along x decides the centre across, and the other way round.
+        let centre = [0, 1].map(|axis| {
+            let moving = [across, along][axis];
+            let points = both.iter().chain(moving.iter());
+            let moment: f64 = points
+                .map(|(mass, at)| mass * (at[axis] - floor.centre[axis]))
+                .sum();
+            floor.centre[axis] + moment / (mass + one_way[1 - axis])
+        });
+        let squared = |at: &PlanPoint, axis: usize| (at[axis] - centre[axis]).powi(2);
+        let about = |list: &[(f64, PlanPoint)], axis: usize| -> f64 {
+            list.iter().map(|(mass, at)| mass * squared(at, axis)).sum()
+        };
+        let polar_mass = floor.polar_mass
+            + floor.mass * (squared(&floor.centre, 0) + squared(&floor.centre, 1))
+            + about(both, 0)
+            + about(both, 1)
+            + about(along, 1)
+            + about(across, 0);
+        LumpedFloor {
+            tier: Tier {
+                mass,
+                polar_mass,
+                centre,
+                plan: floor.plan.clone(),
+            },
+            one_way,
+        }
+    }
+}
+
+impl Tier {
+    /// A length of the size of its plan: the polar radius of gyration \[m\].
+    #[must_use]
+    pub fn plan_radius(&self) -> f64 {
+        PlanArea::new(&self.plan).gyration().sqrt()
+    }
+}

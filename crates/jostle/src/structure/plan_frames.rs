@@ -1,0 +1,137 @@
+//! Plane frames at lines of a plan, as lumped masses and massless elements tied to rigid floors.
+
+use std::ops::Range;
+
+use super::discretization::{Discretization, discretize_frame};
+use super::element::{X, Y};
+use super::member_forces::FrameMember;
+use super::stick_model::{FrameNode, Node, StickModel, Support};
+use crate::model::{Frame, FrameHinges, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, Tiers};
+
+/// Distance between frames in the elevation that shows them side by side, so that no two column lines coincide \[m\].
+const APART: f64 = 1.0;
+
+/// Adds the frames of a building, whose ground and floors are the nodes of the stick model so far.
+///
+/// The nodes of frames stand side by side in one elevation; floors are moved behind them, so that a floor comes after all joints at
+/// its height in the transfer path.
+pub(super) fn add_frames(
+    tiers: &Tiers,
+    lumped: &[LumpedFloor],
+    discretization: &mut Discretization,
+) {
+    if tiers.frames.is_empty() {
+        return;
+    }
+    let floors = discretization.floors.clone();
+    let sticks = &mut discretization.stick_model;
+    sticks.frame_nodes = vec![None; sticks.nodes.len()];
+    let shared = tiers.shared_columns();
+    let mut offset = 0.0;
+    for (index, plan_frame) in tiers.frames.iter().enumerate() {
+        let own = discretize(plan_frame, &plan_frame.frame);
+        let mut without_columns = plan_frame.frame.clone();
+        for column in &mut without_columns.columns {
+            column.line_mass = 0.0;
+        }
+        let light = discretize(plan_frame, &without_columns).stick_model;
+        let doubled: Vec<f64> = (0..plan_frame.column_lines())
+            .filter(|line| shared.iter().any(|own| own.lines[1] == [index, *line]))
+            .map(|line| plan_frame.frame.spans.iter().take(line).sum())
+            .collect();
+        let place = Place {
+            plan_frame,
+            offset,
+            floors: &floors,
+            lumped,
+            doubled: &doubled,
+            light: &light,
+        };
+        let elements = sticks.append(own.stick_model, &place);
+        let members = own.members.into_iter().map(|member| FrameMember {
+            frame: Some(index),
+            elements: elements.start + member.elements.start..elements.start + member.elements.end,
+            ..member
+        });
+        discretization.members.extend(members);
+        offset += plan_frame.frame.spans.iter().sum::<f64>() + APART;
+    }
+    for &floor in &floors {
+        sticks.nodes[floor].x = offset;
+    }
+    for (floor, lumped) in floors.iter().zip(lumped) {
+        for (component, mass) in [X, Y].into_iter().zip(lumped.one_way) {
+            if mass > 0.0 {
+                sticks.one_way_masses.push((*floor, component, mass));
+            }
+        }
+    }
+    discretization.frames = tiers.frames.iter().map(|own| own.name.clone()).collect();
+    discretization.shared_columns = shared;
+}
+
+fn discretize(plan_frame: &PlanFrame, frame: &Frame) -> Discretization {
+    discretize_frame(frame, &plan_frame.base, &FrameHinges::default(), [&[], &[]])
+}
+
+/// Where a frame stands.
+struct Place<'a> {
+    plan_frame: &'a PlanFrame,
+    /// What is added to the distances from its first column line \[m\].
+    offset: f64,
+    floors: &'a [usize],
+    lumped: &'a [LumpedFloor],
+    /// Column lines whose mass another frame counts, as distances from its first one \[m\].
+    doubled: &'a [f64],
+    /// The frame with columns that have no mass.
+    light: &'a StickModel,
+}
+
+impl StickModel {
+    /// Appends the nodes and elements of a frame; returns the range of its members.
+    fn append(&mut self, frame: StickModel, place: &Place<'_>) -> Range<usize> {
+        let (nodes, members) = (self.nodes.len(), self.members.len());
+        for (index, mut node) in frame.nodes.into_iter().enumerate() {
+            let own = self.frame_node(index, &node, place);
+            self.frame_nodes.push(Some(own));
+            node.x += place.offset;
+            self.nodes.push(node);
+        }
+        let moved = |ends: [usize; 2]| ends.map(|end| nodes + end);
+        self.members
+            .extend(frame.members.into_iter().map(|mut own| {
+                own.ends = moved(own.ends);
+                own
+            }));
+        self.hinges.extend(frame.hinges.into_iter().map(|mut own| {
+            own.ends = moved(own.ends);
+            own
+        }));
+        self.springs
+            .extend(frame.springs.into_iter().map(|mut own| {
+                own.ends = moved(own.ends);
+                own
+            }));
+        members..self.members.len()
+    }
+
+    fn frame_node(&self, index: usize, node: &Node, place: &Place<'_>) -> FrameNode {
+        let height = |floor: &usize| self.nodes[*floor].y;
+        let mut floors = place.floors.iter();
+        let level = floors.position(|floor| node.y <= height(floor) + LEVEL_TOLERANCE);
+        let level = level.unwrap_or(place.floors.len() - 1);
+        let floor = place.floors[level];
+        let on_floor = (node.y - height(&floor)).abs() <= LEVEL_TOLERANCE;
+        let is_doubled = place.doubled.contains(&node.x);
+        FrameNode {
+            shares: place.plan_frame.shares(place.lumped[level].tier.centre),
+            floor: Some(floor).filter(|_| on_floor && node.support != Support::Fixed),
+            level,
+            counted_elsewhere: on_floor || is_doubled,
+            vertical_mass: match is_doubled {
+                true => place.light.nodes[index].mass,
+                false => node.mass,
+            },
+        }
+    }
+}
