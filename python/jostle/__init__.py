@@ -33,22 +33,35 @@ from ._modes import BuildingModes, modes
 from ._motion import Motion, Spectrum
 from ._own_law import Experiment, experiment
 from ._pushover import CapacityCurve, pushover
-from ._result import Contact, Floor, LinkedFloors, Result
+from ._result import BuildingResult, Contact, Corner, Floor, LinkedFloors, Result
 from ._run import run
-from ._study import CriticalGap, GapPoint, RuleGap, Study, StudyResult, critical_gap
+from ._study import (
+    AngleStudy,
+    CriticalGap,
+    GapPoint,
+    RuleGap,
+    Study,
+    StudyResult,
+    WorstAngle,
+    angles,
+    critical_gap,
+)
 from ._suite import Governing, Suite, run_suite
 from ._table import Table
 
 __all__ = [
     "AnalysisError",
+    "AngleStudy",
     "Animation",
     "BuildingModes",
+    "BuildingResult",
     "CapacityCurve",
     "Collision",
     "Comparison",
     "Contact",
     "ContactAdvice",
     "ContactLaw",
+    "Corner",
     "CriticalGap",
     "Experiment",
     "Fault",
@@ -83,7 +96,9 @@ __all__ = [
     "Table",
     "Wall",
     "WaveEstimate",
+    "WorstAngle",
     "__version__",
+    "angles",
     "collide",
     "collide_all",
     "compare",

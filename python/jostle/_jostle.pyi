@@ -25,6 +25,7 @@ __all__ = [
     "contact_advice",
     "contact_laws",
     "critical_gaps",
+    "incidence",
     "live_page",
     "quantity",
     "run",
@@ -40,6 +41,9 @@ def quantity(text: str, kind: str) -> float: ...
 def critical_gaps(
     model: Model, tolerance: float, system: str | None, codes: Sequence[str], outcomes: bool, curve: int
 ) -> str: ...
+def incidence(
+    base: tuple[str, str, bool, str], start: float, stop: float, step: float, quantities: Sequence[str]
+) -> tuple[str, list[str]]: ...
 def contact_advice(model: Model | None, given: Mapping[str, str]) -> str: ...
 def run(
     model: Model,
@@ -171,6 +175,7 @@ class Model:
         pga: float | None = None,
         motion: Motion | None = None,
         record: str | None = None,
+        angle: float | None = None,
     ) -> Model: ...
     @property
     def title(self) -> str: ...

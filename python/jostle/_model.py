@@ -13,7 +13,7 @@ from ._builders import Building, Gap, Link, Part, Soil, Table, Wall
 from ._errors import MissingFileError, ModelError, ModelWarning
 from ._motion import Motion
 from ._tree import text_of
-from ._units import Quantity, RunUnits, argument, refuse
+from ._units import Quantity, RunUnits, argument, in_si, refuse
 
 if TYPE_CHECKING:
     from ._live import LiveWidget
@@ -93,7 +93,7 @@ class Model:
         core = getattr(_jostle.Model, how)(*arguments)
         for text in core.warnings:
             warnings.warn(text, ModelWarning, stacklevel=3)
-        self._recipe = (how, arguments, motion, None, None, None)
+        self._recipe = (how, arguments, motion, None, None, None, None)
         self._core = core if motion is None else core.changed(motion=motion._core)
 
     @classmethod
@@ -115,7 +115,7 @@ class Model:
         # A pickled model brings its text along; the records stay where they are.
         text, folder = model._core.text, os.path.dirname(os.path.abspath(name))
         is_json = name.lower().endswith(".json")
-        model._recipe = ("read", (name, text, is_json, folder, True), None, None, None, None)
+        model._recipe = ("read", (name, text, is_json, folder, True), None, None, None, None, None)
         return model
 
     @classmethod
@@ -206,15 +206,18 @@ class Model:
         gap: Quantity | None = None,
         pga: Quantity | None = None,
         motion: Motion | str | os.PathLike[str] | None = None,
+        angle: Quantity | None = None,
         **units: Unpack[RunUnits],
     ) -> Model:
-        """Returns the model with another width of every gap, another peak acceleration or another ground motion.
+        """Returns the model with another width of every gap, peak acceleration, ground motion or angle of it.
 
         Args:
             gap: width of every gap, a length ≥ 0; also ``gap_mm=20``.
             pga: scales the ground motion to this peak, > 0; also ``pga_g=0.2``.
             motion: a :class:`Motion` is used as it is; a record by name or path keeps the scaling of the model,
                 as ``--record`` of the command line does.
+            angle: angle in plan from x to the motion, counter-clockwise, of buildings with a plan: ``"30 deg"``, or
+                radians.
 
         Raises:
             ModelError: there is nothing to change, or a value is out of range.
@@ -222,14 +225,15 @@ class Model:
         extra: dict[str, Any] = dict(units)
         width = argument("gap", gap, "length", extra)
         peak = argument("pga", pga, "acceleration", extra)
-        refuse("changed", extra, ["gap", "pga", "motion", *RunUnits.__annotations__])
+        turn = None if angle is None else in_si("angle", angle, "number")
+        refuse("changed", extra, ["gap", "pga", "motion", "angle", *RunUnits.__annotations__])
         given = motion if isinstance(motion, Motion) else None
         record = None if motion is None or given is not None else os.fspath(cast(str, motion))
         model = type(self).__new__(type(self))
         model._core = self._core.changed(
-            gap=width, pga=peak, motion=None if given is None else given._core, record=record
+            gap=width, pga=peak, motion=None if given is None else given._core, record=record, angle=turn
         )
-        model._recipe = (self._recipe, (), given, width, peak, record)
+        model._recipe = (self._recipe, (), given, width, peak, record, turn)
         return model
 
     @property
@@ -295,7 +299,7 @@ class Model:
 
     def _file(self) -> tuple[str, str, dict[str, str]]:
         """Text of the model file, its folder, and the values that were changed since, by path."""
-        how, arguments, motion, gap, pga, record = self._recipe
+        how, arguments, motion, gap, pga, record, angle = self._recipe
         if motion is not None:
             raise ModelError(
                 "live() needs a motion that a model file can name: write its acceleration to a "
@@ -313,6 +317,8 @@ class Model:
             changes["motion.pga"] = f"{pga!r} m/s2"
         if record is not None:
             changes["motion.record"] = record
+        if angle is not None:
+            changes["motion.angle"] = repr(angle)
         return text, folder, changes
 
     def __repr__(self) -> str:
@@ -334,6 +340,7 @@ def _rebuild(
     gap: float | None,
     pga: float | None,
     record: str | None,
+    angle: float | None = None,
 ) -> Model:
     model = Model.__new__(Model)
     if isinstance(how, tuple):
@@ -341,8 +348,8 @@ def _rebuild(
     else:
         core = getattr(_jostle.Model, how)(*arguments)
     given = None if motion is None else motion._core
-    model._core = core.changed(gap=gap, pga=pga, motion=given, record=record)
-    model._recipe = (how, arguments, motion, gap, pga, record)
+    model._core = core.changed(gap=gap, pga=pga, motion=given, record=record, angle=angle)
+    model._recipe = (how, arguments, motion, gap, pga, record, angle)
     return model
 
 

@@ -23,6 +23,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+#: Histories that only floors with a plan have.
+_IN_PLAN = (
+    "displacement_across",
+    "velocity_across",
+    "total_acceleration_across",
+    "rotation",
+    "rotation_rate",
+    "rotation_acceleration",
+)
+
+
 @dataclass(frozen=True, eq=False)
 class Floor:
     """Histories of one floor, arrays of shape ``(n,)`` on the instants of ``result.time``.
@@ -33,6 +44,12 @@ class Floor:
         displacement: relative to the ground, positive to the right [m].
         velocity: relative to the ground [m/s].
         total_acceleration: ground included [m/s²].
+        displacement_across: across the row, of buildings with a plan [m]; ``None`` in one plane, as all below.
+        velocity_across: its rate [m/s].
+        total_acceleration_across: across, ground included [m/s²].
+        rotation: counter-clockwise seen from above [rad].
+        rotation_rate: its rate [rad/s].
+        rotation_acceleration: the rate of that [rad/s²].
     """
 
     building: str
@@ -40,6 +57,110 @@ class Floor:
     displacement: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
     total_acceleration: npt.NDArray[np.float64]
+    displacement_across: npt.NDArray[np.float64] | None = None
+    velocity_across: npt.NDArray[np.float64] | None = None
+    total_acceleration_across: npt.NDArray[np.float64] | None = None
+    rotation: npt.NDArray[np.float64] | None = None
+    rotation_rate: npt.NDArray[np.float64] | None = None
+    rotation_acceleration: npt.NDArray[np.float64] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Corner:
+    """Histories of a corner of a floor with a plan, on the instants of ``result.time``.
+
+    Arrays have the shape ``(n, 2)``: along x and across.
+
+    Attributes:
+        building: name of the building.
+        floor: floor, from 1.
+        corner: number of the corner, from 1, in the order of ``plan``.
+        at: its place on the site at rest [m].
+        displacement: relative to the ground [m].
+        velocity: relative to the ground [m/s].
+        total_acceleration: ground included [m/s²], for small rotations.
+    """
+
+    building: str
+    floor: int
+    corner: int
+    at: tuple[float, float]
+    displacement: npt.NDArray[np.float64]
+    velocity: npt.NDArray[np.float64]
+    total_acceleration: npt.NDArray[np.float64]
+
+
+class BuildingResult:
+    """Histories of one building: ``result.building("A").corner(3)``."""
+
+    _result: Result
+    _at: int
+
+    @classmethod
+    def _of(cls, result: Result, at: int) -> BuildingResult:
+        building = cls.__new__(cls)
+        building._result, building._at = result, at
+        return building
+
+    @property
+    def name(self) -> str:
+        """Name."""
+        return cast(str, self.summary["name"])
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """Its part of ``result.summary``."""
+        return cast("dict[str, Any]", self._result.summary["buildings"][self._at])
+
+    def floor(self, floor: int) -> Floor:
+        """Histories of a floor, from 1; -1 is the roof."""
+        return self._result.floor(self._at, floor)
+
+    def corner(self, corner: int, floor: int = -1) -> Corner:
+        """Histories of a corner.
+
+        Args:
+            corner: its number, from 1, in the order of ``plan``.
+            floor: floor, from 1; -1 is the roof.
+
+        Raises:
+            ValueError: the building has no plan, or no such corner or floor.
+        """
+        import numpy as np
+
+        own = self.floor(floor)
+        plans = self._result.model.description["buildings"][self._at].get("plans")
+        if not plans:
+            raise ValueError(f"{own.building!r} has no plan, so its floors have no corners")
+        plan = plans[own.floor - 1]
+        corners = plan["corners_m"]
+        number = index(corner)
+        if not 1 <= number <= len(corners):
+            raise ValueError(f"floor {own.floor} of {own.building!r} has corners 1 to {len(corners)}, found {corner}")
+        at = corners[number - 1]
+        arm = (at[0] - plan["centre_m"][0], at[1] - plan["centre_m"][1])
+
+        def moved(
+            x: npt.NDArray[np.float64], y: npt.NDArray[np.float64] | None, turn: npt.NDArray[np.float64] | None
+        ) -> npt.NDArray[np.float64]:
+            # u = (u_x − θ r_y, u_y + θ r_x)
+            assert y is not None and turn is not None
+            return np.stack([x - turn * arm[1], y + turn * arm[0]], axis=1)
+
+        return Corner(
+            building=own.building,
+            floor=own.floor,
+            corner=number,
+            at=(at[0], at[1]),
+            displacement=moved(own.displacement, own.displacement_across, own.rotation),
+            velocity=moved(own.velocity, own.velocity_across, own.rotation_rate),
+            total_acceleration=moved(
+                own.total_acceleration, own.total_acceleration_across, own.rotation_acceleration
+            ),
+        )
+
+    def __repr__(self) -> str:
+        return f"<BuildingResult {self.name!r}>"
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +295,21 @@ class Result:
             displacement=self._history("floor", "displacement", at, number),
             velocity=self._history("floor", "velocity", at, number),
             total_acceleration=self._history("floor", "total_acceleration", at, number),
+            **{
+                key: self._history("floor", key, at, number)
+                for key in _IN_PLAN
+                if ("floor", key, at, number) in self._rows
+            },
         )
+
+    def building(self, building: str | int) -> BuildingResult:
+        """Histories of a building, and of the corners of its floors.
+
+        Args:
+            building: name, or position from the left, from 0.
+        """
+        names = [building["name"] for building in self.summary["buildings"]]
+        return BuildingResult._of(self, position(building, names))
 
     @property
     def contacts(self) -> tuple[Contact, ...]:

@@ -28,6 +28,7 @@ _KEYWORDS = (
     "motion",
     "gap",
     "pga",
+    "angle",
     "pounding",
     "without_contact",
     "sensitivity",
@@ -43,6 +44,7 @@ def run(
     motion: Motion | str | os.PathLike[str] | None = None,
     gap: Quantity | None = None,
     pga: Quantity | None = None,
+    angle: Quantity | None = None,
     pounding: bool = True,
     without_contact: bool = False,
     sensitivity: bool = False,
@@ -62,6 +64,7 @@ def run(
         motion: another ground motion; a record by name or path keeps the scaling of the model.
         gap: another width of every gap, a length ≥ 0; also ``gap_mm=20``.
         pga: scales the ground motion to this peak, > 0; also ``pga_g=0.2``.
+        angle: angle in plan from x to the motion, counter-clockwise, of buildings with a plan: ``"30 deg"``, or radians.
         pounding: false runs the buildings without contact.
         without_contact: adds a second run without contact, as the command line does for its report; the summary
             then includes the smallest gap without pounding.
@@ -84,8 +87,8 @@ def run(
         if not any(split(key, (name,)) for name in ("gap", "pga")):
             refuse("run", (key,), [*_KEYWORDS, *RunUnits.__annotations__])
     model = Model.from_any(model)
-    if units or not (motion is None and gap is None and pga is None):
-        model = model.changed(motion=motion, gap=gap, pga=pga, **units)
+    if units or not (motion is None and gap is None and pga is None and angle is None):
+        model = model.changed(motion=motion, gap=gap, pga=pga, angle=angle, **units)
     interval = None if record_interval is None else in_si("record_interval", record_interval, "time")
     if interval is not None and interval < 0.0:
         raise ValueError(f"record_interval: must not be negative, found {interval} s")

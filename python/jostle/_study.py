@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -16,6 +17,7 @@ from ._errors import AnalysisError, ModelError, ModelWarning, StudyWarning
 from ._model import Model
 from ._progress import Observer, ProgressLine
 from ._tree import text_of
+from ._units import Quantity, in_si
 
 if TYPE_CHECKING:
     import numpy as np
@@ -80,8 +82,6 @@ class Study:
         self._build("study", text_of(tree, "study"), True, os.getcwd(), base)
 
     def _build(self, name: str, text: str, is_json: bool, folder: str, base: _Base | None) -> None:
-        import warnings
-
         self._recipe = (name, text, is_json, folder, base)
         self._core = _jostle.Study.read(name, text, is_json, folder, base)
         for warning in self._core.warnings:
@@ -264,6 +264,97 @@ class StudyResult:
 
 
 @dataclass(frozen=True)
+class WorstAngle:
+    """The angle of incidence at which a quantity is greatest.
+
+    Attributes:
+        quantity: column of the table.
+        angle: from x to the motion, counter-clockwise [rad].
+        value: the greatest value [SI].
+        case: number of its case.
+    """
+
+    quantity: str
+    angle: float
+    value: float
+    case: int
+
+
+@dataclass(frozen=True)
+class AngleStudy(StudyResult):
+    """The folder of a study over the angle of incidence."""
+
+    @property
+    def angle(self) -> npt.NDArray[np.float64]:
+        """The angle of every case, from x to the motion, counter-clockwise [rad]."""
+        return cast("npt.NDArray[np.float64]", self["angle_rad"])
+
+    def worst(self, quantity: str = "peak_force_n") -> WorstAngle:
+        """The first angle with the greatest value of a column, such as ``"A.base_torque_peak_n_m"``.
+
+        Raises:
+            ValueError: the column is a text, or empty.
+        """
+        import numpy as np
+
+        values = self[quantity]
+        if values.dtype == object or not np.isfinite(values).any():
+            raise ValueError(f"{quantity}: there are no numbers to compare")
+        case = int(np.nanargmax(values))
+        return WorstAngle(quantity, float(self.angle[case]), float(values[case]), case)
+
+
+def angles(
+    model: Model | str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    *,
+    step: Quantity = "5 deg",
+    start: Quantity = 0.0,
+    stop: Quantity | None = None,
+    quantities: Sequence[str] = (),
+    jobs: int | None = None,
+    progress: bool | Observer = False,
+    report: bool = True,
+) -> AngleStudy:
+    """Runs a model with plans at many angles of incidence, with and without contact, as ``jostle study angles``.
+
+    The same call resumes after any interruption. The report draws roses: quantities over the angle.
+
+    Args:
+        model: the model, or a model file.
+        out: folder of the results.
+        step: between neighbouring angles, > 0: ``"10 deg"``, or radians.
+        start: first angle, from x counter-clockwise.
+        stop: last angle; by default once around, which ends one step before the start.
+        quantities: columns to draw; by default forces, impacts and peaks of buildings.
+        jobs: threads; by default one per core.
+        progress: true shows a line or a bar; or a function called with the numbers of finished cases and of all cases.
+        report: true writes the report and its tables.
+
+    Raises:
+        ModelError: the model is wrong, or in one plane; the range is none.
+        OSError: a file cannot be written; finished cases are kept.
+    """
+    import math
+
+    def degrees(name: str, value: Quantity) -> float:
+        return math.degrees(in_si(name, value, "number"))
+
+    if not isinstance(model, Model):
+        model = Model.load(model)
+    first = degrees("start", start)
+    last = first + 360.0 if stop is None else degrees("stop", stop)
+    base = _base_of(model)
+    text, notes = _jostle.incidence(base, first, last, degrees("step", step), list(quantities))
+    study = Study.__new__(Study)
+    study._build("angles", text, False, os.getcwd(), base)
+    for note in notes:
+        warnings.warn(note, ModelWarning, stacklevel=2)
+    done = study.run(out, jobs=jobs, progress=progress, report=report)
+    return AngleStudy(study, done.folder)
+
+
+@dataclass(frozen=True)
 class RuleGap:
     """The gap that a rule requires, and the outcome with it.
 
@@ -417,8 +508,8 @@ def critical_gap(
 
 def _base_of(model: Model) -> _Base:
     """The text of a model, to vary it."""
-    how, arguments, motion, gap, pga, record = model._recipe
-    if not isinstance(how, str) or not (motion is gap is pga is record is None):
+    how, arguments, motion, gap, pga, record, angle = model._recipe
+    if not isinstance(how, str) or not (motion is gap is pga is record is angle is None):
         raise ModelError("model: a changed model cannot vary; give the original, and the changes as lists of one value")
     if how == "builtin":
         return (arguments[0], model._core.text, False, "")

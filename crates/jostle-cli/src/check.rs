@@ -1,6 +1,7 @@
 //! `jostle check`: checks a model and prints masses, periods, contacts and the expected work.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use jostle::eigen::Mode;
 use jostle::hysteresis::{Hysteresis, Side};
@@ -9,15 +10,22 @@ use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{Building, LinkLaw, Model, Plan, RiccatiSweep, Solver, System};
 
-use crate::args::ModelArgs;
+use crate::args::CheckArgs;
 use crate::failure::Failure;
+use crate::replace::Target;
 use crate::terminal;
-use jostle_run::Opened;
+use jostle_report::{SitePlace, site_svg};
 use jostle_run::{BOLD, LOUD, styled};
+use jostle_run::{FileKind, Opened};
 use jostle_run::{counted, grouped, mm};
 
-pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
-    let opened = args.open()?;
+/// Folder of results by default, and the name of the drawing of the site in it.
+const RESULTS: &str = "jostle-out";
+const SITE: &str = "site.svg";
+
+pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
+    let opened = args.model.open()?;
+    let site = site_file(args, &opened)?;
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = describe(&mut text, &opened.input.model, &opened.system);
@@ -50,7 +58,47 @@ pub(crate) fn check(args: &ModelArgs) -> Result<(), Failure> {
         );
     }
     text.push_str("The model is valid.");
-    terminal::print(&text)
+    terminal::print(&text)?;
+    match site {
+        Some(target) => draw_site(&target, &opened),
+        None => Ok(()),
+    }
+}
+
+/// Where the site is drawn: of models with plans, and only if a folder is named or the usual one may be written.
+fn site_file(args: &CheckArgs, opened: &Opened) -> Result<Option<Target>, Failure> {
+    if !opened.system.is_in_space() {
+        return match &args.out {
+            Some(_) => Err(Failure::Input(
+                "--out: only models with plans have a drawing of the site".into(),
+            )),
+            None => Ok(None),
+        };
+    }
+    let usual = || Path::new(RESULTS).join(&opened.name);
+    let folder = args.out.clone().unwrap_or_else(usual);
+    if let Err(error) = std::fs::create_dir_all(&folder) {
+        return match &args.out {
+            Some(_) => Err(Failure::Input(format!(
+                "--out: cannot make the folder {}: {error}",
+                folder.display()
+            ))),
+            // Nobody asked for a file.
+            None => Ok(None),
+        };
+    }
+    Target::new(&folder.join(SITE), FileKind::SITE, args.force).map(Some)
+}
+
+fn draw_site(target: &Target, opened: &Opened) -> Result<(), Failure> {
+    let motion = opened.input.motion.is_some() && opened.input.records().is_empty();
+    let motion = motion.then(|| opened.plan()).transpose()?;
+    let motion = motion.as_ref().map(|(motion, _)| motion);
+    let Some(drawing) = site_svg(&opened.input.model, &opened.system, motion) else {
+        return Ok(());
+    };
+    target.write(&drawing)?;
+    terminal::print(&format!("→ {}", target.path.display()))
 }
 
 /// The records that a run may choose from; each of them is read.
@@ -149,6 +197,7 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         }
         writeln!(text)?;
     }
+    let places = SitePlace::of_system(model, system);
     for (index, gap) in model.gaps.iter().enumerate() {
         let contacts: Vec<_> = system
             .contacts
@@ -202,7 +251,7 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
             gap.law.free_restitution()
         )?;
         if system.is_in_space() {
-            describe_faces(text, &contacts)?;
+            describe_places(text, model, index, &places)?;
             continue;
         }
         if let Some(contact) = contacts.last() {
@@ -308,37 +357,68 @@ fn faces_among(contacts: &[&jostle::interface::Contact]) -> usize {
     faces.len()
 }
 
-/// Faces and corners of two plans, floor by floor.
-fn describe_faces(text: &mut String, contacts: &[&jostle::interface::Contact]) -> std::fmt::Result {
-    writeln!(
-        text,
-        "  floors     kind     overlap      gap   normal          middle"
-    )?;
-    let mut points = contacts.iter().peekable();
-    while let Some(first) = points.next() {
-        let Some(place) = first.plan else {
-            continue;
-        };
-        let (mut last, mut gap) = (place, first.width);
-        while let Some(next) =
-            points.next_if(|next| next.plan.is_some_and(|own| own.face == place.face))
-        {
-            last = next.plan.unwrap_or(last);
-            gap = gap.min(next.width);
+/// Faces and corners between the plans of a gap, numbered as in the drawing of the site.
+fn describe_places(
+    text: &mut String,
+    model: &Model,
+    gap: usize,
+    places: &[SitePlace],
+) -> std::fmt::Result {
+    let own = places.iter().enumerate();
+    let own = own.filter(|(_, place)| place.gap_index == gap);
+    let rows: Vec<[String; 8]> = own
+        .map(|(number, place)| {
+            let [first, second] = place.parts_in_words(model);
+            [
+                (number + 1).to_string(),
+                place.kind.name().to_owned(),
+                first,
+                second,
+                place.floors_in_words(),
+                match place.overlap > 0.0 {
+                    true => format!("{:.3} m", place.overlap),
+                    false => "–".to_owned(),
+                },
+                place.gap_in_words(),
+                format!("{:+.3}, {:+.3}", place.normal[0], place.normal[1]),
+            ]
+        })
+        .collect();
+    let [left, right] = model.gaps[gap].between.map(|side| {
+        let building = side.and_then(|index| model.buildings.get(index));
+        building.map_or("", |building| &building.name)
+    });
+    let heads = [
+        "no.", "kind", left, right, "floors", "length", "gap", "normal",
+    ];
+    let width = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells
+            .chain([heads[column].chars().count()])
+            .max()
+            .unwrap_or(0)
+    };
+    let line = |text: &mut String, cells: [&str; 8], last: &str| {
+        let mut line = String::from(" ");
+        for (column, cell) in cells.into_iter().enumerate() {
+            let blanks = " ".repeat(width(column) - cell.chars().count());
+            // Numbers to the right, words to the left.
+            line += &match column {
+                0 | 5 | 6 => format!(" {blanks}{cell} "),
+                _ => format!(" {cell}{blanks} "),
+            };
         }
-        let [left, right] = first.ports.floors().map(|floor| floor.unwrap_or(0));
-        let middle = [0, 1].map(|axis| 0.5 * (place.at[axis] + last.at[axis]));
-        writeln!(
-            text,
-            "  {left:3} | {right:<3}  {:6}  {:7.3} m  {:6.1} mm   {:+.3}, {:+.3}  {:.3} m, {:.3} m",
-            place.kind.name(),
-            place.overlap,
-            gap * 1e3,
-            place.normal[0],
-            place.normal[1],
-            middle[0],
-            middle[1]
-        )?;
+        writeln!(text, "{}", format!("{line} {last}").trim_end())
+    };
+    line(text, heads, "middle")?;
+    for (row, (_, place)) in rows.iter().zip(
+        places
+            .iter()
+            .enumerate()
+            .filter(|(_, place)| place.gap_index == gap),
+    ) {
+        let middle = format!("{:.3} m, {:.3} m", place.middle[0], place.middle[1]);
+        line(text, row.each_ref().map(|cell| &cell[..]), &middle)?;
     }
     writeln!(text)
 }

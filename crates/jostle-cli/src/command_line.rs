@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use clap::{Parser, Subcommand};
 
 use crate::args::{
-    CollideArgs, CompletionsArgs, MethodArgs, ModelArgs, ModesArgs, NewArgs, PushoverArgs, RunArgs,
+    CheckArgs, CollideArgs, CompletionsArgs, MethodArgs, ModesArgs, NewArgs, PushoverArgs, RunArgs,
     SchemaArgs, SectionArgs,
 };
 
@@ -42,7 +42,7 @@ pub(crate) enum Command {
     /// Analyse a model and write summary, histories, impacts and a report
     Run(RunArgs),
     /// Check a model and print masses, periods, contacts and expected work, without running it
-    Check(ModelArgs),
+    Check(CheckArgs),
     /// Print natural periods, participation and mode shapes
     Modes(ModesArgs),
     /// Collide two free masses under one contact law, or under all laws

@@ -772,6 +772,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Study, "fragility", Tables(&[S::Fragility]), "Fragility curves to fit."),
     optional(S::Study, "ida", Tables(&[S::Ida]), "Curves of demand over intensity."),
     optional(S::Study, "sensitivity", Kind::Table(S::Sensitivity), "Results to rank."),
+    optional(S::Study, "rose", Kind::Any, "Columns to draw over the angle of the motion, where motion.angle varies; by default forces, impacts and peaks of buildings."),
     optional(S::Study, "selection", Kind::Table(S::Selection), "Code that the records are checked against."),
 
     required(S::Vary, "path", Kind::Any, "Key of the model file that is set, or a list of keys."),

@@ -46,6 +46,8 @@ pub struct StudyFile {
     pub idas: Vec<IdaWanted>,
     /// Columns whose sensitivity is wanted; empty leaves the choice to the study.
     pub responses: Vec<String>,
+    /// Columns drawn over the angle of the motion; empty leaves the choice to the study.
+    pub roses: Vec<String>,
     /// The code check of its records, if any.
     pub selection: Option<SelectionWanted>,
     /// The folder of the file, from where records are looked for.
@@ -250,6 +252,17 @@ fn read_root(
         let field = reader.get(&view, "responses")?;
         wanted::texts(reader, &field)
     });
+    let roses = reader.get(&view, "rose");
+    let roses = roses.and_then(|field| {
+        let texts = wanted::texts(reader, &field)?;
+        if !factors.iter().flatten().any(Factor::is_angle) {
+            *reader.bad(&field, "needs an angle that varies") = Some(
+                "add a [[vary]] with path = \"motion.angle\" and values = [\"0 deg\", \"30 deg\"]"
+                    .into(),
+            );
+        }
+        Some(texts)
+    });
     let selection = reader.get(&view, "selection");
     let selection = selection.and_then(|field| selection::read(reader, &field, folder));
     Some(tree?.map(|tree| StudyFile {
@@ -269,6 +282,7 @@ fn read_root(
         fragilities,
         idas,
         responses: responses.unwrap_or_default(),
+        roses: roses.unwrap_or_default(),
         selection,
         folder: folder.to_owned(),
         source: Arc::clone(source),

@@ -19,7 +19,7 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             .lateral_modes()
             .map(jostle::eigen::Mode::period)
             .collect();
-        json!({
+        let mut described = json!({
             "name": building.name,
             "kind": kind,
             "floor_heights_m": building.floor_heights(),
@@ -29,7 +29,13 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             "periods_s": periods,
             "rayleigh_alpha_per_s": assembled.equations.alpha,
             "rayleigh_beta_s": assembled.equations.beta,
-        })
+        });
+        if let Structure::Tiers(tiers) = &building.structure {
+            let plan =
+                |floor: &jostle::Tier| json!({ "corners_m": floor.plan, "centre_m": floor.centre });
+            described["plans"] = tiers.floors.iter().map(plan).collect();
+        }
+        described
     });
     let gaps = model.gaps.iter().enumerate().map(|(index, gap)| {
         let contacts = system

@@ -40,7 +40,7 @@ mod _jostle {
     #[pymodule_export]
     use super::run::{Run, run};
     #[pymodule_export]
-    use super::study::{Study, critical_gaps};
+    use super::study::{Study, critical_gaps, incidence};
     #[pymodule_export]
     use super::suite::{Suite, run_suite};
     #[pymodule_export]

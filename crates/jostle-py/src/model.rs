@@ -76,7 +76,7 @@ impl Model {
     }
 
     /// The same model with the given changes; a record by name keeps the scaling of the model.
-    #[pyo3(signature = (gap=None, pga=None, motion=None, record=None))]
+    #[pyo3(signature = (gap=None, pga=None, motion=None, record=None, angle=None))]
     fn changed(
         &self,
         py: Python<'_>,
@@ -84,6 +84,7 @@ impl Model {
         pga: Option<f64>,
         motion: Option<&Motion>,
         record: Option<String>,
+        angle: Option<f64>,
     ) -> PyResult<Self> {
         let mut input = Input::clone(&self.opened.input);
         if let Some(motion) = motion {
@@ -95,7 +96,7 @@ impl Model {
                 pga,
                 gap,
                 record,
-                angle: None,
+                angle,
             })
             .map_err(|error| argument_error(error.to_string()))?;
         let mut opened = if gap.is_some() {

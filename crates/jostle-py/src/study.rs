@@ -9,7 +9,7 @@ use std::time::Duration;
 use jostle::separation::{Code, JointSystem};
 use jostle_io::{Format, InputError, ModelTree, StudyFile};
 use jostle_study::dataset::{missing_parts, read_columns};
-use jostle_study::{GapError, GapSettings, Progress, RunSettings, StudyError};
+use jostle_study::{GapError, GapSettings, Incidence, Progress, RunSettings, StudyError};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
 use pyo3::prelude::*;
 
@@ -52,17 +52,13 @@ impl Study {
         text: &str,
         json: bool,
         folder: PathBuf,
-        base: Option<(String, String, bool, PathBuf)>,
+        base: Option<Base>,
     ) -> PyResult<Self> {
-        let format = |json| if json { Format::Json } else { Format::Toml };
         py.detach(|| {
-            let tree = |(name, text, json, folder): (String, String, bool, PathBuf)| {
-                ModelTree::parse(&name, &text, format(json), &folder)
-            };
             let file = base
-                .map(tree)
+                .map(tree_of)
                 .transpose()
-                .and_then(|base| StudyFile::parse(name, text, format(json), &folder, base));
+                .and_then(|base| StudyFile::parse(name, text, format_of(json), &folder, base));
             let study = file
                 .map_err(|error: InputError| StudyError::from(error))
                 .and_then(jostle_study::Study::new);
@@ -223,6 +219,43 @@ impl Study {
             .map_err(|error| study_error(&error))?;
         Ok(())
     }
+}
+
+/// Name, text, whether it is JSON, and folder of a model.
+type Base = (String, String, bool, PathBuf);
+
+fn format_of(json: bool) -> Format {
+    if json { Format::Json } else { Format::Toml }
+}
+
+fn tree_of((name, text, json, folder): Base) -> Result<ModelTree, InputError> {
+    ModelTree::parse(&name, &text, format_of(json), &folder)
+}
+
+/// Text of the study of the angle of incidence of a model, and what should be known about it. Angles are in degrees.
+#[pyfunction]
+pub(crate) fn incidence(
+    py: Python<'_>,
+    base: Base,
+    start: f64,
+    stop: f64,
+    step: f64,
+    quantities: Vec<String>,
+) -> PyResult<(String, Vec<String>)> {
+    // 30°, not 30.000000000000004°.
+    let rounded = |degrees: f64| (degrees * 1e9).round() / 1e9;
+    let wanted = Incidence {
+        from: rounded(start),
+        to: rounded(stop),
+        step: rounded(step),
+        quantities,
+    };
+    if let Err(problem) = wanted.angles() {
+        return Err(argument_error(format!("start, stop, step: {problem}")));
+    }
+    py.detach(|| jostle_study::incidence(tree_of(base)?, &wanted))
+        .map(|(file, notes)| (file.text().to_owned(), notes))
+        .map_err(|error| input_error(&error))
 }
 
 /// Lets Ctrl-C and the observer stop a study.

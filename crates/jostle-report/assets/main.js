@@ -2,7 +2,7 @@
 
 const byId = (id) => document.getElementById(id);
 
-let view, scene, hingeLegend, groups, player, above, beside, below, panels;
+let view, scene, space, orbits = [], hingeLegend, groups, player, above, beside, below, panels;
 const seek = (t) => player.seek(t);
 
 /** Builds the page around the run that is loaded. */
@@ -10,6 +10,9 @@ function start() {
   loadHinges();
   view = new TimeView(page.duration);
   scene = new Scene(byId("scene"));
+  // Only reports of buildings in space have these parts and their scripts.
+  if (byId("space")) space = new SpaceScene(byId("space"));
+  if (byId("orbits")) orbits = page.buildings.flatMap((building, i) => (building.plans ? [new Orbit(byId("orbits"), i)] : []));
   player = new Player(page.duration, showInstant);
   const charts = byId("time-charts");
   above = new ChartList(html("div", "", undefined, charts), view, seek);
@@ -67,6 +70,8 @@ function show() {
 
 function showInstant(t, following) {
   scene.draw(t);
+  space?.draw(t);
+  for (const orbit of orbits) orbit.draw(t);
   hingeLegend.draw(t);
   panels.draw(t);
   view.setCursor(t, following);
@@ -122,9 +127,11 @@ function bind() {
   const scrub = byId("scrub");
   scrub.addEventListener("input", () => seek(Number(scrub.value)));
   byId("play").addEventListener("click", () => player.toggle());
+  byId("space-play")?.addEventListener("click", () => player.toggle());
   player.onState = (playing) => {
     byId("play").classList.toggle("playing", playing);
     byId("play").setAttribute("aria-label", playing ? "Pause" : "Play");
+    if (space) byId("space-play").textContent = playing ? "Pause" : "Play";
   };
   speed.addEventListener("change", setSpeed);
   byId("next")?.addEventListener("click", () => jump(1));

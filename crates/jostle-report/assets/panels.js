@@ -83,6 +83,17 @@ function energyChart() {
   return { title: "Energy balance (stacked)", unit, series };
 }
 
+/** Displacement of a side of a face or corner in plan along its normal, at its middle. */
+function alongNormal(table, building, { plan, floors }, side) {
+  const floor = floors[side];
+  const [u, v, r] = ["u", "v", "r"].map((name) => table.columns.get(`${name}:${building}:${floor}`));
+  if (!u || !v || !r) return undefined;
+  const { centre } = page.buildings[building].plans[floor - 1];
+  const [dx, dy] = [0, 1].map((axis) => plan.at[axis] - centre[axis]);
+  const [nx, ny] = plan.normal;
+  return u.map((value, i) => nx * (value - r[i] * dy) + ny * (v[i] + r[i] * dx));
+}
+
 /** Both sides of a contact with and without pounding, and the closing between them. */
 function contactCharts(contact) {
   const sides = [0, 1].map((side) => {
@@ -92,7 +103,7 @@ function contactCharts(contact) {
     const column = wallOf(contact.gap, side)?.column;
     const wall = (table) => table && (table.columns.get(`u:${column}:0`) ?? new Float64Array(table.time.length));
     if (building === null) return { building, name, run: wall(run), without: wall(without) };
-    const of = (table) => table && displacementColumn(table, building, contact.floors[side], contact.height);
+    const of = (table) => table && (contact.plan ? alongNormal(table, building, contact, side) : displacementColumn(table, building, contact.floors[side], contact.height));
     return { building, name, run: of(run), without: of(without) };
   });
   if (sides.some((side) => !side.run)) return [];
@@ -119,13 +130,22 @@ function contactCharts(contact) {
   const name = contactName(contact);
   const bent = moving.some((side) => contact.floors[sides.indexOf(side)] === null);
   return [
-    { title: `Displacement, ${name}${bent ? " (straight lines between floors)" : ""}`, unit: "mm", series },
+    { title: `${contact.plan ? "Displacement along the normal" : "Displacement"}, ${name}${bent ? " (straight lines between floors)" : ""}`, unit: "mm", series },
     { title: `Closing, ${name}`, unit: "mm", series: closings, levels, zone: width },
   ];
 }
 
-function floorCharts(building, floor) {
-  const column = `u:${building}:${floor}`;
+/** What a floor does over time: displacements, and of floors with a plan rotation. */
+const FLOOR_CHARTS = [
+  ["u", "Displacement", "mm"],
+  ["v", "Displacement across", "mm"],
+  ["r", "Rotation", "mrad"],
+];
+
+const floorCharts = (building, floor) => FLOOR_CHARTS.flatMap((chart) => floorChart(building, floor, chart));
+
+function floorChart(building, floor, [letter, quantity, unit]) {
+  const column = `${letter}:${building}:${floor}`;
   const values = run.columns.get(column);
   if (!values) return [];
   const { name } = page.buildings[building];
@@ -135,7 +155,7 @@ function floorCharts(building, floor) {
     const free = scaled(without.columns.get(column) ?? new Float64Array(), 1e3);
     if (free.length) series.push({ label: "without", colour: colours(building), time: without.time, values: free, dashed: true });
   }
-  return [{ title: `Displacement, ${name}, ${where}`, unit: "mm", series }];
+  return [{ title: `${quantity}, ${name}, ${where}`, unit, series }];
 }
 
 /** Charts in a host, one for each description; those that are there take the new data over. */

@@ -14,6 +14,7 @@ mod diagrams;
 mod document;
 mod encode;
 mod envelope;
+mod face_pressure;
 mod facts;
 mod floor_spectra;
 mod format;
@@ -25,9 +26,12 @@ mod method;
 mod motion_page;
 mod page;
 mod payload;
+mod plan_motion;
 mod pushover;
 mod section;
 mod selection;
+mod site_drawing;
+mod site_places;
 mod site_plan;
 mod special;
 mod spread;
@@ -48,9 +52,11 @@ pub use motion_page::{MotionPage, render_motion};
 pub use pushover::{Demand, render_pushover};
 pub use section::render_sections;
 pub use selection::{CheckedStructure, SelectionPage, render_selection, selection_sections};
+pub use site_drawing::site_svg;
+pub use site_places::SitePlace;
 pub use study_page::{
-    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, SuitePage,
-    SuiteRow, render_study, render_suite,
+    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Petal, Rose, Section, Series, Stroke, StudyPage,
+    SuitePage, SuiteRow, render_study, render_suite,
 };
 pub use verdict::verdict;
 pub use viewer::{Frame, Viewer, frame};

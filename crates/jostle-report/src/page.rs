@@ -4,6 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
+use crate::site_drawing::SITE_STYLE;
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{
     Page, calculation, contact_box, describe, devices, floor_spectra, format, grounds, hinges,
@@ -21,6 +22,11 @@ pub(crate) const SCRIPTS: [&str; 9] = [
     include_str!("../assets/panels.js"),
     include_str!("../assets/impacts.js"),
     include_str!("../assets/main.js"),
+];
+/// Those of buildings in space, before the others.
+const IN_SPACE: [&str; 2] = [
+    include_str!("../assets/space.js"),
+    include_str!("../assets/orbits.js"),
 ];
 /// The whole page.
 pub(crate) fn page(page: &Page) -> Markup {
@@ -44,7 +50,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                 meta name="description" content=(headline);
                 title { (page.summary.title) " – jostle" }
                 link rel="icon" href="data:,";
-                style { (PreEscaped(STYLE)) (PreEscaped(CALCULATION_STYLE)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(CALCULATION_STYLE)) @if page.model.is_in_space() { (PreEscaped(SITE_STYLE)) } }
             }
             body {
                 (warnings(page))
@@ -62,6 +68,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if let Some(spread) = spread::section(page) { (spread) }
                     @if recorded {
                         (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), yields))
+                        @if let Some(space) = site_plan::space_section(page) { (space) }
                         (chart_section(page.without_contact.is_some() && !page.model.gaps.is_empty()))
                     } @else {
                         p.note { "No time histories were recorded, so there is no animation." }
@@ -111,7 +118,10 @@ pub(crate) fn page(page: &Page) -> Markup {
                     (player(page.summary.gaps.iter().any(|gap| gap.impact_count > 0)))
                     noscript { p.note { "The animation and the time charts need JavaScript." } }
                     script #page-data type="application/json" { (PreEscaped(payload::payload(page))) }
-                    script type="module" { (PreEscaped(SCRIPTS.concat())) }
+                    script type="module" {
+                        @if page.model.is_in_space() { (PreEscaped(IN_SPACE.concat())) }
+                        (PreEscaped(SCRIPTS.concat()))
+                    }
                 }
             }
         }

@@ -10,6 +10,7 @@ use crate::Page;
 use crate::devices::{self, side_column};
 use crate::encode::{Packed, Packer, thin_impacts, thin_rows};
 use crate::hinges::{self, Place};
+use crate::plan_motion::face_indentation;
 use crate::thin_loop::thin_loop;
 use crate::verdict::place;
 use crate::walls::{self, SceneWall};
@@ -69,6 +70,8 @@ struct Payload<'a> {
     loops: Vec<LoopData>,
     devices: Vec<DeviceData>,
     walls: Vec<SceneWall>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bearing: Option<BearingData>,
 }
 
 /// Building, kind (`c`, `b`, `s`), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
@@ -114,6 +117,9 @@ struct DeviceData {
 /// Shape of a building at rest.
 #[derive(Serialize)]
 struct Outline<'a> {
+    /// Plans of the floors, of buildings in space.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    plans: Vec<PlanData>,
     name: &'a str,
     frame: bool,
     /// Heights of the floors \[m\].
@@ -122,6 +128,15 @@ struct Outline<'a> {
     spans: Vec<f64>,
     /// Whether it stands on bearings.
     isolated: bool,
+}
+
+/// A floor from above.
+#[derive(Serialize)]
+struct PlanData {
+    /// Corners on the site, counter-clockwise \[m\].
+    corners: Vec<[f64; 2]>,
+    /// Centre of mass \[m\].
+    centre: [f64; 2],
 }
 
 #[derive(Serialize)]
@@ -144,6 +159,28 @@ struct ContactData {
     width: f64,
     peak: f64,
     impacts: usize,
+    /// Where it is in plan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plan: Option<ContactPlan>,
+}
+
+/// A face or a corner from above.
+#[derive(Serialize)]
+struct ContactPlan {
+    /// Middle \[m\].
+    at: [f64; 2],
+    /// Unit normal from the first building to the second.
+    normal: [f64; 2],
+    /// Length; zero for a corner \[m\].
+    length: f64,
+}
+
+/// Ground motion in plan.
+#[derive(Serialize)]
+struct BearingData {
+    /// From x to the motion \[rad\].
+    angle: f64,
+    across: Option<Series>,
 }
 
 /// A spring or damper between two points.
@@ -165,6 +202,9 @@ struct ImpactData {
     end: f64,
     peak: f64,
     at: f64,
+    /// Centre of pressure at the peak, of faces \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centre: Option<[f64; 2]>,
 }
 
 /// One quantity on instants of its own.
@@ -244,6 +284,13 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
         loops: loops(page, &places, &time, budget.loops, pack),
         devices: devices(page, &time, budget.loops, pack),
         walls,
+        bearing: page.model.is_in_space().then(|| BearingData {
+            angle: page.motion.bearing.as_ref().map_or(0.0, |own| own.angle),
+            across: page
+                .motion
+                .across()
+                .map(|across| ground(across, budget.ground, pack)),
+        }),
     };
     // Finite numbers and strings only: this cannot fail.
     serde_json::to_string(&payload).unwrap_or_else(|_| "{}".into())
@@ -352,7 +399,18 @@ fn outline(building: &Building) -> Outline<'_> {
         }
         Structure::Shear(_) | Structure::Given(_) => (false, vec![NOMINAL_WIDTH]),
     };
+    let plans = match &building.structure {
+        Structure::Tiers(tiers) => {
+            let plan = |floor: &jostle::Tier| PlanData {
+                corners: floor.plan.clone(),
+                centre: floor.centre,
+            };
+            tiers.floors.iter().map(plan).collect()
+        }
+        Structure::Frame(_) | Structure::Shear(_) | Structure::Given(_) => Vec::new(),
+    };
     Outline {
+        plans,
         name: &building.name,
         frame,
         heights: building.floor_heights(),
@@ -386,6 +444,11 @@ fn gaps(page: &Page, walls: &[SceneWall]) -> Vec<GapData> {
                         width: contact.width_m,
                         peak: contact.peak_force_n,
                         impacts: contact.impact_count,
+                        plan: contact.in_plan.map(|plan| ContactPlan {
+                            at: plan.plan_m,
+                            normal: plan.normal,
+                            length: plan.overlap_m,
+                        }),
                     }
                 })
                 .collect(),
@@ -517,6 +580,9 @@ fn indentation(
     if let Some(closing) = history.column(Column::Closing { contact: index }) {
         return Some(closing.iter().map(|u| u - contact.width_m).collect());
     }
+    if contact.in_plan.is_some() {
+        return face_indentation(model, history, gap, contact);
+    }
     let mut depths = vec![-contact.width_m; history.len()];
     for (side, sign) in [(0, 1.0), (1, -1.0)] {
         let Some(column) = side_column(model, gap.between[side], contact.floors[side])? else {
@@ -544,6 +610,7 @@ fn table(
         .into_iter()
         .filter_map(|(name, column)| Some((name, history.column(column)?)))
         .collect();
+    columns.extend(face_closings(page, history));
     if let Some(of_grounds) = history.column(Column::Energy(EnergyTerm::Ground)) {
         // What the other energies add up to.
         for (_, input) in columns.iter_mut().filter(|(name, _)| name == "e:input") {
@@ -559,7 +626,7 @@ fn table(
     }
     let always: Vec<usize> = columns
         .iter()
-        .filter(|(name, _)| name.starts_with(['u', 'c']))
+        .filter(|(name, _)| name.starts_with(['u', 'v', 'r', 'c']))
         .flat_map(|(_, values)| peaks(values))
         .collect();
     // An instant takes as much as two values.
@@ -573,6 +640,22 @@ fn table(
             .map(|(name, values)| (name, pack.values(rows.iter().map(|row| values[*row]))))
             .collect(),
     }
+}
+
+/// Closing of every face: its greatest indentation and the least gap of its points together \[m\].
+fn face_closings<'a>(
+    page: &'a Page,
+    history: &'a History,
+) -> impl Iterator<Item = (String, Vec<f64>)> + 'a {
+    let all = page.gaps().flat_map(|(summary, gap)| {
+        let contacts = summary.contacts.iter();
+        contacts.map(move |contact| (gap, contact))
+    });
+    all.enumerate().filter_map(|(index, (gap, contact))| {
+        let depths = face_indentation(page.model, history, gap, contact)?;
+        let closing = depths.into_iter().map(|depth| depth + contact.width_m);
+        Some((format!("c:{index}"), closing.collect()))
+    })
 }
 
 fn peaks(values: &[f64]) -> impl Iterator<Item = usize> {
@@ -592,6 +675,14 @@ fn wanted(page: &Page, history: &History, energies: bool) -> Vec<(String, Column
             ));
         }
     }
+    let turned = history.columns().iter().filter_map(|column| match column {
+        Column::DisplacementAcross { building, floor } => {
+            Some((format!("v:{building}:{floor}"), *column))
+        }
+        Column::Rotation { building, floor } => Some((format!("r:{building}:{floor}"), *column)),
+        _ => None,
+    });
+    wanted.extend(turned);
     let feet = history.columns().iter().filter_map(|column| match column {
         Column::Displacement { building, floor: 0 } => Some((format!("u:{building}:0"), *column)),
         _ => None,
@@ -635,6 +726,7 @@ fn impacts(summary: &Summary) -> Vec<ImpactData> {
                 end: impact.end_s,
                 peak: impact.peak_force_n,
                 at: impact.peak_force_at_s,
+                centre: impact.centre_m,
             })
         })
         .collect();

@@ -1,24 +1,21 @@
 //! Buildings in space seen from above: plans, faces with their forces, paths of roof corners, and peaks across and in
 //! rotation.
 
-use jostle::{Column, PlanPoint, Structure, Tiers};
+use jostle::{Column, PlanPoint, Tiers};
 use maud::{Markup, html};
 
 use crate::document::colour;
-use crate::static_plot::{Line, Plot};
-use crate::{Page, format};
+use crate::site_drawing::{self, Scale, WIDTH, tiers};
+use crate::site_places::SitePlace;
+use crate::static_plot::{Line, Plot, thinned_to};
+use crate::{Page, face_pressure, format};
 
-/// Width of the drawing, and the margin around the site.
-const WIDTH: f64 = 760.0;
-const MARGIN: f64 = 56.0;
-/// Height of the arrows of the motion below it.
-const ARROWS: f64 = 44.0;
-/// Greatest height of the drawing.
-const TALLEST: f64 = 560.0;
 /// Length of the longest path of a corner in the drawing, as a part of the site.
 const PATH: f64 = 0.12;
 /// Points of a path.
-const POINTS: usize = 600;
+const POINTS: usize = 300;
+/// Points of a history; with all of several buildings the page would be large.
+const IN_HISTORY: usize = 500;
 
 /// The section; `None` in one plane.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
@@ -28,6 +25,8 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                 h2 { "Seen from above" }
                 (drawing(page))
                 (faces(page))
+                (face_pressure::figures(page))
+                @if page.history.len() > 1 { (orbits(page)) }
                 (peaks(page))
                 (histories(page))
             }
@@ -35,163 +34,28 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     })
 }
 
-fn tiers<'a>(page: &Page<'a>) -> impl Iterator<Item = (usize, &'a Tiers)> {
-    let buildings = page.model.buildings.iter().enumerate();
-    buildings.filter_map(|(index, building)| match &building.structure {
-        Structure::Tiers(tiers) => Some((index, tiers)),
-        _ => None,
-    })
-}
-
-/// From the site to the drawing: y upwards.
-struct Scale {
-    from: PlanPoint,
-    top: f64,
-    factor: f64,
-}
-
-impl Scale {
-    fn new(page: &Page) -> Option<(Self, f64)> {
-        let corners =
-            || tiers(page).flat_map(|(_, tiers)| tiers.floors.iter().flat_map(|f| &f.plan));
-        let range = |axis: usize| {
-            let values = corners().map(|corner| corner[axis]);
-            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| {
-                [a.min(v), b.max(v)]
-            })
-        };
-        let [x, y] = [range(0), range(1)];
-        let (wide, deep) = (x[1] - x[0], y[1] - y[0]);
-        if !(wide > 0.0 && deep > 0.0) {
-            return None;
-        }
-        let factor = ((WIDTH - 2.0 * MARGIN) / wide).min((TALLEST - 2.0 * MARGIN) / deep);
-        let height = factor * deep + 2.0 * MARGIN + ARROWS;
-        let from = [x[0] - (WIDTH / factor - wide) / 2.0, y[0]];
-        Some((
-            Self {
-                from,
-                top: height - MARGIN - ARROWS,
-                factor,
-            },
-            height,
-        ))
-    }
-
-    fn place(&self, [x, y]: PlanPoint) -> [f64; 2] {
-        [
-            (x - self.from[0]) * self.factor,
-            self.top - (y - self.from[1]) * self.factor,
-        ]
-    }
-
-    fn path(&self, points: impl Iterator<Item = PlanPoint>) -> String {
-        let list: Vec<String> = points
-            .map(|point| {
-                let [x, y] = self.place(point);
-                format!("{x:.1},{y:.1}")
-            })
-            .collect();
-        list.join(" ")
-    }
-}
-
 fn drawing(page: &Page) -> Markup {
-    let Some((scale, height)) = Scale::new(page) else {
+    let Some(scale) = Scale::new(page.model) else {
         return html! {};
     };
     let paths = corner_paths(page, WIDTH / scale.factor);
+    let beneath = html! {
+        @if let Some((paths, _)) = &paths {
+            @for (index, path) in paths {
+                g style=(colour(*index)) { polyline.path points=(scale.path(path.iter().copied())) {} }
+            }
+        }
+    };
+    let places = SitePlace::of_run(page.model, page.summary);
     html! {
         figure.static-plot {
             figcaption {
                 span.chart-title { "Site plan" }
                 @if let Some((_, times)) = &paths { span.quiet { "  paths of roof corners " (format::plain(*times, 3)) " times as large" } }
             }
-            svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label="Plans of the buildings, faces that can touch, and paths of roof corners" {
-                @for (index, tiers) in tiers(page) {
-                    g style=(colour(index)) {
-                        @for (floor, tier) in tiers.floors.iter().enumerate() {
-                            // Equal floors are drawn once.
-                            @if floor == 0 || tiers.floors[floor - 1].plan != tier.plan {
-                                polygon.plan points=(scale.path(tier.plan.iter().copied())) {}
-                            }
-                        }
-                        @for frame in &tiers.frames {
-                            @let lines = (0..frame.column_lines()).map(|line| frame.line_at(line));
-                            polyline.frame fill="none" points=(scale.path(lines.clone())) { title { "frame " (frame.name) } }
-                            @for line in lines {
-                                @let [x, y] = scale.place(line);
-                                rect.column x=(format!("{:.1}", x - 2.5)) y=(format!("{:.1}", y - 2.5)) width="5" height="5" {}
-                            }
-                        }
-                        @if let Some(tier) = tiers.floors.first() {
-                            @let [x, y] = scale.place(tier.centre);
-                            circle.mass cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="4" { title { "centre of mass" } }
-                            @if let Some(storey) = tiers.storeys.first() {
-                                @let [sx, sy] = scale.place(storey.centre);
-                                rect.stiffness x=(format!("{:.1}", sx - 3.5)) y=(format!("{:.1}", sy - 3.5)) width="7" height="7" { title { "centre of stiffness" } }
-                            }
-                            text x=(format!("{:.1}", x + 8.0)) y=(format!("{:.1}", y - 8.0)) { (page.model.buildings[index].name) }
-                        }
-                    }
-                }
-                @if let Some((paths, _)) = &paths {
-                    @for (index, path) in paths {
-                        g style=(colour(*index)) { polyline.path points=(scale.path(path.iter().copied())) {} }
-                    }
-                }
-                (face_marks(page, &scale))
-                (motion_marks(page, height))
-            }
+            (site_drawing::drawing(page.model, &scale, &places, Some(page.motion), &beneath))
         }
-        p.quiet { "Circles: centres of mass; squares: centres of stiffness of the lowest storey; bars: faces, as thick as their greatest force; dots: corners that can strike an edge." }
-    }
-}
-
-/// All faces, as thick as their greatest force, and corners as dots.
-fn face_marks(page: &Page, scale: &Scale) -> Markup {
-    let contacts = || page.summary.gaps.iter().flat_map(|gap| &gap.contacts);
-    let most = contacts()
-        .map(|contact| contact.peak_force_n)
-        .fold(1.0, f64::max);
-    html! {
-        @for contact in contacts() {
-            @if let Some(plan) = contact.in_plan {
-                @let half = 0.5 * plan.overlap_m;
-                @let along = [-plan.normal[1] * half, plan.normal[0] * half];
-                @let [x1, y1] = scale.place([plan.plan_m[0] - along[0], plan.plan_m[1] - along[1]]);
-                @let [x2, y2] = scale.place([plan.plan_m[0] + along[0], plan.plan_m[1] + along[1]]);
-                @let thick = 1.0 + 6.0 * contact.peak_force_n / most;
-                @if half > 0.0 {
-                    line.face x1=(format!("{x1:.1}")) y1=(format!("{y1:.1}")) x2=(format!("{x2:.1}")) y2=(format!("{y2:.1}")) stroke-width=(format!("{thick:.1}")) {
-                        title { "floors " (pair(contact.floors)) ": peak " (format::force(contact.peak_force_n)) }
-                    }
-                } @else {
-                    circle.face cx=(format!("{x1:.1}")) cy=(format!("{y1:.1}")) r="4" {}
-                }
-            }
-        }
-    }
-}
-
-/// Arrows of the motion and of the one across.
-fn motion_marks(page: &Page, height: f64) -> Markup {
-    let bearing = page.motion.bearing.as_ref();
-    let angle = bearing.map_or(0.0, |bearing| bearing.angle);
-    let across = bearing.is_some_and(|bearing| bearing.across.is_some());
-    let (x, y) = (MARGIN, height - 34.0);
-    let arrow = |angle: f64, name: &str| {
-        let (sin, cos) = angle.sin_cos();
-        let (tip_x, tip_y) = (x + 30.0 * cos, y - 30.0 * sin);
-        html! {
-            line.motion x1=(format!("{x:.1}")) y1=(format!("{y:.1}")) x2=(format!("{tip_x:.1}")) y2=(format!("{tip_y:.1}")) {}
-            circle.motion cx=(format!("{tip_x:.1}")) cy=(format!("{tip_y:.1}")) r="2.5" {}
-            text.quiet x=(format!("{:.1}", tip_x + 6.0)) y=(format!("{:.1}", tip_y + 4.0)) { (name) }
-        }
-    };
-    html! {
-        (arrow(angle, "motion"))
-        @if across { (arrow(angle + std::f64::consts::FRAC_PI_2, "across")) }
+        p.quiet { "Filled circles: centres of mass; squares: centres of stiffness of the lowest storey; bars: faces, as thick as their greatest force, with their normal and gap; dots: corners that can strike. Small numbers count the corners of each plan." }
     }
 }
 
@@ -201,7 +65,7 @@ type CornerPaths = Vec<(usize, Vec<PlanPoint>)>;
 /// Paths of the roof corners, exaggerated so that the longest is a given part of the site, and by how much.
 fn corner_paths(page: &Page, site: f64) -> Option<(CornerPaths, f64)> {
     let mut all: Vec<(usize, PlanPoint, Vec<PlanPoint>)> = Vec::new();
-    for (building, tiers) in tiers(page) {
+    for (building, _, tiers) in tiers(page.model) {
         let floor = tiers.floors.len();
         let column = |column| page.history.column(column);
         let x = column(Column::Displacement { building, floor })?;
@@ -233,6 +97,46 @@ fn corner_paths(page: &Page, site: f64) -> Option<(CornerPaths, f64)> {
         (building, shifted.collect())
     });
     Some((paths.collect(), times))
+}
+
+/// Where the scripts draw orbits of corners.
+fn orbits(page: &Page) -> Markup {
+    html! {
+        h3 { "Paths of corners" }
+        p.quiet {
+            "Displacement of a corner relative to the ground, x to the right and y upwards, both to the same scale; the dot moves with the time of the page."
+            @if page.without_contact.is_some() { " Dashed: the same buildings without contact." }
+        }
+        div #orbits.multiples {}
+    }
+}
+
+/// The scene in three dimensions, which the scripts draw.
+pub(crate) fn space_section(page: &Page) -> Option<Markup> {
+    (page.model.is_in_space() && page.history.len() > 1).then(|| {
+        html! {
+            section #in-space {
+                h2 { "How they move in space" }
+                div #space.stage {}
+                div.controls {
+                    button #space-play type="button" { "Play" }
+                    span.buttons role="group" aria-label="View" {
+                        button #space-oblique type="button" { "From the side" }
+                        button #space-above type="button" { "From above" }
+                    }
+                    label { "Exaggeration "
+                        input #space-exaggeration type="range" min="0" max="2.5" step="0.01" value="1";
+                        output #space-exaggeration-value for="space-exaggeration" { "10×" }
+                    }
+                    label { input #space-names type="checkbox" checked; " forces in kN" }
+                }
+                p.quiet {
+                    "Drag to turn the view, also by touch or with the arrow keys; the wheel zooms. To scale; displacements, rotations and gaps are exaggerated by the same factor. "
+                    "Dots: ends of faces and corners, with thin arrows along their normals; red arrows: contact forces on either building, along the normal and at the centre of pressure of the impact; the bar across them: slip along the face since rest. The black arrow on the ground is the ground acceleration."
+                }
+            }
+        }
+    })
 }
 
 fn pair(floors: [Option<usize>; 2]) -> String {
@@ -311,23 +215,40 @@ fn peaks(page: &Page) -> Markup {
 
 /// Roof displacements across and rotations over time.
 fn histories(page: &Page) -> Markup {
-    let Some(times) = page.history.column(Column::Time) else {
-        return html! {};
-    };
     let lines = |of: fn(usize, usize) -> Column, factor: f64| -> Vec<Line> {
-        let line = |(building, tiers): (usize, &Tiers)| {
-            let values = page.history.column(of(building, tiers.floors.len()))?;
-            let points = times.iter().zip(values);
-            Some(Line {
-                name: page.model.buildings[building].name.clone(),
-                points: points
-                    .map(|(time, value)| [*time, factor * value])
-                    .collect(),
-                colour: building,
-                dashed: false,
-            })
+        let of_run = |history: &jostle::History, free: bool| -> Vec<Line> {
+            let Some(times) = history.column(Column::Time) else {
+                return Vec::new();
+            };
+            let line = |(building, _, tiers): (usize, &jostle::Building, &Tiers)| {
+                let values = history.column(of(building, tiers.floors.len()))?;
+                let points = times.iter().zip(values);
+                let name = &page.model.buildings[building].name;
+                Some(Line {
+                    name: match free {
+                        true => format!("{name} without contact"),
+                        false => name.clone(),
+                    },
+                    points: thinned_to(
+                        &points
+                            .map(|(time, value)| [*time, factor * value])
+                            .collect::<Vec<_>>(),
+                        IN_HISTORY,
+                    ),
+                    colour: building,
+                    dashed: free,
+                })
+            };
+            tiers(page.model).filter_map(line).collect()
         };
-        tiers(page).filter_map(line).collect()
+        let mut lines = of_run(page.history, false);
+        let without = page.without_contact.filter(|_| !page.model.gaps.is_empty());
+        lines.extend(
+            without
+                .into_iter()
+                .flat_map(|history| of_run(history, true)),
+        );
+        lines
     };
     let plot = |title: &str, y_label: &str, lines: Vec<Line>| Plot {
         title: title.to_owned(),

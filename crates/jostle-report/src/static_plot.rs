@@ -152,12 +152,17 @@ fn decades(low: f64, high: f64) -> Vec<f64> {
         .collect()
 }
 
-/// A line of so many points that paper can show them: of every part the least and the greatest.
+/// A line of so many points that paper can show them.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    if points.len() <= POINTS {
+    thinned_to(points, POINTS)
+}
+
+/// A line of at most so many points: of every part the least and the greatest.
+pub(crate) fn thinned_to(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
+    if points.len() <= most {
         return points.to_vec();
     }
-    let part = points.len().div_ceil(POINTS / 2);
+    let part = points.len().div_ceil(most / 2);
     let extremes = points.chunks(part).flat_map(|part| {
         let value = |p: &&[f64; 2]| p[1];
         let low = part.iter().min_by(|a, b| value(a).total_cmp(&value(b)));

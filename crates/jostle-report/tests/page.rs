@@ -5,6 +5,7 @@
     reason = "a test stops at the first surprise, helpers included"
 )]
 
+#[allow(dead_code, reason = "other tests use the rest")]
 mod fixture;
 
 use std::time::Instant;

@@ -1,7 +1,8 @@
 //! The page of a study is one file with every number on it.
 
 use jostle_report::{
-    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Section, Series, Stroke, StudyPage, render_study,
+    Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Petal, Rose, Section, Series, Stroke, StudyPage,
+    render_study,
 };
 
 fn axis(name: &str, unit: &str) -> Axis {
@@ -66,6 +67,16 @@ fn page() -> StudyPage {
                 }],
                 legend: ["low".into(), "high".into()],
             }],
+            roses: vec![Rose {
+                title: "Base shear".into(),
+                value: axis("base shear", "kN"),
+                petals: vec![Petal {
+                    name: "J1".into(),
+                    points: vec![[0.0, 120.0], [120.0, 250.0], [240.0, 90.0]],
+                    colour: 0,
+                    dashed: false,
+                }],
+            }],
             table: Some((
                 vec!["curve".into(), "median".into(), "β".into()],
                 vec![vec!["gap 10 mm".into(), "cannot be fitted".into()]],
@@ -91,6 +102,10 @@ fn the_page_is_whole_and_loads_nothing() {
         "cannot be fitted",
         "&quot;J1&quot; collapses",
         "jostle study study.toml --case NUMBER",
+        "Base shear [kN]",
+        "J1 120°: 250 kN",
+        "J1: 250 kN at 120°",
+        "90° y",
     ] {
         assert!(text.contains(part), "{part} is missing");
     }

@@ -45,6 +45,11 @@ impl FileKind {
         name: "live page of jostle",
         marks: &["<html", " – jostle live</title>"],
     };
+    /// Drawings of the site.
+    pub const SITE: Self = Self {
+        name: "drawing of jostle",
+        marks: &["<svg ", "class=\"site\""],
+    };
     /// Pages of sections.
     pub const SECTIONS: Self = Self {
         name: "page of sections that jostle wrote",

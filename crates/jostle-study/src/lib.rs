@@ -27,7 +27,7 @@ pub use jostle_run::{
     CaseCache, CaseError, CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps,
 };
 pub use layout::{Column, Kind, Layout, Named};
-pub use ready_made::{ready_made, ready_made_names};
+pub use ready_made::{Incidence, incidence, ready_made, ready_made_names};
 pub use results::finish;
 pub use row::{Row, Status};
 pub use runner::{Done, Progress, RunSettings, run, run_folder};

@@ -1,6 +1,7 @@
 //! Engineering demand parameters of a run, by name: the results of a row of a study.
 
 use jostle::quantity::Read;
+use jostle::results::in_plan::{BuildingInPlan, FloorInPlan};
 use jostle::results::response::{BuildingResponse, FloorResponse};
 use jostle::results::summary::{
     BuildingSummary, CapacitySummary, ContactSummary, EnergySummary, GapSummary, LinkSummary,
@@ -90,8 +91,14 @@ pub(crate) fn measures(summary: &Summary, motion: &GroundMotion, compares: bool)
         if compares {
             list.add(&format!("{pair}."), GapSummary::WITHOUT_CONTACT, gap);
         }
-        for contact in &gap.contacts {
+        for (index, contact) in gap.contacts.iter().enumerate() {
+            let same = |other: &&ContactSummary| other.floors == contact.floors;
             let place = match contact.floors {
+                // Several faces and corners of the same two floors are numbered.
+                [Some(left), Some(right)] if gap.contacts.iter().filter(same).count() > 1 => {
+                    let before = gap.contacts[..index].iter().filter(same).count();
+                    format!("{pair}.floor{left}-{right}.face{}.", before + 1)
+                }
                 [Some(left), Some(right)] => format!("{pair}.floor{left}-{right}."),
                 _ => format!("{pair}.at{:.0}mm.", 1e3 * contact.height_m),
             };
@@ -127,6 +134,10 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
     let yields = building.hinges.total > 0;
     let response = (&building.response, building.without_contact.as_ref());
     list.add_response(&place, BuildingResponse::QUANTITIES, response, yields);
+    if let Some(plan) = &building.in_plan {
+        let response = (plan, building.without_contact_in_plan.as_ref());
+        list.add_response(&place, BuildingInPlan::QUANTITIES, response, yields);
+    }
     if let Some(capacity) = &building.capacity {
         let place = format!("{place}capacity_");
         list.add(&place, CapacitySummary::QUANTITIES, capacity);
@@ -135,6 +146,9 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
         let place = format!("{place}floor{}.", floor.floor);
         let response = (&floor.response, floor.without_contact.as_ref());
         list.add_response(&place, FloorResponse::QUANTITIES, response, yields);
+        if let Some(plan) = &floor.in_plan {
+            list.add(&place, FloorInPlan::QUANTITIES, plan);
+        }
     }
 }
 

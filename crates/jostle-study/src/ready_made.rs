@@ -1,5 +1,6 @@
 //! Ready-made studies: each is written for the model that it varies, around the values of the model.
 
+mod angles;
 mod factors;
 
 use std::path::Path;
@@ -8,17 +9,22 @@ use jostle::System;
 use jostle_io::{Format, Input, InputError, ModelTree, StudyFile};
 
 use crate::study::Study;
+pub use angles::{Incidence, incidence};
 use factors::{Block, Spread};
 
 /// Names of the ready-made studies, and what their files begin with.
-const STUDIES: [(&str, &str); 6] = [
+const STUDIES: [(&str, &str); 7] = [
     ("table2", TABLE2),
     ("gap-sweep", GAP_SWEEP),
     ("ida", IDA),
     ("fragility", FRAGILITY),
     ("sensitivity", SENSITIVITY),
     ("tornado", TORNADO),
+    (ANGLES, ""),
 ];
+
+/// Name of [`incidence`] among them.
+const ANGLES: &str = "angles";
 
 const TABLE2: &str = r#"# The grid of Zhang et al. (2019), Table 2: four peaks, and a range of gaps.
 #
@@ -93,6 +99,9 @@ pub fn ready_made(
         Some(tree) => tree,
         None => ModelTree::builtin("paper")?,
     };
+    if name == ANGLES {
+        return incidence(tree, &Incidence::default());
+    }
     let input = tree.input()?;
     System::assemble(&input.model).map_err(|faults| input.faults(faults))?;
     let known = STUDIES.iter().find(|(known, _)| *known == name);

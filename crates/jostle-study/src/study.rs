@@ -167,6 +167,7 @@ impl Study {
             .responses
             .iter()
             .try_for_each(|name| missing(name))?;
+        self.file.roses.iter().try_for_each(|name| missing(name))?;
         if let Some(case) = self
             .file
             .histories

@@ -105,7 +105,11 @@ fn every_study_keeps_the_records_and_says_what_it_varies() {
         "\"el-centro-1940-ns\"",
         "[\"nanjing-artificial\", \"el-centro-1940-ns\"]",
     );
-    for name in ready_made_names() {
+    // That of angles needs buildings with a plan, and has tests of its own.
+    let names = ready_made_names()
+        .into_iter()
+        .filter(|name| *name != "angles");
+    for name in names {
         for (text, records) in [
             (OWN, &["el-centro-1940-ns"][..]),
             (&two, &["nanjing-artificial", "el-centro-1940-ns"]),

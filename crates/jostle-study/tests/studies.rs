@@ -449,7 +449,9 @@ values = [[9e7], [9e7, 9e7, 9e7]]
 
 #[test]
 fn ready_made_studies_are_valid() {
-    for name in jostle_study::ready_made_names() {
+    // The built-in example has no plan to turn.
+    let names = jostle_study::ready_made_names().into_iter();
+    for name in names.filter(|name| *name != "angles") {
         let (file, notes) =
             jostle_study::ready_made(name, None).unwrap_or_else(|error| panic!("{error}"));
         assert!(notes.is_empty(), "{name}: {notes:?}");

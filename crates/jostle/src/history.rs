@@ -1,6 +1,7 @@
 //! Results of a run: time histories, impacts, peaks, energies and work.
 
 use crate::hysteresis::{HysteresisMemory, Stage};
+use crate::interface::MOST_POINTS;
 use crate::quantity::Unit;
 use crate::system::System;
 
@@ -446,6 +447,8 @@ pub struct FaceImpact {
     pub peak_force: Extreme,
     /// Centre of pressure then, on the site \[m\].
     pub centre: [f64; 2],
+    /// Forces of its points then, in the order of the points of the face; zeros beyond the last \[N\].
+    pub point_forces: [f64; MOST_POINTS],
     /// Greatest total friction force along the face, either sign, and its instant \[N\].
     pub peak_friction: Extreme,
 }
@@ -459,6 +462,7 @@ impl FaceImpact {
             end: start,
             peak_force: Extreme::default(),
             centre: [0.0; 2],
+            point_forces: [0.0; MOST_POINTS],
             peak_friction: Extreme::default(),
         }
     }

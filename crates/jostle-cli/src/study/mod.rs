@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use jostle_io::{ModelTree, StudyFile};
+use jostle_io::{Dimension, ModelTree, StudyFile, parse_option};
 use jostle_study::{
-    Done, RunSettings, Study, StudyError, of_folder, run, run_case, run_folder, settle, varied,
+    Done, Incidence, RunSettings, Study, StudyError, of_folder, run, run_case, run_folder, settle,
+    varied,
 };
 
 use crate::failure::Failure;
@@ -18,18 +19,36 @@ use jostle_run::{counted_grouped, grouped};
 
 /// Default folder of results.
 const RESULTS: &str = "jostle-out";
+/// Name of the study with options of its own.
+const ANGLES: &str = "angles";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "The same command resumes after any interruption.\n\
-                  Ready-made studies: table2, gap-sweep, ida, fragility, sensitivity, tornado;\n  \
-                  jostle study gap-sweep --base model.toml")]
+                  Ready-made studies: table2, gap-sweep, ida, fragility, sensitivity, tornado, angles;\n  \
+                  jostle study gap-sweep model.toml\n  \
+                  jostle study angles model.toml --step 10deg")]
 pub(crate) struct StudyArgs {
     /// Study file (TOML or JSON), the name of a ready-made study, or a results folder to continue
     study: PathBuf,
+    /// Model of a ready-made study: a file, or the name of a built-in example; as --base
+    #[arg(conflicts_with = "base")]
+    model: Option<PathBuf>,
+    /// angles: step between angles of incidence [default: 5deg]
+    #[arg(long, value_name = "QUANTITY")]
+    step: Option<String>,
+    /// angles: first angle, from x counter-clockwise [default: 0deg]
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
+    from: Option<String>,
+    /// angles: last angle [default: once around]
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
+    to: Option<String>,
+    /// angles: draw this column of the table over the angle; may be repeated [default: forces, impacts, peaks of buildings]
+    #[arg(long, value_name = "COLUMN")]
+    quantity: Vec<String>,
     /// Use this base model: a file, or the name of a built-in example
     #[arg(long, value_name = "MODEL")]
     base: Option<PathBuf>,
-    /// Folder for the results [default: jostle-out/STUDY]
+    /// Folder for the results [default: jostle-out/STUDY, for a ready-made study of a named model jostle-out/MODEL-STUDY]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Number of threads [default: one per core]
@@ -134,8 +153,20 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
     }
     let named = path.to_str().filter(|_| !path.exists());
     let ready = named.filter(|name| jostle_study::ready_made_names().contains(name));
+    if let (None, Some(model)) = (ready, &args.model) {
+        return Err(Failure::Input(format!(
+            "{}: only ready-made studies take a model, and {} is none; give the base model of a study file with --base",
+            model.display(),
+            path.display()
+        )));
+    }
+    let incidence = args.incidence(ready)?;
+    let stem = args.model.as_ref().and_then(|model| model.file_stem());
     let name = match (ready, path.file_stem()) {
-        (Some(name), _) => name.to_owned(),
+        (Some(name), _) => match stem {
+            Some(model) => format!("{}-{name}", model.to_string_lossy()),
+            None => name.to_owned(),
+        },
         (None, Some(stem)) => stem.to_string_lossy().into_owned(),
         (None, None) => "study".to_owned(),
     };
@@ -146,6 +177,7 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
     // A single case belongs to the results in the folder: it has their base model.
     if !args.case.is_empty()
         && args.base.is_none()
+        && args.model.is_none()
         && let Some(known) = of_folder(&out)?
     {
         let same = match ready {
@@ -156,14 +188,62 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
             return Ok((known, out));
         }
     }
-    let base = args.base.as_deref().map(ModelTree::find).transpose()?;
-    let (file, notes) = match ready {
-        Some(name) => jostle_study::ready_made(name, base)?,
-        None => (StudyFile::load(path, base)?, Vec::new()),
+    let base = args.base.as_deref().or(args.model.as_deref());
+    let base = base.map(ModelTree::find).transpose()?;
+    let (file, notes) = match (ready, base) {
+        (Some(ANGLES), None) => {
+            return Err(Failure::Input(
+                "angles: name a model whose buildings have a plan: jostle study angles model.toml"
+                    .into(),
+            ));
+        }
+        (Some(ANGLES), Some(base)) => jostle_study::incidence(base, &incidence)?,
+        (Some(name), base) => jostle_study::ready_made(name, base)?,
+        (None, base) => (StudyFile::load(path, base)?, Vec::new()),
     };
     let mut study = Study::new(file)?;
     study.warnings.extend(notes);
     Ok((study, out))
+}
+
+impl StudyArgs {
+    /// Range of angles; refused for other studies.
+    fn incidence(&self, ready: Option<&str>) -> Result<Incidence, Failure> {
+        let options = [
+            ("--step", &self.step),
+            ("--from", &self.from),
+            ("--to", &self.to),
+        ];
+        if ready != Some(ANGLES) {
+            let given = options.iter().find(|(_, value)| value.is_some());
+            let quantity = (!self.quantity.is_empty()).then_some("--quantity");
+            if let Some(name) = given.map(|(name, _)| *name).or(quantity) {
+                return Err(Failure::Input(format!(
+                    "{name}: belongs to jostle study angles; study files say what varies themselves"
+                )));
+            }
+        }
+        let angle = |index: usize| -> Result<Option<f64>, Failure> {
+            let (name, value) = options[index];
+            let Some(text) = value else { return Ok(None) };
+            let parsed = parse_option(name, text, Dimension::Dimensionless);
+            let radians = parsed.map_err(Failure::Input)?;
+            // 30 deg is not 30.000000000000004°.
+            Ok(Some((radians.to_degrees() * 1e9).round() / 1e9))
+        };
+        let usual = Incidence::default();
+        let from = angle(1)?.unwrap_or(usual.from);
+        let incidence = Incidence {
+            from,
+            to: angle(2)?.unwrap_or(from + usual.to),
+            step: angle(0)?.unwrap_or(usual.step),
+            quantities: self.quantity.clone(),
+        };
+        if let Err(problem) = incidence.angles() {
+            return Err(Failure::Input(format!("--from, --to, --step: {problem}")));
+        }
+        Ok(incidence)
+    }
 }
 
 fn headline(study: &Study) -> String {

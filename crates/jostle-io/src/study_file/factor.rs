@@ -31,6 +31,16 @@ pub struct Factor {
 }
 
 impl Factor {
+    /// Whether it is the angle of the motion in plan, in numbers.
+    #[must_use]
+    pub fn is_angle(&self) -> bool {
+        let is_numeric = match &self.values {
+            FactorValues::Listed(levels) => levels.iter().all(|level| level.number.is_some()),
+            FactorValues::Drawn(_) => true,
+        };
+        is_numeric && !self.multiplies && self.paths.iter().any(|path| path == ANGLE)
+    }
+
     /// Whether its values decide which motion a case has.
     pub(super) fn chooses_motion(&self) -> bool {
         let mut paths = self.paths.iter();
@@ -66,6 +76,8 @@ pub(super) struct Measured {
     pub(super) size: f64,
 }
 
+/// Path of the angle of the motion of a model.
+const ANGLE: &str = "motion.angle";
 /// Path of the record of a model.
 const RECORD: &str = "motion.record";
 

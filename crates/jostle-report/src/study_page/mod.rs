@@ -3,6 +3,7 @@
 mod bars;
 mod chart;
 mod heat_map;
+mod rose;
 mod suite;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -13,6 +14,7 @@ use crate::format;
 pub use bars::{Bar, Bars};
 pub use chart::{Chart, Level, Series, Stroke};
 pub use heat_map::{Cell, HeatMap};
+pub use rose::{Petal, Rose};
 pub use suite::{SuitePage, SuiteRow, render_suite};
 
 const OWN_STYLE: &str = include_str!("../../assets/study.css");
@@ -69,6 +71,8 @@ pub struct Section {
     pub charts: Vec<Chart>,
     /// Rankings.
     pub bars: Vec<Bars>,
+    /// Quantities over an angle.
+    pub roses: Vec<Rose>,
     /// A table: heads and rows.
     pub table: Option<(Vec<String>, Vec<Vec<String>>)>,
 }
@@ -145,6 +149,9 @@ fn charts(section: &Section) -> Markup {
             div.study-charts {
                 @for chart in &section.charts { (chart::figure(chart)) }
                 @for bars in &section.bars { (bars::figure(bars)) }
+            }
+            @if !section.roses.is_empty() {
+                div.study-roses { @for rose in &section.roses { (rose::figure(rose)) } }
             }
             @if let Some((heads, rows)) = &section.table {
                 div.scroll {

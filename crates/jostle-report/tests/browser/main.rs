@@ -15,3 +15,4 @@ mod motion_pages;
 mod opened;
 mod other_pages;
 mod run_page;
+mod space_page;

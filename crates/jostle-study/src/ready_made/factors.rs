@@ -72,7 +72,7 @@ impl Block {
 }
 
 /// A text in TOML, which takes the escapes of JSON.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     serde_json::to_string(text).unwrap_or_default()
 }
 

@@ -434,6 +434,6 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
             reach: 1.0,
             ordered: false,
         }],
-        bars: Vec::new(),
+        ..Section::default()
     }
 }

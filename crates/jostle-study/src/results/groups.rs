@@ -96,7 +96,9 @@ impl Results<'_> {
         if self.plane().is_some() {
             return None;
         }
-        let mut factors = self.listed().into_iter();
+        let factors = self.listed().into_iter();
+        // Roses show angles.
+        let mut factors = factors.filter(|factor| !self.study.file.factors[*factor].is_angle());
         factors.find(|factor| self.numbers(*factor).len() > 1)
     }
 

@@ -6,6 +6,7 @@ mod groups;
 mod maps;
 mod needed;
 mod rankings;
+mod roses;
 mod selection;
 mod words;
 
@@ -66,6 +67,8 @@ pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
     for ida in &study.file.idas {
         wanted.extend([&ida.intensity[..], &ida.demand]);
     }
+    let over_angle = roses::columns(study);
+    wanted.extend(over_angle.iter().map(|name| &name[..]));
     let responses = rankings::responses(study);
     wanted.extend(responses.iter().map(|name| &name[..]));
     let table = read_columns(study, folder, &wanted)?;
@@ -88,6 +91,7 @@ pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
     }
     let mut sections: Vec<Section> = Vec::new();
     let maps = results.maps();
+    sections.extend(results.roses(&over_angle)?);
     sections.extend(results.curves());
     sections.extend(results.sweep_curves());
     sections.extend(results.needed_gap());

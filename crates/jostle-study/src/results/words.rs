@@ -6,8 +6,10 @@ use jostle_io::DesignKind;
 use jostle_report::Axis;
 
 /// Endings of column names: the size of the display unit, and its name.
-const UNITS: [(&str, f64, &str); 8] = [
+const UNITS: [(&str, f64, &str); 10] = [
     ("_m_s2", 100.0, "cm/s²"),
+    ("_n_m", 1e-3, "kN·m"),
+    ("_rad", 1e3, "mrad"),
     ("_n_s", 1e-3, "kN·s"),
     ("_per_s", 1.0, "1/s"),
     ("_kg", 1e-3, "t"),
@@ -20,10 +22,24 @@ const UNITS: [(&str, f64, &str); 8] = [
 /// The axis of a column, and by what its numbers are multiplied there.
 pub(super) fn axis(column: &str) -> (Axis, f64) {
     let column = column.trim_start_matches("input.");
+    if matches!(column, "angle_rad" | "motion.angle" | "motion.angle_rad") {
+        let axis = Axis {
+            name: "angle of incidence".into(),
+            unit: "°".into(),
+        };
+        return (axis, 1.0_f64.to_degrees());
+    }
     let unit = UNITS.iter().find(|(ending, ..)| column.ends_with(ending));
     let (plain, size, unit) = match unit {
         Some((ending, size, unit)) => (column.trim_end_matches(ending), *size, *unit),
-        None if column.ends_with("drift_peak") || column.ends_with("drift") => (column, 100.0, "%"),
+        None if column.ends_with("drift_peak")
+            || column.ends_with("drift_across_peak")
+            || column.ends_with("drift_peak_without_contact")
+            || column.ends_with("drift_across_peak_without_contact")
+            || column.ends_with("drift") =>
+        {
+            (column, 100.0, "%")
+        }
         None => (column, 1.0, ""),
     };
     let name = match plain {

@@ -2,7 +2,7 @@
 
 use super::PortPair;
 use super::friction::Friction;
-use super::plan_contacts::PlanContactKind;
+use super::plan_contacts::{PlanContactKind, PlanPart};
 use crate::contact::ForceLaw;
 use crate::model::PlanPoint;
 
@@ -30,6 +30,8 @@ pub struct Contact {
 pub struct PlanPlace {
     /// Face or corner.
     pub kind: PlanContactKind,
+    /// What touches, of the first building and of the second.
+    pub parts: [PlanPart; 2],
     /// Number of the face among all of the system, from 0.
     pub face: usize,
     /// Place on the site, midway across the gap \[m\].

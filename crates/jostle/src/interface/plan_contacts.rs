@@ -32,10 +32,21 @@ impl PlanContactKind {
     }
 }
 
+/// The part of a plan that touches another plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlanPart {
+    /// The edge from the corner of this index, from 0, to the next one.
+    Edge(usize),
+    /// The corner of this index, from 0.
+    Corner(usize),
+}
+
 /// Two edges that face each other, or a corner with one of the normals along which it can be touched.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlanFace {
     pub(crate) kind: PlanContactKind,
+    /// What touches, of the first plan and of the second.
+    pub(crate) parts: [PlanPart; 2],
     /// Unit normal from the first plan to the second.
     pub(crate) normal: PlanPoint,
     /// Length of the face; zero for a corner \[m\].
@@ -106,9 +117,10 @@ pub(crate) fn plan_faces(
     contact: &PlanContact,
 ) -> Vec<PlanFace> {
     let mut found = Vec::new();
-    for (own, outward) in edges(first) {
-        for (other, inward) in edges(second) {
-            found.extend(face([own, other], [outward, inward], contact));
+    for (i, (own, outward)) in edges(first).enumerate() {
+        for (j, (other, inward)) in edges(second).enumerate() {
+            let parts = [PlanPart::Edge(i), PlanPart::Edge(j)];
+            found.extend(face(parts, [own, other], [outward, inward], contact));
         }
     }
     found.extend(corners(first, second, contact, 1.0));
@@ -119,6 +131,7 @@ pub(crate) fn plan_faces(
 
 /// The face of two edges with their outward normals, if they form one.
 fn face(
+    parts: [PlanPart; 2],
     [own, other]: [[PlanPoint; 2]; 2],
     [outward, inward]: [PlanPoint; 2],
     contact: &PlanContact,
@@ -161,6 +174,7 @@ fn face(
         .map(|(place, share)| point(from + 0.5 * (1.0 + place) * overlap, share));
     Some(PlanFace {
         kind: PlanContactKind::Face,
+        parts,
         normal,
         overlap,
         middle,
@@ -182,7 +196,7 @@ fn corners(
     for (index, (ends, after)) in own.iter().enumerate() {
         let corner = ends[0];
         let before = own[(index + own.len() - 1) % own.len()].1;
-        for ([a, b], outward) in edges(other) {
+        for (edge, ([a, b], outward)) in edges(other).enumerate() {
             let towards = outward.map(|value| -value);
             // The corner points at the edge: its direction lies between the normals of both edges of the corner.
             let inside = FACING.sin();
@@ -208,8 +222,11 @@ fn corners(
                 is_indentation: false,
             };
             let ends = [end(place, sign), end(length - place, -sign)];
+            let parts = [PlanPart::Corner(index), PlanPart::Edge(edge)];
+            let [one, two] = parts;
             found.push(PlanFace {
                 kind: PlanContactKind::Corner,
+                parts: if sign > 0.0 { parts } else { [two, one] },
                 normal: towards.map(|value| sign * value),
                 overlap: 0.0,
                 middle: at,
@@ -262,6 +279,7 @@ fn passing_corners(
                 let at = midway(own.at, other.at);
                 found.push(PlanFace {
                     kind: PlanContactKind::Corner,
+                    parts: [PlanPart::Corner(own.index), PlanPart::Corner(other.index)],
                     normal: normals[normal],
                     overlap: 0.0,
                     middle: at,
@@ -284,6 +302,8 @@ fn passing_corners(
 
 /// A convex corner of a plan, with the outward normals of the edges before and after it.
 struct Corner {
+    /// Among the corners of the plan, from 0.
+    index: usize,
     at: PlanPoint,
     outward: [PlanPoint; 2],
 }
@@ -292,7 +312,9 @@ impl Corner {
     fn all(plan: &[PlanPoint]) -> impl Iterator<Item = Self> {
         let own: Vec<([PlanPoint; 2], PlanPoint)> = edges(plan).collect();
         let before = own.clone().into_iter().cycle().skip(own.len() - 1);
-        let corners = own.into_iter().zip(before).map(|(after, before)| Self {
+        let corners = own.into_iter().zip(before).enumerate();
+        let corners = corners.map(|(index, (after, before))| Self {
+            index,
             at: after.0[0],
             outward: [before.1, after.1],
         });

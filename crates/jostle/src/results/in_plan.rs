@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::history::{FaceImpact, FloorPeaks, Impact, Sliding};
-use crate::interface::Contact;
+use crate::interface::{Contact, MOST_POINTS, PlanPart};
 use crate::quantity::{Quantity, Unit};
 use crate::stepping::Outcome;
 use crate::system::System;
@@ -43,19 +43,19 @@ pub struct FloorInPlan {
 impl FloorInPlan {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement across the row", |f| f.displacement_across_max_m),
+        Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement across the row", |f| f.displacement_across_max_m).in_study(),
         Quantity::<Self>::real("displacement_across_max_at_s", Unit::S, "its instant", |f| f.displacement_across_max_at_s),
-        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "least displacement across the row, ≤ 0", |f| f.displacement_across_min_m),
+        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "least displacement across the row, ≤ 0", |f| f.displacement_across_min_m).in_study(),
         Quantity::<Self>::real("displacement_across_min_at_s", Unit::S, "its instant", |f| f.displacement_across_min_at_s),
-        Quantity::<Self>::real("rotation_max_rad", Unit::RAD, "greatest rotation, counter-clockwise seen from above", |f| f.rotation_max_rad),
+        Quantity::<Self>::real("rotation_max_rad", Unit::RAD, "greatest rotation, counter-clockwise seen from above", |f| f.rotation_max_rad).in_study(),
         Quantity::<Self>::real("rotation_max_at_s", Unit::S, "its instant", |f| f.rotation_max_at_s),
-        Quantity::<Self>::real("rotation_min_rad", Unit::RAD, "least rotation, ≤ 0", |f| f.rotation_min_rad),
+        Quantity::<Self>::real("rotation_min_rad", Unit::RAD, "least rotation, ≤ 0", |f| f.rotation_min_rad).in_study(),
         Quantity::<Self>::real("rotation_min_at_s", Unit::S, "its instant", |f| f.rotation_min_at_s),
-        Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner", |f| f.corner_displacement_peak_m),
-        Quantity::<Self>::real("total_acceleration_across_peak_m_s2", Unit::M_S2, "greatest total acceleration across", |f| f.total_acceleration_across_peak_m_s2),
-        Quantity::<Self>::real("storey_drift_across_peak", Unit::NONE, "greatest drift ratio across of the storey", |f| f.storey_drift_across_peak),
-        Quantity::<Self>::real("storey_shear_across_peak_n", Unit::N, "greatest shear across of the storey", |f| f.storey_shear_across_peak_n),
-        Quantity::<Self>::real("storey_torque_peak_n_m", Unit::NM, "greatest torque of the storey about the centre of mass of the lowest floor", |f| f.storey_torque_peak_n_m),
+        Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner", |f| f.corner_displacement_peak_m).in_study(),
+        Quantity::<Self>::real("total_acceleration_across_peak_m_s2", Unit::M_S2, "greatest total acceleration across", |f| f.total_acceleration_across_peak_m_s2).in_study(),
+        Quantity::<Self>::real("storey_drift_across_peak", Unit::NONE, "greatest drift ratio across of the storey", |f| f.storey_drift_across_peak).in_study(),
+        Quantity::<Self>::real("storey_shear_across_peak_n", Unit::N, "greatest shear across of the storey", |f| f.storey_shear_across_peak_n).in_study(),
+        Quantity::<Self>::real("storey_torque_peak_n_m", Unit::NM, "greatest torque of the storey about the centre of mass of the lowest floor", |f| f.storey_torque_peak_n_m).in_study(),
     ];
 }
 
@@ -66,14 +66,23 @@ pub struct BuildingInPlan {
     pub base_shear_across_peak_n: f64,
     /// Greatest base torque about the centre of mass of the lowest floor, either sign \[N·m\].
     pub base_torque_peak_n_m: f64,
+    /// Greatest horizontal displacement of a corner of any floor \[m\].
+    pub corner_displacement_peak_m: f64,
+    /// Greatest rotation of any floor, either sign \[rad\].
+    pub rotation_peak_rad: f64,
+    /// Greatest drift ratio across of any storey, either sign \[–\].
+    pub drift_across_peak: f64,
 }
 
 #[rustfmt::skip]
 impl BuildingInPlan {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("base_shear_across_peak_n", Unit::N, "greatest base shear across", |b| b.base_shear_across_peak_n),
-        Quantity::<Self>::real("base_torque_peak_n_m", Unit::NM, "greatest base torque about the centre of mass of the lowest floor", |b| b.base_torque_peak_n_m),
+        Quantity::<Self>::real("base_shear_across_peak_n", Unit::N, "greatest base shear across", |b| b.base_shear_across_peak_n).in_study().compared(),
+        Quantity::<Self>::real("base_torque_peak_n_m", Unit::NM, "greatest base torque about the centre of mass of the lowest floor", |b| b.base_torque_peak_n_m).in_study().compared(),
+        Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner of any floor", |b| b.corner_displacement_peak_m).in_study().compared(),
+        Quantity::<Self>::real("rotation_peak_rad", Unit::RAD, "greatest rotation of any floor", |b| b.rotation_peak_rad).in_study().compared(),
+        Quantity::<Self>::real("drift_across_peak", Unit::NONE, "greatest drift ratio across of any storey", |b| b.drift_across_peak).in_study().compared(),
     ];
 }
 
@@ -88,9 +97,68 @@ pub struct PlanContactSummary {
     pub normal: [f64; 2],
     /// Length of the face; zero for a corner \[m\].
     pub overlap_m: f64,
+    /// What touches, of the first building and of the second.
+    #[serde(skip)]
+    pub parts: [PlanPart; 2],
+    /// Its points and their forces at the greatest force of the face.
+    #[serde(skip)]
+    pub points: FacePoints,
     /// What slides along it; absent without friction.
     #[serde(flatten)]
     pub sliding: Option<SlidingSummary>,
+}
+
+/// The points of a face along it, and their forces at the greatest force of the face.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FacePoints {
+    count: usize,
+    places: [[f64; 2]; MOST_POINTS],
+    gaps: [f64; MOST_POINTS],
+    shares: [f64; MOST_POINTS],
+    forces: [f64; MOST_POINTS],
+    /// Instant of that force; `None` without an impact \[s\].
+    pub at: Option<f64>,
+    /// Centre of pressure then, on the site; `None` without an impact \[m\].
+    pub centre: Option<[f64; 2]>,
+}
+
+/// A point of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PressedPoint {
+    /// Place on the site \[m\].
+    pub place: [f64; 2],
+    /// Distance of the edges there at rest \[m\].
+    pub gap: f64,
+    /// Share of the stiffness of the face \[–\].
+    pub share: f64,
+    /// Force \[N\].
+    pub force: f64,
+}
+
+impl FacePoints {
+    /// Points along the face; those beyond the most that a face can have are dropped.
+    #[must_use]
+    pub fn new(points: &[PressedPoint]) -> Self {
+        let mut all = Self::default();
+        for point in points.iter().take(MOST_POINTS) {
+            all.places[all.count] = point.place;
+            all.gaps[all.count] = point.gap;
+            all.shares[all.count] = point.share;
+            all.forces[all.count] = point.force;
+            all.count += 1;
+        }
+        all
+    }
+
+    /// Every point, along the face.
+    pub fn iter(&self) -> impl Iterator<Item = PressedPoint> + '_ {
+        (0..self.count).map(|index| PressedPoint {
+            place: self.places[index],
+            gap: self.gaps[index],
+            share: self.shares[index],
+            force: self.forces[index],
+        })
+    }
 }
 
 /// Friction along a face over all its impacts.
@@ -155,23 +223,54 @@ pub(super) fn floor_in_plan(index: usize, floor: usize, outcome: &Outcome) -> Op
 /// Of a building in a run; `None` in one plane.
 pub(super) fn building_in_plan(index: usize, outcome: &Outcome) -> Option<BuildingInPlan> {
     let lowest = floor_in_plan(index, 0, outcome)?;
+    let floors = (0..).map_while(|floor| floor_in_plan(index, floor, outcome));
+    let floors: Vec<FloorInPlan> = floors.collect();
+    let greatest = |of: &dyn Fn(&FloorInPlan) -> f64| floors.iter().map(of).fold(0.0, f64::max);
     Some(BuildingInPlan {
+        corner_displacement_peak_m: greatest(&|floor| floor.corner_displacement_peak_m),
+        rotation_peak_rad: greatest(&|floor| floor.rotation_max_rad.max(-floor.rotation_min_rad)),
+        drift_across_peak: greatest(&|floor| floor.storey_drift_across_peak),
         base_shear_across_peak_n: lowest.storey_shear_across_peak_n,
         base_torque_peak_n_m: lowest.storey_torque_peak_n_m,
     })
 }
 
 /// Where a face is, from its points.
-pub(super) fn place_of_face(system: &System, face: usize) -> Option<PlanContactSummary> {
+pub(super) fn place_of_face(
+    system: &System,
+    outcome: &Outcome,
+    face: usize,
+) -> Option<PlanContactSummary> {
     let points = || system.contacts.iter().filter_map(|contact| contact.plan);
     let mut own = points().filter(|place| place.face == face);
     let first = own.next()?;
     let last = own.next_back().unwrap_or(first);
+    let impacts = outcome.face_impacts.iter().filter(|own| own.face == face);
+    let hardest = impacts.max_by(|a, b| a.peak_force.value.total_cmp(&b.peak_force.value));
+    let forces = hardest.map_or([0.0; MOST_POINTS], |impact| impact.point_forces);
+    let contacts = system.contacts.iter();
+    let all = contacts.filter_map(|contact| Some((contact.plan?, contact.width)));
+    let pressed: Vec<PressedPoint> = all
+        .filter(|(place, _)| place.face == face)
+        .zip(forces)
+        .map(|((place, gap), force)| PressedPoint {
+            place: place.at,
+            gap,
+            share: place.share,
+            force,
+        })
+        .collect();
     Some(PlanContactSummary {
         kind: first.kind.name(),
         plan_m: [0, 1].map(|axis| 0.5 * (first.at[axis] + last.at[axis])),
         normal: first.normal,
         overlap_m: first.overlap,
+        parts: first.parts,
+        points: FacePoints {
+            at: hardest.map(|impact| impact.peak_force.at),
+            centre: hardest.map(|impact| impact.centre),
+            ..FacePoints::new(&pressed)
+        },
         sliding: None,
     })
 }

@@ -7,7 +7,7 @@ mod counted_impact;
 pub mod floor_spectra;
 mod foundation;
 mod ground;
-mod in_plan;
+pub mod in_plan;
 mod isolation;
 mod members;
 pub mod registry;

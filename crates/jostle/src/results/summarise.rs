@@ -185,6 +185,9 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         },
         response,
         in_plan: building_in_plan(index, run.outcome),
+        without_contact_in_plan: run
+            .without_contact
+            .and_then(|outcome| building_in_plan(index, outcome)),
         without_contact,
         amplification: without_contact
             .map(|without| Amplification::new(BuildingResponse::QUANTITIES, &response, &without)),
@@ -425,7 +428,7 @@ fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> Contac
         height_m: contact.height,
         in_plan: contact
             .plan
-            .and_then(|place| place_of_face(system, place.face))
+            .and_then(|place| place_of_face(system, outcome, place.face))
             .map(|place| PlanContactSummary {
                 sliding: contact.friction.map(|_| SlidingSummary::new(all())),
                 ..place

@@ -3,6 +3,7 @@
 use super::gap_forces::{StepForce, peak_of_sum};
 use super::step_friction::FrictionPath;
 use crate::history::FaceImpact;
+use crate::interface::MOST_POINTS;
 use crate::system::System;
 
 /// Impacts of every face: from the first of its points that touches to the last that parts.
@@ -11,8 +12,10 @@ pub(super) struct FaceForces {
     pub(super) impacts: Vec<FaceImpact>,
     /// Of every face, the index of its impact under way.
     current: Vec<Option<usize>>,
-    /// Closed points of the step just accepted: face, place in plan, and force.
-    step: Vec<(usize, [f64; 2], StepForce)>,
+    /// Of every contact, its number among the points of its face.
+    point: Vec<usize>,
+    /// Closed points of the step just accepted.
+    step: Vec<ClosedPoint>,
     /// Those of one face.
     together: Vec<StepForce>,
     /// Friction of closed points over the step just accepted, with their faces and coefficients; and that of one face.
@@ -20,14 +23,35 @@ pub(super) struct FaceForces {
     friction_of_face: Vec<FrictionPath>,
 }
 
+/// A closed point over a step.
+#[derive(Clone, Copy)]
+struct ClosedPoint {
+    face: usize,
+    /// Number among the points of the face.
+    point: usize,
+    /// Place in plan \[m\].
+    at: [f64; 2],
+    force: StepForce,
+}
+
 impl FaceForces {
     pub(super) fn new(system: &System) -> Self {
         let places = system.contacts.iter().filter_map(|contact| contact.plan);
         let faces = places.map(|place| place.face + 1).max().unwrap_or(0);
         let points = if faces == 0 { 0 } else { system.contacts.len() };
+        let mut counted = vec![0; faces];
+        let point = system.contacts.iter().map(|contact| {
+            let count = contact.plan.and_then(|place| counted.get_mut(place.face));
+            count.map_or(0, |count| {
+                *count += 1;
+                *count - 1
+            })
+        });
+        let point = point.collect();
         Self {
             impacts: Vec::new(),
             current: vec![None; faces],
+            point,
             step: Vec::with_capacity(points),
             together: Vec::with_capacity(points),
             friction: Vec::with_capacity(points),
@@ -35,9 +59,14 @@ impl FaceForces {
         }
     }
 
-    /// Adds a closed point of the step just accepted.
-    pub(super) fn add(&mut self, face: usize, at: [f64; 2], force: StepForce) {
-        self.step.push((face, at, force));
+    /// Adds a closed point of the step just accepted: its contact, its face and its place in plan.
+    pub(super) fn add(&mut self, contact: usize, face: usize, at: [f64; 2], force: StepForce) {
+        self.step.push(ClosedPoint {
+            face,
+            point: self.point[contact],
+            at,
+            force,
+        });
     }
 
     /// Adds the friction of such a point over the step, with its coefficient \[–\].
@@ -48,9 +77,9 @@ impl FaceForces {
     /// Updates impacts after a step \[s\] that began at `start` \[s\].
     pub(super) fn finish_step(&mut self, start: f64, step: f64) {
         for face in 0..self.current.len() {
-            let own = self.step.iter().filter(|(own, ..)| *own == face);
+            let own = self.step.iter().filter(|closed| closed.face == face);
             self.together.clear();
-            self.together.extend(own.map(|(.., force)| *force));
+            self.together.extend(own.map(|closed| closed.force));
             if self.together.is_empty() {
                 self.current[face] = None;
                 continue;
@@ -76,10 +105,17 @@ impl FaceForces {
             impact.peak_force = peak;
             let fraction = (peak.at - start) / step;
             let (mut sum, mut moment) = (0.0, [0.0; 2]);
-            for (_, at, force) in self.step.iter().filter(|(own, ..)| *own == face) {
-                let force = force.at(fraction);
+            impact.point_forces = [0.0; MOST_POINTS];
+            for closed in self.step.iter().filter(|closed| closed.face == face) {
+                let force = closed.force.at(fraction);
                 sum += force;
-                moment = [moment[0] + force * at[0], moment[1] + force * at[1]];
+                moment = [
+                    moment[0] + force * closed.at[0],
+                    moment[1] + force * closed.at[1],
+                ];
+                if let Some(own) = impact.point_forces.get_mut(closed.point) {
+                    *own = force;
+                }
             }
             if sum > 0.0 {
                 impact.centre = moment.map(|moment| moment / sum);

@@ -399,6 +399,7 @@ fn plan_contacts(
                 law: law.between(left, right),
                 plan: Some(PlanPlace {
                     kind: face.kind,
+                    parts: face.parts,
                     face: first + number,
                     at: point.at,
                     normal: face.normal,

@@ -8,6 +8,7 @@ mod corners;
 mod direct_runs_refine_their_steps;
 mod energy_balances;
 mod extremes_are_survived;
+mod face_points;
 mod forces_never_pull;
 mod foundations;
 mod given_structures;

@@ -44,6 +44,9 @@ pub struct BuildingSummary {
     pub in_plan: Option<BuildingInPlan>,
     /// The same in the run without contact, if it exists.
     pub without_contact: Option<BuildingResponse>,
+    /// Its peaks across the row and in torsion in that run; absent in one plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_contact_in_plan: Option<BuildingInPlan>,
     /// The former over the latter, if that run exists.
     pub amplification: Option<Amplification>,
     /// Hinge counts.

@@ -40,7 +40,7 @@ impl<S: Stepper> Runner<'_, S> {
             let force = episode.follow_force(&contact.law, &trial, slopes, turn, start, step);
             self.run.gap_forces.add(contact.gap, force);
             if let Some(place) = contact.plan {
-                self.run.face_forces.add(place.face, place.at, force);
+                self.run.face_forces.add(index, place.face, place.at, force);
             }
             let strongest = &mut self.run.strongest[contact.gap];
             *strongest = strongest.max(episode.peak_force);

@@ -1,0 +1,69 @@
+// Paths of corners in plan: displacement across against displacement along x, with and without contact.
+
+/** A list of values at the instants of a table for one corner: along x and across [mm]. */
+function cornerPath(table, building, floor, corner) {
+  const plan = page.buildings[building].plans[floor - 1];
+  const [u, v, r] = ["u", "v", "r"].map((name) => table.columns.get(`${name}:${building}:${floor}`));
+  if (!u || !v || !r) return null;
+  const [dx, dy] = [0, 1].map((axis) => plan.corners[corner][axis] - plan.centre[axis]);
+  return { x: u.map((value, i) => 1e3 * (value - r[i] * dy)), y: v.map((value, i) => 1e3 * (value + r[i] * dx)) };
+}
+
+/** One path, with a list of corners to choose from. */
+class Orbit {
+  constructor(host, building) {
+    this.building = building;
+    this.host = html("figure", "multiple orbit", undefined, host);
+    const caption = html("figcaption", "", undefined, this.host);
+    this.select = html("select", "", undefined, caption);
+    this.select.setAttribute("aria-label", "Corner");
+    this.host.style.setProperty("--c", `var(--c${building % 7})`);
+    const { name, plans } = page.buildings[building];
+    for (let floor = plans.length; floor > 0; floor--) {
+      plans[floor - 1].corners.forEach((_, corner) => this.select.append(new Option(`${name}, floor ${floor}, corner ${corner + 1}`, `${floor} ${corner}`)));
+    }
+    this.select.value = this.busiest(plans.length);
+    this.select.addEventListener("change", () => this.build());
+    this.svg = svg("svg", { viewBox: `0 0 ${Orbit.side} ${Orbit.side}`, role: "img" }, this.host);
+    this.build();
+  }
+
+  static side = 320;
+
+  /** The corner of the roof that moves farthest. */
+  busiest(floor) {
+    const far = page.buildings[this.building].plans[floor - 1].corners.map((_, corner) => {
+      const path = cornerPath(run, this.building, floor, corner);
+      return path ? path.x.reduce((most, x, i) => Math.max(most, Math.hypot(x, path.y[i])), 0) : 0;
+    });
+    return `${floor} ${far.indexOf(Math.max(...far))}`;
+  }
+
+  build() {
+    const [floor, corner] = this.select.value.split(" ").map(Number);
+    this.path = cornerPath(run, this.building, floor, corner);
+    const free = without && page.gaps.length ? cornerPath(without, this.building, floor, corner) : null;
+    this.svg.replaceChildren();
+    if (!this.path) return;
+    this.svg.setAttribute("aria-label", `${this.select.selectedOptions[0].text}: displacement across over displacement along x`);
+    const reach = 1.08 * Math.max(...[this.path, free].filter(Boolean).flatMap(({ x, y }) => [greatest(x), greatest(y)]), 1e-6);
+    const margin = { left: 44, right: 12, top: 14, bottom: 30 };
+    // Both axes to the same scale.
+    const [wide, tall] = [Orbit.side - margin.left - margin.right, Orbit.side - margin.top - margin.bottom];
+    const x = [-reach, reach];
+    const y = x.map((end) => (end * tall) / wide);
+    this.plot = smallPlot(this.svg, { width: Orbit.side, height: Orbit.side, margin, x, y, xUnit: "x [mm]", yUnit: "y [mm]" });
+    const points = ({ x, y }) => x.reduce((text, value, i) => `${text}${i ? "L" : "M"}${this.plot.px(value).toFixed(1)} ${this.plot.py(y[i]).toFixed(1)}`, "");
+    if (free) svg("path", { class: "path-without", d: points(free) }, this.plot.inside);
+    svg("path", { class: "path-run", d: points(this.path) }, this.plot.inside);
+    this.dot = svg("circle", { class: "now", r: 4 }, this.plot.inside);
+    this.draw(this.time ?? 0);
+  }
+
+  draw(t) {
+    this.time = t;
+    if (!this.path) return;
+    this.dot.setAttribute("cx", this.plot.px(interpolate(run.time, this.path.x, t)).toFixed(1));
+    this.dot.setAttribute("cy", this.plot.py(interpolate(run.time, this.path.y, t)).toFixed(1));
+  }
+}

@@ -1,0 +1,401 @@
+// Buildings in space, drawn on a canvas without perspective: floors, contact points, forces, slip and the shaking ground.
+
+/** A colour of the style sheet as the browser resolves it. */
+function resolvedColour(name) {
+  const probe = document.createElement("i");
+  probe.style.color = `var(${name})`;
+  document.body.append(probe);
+  const { color } = getComputedStyle(probe);
+  probe.remove();
+  return color;
+}
+
+class SpaceScene {
+  constructor(host) {
+    this.host = host;
+    this.canvas = html("canvas", "", undefined, host);
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", "The buildings in space at the current instant; arrow keys turn the view");
+    this.time = 0;
+    this.turn = -0.9;
+    this.tilt = 0.5;
+    this.zoom = 1;
+    this.shown = true;
+    this.lettered = true;
+    this.take();
+    this.bind();
+    new ResizeObserver(() => this.layout()).observe(host);
+    new IntersectionObserver(([entry]) => {
+      this.shown = entry.isIntersecting;
+      this.draw(this.time);
+    }).observe(host);
+  }
+
+  take() {
+    this.buildings = page.buildings.map((building, i) => ({
+      plans: building.plans,
+      levels: [0, ...building.heights],
+      motion: building.plans.map((_, k) => ["u", "v", "r"].map((name) => run.columns.get(`${name}:${i}:${k + 1}`))),
+    }));
+    this.places = contacts.filter((contact) => contact.plan);
+    this.impacts = this.places.map((contact) => page.impacts.filter((impact) => impact.contact === contact.index));
+    this.hardest = Math.max(1e-9, ...page.impacts.map((impact) => impact.peak));
+    const all = page.buildings.flatMap((building) => building.plans.flatMap((plan) => plan.corners));
+    const range = (axis) => [Math.min(...all.map((p) => p[axis])), Math.max(...all.map((p) => p[axis]))];
+    [this.x, this.y] = [range(0), range(1)];
+    this.top = Math.max(...page.buildings.flatMap((building) => building.heights));
+    this.size = Math.hypot(this.x[1] - this.x[0], this.y[1] - this.y[0]);
+    const moves = this.buildings.flatMap((building) => building.motion.flatMap(([u, v]) => [u, v].filter(Boolean).map(greatest)));
+    this.peak = Math.max(1e-9, ...moves);
+    const wanted = (0.05 * this.size) / this.peak;
+    this.exaggeration = [1, 2, 5, 10, 20, 50, 100, 200].findLast((f) => f <= wanted) ?? 1;
+    this.across = page.bearing?.across && { time: unpack(page.bearing.across.time), values: unpack(page.bearing.across.values) };
+    this.groundPeak = Math.hypot(greatest(ground.values), this.across ? greatest(this.across.values) : 0) || 1;
+    this.spread();
+  }
+
+  /** Moves buildings apart, so that gaps are as exaggerated as displacements: along the gaps, from the first building on. */
+  spread() {
+    this.shifts = page.buildings.map(() => null);
+    this.shifts[0] = [0, 0];
+    for (let again = true; again; ) {
+      again = false;
+      for (const contact of this.places) {
+        const [a, b] = contact.gap.between;
+        const more = (this.exaggeration - 1) * contact.width;
+        const apart = contact.plan.normal.map((n) => n * more);
+        const [from, to, sign] = this.shifts[a] && !this.shifts[b] ? [a, b, 1] : this.shifts[b] && !this.shifts[a] ? [b, a, -1] : [];
+        if (sign === undefined) continue;
+        this.shifts[to] = this.shifts[from].map((s, axis) => s + sign * apart[axis]);
+        again = true;
+      }
+      if (!again && this.shifts.includes(null)) {
+        this.shifts[this.shifts.indexOf(null)] = [0, 0];
+        again = true;
+      }
+    }
+  }
+
+  bind() {
+    const canvas = this.canvas;
+    const pointers = new Map();
+    const apart = () => {
+      const [a, b] = [...pointers.values()];
+      return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      pointers.set(event.pointerId, event);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const before = pointers.get(event.pointerId);
+      if (!before) return;
+      const distance = pointers.size === 2 ? apart() : 0;
+      pointers.set(event.pointerId, event);
+      if (pointers.size === 2) this.scaleBy(apart() / Math.max(distance, 1));
+      else this.rotate((event.clientX - before.clientX) * 0.008, (event.clientY - before.clientY) * 0.008);
+    });
+    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => pointers.delete(event.pointerId));
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        // As for charts: without focus the wheel scrolls the page.
+        if (document.activeElement !== canvas && !event.ctrlKey && !event.shiftKey) return;
+        event.preventDefault();
+        this.scaleBy(Math.exp(-0.001 * event.deltaY));
+      },
+      { passive: false },
+    );
+    canvas.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.08], ArrowDown: [0, 0.08] }[event.key];
+      if (step) {
+        event.preventDefault();
+        this.rotate(...step);
+      } else if (event.key === "+" || event.key === "-") this.scaleBy(event.key === "+" ? 1.15 : 1 / 1.15);
+    });
+    byId("space-above").addEventListener("click", () => this.look(0, Math.PI / 2));
+    byId("space-oblique").addEventListener("click", () => this.look(-0.9, 0.5));
+    const slider = byId("space-exaggeration");
+    const tell = () => (byId("space-exaggeration-value").textContent = `${this.exaggeration < 10 ? Number(this.exaggeration.toFixed(1)) : Math.round(this.exaggeration)}×`);
+    slider.value = Math.log10(this.exaggeration);
+    tell();
+    slider.addEventListener("input", () => {
+      this.exaggeration = 10 ** Number(slider.value);
+      tell();
+      this.spread();
+      this.layout();
+    });
+    byId("space-names").addEventListener("change", (event) => {
+      this.lettered = event.target.checked;
+      this.draw(this.time);
+    });
+  }
+
+  rotate(turn, tilt) {
+    this.look(this.turn + turn, this.tilt + tilt);
+  }
+
+  look(turn, tilt) {
+    this.turn = turn;
+    this.tilt = Math.min(Math.max(tilt, 0.02), Math.PI / 2);
+    this.layout();
+  }
+
+  scaleBy(factor) {
+    this.zoom = Math.min(Math.max(this.zoom * factor, 0.4), 12);
+    this.layout();
+  }
+
+  /** Sizes the canvas, and the site to it. */
+  layout() {
+    const width = Math.max(this.host.clientWidth, 240);
+    const height = Math.min(width < 600 ? 340 : 480, Math.max(0.62 * width, 240));
+    const dots = Math.min(devicePixelRatio || 1, 2);
+    if (this.canvas.width !== Math.round(width * dots) || this.canvas.height !== Math.round(height * dots)) {
+      this.canvas.width = Math.round(width * dots);
+      this.canvas.height = Math.round(height * dots);
+      this.canvas.style.height = `${height}px`;
+    }
+    Object.assign(this, { width, height, dots });
+    const moved = (axis) => this.shifts.map((shift) => shift[axis]);
+    const ends = [this.x, this.y].map(([low, high], axis) => [low + Math.min(...moved(axis)), high + Math.max(...moved(axis))]);
+    this.middle = ends.map(([low, high]) => (low + high) / 2);
+    // The box of the site, its corners all around, as seen.
+    const free = this.exaggeration * this.peak;
+    const corners = ends[0].flatMap((x, i) => ends[1].flatMap((y, j) => [0, this.top].map((z) => [x + (i ? free : -free), y + (j ? free : -free), z])));
+    this.scale = 1;
+    this.centre = [0, 0];
+    const seen = corners.map((corner) => this.project(corner));
+    const [xs, ys] = [seen.map((p) => p[0]), seen.map((p) => p[1])];
+    const [wide, tall] = [xs, ys].map((values) => Math.max(...values) - Math.min(...values));
+    this.scale = this.zoom * Math.min((width - 60) / wide, (height - 90) / tall);
+    this.centre = [xs, ys].map((values) => (this.scale * (Math.max(...values) + Math.min(...values))) / 2);
+    this.draw(this.time);
+  }
+
+  /** Place on the canvas and distance towards the eye of a point of the site. */
+  project([x, y, z]) {
+    const [dx, dy] = [x - this.middle[0], y - this.middle[1]];
+    const [ct, st] = [Math.cos(this.turn), Math.sin(this.turn)];
+    const [cu, su] = [Math.cos(this.tilt), Math.sin(this.tilt)];
+    const right = ct * dx - st * dy;
+    const away = st * dx + ct * dy;
+    const up = su * away + cu * z;
+    const near = -cu * away + su * z;
+    return [this.scale * right, -this.scale * up, near];
+  }
+
+  /** The same, placed in the middle of the canvas. */
+  at(point) {
+    const [x, y, near] = this.project(point);
+    return [this.width / 2 + x - this.centre[0], this.height / 2 + y - this.centre[1] + 8, near];
+  }
+
+  /** Displacement along x and across, and rotation, of a floor now. */
+  floorNow(building, floor) {
+    return this.buildings[building].motion[floor].map((values) => (values ? interpolate(run.time, values, this.time) : 0));
+  }
+
+  /** A point of a floor as drawn, at its height. */
+  moved(building, floor, [x, y], [u, v, r]) {
+    const { plans, levels } = this.buildings[building];
+    const [cx, cy] = plans[floor].centre;
+    const f = this.exaggeration;
+    const [sx, sy] = this.shifts[building];
+    return [sx + x + f * (u - r * (y - cy)), sy + y + f * (v + r * (x - cx)), levels[floor + 1]];
+  }
+
+  draw(t) {
+    this.time = t;
+    if (!this.width || !this.shown) return;
+    const theme = `${document.documentElement.dataset.theme} ${matchMedia("(prefers-color-scheme: dark)").matches}`;
+    if (theme !== this.theme) {
+      this.theme = theme;
+      this.colours = page.buildings.map((_, i) => resolvedColour(`--c${i % 7}`));
+      [this.ink, this.quiet, this.alarm, this.sheet] = ["--ink", "--ink-2", "--alarm", "--sheet"].map(resolvedColour);
+    }
+    const context = this.canvas.getContext("2d");
+    this.context = context;
+    context.setTransform(this.dots, 0, 0, this.dots, 0, 0);
+    context.clearRect(0, 0, this.width, this.height);
+    context.lineJoin = "round";
+    const state = this.buildings.map((building, i) => building.plans.map((_, k) => this.floorNow(i, k)));
+    const parts = [];
+    this.buildings.forEach((building, i) => this.buildingParts(building, i, state[i], parts));
+    // From behind to the front.
+    parts.sort((a, b) => a.near - b.near);
+    this.groundArrow();
+    for (const part of parts) part.paint();
+    this.contactMarks(state);
+    context.fillStyle = this.quiet;
+    context.font = "14px system-ui, sans-serif";
+    context.textAlign = "left";
+    context.fillText(`t = ${fixed(t, 3)} s`, 12, 22);
+    this.axes();
+  }
+
+  line(points, { fill, stroke, width = 1.2, alpha = 1, closed = false, dash = [] }) {
+    const context = this.context;
+    context.beginPath();
+    points.forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
+    if (closed) context.closePath();
+    if (fill) {
+      context.globalAlpha = alpha;
+      context.fillStyle = fill;
+      context.fill();
+      context.globalAlpha = 1;
+    }
+    if (stroke) {
+      context.setLineDash(dash);
+      context.strokeStyle = stroke;
+      context.lineWidth = width;
+      context.stroke();
+      context.setLineDash([]);
+    }
+  }
+
+  /** Footprint, columns at the corners storey by storey, and floors, each with its distance. */
+  buildingParts(building, i, state, parts) {
+    const colour = this.colours[i];
+    const [sx, sy] = this.shifts[i];
+    const mean = (points) => points.reduce((sum, p) => sum + p[2], 0) / points.length;
+    const foot = building.plans[0].corners.map(([x, y]) => this.at([sx + x, sy + y, 0]));
+    parts.push({ near: mean(foot) - 1e6, paint: () => this.line(foot, { stroke: colour, width: 1, dash: [4, 3], closed: true }) });
+    let below = building.plans[0].corners.map(([x, y]) => [sx + x, sy + y, 0]);
+    building.plans.forEach((plan, k) => {
+      const own = plan.corners.map((corner) => this.moved(i, k, corner, state[k]));
+      const seen = own.map((point) => this.at(point));
+      if (own.length === below.length) {
+        own.forEach((point, c) => {
+          const ends = [this.at(below[c]), seen[c]];
+          parts.push({ near: mean(ends), paint: () => this.line(ends, { stroke: colour, width: 1.6 }) });
+        });
+      }
+      parts.push({ near: mean(seen), paint: () => this.line(seen, { fill: colour, alpha: 0.22, stroke: colour, width: 1.8, closed: true }) });
+      below = own;
+    });
+    const roof = building.plans.length - 1;
+    const [cx, cy] = building.plans[roof].centre;
+    const name = this.at(this.moved(i, roof, [cx, cy], state[roof]));
+    parts.push({
+      near: 1e6,
+      paint: () => this.letter(page.buildings[i].name, name[0], name[1], this.ink, "650 14px system-ui, sans-serif"),
+    });
+  }
+
+  letter(text, x, y, colour, font = "12px system-ui, sans-serif", align = "center") {
+    const context = this.context;
+    context.font = font;
+    context.textAlign = align;
+    context.lineWidth = 3;
+    context.strokeStyle = this.sheet;
+    context.strokeText(text, x, y);
+    context.fillStyle = colour;
+    context.fillText(text, x, y);
+  }
+
+  arrow(from, to, colour, width) {
+    const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    const length = Math.hypot(dx, dy);
+    if (length < 2) return;
+    const [ux, uy] = [dx / length, dy / length];
+    const head = Math.min(9, 0.6 * length);
+    this.line([from, [to[0] - 0.8 * head * ux, to[1] - 0.8 * head * uy]], { stroke: colour, width });
+    const back = [to[0] - head * ux, to[1] - head * uy];
+    const wing = [-0.45 * head * uy, 0.45 * head * ux];
+    this.line([to, [back[0] + wing[0], back[1] + wing[1]], [back[0] - wing[0], back[1] - wing[1]]], { fill: colour, closed: true });
+  }
+
+  /** Contact points, and on closed contacts forces on both buildings, normals and slip. */
+  contactMarks(state) {
+    const labels = [];
+    this.places.forEach((contact, index) => {
+      const { at, normal, length } = contact.plan;
+      const [a, b] = contact.gap.between;
+      const floors = contact.floors.map((floor) => floor - 1);
+      const along = [-normal[1], normal[0]];
+      const sides = (point) => [this.moved(a, floors[0], point, state[a][floors[0]]), this.moved(b, floors[1], point, state[b][floors[1]])];
+      const ends = length > 0 ? [-0.5, 0.5].map((s) => [at[0] + s * length * along[0], at[1] + s * length * along[1]]) : [at];
+      for (const side of [0, 1]) {
+        const points = ends.map((point) => this.at(sides(point)[side]));
+        if (points.length > 1) this.line(points, { stroke: this.alarm, width: 1.4 });
+        for (const [x, y] of points) this.dot(x, y, 2.2);
+      }
+      // The normal, from the first building to the second.
+      const foot = sides(at)[0];
+      const ahead = 0.05 * this.size;
+      this.arrow(this.at(foot), this.at([foot[0] + ahead * normal[0], foot[1] + ahead * normal[1], foot[2]]), this.quiet, 1);
+      const series = forces[contact.index];
+      const force = series?.time.length ? Math.max(0, interpolate(series.time, series.values, this.time)) : 0;
+      if (!(force > 0.002 * this.hardest)) return;
+      const now = this.impacts[index].find((impact) => impact.start <= this.time && this.time <= impact.end);
+      const centre = now?.centre ?? at;
+      const reach = (0.06 + 0.2 * Math.sqrt(force / this.hardest)) * this.size;
+      const [onA, onB] = sides(centre);
+      const shifted = (point, sign) => [point[0] + sign * reach * normal[0], point[1] + sign * reach * normal[1], point[2]];
+      // The force on the first building points against the normal.
+      this.arrow(this.at(onA), this.at(shifted(onA, -1)), this.alarm, 2.6);
+      this.arrow(this.at(onB), this.at(shifted(onB, 1)), this.alarm, 2.6);
+      const slip = this.slip(contact, centre, state);
+      const slipped = onA.map((value, axis) => value + (axis < 2 ? this.exaggeration * slip * along[axis] : 0));
+      this.line([this.at(onA), this.at(slipped)], { stroke: this.ink, width: 3 });
+      const [x, y] = this.at(onB);
+      this.dot(x, y, 4);
+      labels.push([`${readable(force / 1e3)} kN`, x, y]);
+    });
+    if (!this.lettered) return;
+    // Below each other where they would overlap.
+    labels.sort((p, q) => p[2] - q[2]);
+    let last = -Infinity;
+    for (const [text, x, y] of labels) {
+      last = Math.max(y - 8, last + 15);
+      this.letter(text, x + 12, last - 4, this.alarm, "650 12px system-ui, sans-serif", "left");
+    }
+  }
+
+  dot(x, y, radius) {
+    const context = this.context;
+    context.beginPath();
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.fillStyle = this.alarm;
+    context.fill();
+  }
+
+  /** How far the first building has moved along the face against the second since rest, at a point [m]. */
+  slip(contact, point, state) {
+    const [a, b] = contact.gap.between;
+    const along = [-contact.plan.normal[1], contact.plan.normal[0]];
+    const [own, other] = [a, b].map((building, side) => {
+      const floor = contact.floors[side] - 1;
+      const [u, v, r] = state[building][floor];
+      const [cx, cy] = this.buildings[building].plans[floor].centre;
+      return along[0] * (u - r * (point[1] - cy)) + along[1] * (v + r * (point[0] - cx));
+    });
+    return own - other;
+  }
+
+  /** Ground acceleration as an arrow on the ground, from the middle of the site. */
+  groundArrow() {
+    const angle = page.bearing?.angle ?? 0;
+    const first = interpolate(ground.time, ground.values, this.time);
+    const second = this.across ? interpolate(this.across.time, this.across.values, this.time) : 0;
+    const a = [first * Math.cos(angle) - second * Math.sin(angle), first * Math.sin(angle) + second * Math.cos(angle)];
+    const reach = (0.35 * this.size) / this.groundPeak;
+    const from = [this.middle[0], this.middle[1], 0];
+    this.arrow(this.at(from), this.at([from[0] + reach * a[0], from[1] + reach * a[1], 0]), this.ink, 2);
+  }
+
+  /** Axes in the corner. */
+  axes() {
+    const corner = [46, this.height - 34];
+    const origin = this.project([this.middle[0], this.middle[1], 0]);
+    for (const [name, way] of [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]]) {
+      const point = this.project([this.middle[0] + way[0], this.middle[1] + way[1], way[2]]);
+      const [dx, dy] = [point[0] - origin[0], point[1] - origin[1]].map((value) => (28 * value) / this.scale);
+      if (Math.hypot(dx, dy) < 4) continue;
+      this.arrow(corner, [corner[0] + dx, corner[1] + dy], this.quiet, 1.2);
+      this.letter(name, corner[0] + 1.35 * dx, corner[1] + 1.35 * dy + 4, this.quiet);
+    }
+  }
+}

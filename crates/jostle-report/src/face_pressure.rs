@@ -1,0 +1,149 @@
+//! How the force of a face is spread along it at its largest impact.
+
+use jostle::results::summary::ContactSummary;
+use maud::{Markup, html};
+
+use crate::site_places::part_in_words;
+use crate::{Page, format};
+
+/// Faces that are drawn at most, those with the greatest forces.
+const MOST: usize = 6;
+/// Size of a picture, and its margins.
+const WIDTH: f64 = 420.0;
+const HEIGHT: f64 = 236.0;
+const LEFT: f64 = 56.0;
+const RIGHT: f64 = 14.0;
+const TOP: f64 = 40.0;
+const BOTTOM: f64 = 40.0;
+
+/// A picture for each of the faces with the greatest forces; nothing without an impact of a face.
+pub(crate) fn figures(page: &Page) -> Markup {
+    let contacts = page.gaps().flat_map(|(summary, gap)| {
+        summary
+            .contacts
+            .iter()
+            .map(move |contact| (summary, gap, contact))
+    });
+    let mut faces: Vec<_> = contacts
+        .filter(|(.., contact)| {
+            let is_face = contact.in_plan.is_some_and(|plan| plan.overlap_m > 0.0);
+            is_face && contact.peak_force_n > 0.0
+        })
+        .collect();
+    faces.sort_by(|a, b| b.2.peak_force_n.total_cmp(&a.2.peak_force_n));
+    html! {
+        @if !faces.is_empty() { div.pressures {
+            h3 { "Force along the faces at their largest impacts" }
+            p.quiet { "Force per length of the face, from the forces of its points; dashed: the same force spread evenly. The triangle marks the centre of pressure." }
+            div.static-plots {
+                @for (summary, gap, contact) in faces.iter().take(MOST) {
+                    @let names = &summary.between;
+                    @let corners = gap.between.map(|side| corners(page, side, contact));
+                    (figure(contact, names, corners))
+                }
+            }
+            @if faces.len() > MOST { p.quiet { "The " (MOST) " faces with the greatest forces of " (faces.len()) "." } }
+        } }
+    }
+}
+
+/// Corners of the plan of a side.
+fn corners(page: &Page, side: Option<usize>, contact: &ContactSummary) -> usize {
+    let building = side.and_then(|index| page.model.buildings.get(index));
+    let floor = contact.floors[0].unwrap_or(1).saturating_sub(1);
+    match building.map(|building| &building.structure) {
+        Some(jostle::Structure::Tiers(tiers)) => {
+            tiers.floors.get(floor).map_or(0, |floor| floor.plan.len())
+        }
+        _ => 0,
+    }
+}
+
+fn figure(contact: &ContactSummary, names: &[String; 2], corners: [usize; 2]) -> Markup {
+    let Some(plan) = contact.in_plan else {
+        return html! {};
+    };
+    let length = plan.overlap_m;
+    let along = [-plan.normal[1], plan.normal[0]];
+    let place = |[x, y]: [f64; 2]| {
+        (x - plan.plan_m[0]) * along[0] + (y - plan.plan_m[1]) * along[1] + 0.5 * length
+    };
+    // F_i = w_i L p_i, in kN/m.
+    let pressures: Vec<[f64; 2]> = plan
+        .points
+        .iter()
+        .filter(|point| point.share > 0.0)
+        .map(|point| {
+            let pressure = 1e-3 * point.force / (point.share * length);
+            [place(point.place), pressure]
+        })
+        .collect();
+    let total = plan.points.iter().fold(0.0, |sum, point| sum + point.force);
+    let mean = 1e-3 * total / length;
+    let most = pressures.iter().map(|p| p[1]).fold(mean, f64::max);
+    let (marks, decimals) = crate::envelope::ticks(0.0, most.max(1e-9), 4.0);
+    let top = marks.last().copied().unwrap_or(most).max(most);
+    let px = |s: f64| LEFT + (WIDTH - LEFT - RIGHT) * s / length;
+    let py = |p: f64| HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * p / top;
+    let line: Vec<String> = pressures
+        .iter()
+        .map(|[s, p]| format!("{:.1},{:.1}", px(*s), py(*p)))
+        .collect();
+    let area = format!(
+        "{:.1},{:.1} {} {:.1},{:.1}",
+        px(0.0),
+        py(0.0),
+        line.join(" "),
+        px(length),
+        py(0.0)
+    );
+    let centre = plan.points.centre.map(place);
+    let parts = [0, 1].map(|side| part_in_words(plan.parts[side], corners[side]));
+    let floors = contact
+        .floors
+        .map(|floor| floor.map_or("–".into(), |f| f.to_string()));
+    let (stations, digits) = crate::envelope::ticks(0.0, length, 6.0);
+    html! {
+        figure.static-plot.pressure {
+            figcaption {
+                span.chart-title { (names[0]) ", floor " (floors[0]) ", " (parts[0]) " ↔ " (names[1]) ", floor " (floors[1]) ", " (parts[1]) }
+                br;
+                span.quiet {
+                    (format::force(total))
+                    @if let Some(at) = plan.points.at { " at " (format::instant(at)) }
+                    @if let Some(centre) = centre { ", centre of pressure " (format::fixed(centre - 0.5 * length, 2)) " m from the middle" }
+                }
+            }
+            svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label="Force per length along the face" {
+                g.grid {
+                    @for mark in &marks {
+                        @let y = format!("{:.1}", py(*mark));
+                        line x1=(LEFT) x2=(WIDTH - RIGHT) y1=(y) y2=(y) {}
+                        text x=(LEFT - 6.0) y=(format!("{:.1}", py(*mark) + 4.0)) text-anchor="end" { (format::fixed(*mark, decimals)) }
+                    }
+                    @for station in stations.iter().filter(|s| **s <= length * (1.0 + 1e-9)) {
+                        text x=(format!("{:.1}", px(*station))) y=(HEIGHT - BOTTOM + 15.0) text-anchor="middle" { (format::fixed(*station, digits)) }
+                    }
+                }
+                polygon.pressed points=(area) {}
+                polyline.pressed-line points=(line.join(" ")) {}
+                line.even x1=(LEFT) x2=(WIDTH - RIGHT) y1=(format!("{:.1}", py(mean))) y2=(format!("{:.1}", py(mean))) {}
+                @for ([s, p], point) in pressures.iter().zip(plan.points.iter()) {
+                    @let share = 100.0 * point.force / total.max(1e-9);
+                    circle.pressed-point cx=(format!("{:.1}", px(*s))) cy=(format!("{:.1}", py(*p))) r="3.2" {
+                        title { (format::force(point.force)) ", " (format::fixed(share, 1)) " % of the force; share of the stiffness " (format::fixed(100.0 * point.share, 1)) " %" }
+                    }
+                    @let anchor = if *s < 0.08 * length { "start" } else if *s > 0.92 * length { "end" } else { "middle" };
+                    text.share x=(format!("{:.1}", px(*s))) y=(format!("{:.1}", py(*p) - 7.0)) text-anchor=(anchor) { (format::fixed(share, 0)) " %" }
+                }
+                @if let Some(centre) = centre {
+                    @let x = px(centre);
+                    polygon.centre points=(format!("{:.1},{:.1} {:.1},{:.1} {:.1},{:.1}", x, py(0.0) - 1.0, x - 6.0, py(0.0) - 12.0, x + 6.0, py(0.0) - 12.0)) {}
+                }
+                line.base-line x1=(LEFT) x2=(WIDTH - RIGHT) y1=(py(0.0)) y2=(py(0.0)) {}
+                text x=(0.5 * (LEFT + WIDTH - RIGHT)) y=(HEIGHT - 6.0) text-anchor="middle" { "along the face [m]" }
+                text x="4" y="12" { "force per length [kN/m]; shares of the force in %" }
+            }
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! Places where plans can touch, as the geometry found them: equal ones of several floors together.
+
+use jostle::interface::{Contact, PlanContactKind, PlanPart};
+use jostle::{Model, PlanPoint, Summary, System};
+
+/// A face or a corner of two buildings, of all floors where it is the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SitePlace {
+    /// Index of the gap in the model.
+    pub gap_index: usize,
+    /// Indices of the buildings.
+    pub between: [usize; 2],
+    /// Floors of both, from 1, from the lowest up.
+    pub floors: Vec<[usize; 2]>,
+    /// Face or corner.
+    pub kind: PlanContactKind,
+    /// What touches, of either building.
+    pub parts: [PlanPart; 2],
+    /// Unit normal from the first building to the second.
+    pub normal: PlanPoint,
+    /// Middle of the face, or the corner, on the site \[m\].
+    pub middle: PlanPoint,
+    /// Length of the face; zero for a corner \[m\].
+    pub overlap: f64,
+    /// Least and greatest distance of its points at rest \[m\].
+    pub gap: [f64; 2],
+    /// Greatest force of any floor; zero without a run \[N\].
+    pub peak_force: f64,
+}
+
+/// Places closer than this are the same \[m\].
+const SAME: f64 = 1e-6;
+
+impl SitePlace {
+    /// All places of a model with plans, in the order in which the geometry found them; none in one plane.
+    #[must_use]
+    pub fn of_system(model: &Model, system: &System) -> Vec<Self> {
+        let mut places = Vec::new();
+        let mut contacts = system.contacts.iter().peekable();
+        while let Some(first) = contacts.next() {
+            let Some(own) = first.plan else { continue };
+            let same = |next: &&Contact| next.plan.is_some_and(|plan| plan.face == own.face);
+            let (mut last, mut gap) = (own.at, [first.width; 2]);
+            while let Some(next) = contacts.next_if(same) {
+                last = next.plan.map_or(last, |plan| plan.at);
+                gap = [gap[0].min(next.width), gap[1].max(next.width)];
+            }
+            let gaps = model.gaps.get(first.gap).map(|gap| gap.between);
+            let (Some([Some(a), Some(b)]), [Some(i), Some(j)]) =
+                (gaps, system.floors_of(&first.ports))
+            else {
+                continue;
+            };
+            add(
+                &mut places,
+                Self {
+                    gap_index: first.gap,
+                    between: [a, b],
+                    floors: vec![[i, j]],
+                    kind: own.kind,
+                    parts: own.parts,
+                    normal: own.normal,
+                    middle: [0, 1].map(|axis| 0.5 * (own.at[axis] + last[axis])),
+                    overlap: own.overlap,
+                    gap,
+                    peak_force: 0.0,
+                },
+            );
+        }
+        places
+    }
+
+    /// Those of a run, with their forces.
+    pub(crate) fn of_run(model: &Model, summary: &Summary) -> Vec<Self> {
+        let mut places = Vec::new();
+        for (index, (gap, own)) in summary.gaps.iter().zip(&model.gaps).enumerate() {
+            for contact in &gap.contacts {
+                let (Some(plan), [Some(a), Some(b)], [Some(i), Some(j)]) =
+                    (contact.in_plan, own.between, contact.floors)
+                else {
+                    continue;
+                };
+                let kind = match plan.overlap_m > 0.0 {
+                    true => PlanContactKind::Face,
+                    false => PlanContactKind::Corner,
+                };
+                add(
+                    &mut places,
+                    Self {
+                        gap_index: index,
+                        between: [a, b],
+                        floors: vec![[i, j]],
+                        kind,
+                        parts: plan.parts,
+                        normal: plan.normal,
+                        middle: plan.plan_m,
+                        overlap: plan.overlap_m,
+                        gap: [contact.width_m; 2],
+                        peak_force: contact.peak_force_n,
+                    },
+                );
+            }
+        }
+        places
+    }
+
+    fn is_like(&self, other: &Self) -> bool {
+        let near = |a: PlanPoint, b: PlanPoint| (a[0] - b[0]).hypot(a[1] - b[1]) <= SAME;
+        self.gap_index == other.gap_index
+            && self.kind == other.kind
+            && self.parts == other.parts
+            && near(self.middle, other.middle)
+            && near(self.normal, other.normal)
+            && (self.overlap - other.overlap).abs() <= SAME
+    }
+
+    /// Floors in words: `1 to 3`, or pairs where they differ.
+    #[must_use]
+    pub fn floors_in_words(&self) -> String {
+        let same = self.floors.iter().all(|[a, b]| a == b);
+        let follow = self
+            .floors
+            .windows(2)
+            .all(|pair| pair[1][0] == pair[0][0] + 1);
+        match &self.floors[..] {
+            [[a, _]] if same => a.to_string(),
+            [[first, _], .., [last, _]] if same && follow => format!("{first} to {last}"),
+            pairs => {
+                let words = pairs.iter().map(|[a, b]| format!("{a} | {b}"));
+                words.collect::<Vec<_>>().join(", ")
+            }
+        }
+    }
+
+    /// One width, or a range where the edges are not parallel.
+    #[must_use]
+    pub fn gap_in_words(&self) -> String {
+        let [least, most] = self.gap;
+        if most - least < 5e-5 {
+            format!("{:.1} mm", 1e3 * least)
+        } else {
+            format!("{:.1} to {:.1} mm", 1e3 * least, 1e3 * most)
+        }
+    }
+
+    /// What touches of either building, with corners counted from 1.
+    #[must_use]
+    pub fn parts_in_words(&self, model: &Model) -> [String; 2] {
+        [0, 1].map(|side| {
+            let building = model.buildings.get(self.between[side]);
+            let plan = building.and_then(|building| match &building.structure {
+                jostle::Structure::Tiers(tiers) => tiers.floors.get(self.floors.first()?[side] - 1),
+                _ => None,
+            });
+            part_in_words(self.parts[side], plan.map_or(0, |floor| floor.plan.len()))
+        })
+    }
+}
+
+/// `corner 3`, or `edge 2–3`; corners count from 1.
+pub(crate) fn part_in_words(part: PlanPart, corners: usize) -> String {
+    match part {
+        PlanPart::Corner(index) => format!("corner {}", index + 1),
+        PlanPart::Edge(index) => {
+            let next = if index + 1 == corners { 0 } else { index + 1 };
+            format!("edge {}–{}", index + 1, next + 1)
+        }
+    }
+}
+
+fn add(places: &mut Vec<SitePlace>, place: SitePlace) {
+    match places.iter_mut().find(|known| known.is_like(&place)) {
+        Some(known) => {
+            known.gap = [
+                known.gap[0].min(place.gap[0]),
+                known.gap[1].max(place.gap[1]),
+            ];
+            known.peak_force = known.peak_force.max(place.peak_force);
+            known.floors.extend(place.floors);
+        }
+        None => places.push(place),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_and_floors_have_names() {
+        assert_eq!(part_in_words(PlanPart::Edge(1), 4), "edge 2–3");
+        assert_eq!(part_in_words(PlanPart::Edge(3), 4), "edge 4–1");
+        assert_eq!(part_in_words(PlanPart::Corner(0), 4), "corner 1");
+        let place = |floors: &[[usize; 2]]| SitePlace {
+            gap_index: 0,
+            between: [0, 1],
+            floors: floors.to_vec(),
+            kind: PlanContactKind::Face,
+            parts: [PlanPart::Edge(0); 2],
+            normal: [1.0, 0.0],
+            middle: [0.0; 2],
+            overlap: 1.0,
+            gap: [0.02; 2],
+            peak_force: 0.0,
+        };
+        let words = |floors: &[[usize; 2]]| place(floors).floors_in_words();
+        assert_eq!(words(&[[1, 1], [2, 2], [3, 3]]), "1 to 3");
+        assert_eq!(words(&[[2, 2]]), "2");
+        assert_eq!(words(&[[2, 1], [4, 2]]), "2 | 1, 4 | 2");
+        assert_eq!(words(&[[1, 1], [3, 3]]), "1 | 1, 3 | 3");
+    }
+}
