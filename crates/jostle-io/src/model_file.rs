@@ -17,6 +17,7 @@ mod given;
 mod grounds;
 mod hinges;
 mod isolation;
+mod joint_capacity;
 mod link;
 mod matching;
 mod motion;

@@ -1,7 +1,8 @@
 //! Greatest forces of columns and beams, and their demand over capacity: one table for each building, struck columns first.
 
 use jostle::results::summary::{
-    BuildingSummary, CapacitySummary, ExceededSummary, MemberSummary, RatioPlace, SectionSummary,
+    BuildingSummary, CapacitySummary, ExceededSummary, JointSummary, MemberSummary, RatioPlace,
+    SectionSummary,
 };
 use jostle_section::capacity::ShearRule;
 use maud::{Markup, html};
@@ -38,10 +39,11 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                 @for (index, building) in page.summary.buildings.iter().enumerate().filter(|(_, b)| !b.members.is_empty()) {
                     (table(building))
                     @if let Some(diagrams) = crate::diagrams::of_building(page, index) { (diagrams) }
+                    @if !building.joints.is_empty() { (joints(building)) }
                 }
                 @if page.summary.buildings.iter().flat_map(|b| &b.members).any(|m| !m.acceptance.is_empty()) {
                     p.quiet {
-                        "Rotations of yielding ends: chord rotation by EN 1998-3 (DL, SD, NC), plastic rotation of columns by ASCE 41 (IO, LS, CP), "
+                        "Rotations of yielding ends: chord rotation by EN 1998-3 (DL, SD, NC), plastic rotation by ASCE 41 (IO, LS, CP), "
                         "and crushing of the section; in this order, as far as they apply."
                     }
                 }
@@ -212,6 +214,58 @@ fn table(building: &BuildingSummary) -> Markup {
                         }
                     }
                 }
+            }
+        }
+    }
+}
+
+/// Shear in the cores of joints, the greatest ratio first.
+fn joints(building: &BuildingSummary) -> Markup {
+    let ratio_of = |joint: &JointSummary| {
+        let all = joint.ratio.iter().chain(&joint.other_ratios);
+        all.map(|ratio| ratio.shear).next().unwrap_or(0.0)
+    };
+    let mut joints: Vec<&JointSummary> = building.joints.iter().collect();
+    joints.sort_by(|a, b| ratio_of(b).total_cmp(&ratio_of(a)));
+    let all = joints.len();
+    joints.truncate(MOST_ROWS);
+    let first = building.joints.first();
+    let rules: Vec<&str> = first
+        .into_iter()
+        .flat_map(|joint| joint.ratio.iter().chain(&joint.other_ratios))
+        .map(|ratio| ratio.rule)
+        .collect();
+    let beyond = building.joints.iter().filter(|joint| ratio_of(joint) > 1.0);
+    let beyond = beyond.count();
+    html! {
+        details.peaks open[beyond > 0] {
+            summary { "Joints of beams and columns of " (building.name) ": " (beyond) " of " (all) " beyond their shear capacity by " (rules.first().unwrap_or(&"")) }
+            @if all > MOST_ROWS {
+                p.quiet { (MOST_ROWS) " of " (all) " joints; summary.json has all of them." }
+            }
+            div.scroll {
+                table {
+                    thead { tr {
+                        th scope="col" { "joint" }
+                        th.number scope="col" { "shear of the core" br; span.unit { "[kN]" } }
+                        @for rule in &rules { th.number scope="col" { "shear / capacity" br; (rule) } }
+                    } }
+                    tbody {
+                        @for joint in &joints {
+                            tr {
+                                th scope="row" { (joint.name) }
+                                td.number { (kilo(joint.shear_peak_n)) }
+                                @for own in joint.ratio.iter().chain(&joint.other_ratios) {
+                                    (ratio(Some(own.shear), Some(&own.shear_at)))
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+            p.quiet {
+                "Shear of the core by equilibrium of its upper half: forces in the upper bars of the beams, from their moments at the faces of the column, less the shear of the column above. "
+                "Ties of the column below are taken to continue through the core; beams across the plane are not counted."
             }
         }
     }

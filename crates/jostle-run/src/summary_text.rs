@@ -371,6 +371,20 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
             }
         }
     }
+    let (all, exceeded) = rated().fold((0, 0), |(all, exceeded), capacity| {
+        (
+            all + capacity.joints_rated,
+            exceeded + capacity.joints_exceeded,
+        )
+    });
+    let firsts = rated().filter_map(|capacity| capacity.first_joint.as_ref());
+    if let Some(first) = firsts.min_by(|a, b| a.at_s.total_cmp(&b.at_s)) {
+        writeln!(
+            text,
+            "  joints: {exceeded} of {all} beyond it, first {}",
+            place(first)
+        )?;
+    }
     Ok(())
 }
 

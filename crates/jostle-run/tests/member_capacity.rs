@@ -138,6 +138,33 @@ fn a_run_says_which_member_goes_first() {
         lines[0].contains("gb50010") && lines[0].contains("first"),
         "{text}"
     );
+    // Every joint of both frames is rated; by the statics of a joint, its shear exceeds that of its columns.
+    let joints = summary.buildings.iter().map(|b| b.joints.len());
+    assert_eq!(joints.collect::<Vec<_>>(), [15, 12]);
+    for building in &summary.buildings {
+        let capacity = building.capacity.as_ref().expect("known");
+        let rated = building
+            .joints
+            .iter()
+            .filter_map(|joint| joint.ratio.as_ref());
+        let exceeded = rated.clone().filter(|ratio| ratio.shear > 1.0).count();
+        assert_eq!(capacity.joints_rated, building.joints.len());
+        assert_eq!(capacity.joints_exceeded, exceeded);
+        let first = rated.filter_map(|ratio| ratio.shear_at.exceeded_s);
+        let first = first.min_by(f64::total_cmp);
+        assert_eq!(capacity.first_joint.as_ref().map(|own| own.at_s), first);
+        for joint in &building.joints {
+            let ratio = joint.ratio.as_ref().expect("by the governing rule");
+            assert_eq!(ratio.rule, "gb50010");
+            let others: Vec<_> = joint.other_ratios.iter().map(|own| own.rule).collect();
+            assert_eq!(others, ["en1998-3", "aci318"]);
+            assert!(
+                ratio.shear > 0.0 && joint.shear_peak_n > 1e4,
+                "{}",
+                joint.name
+            );
+        }
+    }
     let json: serde_json::Value = serde_json::from_str(&summary_json(&summary)).expect("JSON");
     let building = &json["buildings"][0];
     let first = &building["capacity"]["first"];

@@ -9,8 +9,9 @@ use jostle::results::registry::{Owner, owners};
 use jostle::results::response::{BuildingResponse, FloorResponse};
 use jostle::results::summary::{
     AcceptanceSummary, AxialFailureSummary, CapacitySummary, ContactSummary, EnergySummary,
-    ExceededSummary, ForcesSummary, GapSummary, HingeSummary, ImpactSummary, LinkFloorSummary,
-    LinkSummary, RatioPlace, RatioSummary, SectionSummary, SpringSummary, WorkSummary,
+    ExceededSummary, ForcesSummary, GapSummary, HingeSummary, ImpactSummary, JointRatio,
+    JointSummary, LinkFloorSummary, LinkSummary, RatioPlace, RatioSummary, SectionSummary,
+    SpringSummary, WorkSummary,
 };
 use jostle::{Quantity, Summary};
 use jostle_io::{Format, ModelTree};
@@ -159,7 +160,7 @@ fn summary_of(model: &str) -> Summary {
 }
 
 /// Keys of objects that may be `null`.
-const OBJECTS: [&str; 3] = ["first", "impact", "shear_at"];
+const OBJECTS: [&str; 4] = ["first", "first_joint", "impact", "shear_at"];
 
 /// All objects at a path such as `gaps[].contacts[]`.
 fn objects<'v>(root: &'v Value, key: &str) -> Vec<&'v Value> {
@@ -292,6 +293,14 @@ fn lists_read_the_values_of_the_summary() {
         if let Some(capacity) = &building.capacity {
             same(CapacitySummary::QUANTITIES, capacity);
             same(ExceededSummary::QUANTITIES, &capacity.worst);
+        }
+        for joint in &building.joints {
+            same(JointSummary::QUANTITIES, joint);
+            let ratios = joint.ratio.iter().chain(&joint.other_ratios);
+            for ratio in ratios {
+                same(JointRatio::QUANTITIES, ratio);
+                same(RatioPlace::QUANTITIES, &ratio.shear_at);
+            }
         }
         for member in &building.members {
             let worst = member.at_worst.iter();

@@ -117,9 +117,9 @@ pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Foundation, FoundationSprings, Frame,
     FrameHinges, Gap, Given, Gravity, HalfSpace, Hinges, Integrator, Isolation, Isolator,
-    IsolatorDamping, Joint, Level, Link, LinkLaw, MemberRequest, Model, ModelFault, PlanArea,
-    PlanContact, PlanFrame, PlanPoint, Section, Shear, Soil, SoilCoupling, Solver, SpeedFriction,
-    Stop, Structure, Tier, TierStorey, Tiers, Wall,
+    IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw, MemberRequest, Model, ModelFault,
+    PlanArea, PlanContact, PlanFrame, PlanPoint, Section, Shear, Soil, SoilCoupling, Solver,
+    SpeedFriction, Stop, Structure, Tier, TierStorey, Tiers, Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

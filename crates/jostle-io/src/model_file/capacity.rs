@@ -2,7 +2,8 @@
 
 use jostle::model::MemberCapacity;
 use jostle::{MemberRequest, Model};
-use jostle_section::capacity::{RatedMember, ShearRule};
+use jostle_section::Section;
+use jostle_section::capacity::{Interaction, RatedMember, ShearRule};
 use jostle_section::formula::Member;
 
 use super::reinforced::ReinforcedMember;
@@ -102,7 +103,13 @@ pub(crate) fn fill(model: &mut Model, request: &CapacityRequest, members: &[Rein
         model.analysis.members.envelopes |= !rules.is_empty();
     }
     let capacities = capacities(model, request, members);
+    let joints = if capacities.is_empty() {
+        Vec::new()
+    } else {
+        super::joint_capacity::joints(model, request.rules(), members)
+    };
     let asked: &mut MemberRequest = &mut model.analysis.members;
+    asked.joints = joints;
     asked.capacities = if asked.envelopes {
         capacities
     } else {
@@ -121,6 +128,7 @@ fn capacities(
         return Vec::new();
     }
     let mut capacities: Vec<MemberCapacity> = Vec::with_capacity(members.len());
+    let mut interactions: Vec<(&Section, [Interaction; 2])> = Vec::new();
     for (index, member) in members.iter().enumerate() {
         let building = &model.buildings[member.building];
         let name = match member.member {
@@ -145,7 +153,20 @@ fn capacities(
                 let known = &capacities[known];
                 (known.axial_failure_drift.clone(), known.rules.clone())
             }
-            None => (rated.axial_failure_drift(), rated.capacities(rules)),
+            None => {
+                let mut known = interactions.iter();
+                let known = known.position(|(section, _)| **section == member.section);
+                let known = known.unwrap_or_else(|| {
+                    let both = Interaction::of_both_signs(&member.section);
+                    interactions.push((&member.section, both));
+                    interactions.len() - 1
+                });
+                let both = &interactions[known].1;
+                (
+                    rated.axial_failure_drift(),
+                    rated.capacities_with(rules, both),
+                )
+            }
         };
         let rotations = if building.hinges.is_some() {
             match alike.filter(|&known| members[known].compression == member.compression) {

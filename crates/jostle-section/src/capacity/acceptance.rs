@@ -9,7 +9,7 @@ use crate::law;
 use crate::section::Section;
 
 impl RatedMember<'_> {
-    /// Limits of rotations under an axial compression \[N\]: EN 1998-3 (DL, SD, NC), ASCE 41-17 for columns (IO, LS, CP), and
+    /// Limits of rotations under an axial compression \[N\]: EN 1998-3 (DL, SD, NC), ASCE 41-17 (IO, LS, CP), and
     /// crushing of the section by the fibre analysis, each where its inputs are known.
     #[must_use]
     pub fn rotation_limits(&self, compression: f64) -> Vec<RotationLimits> {
@@ -44,7 +44,7 @@ impl RatedMember<'_> {
     /// spliced.
     fn asce41_rotations(&self, compression: f64) -> Option<RotationLimits> {
         if self.member == Member::Beam {
-            return None;
+            return self.asce41_beam();
         }
         let section = self.section;
         let ties = section.ties?;
@@ -65,6 +65,37 @@ impl RatedMember<'_> {
                 ("LS", 0.5 * b),
                 ("CP", 0.7 * b),
             ],
+        })
+    }
+
+    /// Plastic rotations of ASCE 41-17, table 10-7, for beams controlled by flexure, for the side with the smaller limits; `None`
+    /// for beams whose shear strength is below the shear at their flexural strength.
+    fn asce41_beam(&self) -> Option<RotationLimits> {
+        let section = self.section;
+        let ties = section.ties?;
+        let moments = super::Interaction::of_both_signs(section).map(|curve| curve.moment(0.0));
+        let shear = (moments[0] + moments[1]) / self.clear_length;
+        let strength = ShearRule::Asce41.strength(self, 0.0)?.initial();
+        if shear > strength {
+            return None;
+        }
+        let depth = self.effective_depth();
+        let by_ties = ties.area() * section.steel.yield_strength * depth / ties.spacing;
+        let conforming = ties.spacing <= depth / 3.0 && by_ties >= 0.75 * shear;
+        let stress = shear / (section.width * depth);
+        let sides = [section, &section.flipped()].map(|side| {
+            let ratio = |steel: f64| steel / (section.width * formula::effective_depth(side));
+            let bars = [side, &side.flipped()]
+                .map(formula::tension_steel)
+                .map(ratio);
+            let balance = (bars[0] - bars[1]) / balanced_ratio(section);
+            asce41_beam_limits(balance, stress, MPA * section.concrete.strength, conforming)
+        });
+        let [io, ls, cp] = [0, 1, 2].map(|level| sides[0][level].min(sides[1][level]));
+        Some(RotationLimits {
+            rule: ShearRule::Asce41.name(),
+            measure: RotationMeasure::Plastic,
+            limits: vec![("IO", io), ("LS", ls), ("CP", cp)],
         })
     }
 
@@ -173,6 +204,44 @@ fn asce41_parameters(axial: f64, ties: f64, strengths: f64, shear: f64) -> [f64;
     within(0.5).map(|value| share * value)
 }
 
+/// Ratio of tension bars at which concrete crushes as they yield: 0.85 β₁ f'c/fy · 600/(600 + fy) in MPa, with β₁ of ACI 318
+/// \[–\].
+fn balanced_ratio(section: &Section) -> f64 {
+    let [strength, steel] =
+        [section.concrete.strength, section.steel.yield_strength].map(|stress| MPA * stress);
+    let block = (0.85 - 0.05 * (strength - 28.0) / 7.0).clamp(0.65, 0.85);
+    0.85 * block * strength / steel * 600.0 / (600.0 + steel)
+}
+
+/// IO, LS and CP of ASCE 41-17, table 10-7, condition i: with conforming ties or not, (ρ − ρ′)/ρbal ≤ 0 or ≥ 0.5, and
+/// V/(b d √f'c) ≤ 3 or ≥ 6 in pounds and inches.
+const BEAMS: [[[[f64; 3]; 2]; 2]; 2] = [
+    [
+        [[0.005, 0.02, 0.03], [0.0015, 0.01, 0.015]],
+        [[0.005, 0.01, 0.015], [0.0015, 0.005, 0.01]],
+    ],
+    [
+        [[0.01, 0.025, 0.05], [0.005, 0.02, 0.04]],
+        [[0.005, 0.02, 0.03], [0.005, 0.015, 0.02]],
+    ],
+];
+/// A psi in MPa.
+const PSI: f64 = 0.006_894_757;
+
+/// Limits by linear interpolation in the table; `stress`: shear over b d \[Pa\], `strength`: f'c \[MPa\].
+fn asce41_beam_limits(balance: f64, stress: f64, strength: f64, conforming: bool) -> [f64; 3] {
+    let shear = MPA * stress / PSI / (strength / PSI).sqrt();
+    let [across, along] = [balance / 0.5, (shear - 3.0) / 3.0].map(|share| share.clamp(0.0, 1.0));
+    let table = &BEAMS[usize::from(conforming)];
+    [0, 1, 2].map(|level| {
+        let row = |row: usize| {
+            let [low, high] = [table[row][0][level], table[row][1][level]];
+            low + along * (high - low)
+        };
+        row(0) + across * (row(1) - row(0))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -221,6 +290,48 @@ mod tests {
             "{limits:?}"
         );
         close(limits[2].1 / limits[1].1, 1.4);
+    }
+
+    #[test]
+    fn beams_by_asce_41_by_hand() {
+        // On the rows of the table: 3 √psi = 0.249109 √MPa; f'c = 25 MPa, so 1.24555 and 2.4911 MPa.
+        let of = |balance, stress, ties| asce41_beam_limits(balance, stress, 25.0, ties);
+        assert_eq!(of(-0.2, 1e6, true), [0.01, 0.025, 0.05]);
+        assert_eq!(of(0.6, 9e6, true), [0.005, 0.015, 0.02]);
+        assert_eq!(of(0.0, 9e6, false), [0.0015, 0.01, 0.015]);
+        assert_eq!(of(0.5, 1e6, false), [0.005, 0.01, 0.015]);
+        // Half way between all four: LS (25 + 20 + 20 + 15)/4 mrad.
+        let middle = of(0.25, 1.868_32e6, true);
+        close(middle[1], 0.02);
+        close(middle[2], 0.035);
+        // 300 × 600 mm, 4 d20 and 2 d20 at 560 mm: (1256.64 − 628.32)/168 000 = 0.0037400. β₁ = 0.85 for 20.1 MPa:
+        // ρbal = 0.85 · 0.85 · 20.1/400 · 0.6 = 0.0217834; 0.171690 of it, 0.343380 of the way.
+        let concrete = Concrete::grade("C30", StrengthLevel::Characteristic).expect("known");
+        let steel = Steel::grade("HRB400", StrengthLevel::Characteristic).expect("known");
+        let bars = Reinforcement::parse("4 d20 top, 2 d20 bottom").expect("understood");
+        let section = |ties: &str| {
+            let ties = Ties::parse(ties).ok();
+            Section::new(0.3, 0.6, concrete, steel, &bars, 0.03, ties).expect("sound")
+        };
+        close(balanced_ratio(&section("d8 @ 100 mm")), 0.021_783_4);
+        let limits = |ties: &str| {
+            let section = section(ties);
+            let member = RatedMember {
+                member: Member::Beam,
+                clear_length: 5.5,
+                ..rated(&section)
+            };
+            member.asce41_rotations(0.0).map(|own| own.limits)
+        };
+        // Ties at 100 ≤ 560/3 mm carry more than the shear of hinges at both ends, which is below 3 √f'c: conforming.
+        let conforming = limits("d8 @ 100 mm").expect("by flexure");
+        close(conforming[1].1, 0.025 - 0.343_380 * 0.005);
+        close(conforming[2].1, 0.05 - 0.343_380 * 0.02);
+        // At 250 mm they do not.
+        let other = limits("d8 @ 250 mm").expect("by flexure");
+        close(other[2].1, 0.03 - 0.343_380 * 0.015);
+        // Shear fails first.
+        assert_eq!(limits("d6 @ 500 mm"), None);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::{MPA, RatedMember, ShearStrength};
 use crate::concrete::StrengthLevel;
 use crate::formula::Member;
+use crate::section::Section;
 
 /// γRE of table 11.1.6 for shear.
 const SHEAR_REDUCTION: f64 = 0.85;
@@ -24,9 +25,7 @@ pub(super) fn strength(member: &RatedMember<'_>, compression: f64) -> Option<She
     let ties = section.ties?;
     let depth = member.effective_depth();
     let area = section.width * depth;
-    let is_design = member.level == StrengthLevel::Design;
-    let most = MOST_TIE_STRENGTH[usize::from(!is_design)];
-    let by_ties = section.steel.yield_strength.min(most) * ties.area() / ties.spacing * depth;
+    let by_ties = tie_strength(section, member.level) * ties.area() / ties.spacing * depth;
     let (concrete, by_axial, squat) = match member.member {
         Member::Beam => (0.42, 0.0, member.clear_length <= 2.5 * section.depth),
         Member::Column => {
@@ -41,16 +40,35 @@ pub(super) fn strength(member: &RatedMember<'_>, compression: f64) -> Option<She
         }
     };
     let by_concrete = concrete * section.concrete.tensile_strength * area;
-    // Cube strength C50 … C80: βc falls from 1 to 0.8 (6.3.1).
-    let cube = MPA * section.concrete.strength / 0.67;
-    let slender = (1.0 - 0.2 * (cube - 50.0) / 30.0).clamp(0.8, 1.0);
-    let crushing = if squat { 0.15 } else { 0.2 } * slender * section.concrete.strength * area;
-    let reduction = if is_design { SHEAR_REDUCTION } else { 1.0 };
+    let share = if squat { 0.15 } else { 0.2 };
+    let crushing = share * strength_factor(section) * section.concrete.strength * area;
+    let reduction = shear_reduction(member.level);
     Some(ShearStrength {
         steady: (by_concrete + by_ties + by_axial).max(by_ties) / reduction,
         degrading: 0.0,
         limit: crushing / reduction,
     })
+}
+
+/// Yield strength of the ties that counts \[Pa\].
+pub(super) fn tie_strength(section: &Section, level: StrengthLevel) -> f64 {
+    let most = MOST_TIE_STRENGTH[usize::from(level != StrengthLevel::Design)];
+    section.steel.yield_strength.min(most)
+}
+
+/// γRE of table 11.1.6 for shear: 0.85 with design strengths, otherwise 1 \[–\].
+pub(super) fn shear_reduction(level: StrengthLevel) -> f64 {
+    if level == StrengthLevel::Design {
+        SHEAR_REDUCTION
+    } else {
+        1.0
+    }
+}
+
+/// βc: it falls from 1 to 0.8 between cube strengths C50 and C80 (6.3.1) \[–\].
+pub(super) fn strength_factor(section: &Section) -> f64 {
+    let cube = MPA * section.concrete.strength / 0.67;
+    (1.0 - 0.2 * (cube - 50.0) / 30.0).clamp(0.8, 1.0)
 }
 
 /// γRE of table 11.1.6 for bending: 0.75 for beams and columns with N/(fc A) < 0.15, otherwise 0.8; 1 unless strengths are

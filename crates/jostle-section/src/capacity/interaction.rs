@@ -70,6 +70,18 @@ impl Interaction {
         Self { points }
     }
 
+    /// Moments that stretch the bottom, and those that stretch the top.
+    #[must_use]
+    pub fn of_both_signs(section: &Section) -> [Self; 2] {
+        let positive = Self::new(section);
+        let negative = if section.is_symmetric() {
+            positive.clone()
+        } else {
+            Self::new(&section.flipped())
+        };
+        [positive, negative]
+    }
+
     /// Moment capacity under an axial compression; 0 beyond the ends \[N·m\].
     #[must_use]
     pub fn moment(&self, compression: f64) -> f64 {

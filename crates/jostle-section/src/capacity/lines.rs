@@ -1,9 +1,15 @@
 //! From rules to the capacity of a member as straight lines over its axial force.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
 use jostle::model::{CapacityLine, RuleCapacity, ShearCapacity};
 
-use super::{Degradation, Interaction, RatedMember, ShearRule, drift_at_axial_failure};
+use super::{
+    Degradation, Interaction, RatedMember, ShearRule, ShearStrength, drift_at_axial_failure,
+};
 use crate::formula::Member;
+use crate::section::Section;
 
 /// Error of a line between its points, relative to its greatest value \[–\].
 const TOLERANCE: f64 = 1e-4;
@@ -16,15 +22,18 @@ impl RatedMember<'_> {
     /// Capacity by some rules. Beams are taken without axial force.
     #[must_use]
     pub fn capacities(&self, rules: &[ShearRule]) -> Vec<RuleCapacity> {
-        let flipped = self.section.flipped();
-        let positive = Interaction::new(self.section);
-        let negative = if self.section.is_symmetric() {
-            positive.clone()
-        } else {
-            Interaction::new(&flipped)
-        };
+        self.capacities_with(rules, &Interaction::of_both_signs(self.section))
+    }
+
+    /// The same with the moments of the section known, for members of one section and several lengths.
+    #[must_use]
+    pub fn capacities_with(
+        &self,
+        rules: &[ShearRule],
+        interaction: &[Interaction; 2],
+    ) -> Vec<RuleCapacity> {
         let rule = |rule: &ShearRule| {
-            let bending = [&positive, &negative].map(|curve| {
+            let bending = interaction.each_ref().map(|curve| {
                 let factored = |load: f64| curve.moment(load) * rule.bending_factor(self, load);
                 match self.member {
                     Member::Beam => CapacityLine::new(vec![[0.0, factored(0.0)]]),
@@ -47,10 +56,15 @@ impl RatedMember<'_> {
     #[must_use]
     pub fn shear(&self, rule: ShearRule) -> Option<ShearCapacity> {
         let at_rest = rule.strength(self, 0.0)?;
-        let line = |part: fn(&super::ShearStrength) -> f64| {
+        // Both lines ask for the same loads, and halving asks for each several times.
+        let known: RefCell<BTreeMap<u64, Option<ShearStrength>>> = RefCell::default();
+        let line = |part: fn(&ShearStrength) -> f64| {
             self.line(|load| {
-                rule.strength(self, load)
-                    .map_or(0.0, |strength| part(&strength))
+                let mut known = known.borrow_mut();
+                let strength = known
+                    .entry(load.to_bits())
+                    .or_insert_with(|| rule.strength(self, load));
+                strength.as_ref().map_or(0.0, part)
             })
         };
         Some(ShearCapacity {
@@ -80,30 +94,36 @@ impl RatedMember<'_> {
         if self.member == Member::Beam {
             return CapacityLine::new(vec![[0.0, function(0.0)]]);
         }
-        let bars = self.section.steel_area() * self.section.steel.yield_strength;
-        let [low, high] = [
-            -1.2 * bars,
-            self.section.area() * self.section.concrete.strength + 1.2 * bars,
-        ];
-        let at = |part: usize| low + (high - low) * part as f64 / PARTS as f64;
-        let values: Vec<[f64; 2]> = (0..=PARTS)
-            .map(|part| [at(part), function(at(part))])
-            .collect();
-        let scale = values
-            .iter()
-            .fold(0.0_f64, |most, [_, value]| most.max(value.abs()));
-        let mut points = vec![values[0]];
-        for ends in values.windows(2) {
-            refine(
-                [ends[0], ends[1]],
-                &function,
-                TOLERANCE * scale,
-                MOST_HALVINGS,
-                &mut points,
-            );
-        }
-        CapacityLine::new(points)
+        line_over(self.section, function)
     }
+}
+
+/// A function of the compression as straight lines, from the tension that all bars carry to the compression that crushes
+/// the section.
+pub(super) fn line_over(section: &Section, function: impl Fn(f64) -> f64) -> CapacityLine {
+    let bars = section.steel_area() * section.steel.yield_strength;
+    let [low, high] = [
+        -1.2 * bars,
+        section.area() * section.concrete.strength + 1.2 * bars,
+    ];
+    let at = |part: usize| low + (high - low) * part as f64 / PARTS as f64;
+    let values: Vec<[f64; 2]> = (0..=PARTS)
+        .map(|part| [at(part), function(at(part))])
+        .collect();
+    let scale = values
+        .iter()
+        .fold(0.0_f64, |most, [_, value]| most.max(value.abs()));
+    let mut points = vec![values[0]];
+    for ends in values.windows(2) {
+        refine(
+            [ends[0], ends[1]],
+            &function,
+            TOLERANCE * scale,
+            MOST_HALVINGS,
+            &mut points,
+        );
+    }
+    CapacityLine::new(points)
 }
 
 /// Adds points after the first end, up to the second.

@@ -9,11 +9,13 @@ mod axial_failure;
 mod en1998;
 mod gb50010;
 mod interaction;
+mod joint;
 mod lines;
 mod sezen_moehle;
 
 pub use axial_failure::drift_at_axial_failure;
 pub use interaction::Interaction;
+pub use joint::{JointStrength, RatedJoint};
 
 use crate::concrete::StrengthLevel;
 use crate::formula::{self, Member};

@@ -34,6 +34,14 @@ impl CapacityLine {
         }
     }
 
+    /// Least value over a range of abscissas, in rising order.
+    #[must_use]
+    pub(crate) fn least(&self, [low, high]: [f64; 2]) -> f64 {
+        let inside = self.points.iter().filter(|[x, _]| low < *x && *x < high);
+        let ends = self.at(low).min(self.at(high));
+        inside.fold(ends, |least, [_, value]| least.min(*value))
+    }
+
     /// Factor by which a point beyond the line, seen from the origin, is farther away than the line; `None` if the ray
     /// does not meet it.
     fn overshoot(&self, abscissa: f64, value: f64) -> Option<f64> {
@@ -46,15 +54,6 @@ impl CapacityLine {
             (share > 0.0 && within).then(|| share.recip())
         });
         met.max_by(f64::total_cmp)
-    }
-
-    /// Greatest slope, either sign.
-    #[must_use]
-    pub fn steepest(&self) -> f64 {
-        let slopes = self.points.windows(2);
-        let slopes =
-            slopes.map(|ends| ((ends[1][1] - ends[0][1]) / (ends[1][0] - ends[0][0])).abs());
-        slopes.fold(0.0, f64::max)
     }
 }
 
@@ -125,24 +124,23 @@ impl ShearCapacity {
     /// Capacity under a compression \[N\] at a ductility \[–\].
     #[must_use]
     pub fn at(&self, compression: f64, ductility: f64) -> f64 {
-        let factor = if self.by_ductility.points.is_empty() {
+        let factor = self.factor(ductility);
+        (self.steady.at(compression) + factor * self.degrading.at(compression)).min(self.limit)
+    }
+
+    /// Factor on the degrading part at a ductility \[–\].
+    pub(crate) fn factor(&self, ductility: f64) -> f64 {
+        if self.by_ductility.points.is_empty() {
             1.0
         } else {
             self.by_ductility.at(ductility)
-        };
-        (self.steady.at(compression) + factor * self.degrading.at(compression)).min(self.limit)
+        }
     }
 
     /// Whether ductility reduces it.
     #[must_use]
     pub fn degrades(&self) -> bool {
         !self.by_ductility.points.is_empty()
-    }
-
-    /// Greatest change with the compression \[–\].
-    #[must_use]
-    pub fn steepest(&self) -> f64 {
-        self.steady.steepest() + self.degrading.steepest()
     }
 }
 
@@ -182,7 +180,9 @@ mod tests {
         let line = CapacityLine::new(vec![[-1.0, 2.0], [1.0, 4.0], [3.0, 0.0]]);
         let values = [-2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 9.0].map(|x| line.at(x));
         assert_eq!(values, [2.0, 2.0, 3.0, 4.0, 2.0, 0.0, 0.0]);
-        assert_eq!(line.steepest(), 2.0);
+        let least =
+            [[-3.0, -2.0], [-2.0, 0.5], [0.0, 2.5], [2.5, 9.0]].map(|range| line.least(range));
+        assert_eq!(least, [2.0, 2.0, 1.0, 0.0]);
         assert_eq!(CapacityLine::new(vec![[5.0, 7.0]]).at(-3.0), 7.0);
         assert_eq!(CapacityLine::default().at(1.0), 0.0);
     }

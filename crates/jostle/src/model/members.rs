@@ -19,6 +19,26 @@ pub struct MemberRequest {
     pub histories: Vec<String>,
     /// Members whose demand is compared with their capacity; needs `envelopes`.
     pub capacities: Vec<MemberCapacity>,
+    /// Beam–column joints whose shear is compared with their capacity; needs `envelopes`.
+    pub joints: Vec<JointRequest>,
+}
+
+/// A beam–column joint whose shear is compared with its capacity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointRequest {
+    /// Index of the building.
+    pub building: usize,
+    /// Column line, counted from 1 at the left.
+    pub line: usize,
+    /// Floor, counted from 1.
+    pub floor: usize,
+    /// Half the depth of the column: distance from its axis to the ends of the beams \[m\].
+    pub half_depth: f64,
+    /// Distance between the upper and the lower bars of the beams on the left and on the right; `None` for beams that are
+    /// left out, > 0 \[m\].
+    pub levers: [Option<f64>; 2],
+    /// Its capacity in shear against the compression of the column above, by name `J1.joint.LINE.FLOOR`.
+    pub capacity: MemberCapacity,
 }
 
 impl MemberRequest {

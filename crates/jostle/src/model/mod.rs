@@ -25,7 +25,7 @@ pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
 pub use isolation::{Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop};
 pub use link_law::LinkLaw;
-pub use members::MemberRequest;
+pub use members::{JointRequest, MemberRequest};
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
 pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};

@@ -4,12 +4,12 @@ use super::members::{member_name, section_name};
 use super::summarise::{Run, names};
 use super::summary::{
     AcceptanceSummary, AxialFailureSummary, CapacitySummary, ExceededSummary, ImpactPlace,
-    LevelSummary, MemberSummary, RatioPlace, RatioSummary,
+    JointRatio, JointSummary, LevelSummary, MemberSummary, RatioPlace, RatioSummary,
 };
 use crate::history::{RatioPeak, SectionRatio};
 use crate::model::RotationMeasure;
 use crate::structure::{MemberEnd, MemberPlace, SectionAt};
-use crate::system::MemberRating;
+use crate::system::{MemberRating, RatedPart};
 
 /// The rating of a member, and its entries among the ratios of the run: section by section, each by every rule.
 fn rated<'a>(
@@ -17,18 +17,91 @@ fn rated<'a>(
     member: usize,
     run: &'a Run,
 ) -> Option<(&'a MemberRating, &'a [SectionRatio])> {
+    let mut all = ratings(run);
+    all.find(|(rating, _)| rating.building == building && rating.part == RatedPart::Member(member))
+}
+
+/// All ratings, and their entries among the ratios of the run.
+fn ratings<'a>(run: &'a Run) -> impl Iterator<Item = (&'a MemberRating, &'a [SectionRatio])> {
     let mut first = 0;
-    for rating in &run.system.ratings {
-        let forces = &run.system.buildings[rating.building].members;
-        let sections = forces.members[rating.member].sections.len();
-        let count = sections * rating.capacity.rules.len();
-        if rating.building == building && rating.member == member {
-            let entries = run.outcome.member_ratios.get(first..first + count)?;
-            return Some((rating, entries));
+    run.system.ratings.iter().filter_map(move |rating| {
+        let start = first;
+        first += rating.sections.len() * rating.capacity.rules.len();
+        let entries = run.outcome.member_ratios.get(start..first)?;
+        Some((rating, entries))
+    })
+}
+
+/// Shear of the joints of a building that are rated.
+pub(super) fn joints_of(building: usize, run: &Run) -> Vec<JointSummary> {
+    let own = &run.system.buildings[building];
+    let joints = ratings(run).filter_map(|(rating, entries)| match rating.part {
+        RatedPart::Joint(joint) if rating.building == building => {
+            Some((&own.members.joints[joint], rating, entries))
         }
-        first += count;
+        _ => None,
+    });
+    let summary = joints.map(|(joint, rating, entries)| {
+        let [greatest, least] = run.outcome.members[building][joint.section.forms[1]];
+        let rules = rating.capacity.rules.iter().zip(entries);
+        let mut ratios = rules.map(|(rule, entry)| JointRatio {
+            rule: rule.rule,
+            shear: entry.shear.ratio,
+            shear_at: place_of(
+                building,
+                "core",
+                joint.section.height,
+                &entry.shear,
+                entry.shear.exceeded_at,
+                run,
+            ),
+        });
+        // The first rule for members governs; it may have none for joints.
+        let governing = governing_rule(run);
+        let mut ratios: Vec<JointRatio> = ratios.by_ref().collect();
+        let ratio = match ratios.first() {
+            Some(first) if Some(first.rule) == governing => Some(ratios.remove(0)),
+            _ => None,
+        };
+        JointSummary {
+            name: rating.capacity.member.clone(),
+            shear_peak_n: greatest.max(-least),
+            ratio,
+            other_ratios: ratios,
+        }
+    });
+    summary.collect()
+}
+
+/// Name of the rule that governs, by the first member.
+fn governing_rule(run: &Run) -> Option<&'static str> {
+    let mut ratings = run.system.ratings.iter();
+    let member = ratings.find(|rating| matches!(rating.part, RatedPart::Member(_)))?;
+    Some(member.capacity.rules.first()?.rule)
+}
+
+fn place_of(
+    building: usize,
+    at: &'static str,
+    height: f64,
+    peak: &RatioPeak,
+    exceeded: Option<f64>,
+    run: &Run,
+) -> RatioPlace {
+    RatioPlace {
+        at,
+        height_m: height,
+        at_s: peak.at,
+        demand: peak.demand,
+        capacity: if peak.ratio > 0.0 {
+            peak.demand.abs() / peak.ratio
+        } else {
+            0.0
+        },
+        compression_n: peak.compression,
+        exceeded_s: exceeded,
+        impact: impact_at(building, peak.at, run),
     }
-    None
 }
 
 /// Greatest ratios of a member, rule by rule; none where its capacity is unknown.
@@ -52,20 +125,8 @@ pub(super) fn ratios_of(building: usize, member: usize, run: &Run) -> Vec<RatioS
                 }
             })?;
             let section = sections.sections[section];
-            let place = RatioPlace {
-                at: section_name(sections.place, section.at),
-                height_m: section.height,
-                at_s: peak.at,
-                demand: peak.demand,
-                capacity: if peak.ratio > 0.0 {
-                    peak.demand.abs() / peak.ratio
-                } else {
-                    0.0
-                },
-                compression_n: peak.compression,
-                exceeded_s,
-                impact: impact_at(building, peak.at, run),
-            };
+            let at = section_name(sections.place, section.at);
+            let place = place_of(building, at, section.height, peak, exceeded_s, run);
             Some((peak.ratio, place))
         };
         let shear = rule
@@ -182,6 +243,7 @@ fn impact_at(building: usize, time: f64, run: &Run) -> Option<ImpactPlace> {
 pub(super) fn of_building(
     building: usize,
     members: &[MemberSummary],
+    joints: &[JointSummary],
     run: &Run,
 ) -> Option<CapacitySummary> {
     let rated = || {
@@ -215,6 +277,33 @@ pub(super) fn of_building(
         exceeded: exceeded.count(),
         first: first_of(building, run),
         worst,
+        joints_rated: joints
+            .iter()
+            .filter_map(|joint| joint.ratio.as_ref())
+            .count(),
+        joints_exceeded: joints.iter().filter(|joint| exceeds(joint)).count(),
+        first_joint: first_joint(joints, building, run),
+    })
+}
+
+fn exceeds(joint: &JointSummary) -> bool {
+    joint.ratio.as_ref().is_some_and(|ratio| ratio.shear > 1.0)
+}
+
+/// The first joint beyond its capacity by the governing rule.
+fn first_joint(joints: &[JointSummary], building: usize, run: &Run) -> Option<ExceededSummary> {
+    let exceeded = joints.iter().filter_map(|joint| {
+        let ratio = joint.ratio.as_ref()?;
+        Some((joint, ratio, ratio.shear_at.exceeded_s?))
+    });
+    let (joint, ratio, at_s) = exceeded.min_by(|a, b| a.2.total_cmp(&b.2))?;
+    Some(ExceededSummary {
+        member: joint.name.clone(),
+        kind: "shear",
+        at: ratio.shear_at.at,
+        at_s,
+        ratio: ratio.shear,
+        impact: impact_at(building, at_s, run),
     })
 }
 

@@ -17,6 +17,7 @@ pub fn section_name(place: MemberPlace, at: SectionAt) -> &'static str {
         (MemberPlace::Beam { .. }, SectionAt::Last) => "right",
         (_, SectionAt::Below) => "below",
         (_, SectionAt::Above) => "above",
+        (_, SectionAt::Core) => "core",
     }
 }
 

@@ -10,9 +10,9 @@ use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
     AcceptanceSummary, AxialFailureSummary, BuildingSummary, CapacitySummary, ContactSummary,
     EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, FoundationSummary, GapSummary,
-    HingeSummary, ImpactSummary, IsolationSummary, LinkFloorSummary, LinkSummary, MotionSummary,
-    PromiseSummary, RatioPlace, RatioSummary, SectionSummary, SpringSummary, StruckSummary,
-    Summary, WallSummary, WorkSummary,
+    HingeSummary, ImpactSummary, IsolationSummary, JointRatio, JointSummary, LinkFloorSummary,
+    LinkSummary, MotionSummary, PromiseSummary, RatioPlace, RatioSummary, SectionSummary,
+    SpringSummary, StruckSummary, Summary, WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -81,6 +81,8 @@ pub fn owners() -> Vec<Owner> {
         owner("Greatest bending of a member against its capacity", "buildings[].members[].ratio.bending_at", None, "", &[entries(RatioPlace::QUANTITIES)]),
         owner("Rotations against accepted ones", "buildings[].members[].acceptance[]", None, "", &[entries(AcceptanceSummary::QUANTITIES)]),
         owner("Axial failure of columns", "buildings[].members[].axial_failure", None, "", &[entries(AxialFailureSummary::QUANTITIES)]),
+        owner("Joints of beams and columns", "buildings[].joints[]", None, "", &[entries(JointSummary::QUANTITIES)]),
+        owner("Shear of joints over capacity", "buildings[].joints[].ratio", None, "", &[entries(JointRatio::QUANTITIES)]),
         owner("Gaps", "gaps[]", None, "J1-J2.", &[entries(GapSummary::QUANTITIES), entries(GapSummary::WITHOUT_CONTACT)]),
         owner("Contacts", "gaps[].contacts[]", None, "J1-J2.floor5-5.", &[entries(ContactSummary::QUANTITIES)]),
         owner("Impacts", "gaps[].contacts[].impacts[]", Some("impacts.parquet"), "", &[entries(ImpactSummary::QUANTITIES)]),

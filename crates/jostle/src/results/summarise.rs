@@ -165,8 +165,10 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
     });
     let floors: Vec<FloorSummary> = floors.collect();
     let members = members_of(index, run);
+    let joints = capacity::joints_of(index, run);
     BuildingSummary {
-        capacity: capacity::of_building(index, &members, run),
+        capacity: capacity::of_building(index, &members, &joints, run),
+        joints,
         members,
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),

@@ -3,7 +3,7 @@
 use crate::history::{SectionRatio, WorstInstant};
 use crate::model::RuleCapacity;
 use crate::state::State;
-use crate::system::{MemberRating, System};
+use crate::system::{MemberRating, RatedPart, System};
 
 /// Greatest ratios so far: of every rated member, its sections one after the other, and each by every rule.
 #[derive(Debug, Default)]
@@ -15,10 +15,8 @@ pub(crate) struct MemberRatios {
 
 impl MemberRatios {
     pub(crate) fn new(system: &System) -> Self {
-        let entries = system.ratings.iter().map(|rating| {
-            let member = &system.buildings[rating.building].members.members[rating.member];
-            member.sections.len() * rating.capacity.rules.len()
-        });
+        let ratings = system.ratings.iter();
+        let entries = ratings.map(|rating| rating.sections.len() * rating.capacity.rules.len());
         Self {
             greatest: vec![SectionRatio::default(); entries.sum()],
             worst: worst(system),
@@ -36,7 +34,7 @@ impl MemberRatios {
                 1.0
             };
             let values = &values[rating.building];
-            for section in &building.members.members[rating.member].sections {
+            for section in &rating.sections {
                 let forces = section.forms.map(|form| values[form]);
                 for (rule, entry) in rating.capacity.rules.iter().zip(entries.by_ref()) {
                     take(entry, rule, rating, state.time, forces, ductility);
@@ -45,15 +43,14 @@ impl MemberRatios {
         }
         let mut first = 0;
         for rating in &system.ratings {
-            let member = &system.buildings[rating.building].members.members[rating.member];
             let rules = rating.capacity.rules.len();
-            let count = member.sections.len() * rules;
+            let count = rating.sections.len() * rules;
             let governing = self.greatest[first..first + count]
                 .iter()
                 .step_by(rules.max(1));
             let ratio = governing.map(SectionRatio::greatest).fold(0.0, f64::max);
             let worst = &mut self.worst[rating.building];
-            if ratio > worst.ratio {
+            if matches!(rating.part, RatedPart::Member(_)) && ratio > worst.ratio {
                 (worst.ratio, worst.time) = (ratio, state.time);
                 worst.forces.copy_from_slice(&values[rating.building]);
             }
@@ -91,10 +88,35 @@ pub(crate) fn take(
     ductility: f64,
 ) {
     let compression = rating.compression(axial);
+    take_shear(entry, rule, time, shear, compression, ductility);
+    take_bending(entry, rule, time, moment, compression);
+}
+
+/// Takes in the shear of a section under a compression.
+#[inline]
+pub(crate) fn take_shear(
+    entry: &mut SectionRatio,
+    rule: &RuleCapacity,
+    time: f64,
+    shear: f64,
+    compression: f64,
+    ductility: f64,
+) {
     if let Some(capacity) = &rule.shear {
         let ratio = shear.abs() / capacity.at(compression, ductility);
         entry.shear.take(time, shear, ratio, compression);
     }
+}
+
+/// Takes in its moment.
+#[inline]
+pub(crate) fn take_bending(
+    entry: &mut SectionRatio,
+    rule: &RuleCapacity,
+    time: f64,
+    moment: f64,
+    compression: f64,
+) {
     let ratio = rule.bending_ratio(compression, moment);
     entry.bending.take(time, moment, ratio, compression);
 }

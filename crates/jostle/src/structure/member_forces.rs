@@ -56,6 +56,8 @@ pub enum SectionAt {
     Below,
     /// Just above it.
     Above,
+    /// The core of a beam–column joint.
+    Core,
 }
 
 /// A cross-section of a member whose forces are followed.
@@ -96,6 +98,23 @@ impl MemberSections {
     }
 }
 
+/// The core of a beam–column joint whose shear is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointCore {
+    /// Column line, from 1 at the left.
+    pub line: usize,
+    /// Floor, from 1.
+    pub floor: usize,
+    /// Its section: axial force of the column above and shear of the core; the moment is zero.
+    pub section: MemberSection,
+}
+
+impl std::fmt::Display for JointCore {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "joint.{}.{}", self.line, self.floor)
+    }
+}
+
 /// How the forces of members follow from the motion of a building.
 ///
 /// Forces are those of the elastic members: stiffness-proportional damping is no part of them. Axial forces are positive
@@ -107,6 +126,8 @@ impl MemberSections {
 pub struct MemberForces {
     /// Columns and beams, storey by storey from the ground up, columns first; empty unless asked for.
     pub members: Vec<MemberSections>,
+    /// Joints, in the order in which they were asked for.
+    pub joints: Vec<JointCore>,
     /// Every force once; members of one element have one shear.
     pub forms: Vec<LinearForm>,
 }
@@ -274,6 +295,62 @@ impl MemberForces {
                 }
             }
         }
+    }
+
+    /// Follows the shear of the core of a joint by equilibrium of its upper half: the beams' forces in their upper bars, which
+    /// are their moments at the faces of the column over their lever arms, and the shear of the column above,
+    ///
+    /// ```text
+    /// V = (M_left − V_left c)/z_left − (M_right + V_right c)/z_right + V_above
+    /// ```
+    /// with c half the depth of the column. Positive where the upper part is pushed right. `levers`: lever arms of the beams
+    /// on the left and on the right; beams without one are left out. `None` if there is no column below the joint.
+    pub(crate) fn add_joint(
+        &mut self,
+        [line, floor]: [usize; 2],
+        half_depth: f64,
+        levers: [Option<f64>; 2],
+    ) -> Option<usize> {
+        let end = |place: MemberPlace, at: SectionAt| {
+            let member = self.members.iter().find(|member| member.place == place)?;
+            let mut sections = member.sections.iter();
+            sections.find(|section| section.at == at).copied()
+        };
+        let column = |storey| MemberPlace::Column { line, storey };
+        let below = end(column(floor), SectionAt::Last)?;
+        let above = end(column(floor + 1), SectionAt::First);
+        let beams = [
+            (line.checked_sub(1), SectionAt::Last, 1.0),
+            (Some(line), SectionAt::First, -1.0),
+        ];
+        let mut shear = LinearForm::default();
+        for ((span, at, sign), lever) in beams.into_iter().zip(levers) {
+            let place = span.map(|span| MemberPlace::Beam { floor, span });
+            let beam = place.and_then(|place| end(place, at));
+            let (Some(beam), Some(lever)) = (beam, lever) else {
+                continue;
+            };
+            let [_, force, moment] = beam.forms;
+            shear.add(sign / lever, &self.forms[moment]);
+            shear.add(-half_depth / lever, &self.forms[force]);
+        }
+        let axial = above.map_or_else(LinearForm::default, |above| {
+            shear.add(1.0, &self.forms[above.forms[1]]);
+            self.forms[above.forms[0]].clone()
+        });
+        let forms = [axial, shear.tidy(), LinearForm::default()];
+        let section = MemberSection {
+            at: SectionAt::Core,
+            height: below.height,
+            dof: below.dof,
+            forms: forms.map(|form| self.index_of(form)),
+        };
+        self.joints.push(JointCore {
+            line,
+            floor,
+            section,
+        });
+        Some(self.joints.len() - 1)
     }
 
     /// Where a form stands in the list, to which it is added if it is new.
@@ -511,6 +588,21 @@ impl LinearForm {
             ..Self::default()
         }
         .tidy()
+    }
+
+    /// Adds a share of a force on which neither contacts nor links act directly.
+    fn add(&mut self, share: f64, other: &Self) {
+        let scaled = |list: &[(usize, f64)]| -> Vec<(usize, f64)> {
+            list.iter()
+                .map(|(index, value)| (*index, share * value))
+                .collect()
+        };
+        self.displacement.extend(scaled(&other.displacement));
+        self.velocity.extend(scaled(&other.velocity));
+        self.acceleration.extend(scaled(&other.acceleration));
+        self.springs.extend(scaled(&other.springs));
+        self.ground += share * other.ground;
+        self.constant += share * other.constant;
     }
 
     fn tidy(mut self) -> Self {

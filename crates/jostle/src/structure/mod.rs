@@ -23,7 +23,8 @@ pub use equations::{Equations, YieldingSpring};
 pub(crate) use member_end::{ductility, end_stiffnesses};
 pub(crate) use member_forces::Motion;
 pub use member_forces::{
-    FrameMember, LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections, SectionAt,
+    FrameMember, JointCore, LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections,
+    SectionAt,
 };
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};

@@ -35,6 +35,18 @@ impl System {
                 ))
             })
             .collect();
+        for joint in &request.joints {
+            let Some(building) = self.buildings.get_mut(joint.building) else {
+                continue;
+            };
+            let place = [joint.line, joint.floor];
+            let added = building
+                .members
+                .add_joint(place, joint.half_depth, joint.levers);
+            self.ratings.extend(added.map(|added| {
+                MemberRating::of_joint(building, joint.building, added, &joint.capacity)
+            }));
+        }
     }
 
     /// Lets histories hold strokes and speeds of all links, or of those only that are not linear and whose strokes do not

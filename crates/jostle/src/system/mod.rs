@@ -14,7 +14,7 @@ use crate::model::{LEVEL_TOLERANCE, WALL};
 
 pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Track};
 pub(crate) use grounds::{GroundsAt, OverStep, RunGrounds};
-pub use rating::MemberRating;
+pub use rating::{MemberRating, RatedPart};
 pub use soil::FoundationPlace;
 
 /// Buildings in a row and what stands between them, ready to be stepped.

@@ -1,21 +1,34 @@
-//! A column or beam whose demand is compared with its capacity.
+//! A column, beam or joint whose demand is compared with its capacity.
 
 use super::BuildingSystem;
 use crate::hysteresis::{HysteresisMemory, Side};
 use crate::model::MemberCapacity;
-use crate::structure::{MemberEnd, MemberPlace, SpringPlace, ductility, end_stiffnesses};
+use crate::structure::{
+    MemberEnd, MemberPlace, MemberSection, SpringPlace, ductility, end_stiffnesses,
+};
 
-/// A column or beam whose demand is compared with its capacity.
+/// A column, beam or joint whose demand is compared with its capacity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MemberRating {
     /// Its building.
     pub building: usize,
-    /// The member among the [`MemberForces`](crate::structure::MemberForces) of the building.
-    pub member: usize,
+    /// The member or joint among the [`MemberForces`](crate::structure::MemberForces) of the building.
+    pub part: RatedPart,
+    /// Its sections.
+    pub sections: Vec<MemberSection>,
     /// Its capacity.
     pub capacity: MemberCapacity,
     /// Hinges at its ends.
     hinges: Vec<EndHinge>,
+}
+
+/// What is rated, by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RatedPart {
+    /// A column or beam.
+    Member(usize),
+    /// The core of a joint.
+    Joint(usize),
 }
 
 /// A hinge at an end of a member.
@@ -66,9 +79,25 @@ impl MemberRating {
         });
         Self {
             building: index,
-            member,
+            part: RatedPart::Member(member),
+            sections: building.members.members[member].sections.clone(),
             capacity: capacity.clone(),
             hinges: own.collect(),
+        }
+    }
+
+    pub(super) fn of_joint(
+        building: &BuildingSystem,
+        index: usize,
+        joint: usize,
+        capacity: &MemberCapacity,
+    ) -> Self {
+        Self {
+            building: index,
+            part: RatedPart::Joint(joint),
+            sections: vec![building.members.joints[joint].section],
+            capacity: capacity.clone(),
+            hinges: Vec::new(),
         }
     }
 

@@ -6,6 +6,7 @@ use super::capacity::CapacitySummary;
 use super::foundation::FoundationSummary;
 use super::hinges::HingeSummary;
 use super::isolation::{Floors, IsolationSummary};
+use super::joints::JointSummary;
 use super::members::MemberSummary;
 use crate::quantity::{Quantity, Unit};
 use crate::results::ground::GroundSummary;
@@ -54,6 +55,9 @@ pub struct BuildingSummary {
     /// Columns and beams, storey by storey from the ground up, columns first; absent unless asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberSummary>,
+    /// Beam–column joints, floor by floor from the ground up; absent unless their capacities are known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<JointSummary>,
     /// Members beyond their capacity; absent unless capacities are known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub capacity: Option<CapacitySummary>,

@@ -143,6 +143,12 @@ pub struct CapacitySummary {
     pub first: Option<ExceededSummary>,
     /// The member with the greatest ratio.
     pub worst: ExceededSummary,
+    /// Number of beam–column joints with a known capacity by the governing rule.
+    pub joints_rated: usize,
+    /// Number of joints beyond it.
+    pub joints_exceeded: usize,
+    /// The first joint beyond its capacity; `null` if there is none.
+    pub first_joint: Option<ExceededSummary>,
 }
 
 #[rustfmt::skip]
@@ -151,6 +157,8 @@ impl CapacitySummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("rated", "members with a known capacity", |c| c.rated),
         Quantity::<Self>::whole("exceeded", "members beyond their capacity, in shear or in bending", |c| c.exceeded).in_study(),
+        Quantity::<Self>::whole("joints_rated", "joints with a known capacity", |c| c.joints_rated),
+        Quantity::<Self>::whole("joints_exceeded", "joints beyond their capacity in shear", |c| c.joints_exceeded).in_study(),
         Quantity::<Self>::real("ratio", Unit::NONE, "greatest demand over capacity of any member", |c| c.worst.ratio).not_in_summary().in_study(),
         Quantity::<Self>::optional("first_s", Unit::S, "instant at which the first member was beyond its capacity; absent if none was", |c| c.first.as_ref().map(|first| first.at_s)).not_in_summary().in_study(),
     ];
@@ -161,7 +169,7 @@ impl CapacitySummary {
 pub struct ExceededSummary {
     /// Name of the member.
     pub member: String,
-    /// `shear` or `bending`.
+    /// `shear` or `bending`; of a joint `shear`.
     pub kind: &'static str,
     /// Section of the member.
     pub at: &'static str,

@@ -9,6 +9,7 @@ mod foundation;
 mod gaps;
 mod hinges;
 mod isolation;
+mod joints;
 mod links;
 mod members;
 
@@ -24,6 +25,7 @@ pub use foundation::FoundationSummary;
 pub use gaps::{ContactSummary, GapSummary, ImpactSummary};
 pub use hinges::{HingeSummary, SpringSummary};
 pub use isolation::{Floors, IsolationSummary, WallSummary};
+pub use joints::{JointRatio, JointSummary};
 pub use links::{LinkFloorSummary, LinkSummary};
 pub use members::{ForcesSummary, MemberSummary, SectionSummary, StruckSummary};
 

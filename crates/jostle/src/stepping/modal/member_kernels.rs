@@ -117,10 +117,23 @@ fn range_of(
     range
 }
 
+/// Sums of a block at the end of the last step for which it was computed. They begin the next one.
+#[derive(Clone, Copy, Default)]
+pub(super) struct KeptSums {
+    /// Step after which values and rates hold, and that of what shapes miss; 0 for none.
+    after: [u64; 2],
+    value: [f64; ROWS],
+    rate: [f64; ROWS],
+    missed: [f64; ROWS],
+}
+
 /// A step of the forces of one building that displacements determine.
 pub(super) struct FollowOwn<'a> {
     pub(super) rows: &'a MemberRows,
     pub(super) watch: &'a mut [BlockWatch],
+    pub(super) kept: &'a mut [KeptSums],
+    /// Number of this step, from 2.
+    pub(super) number: u64,
     pub(super) reach: &'a Reach,
     pub(super) greatest: &'a mut [[f64; ROWS]],
     pub(super) least: &'a mut [[f64; ROWS]],
@@ -138,12 +151,17 @@ impl NullaryFnOnce for FollowOwn<'_> {
     #[inline(always)]
     fn call(self) {
         let Self {
-            rows, reach, step, ..
+            rows,
+            reach,
+            step,
+            number,
+            ..
         } = self;
         let (count, low) = (self.now[0].len(), reach.low);
         let of_low = reach.of_low();
         let ([q, v, a], [q_then, v_then, a_then]) = (self.now, self.then);
-        for (block, watch) in self.watch.iter_mut().enumerate() {
+        let blocks = self.watch.iter_mut().zip(self.kept).enumerate();
+        for (block, (watch, kept)) in blocks {
             let always = tests_look_always();
             if !always && !watch.is_due(reach, 0.0) {
                 continue;
@@ -163,7 +181,15 @@ impl NullaryFnOnce for FollowOwn<'_> {
                 watch.set(reach, norms, &slack);
                 continue;
             }
-            let [value, value_then, rate, rate_then] = sums(shapes, [q, q_then, v, v_then]);
+            let (value_then, rate_then);
+            let (value, rate);
+            if kept.after[0] + 1 == number {
+                (value_then, rate_then) = (kept.value, kept.rate);
+                [value, rate] = sums(shapes, [q, v]);
+            } else {
+                [value, value_then, rate, rate_then] = sums(shapes, [q, q_then, v, v_then]);
+            }
+            (kept.value, kept.rate, kept.after[0]) = (value, rate, number);
             let [high, least, beyond] = range_of([&value_then, &value], [&rate_then, &rate], step);
             if !always && covers(&limits.slack([&high, &least]), &beyond) {
                 watch.set(reach, norms, &slack);
@@ -172,7 +198,14 @@ impl NullaryFnOnce for FollowOwn<'_> {
             *watch = BlockWatch::DUE;
             let (mut missed, mut off) = ([[0.0; ROWS]; 2], [0.0; ROWS]);
             if !rows.missed.is_empty() {
-                missed = sums(&rows.missed[own.clone()], [a_then, a]);
+                let rows_missed = &rows.missed[own.clone()];
+                if kept.after[1] + 1 == number {
+                    missed[0] = kept.missed;
+                    [missed[1]] = sums(rows_missed, [a]);
+                } else {
+                    missed = sums(rows_missed, [a_then, a]);
+                }
+                (kept.missed, kept.after[1]) = (missed[1], number);
                 [off] = sums(&rows.off[own], [a]);
             }
             let with_off = &mut self.with_off[block];
@@ -268,6 +301,9 @@ impl PassedBounds {
 pub(super) struct FollowPassed<'a> {
     pub(super) passed: &'a Passed,
     pub(super) watch: &'a mut [PassedWatch],
+    pub(super) kept: &'a mut [KeptSums],
+    /// Number of this step, from 2.
+    pub(super) number: u64,
     pub(super) reach: &'a Reach,
     pub(super) greatest: &'a mut [[f64; ROWS]],
     pub(super) least: &'a mut [[f64; ROWS]],
@@ -297,11 +333,13 @@ impl NullaryFnOnce for FollowPassed<'_> {
             count,
             drive,
             step,
+            number,
             ..
         } = self;
         let [ground_then, ground] = self.ground;
         let (values, rates) = (3 * count, count..4 * count);
-        for (block, watch) in self.watch.iter_mut().enumerate() {
+        let blocks = self.watch.iter_mut().zip(self.kept).enumerate();
+        for (block, (watch, kept)) in blocks {
             let bounded = self.is_bounded && !tests_look_always();
             if bounded && !watch.is_due(reach, &drive) {
                 continue;
@@ -349,17 +387,25 @@ impl NullaryFnOnce for FollowPassed<'_> {
                 }
                 continue;
             }
-            let [mut value, mut value_then, mut rate, mut rate_then] = sums(
-                shares,
-                [
-                    self.now,
-                    self.then,
-                    &self.now[rates.clone()],
-                    &self.then[rates.clone()],
-                ],
-            );
+            let (mut value, mut rate);
+            let (mut value_then, mut rate_then);
+            if kept.after[0] + 1 == number {
+                (value_then, rate_then) = (kept.value, kept.rate);
+                [value, rate] = sums(shares, [self.now, &self.now[rates.clone()]]);
+            } else {
+                [value, value_then, rate, rate_then] = sums(
+                    shares,
+                    [
+                        self.now,
+                        self.then,
+                        &self.now[rates.clone()],
+                        &self.then[rates.clone()],
+                    ],
+                );
+                more(&mut value_then, ground_then);
+            }
             more(&mut value, ground);
-            more(&mut value_then, ground_then);
+            (kept.value, kept.rate, kept.after[0]) = (value, rate, number);
             push(&mut value);
             let slope = (ground - ground_then) / step;
             for (row, at) in rows.clone().enumerate() {

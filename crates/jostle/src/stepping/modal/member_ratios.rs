@@ -1,12 +1,17 @@
 //! Demand over capacity of columns and beams in modal coordinates.
 
+use pulp::{Arch, NullaryFnOnce};
+
+use super::least_capacities::LeastCapacities;
+use super::member_reach::{BlockWatch, PARTS as STEP_PARTS, PartRows, Reach, norms_in_blocks};
 use super::members::{Instant, MemberRows};
+use super::mode_kernels::ROWS;
 use super::reduced::Reduced;
 use crate::history::SectionRatio;
 use crate::simd;
 use crate::stepping::events::Cubic;
 use crate::stepping::member_ratios::{self, MemberRatios};
-use crate::system::{MemberRating, System};
+use crate::system::{MemberRating, RatedPart, System};
 
 /// A force as a sum over modal values of one building.
 #[derive(Clone, Default)]
@@ -19,32 +24,47 @@ pub(super) struct FormRow {
     pub(super) constant: f64,
     /// Contacts whose forces are subtracted.
     pub(super) contacts: Vec<usize>,
-    /// Most that it changes per change of Σ (ω q)², the square root of it; infinite where accelerations or contacts
-    /// take part.
-    pub(super) norm: f64,
+    /// Whether displacements determine it, but for what shapes miss.
+    pub(super) is_bounded: bool,
 }
 
 /// A section of a rated member.
 struct RatedSection {
     rating: usize,
-    building: usize,
     /// Its first entry among the ratios.
     first: usize,
+    /// Its member's among the least capacities.
+    least: usize,
     /// Axial force, shear and moment.
     forms: [FormRow; 3],
-    /// Greatest changes of shear and moment capacity with the axial force.
-    steepest: [f64; 2],
-    /// Way of the building after which it is looked at again.
-    until: f64,
+    /// Most that they change per ‖ω Δq‖.
+    norms: PartRows,
+    /// Whether modes alone determine them.
+    is_bounded: bool,
+    watch: BlockWatch,
 }
 
-/// Follows demand over capacity. A section is looked at only once its building has moved so far that a ratio could have
-/// come near its greatest value.
+/// A modal state of one building.
+#[derive(Clone, Default)]
+struct KeptState {
+    /// Displacements, velocities and accelerations.
+    modal: [Vec<f64>; 3],
+    ground: f64,
+    /// Forces of all contacts.
+    pushes: Vec<f64>,
+}
+
+/// Follows demand over capacity. A section is looked at only once modes have moved so far that a ratio could have come near
+/// its greatest value, and a capacity only if the least of it nearby does not settle the matter.
 pub(super) struct ModalRatios {
-    sections: Vec<RatedSection>,
+    /// Building by building.
+    sections: Vec<Vec<RatedSection>>,
+    least: Vec<LeastCapacities>,
     /// All forces of every building with rated members.
     forms: Vec<Vec<FormRow>>,
-    pub(super) ratios: MemberRatios,
+    /// The state of every building when its governing ratio was greatest.
+    worst: Vec<KeptState>,
+    ratios: MemberRatios,
 }
 
 /// Parts of a step in which forces are looked at.
@@ -58,8 +78,6 @@ pub(super) struct StepEnds<'a> {
     pub(super) now: [&'a [f64]; 3],
     /// Ground acceleration at both.
     pub(super) ground: [f64; 2],
-    /// How far the building has moved so far.
-    pub(super) moved: f64,
     pub(super) step: f64,
 }
 
@@ -69,52 +87,71 @@ impl ModalRatios {
         if system.ratings.is_empty() {
             return None;
         }
-        let (mut sections, mut first) = (Vec::new(), 0);
+        let mut sections: Vec<Vec<RatedSection>> = Vec::new();
+        sections.resize_with(system.buildings.len(), Vec::new);
+        let (mut least, mut first) = (Vec::new(), 0);
+        // The latest member with capacities of its own.
+        let mut latest: Option<&MemberRating> = None;
         for (index, rating) in system.ratings.iter().enumerate() {
             let building = &system.buildings[rating.building];
             let rows = &reduced.buildings[rating.building].members;
             let stiffness = &reduced.stiffness[rows.modes()];
             let rules = &rating.capacity.rules;
-            let shear = rules.iter().filter_map(|rule| rule.shear.as_ref());
-            let bending = rules.iter().flat_map(|rule| &rule.bending);
-            let steepest = [
-                shear.map(|line| line.steepest()).fold(0.0, f64::max),
-                bending.map(|line| line.steepest()).fold(0.0, f64::max),
-            ];
-            for section in &building.members.members[rating.member].sections {
+            if latest.is_none_or(|latest| latest.capacity.rules != *rules) {
+                latest = Some(rating);
+                least.push(LeastCapacities::new(&rating.capacity));
+            }
+            for section in &rating.sections {
                 let [axial, shear, moment] = section.forms;
-                let row = |form: usize| rows.form_row(building, form, stiffness);
+                let row = |form: usize| rows.form_row(building, form);
                 let axial = if rating.capacity.follows_axial {
                     row(axial)
                 } else {
                     FormRow::default()
                 };
-                sections.push(RatedSection {
+                let forms = [axial, row(shear), row(moment)];
+                let lists = forms.iter().map(|form| &form.shares[0]);
+                let norms = norms_in_blocks(lists, stiffness);
+                sections[rating.building].push(RatedSection {
                     rating: index,
-                    building: rating.building,
                     first,
-                    forms: [axial, row(shear), row(moment)],
-                    steepest,
-                    until: 0.0,
+                    least: least.len() - 1,
+                    is_bounded: forms.iter().all(|form| form.is_bounded),
+                    norms: norms.first().copied().unwrap_or([[0.0; ROWS]; STEP_PARTS]),
+                    forms,
+                    watch: BlockWatch::DUE,
                 });
                 first += rules.len();
             }
         }
         let forms = system.buildings.iter().zip(&reduced.buildings).enumerate();
         let forms = forms.map(|(index, (building, own))| {
-            let rated = system.ratings.iter().any(|rating| rating.building == index);
-            let count = if rated {
-                building.members.forms.len()
-            } else {
+            let count = if sections[index].is_empty() {
                 0
+            } else {
+                building.members.forms.len()
             };
-            let stiffness = &reduced.stiffness[own.members.modes()];
-            let row = |form| own.members.form_row(building, form, stiffness);
+            let row = |form| own.members.form_row(building, form);
             (0..count).map(row).collect()
         });
+        let worst = sections
+            .iter()
+            .zip(&reduced.buildings)
+            .map(|(sections, own)| {
+                if sections.is_empty() {
+                    return KeptState::default();
+                }
+                KeptState {
+                    modal: [(); 3].map(|()| vec![0.0; own.members.modes().len()]),
+                    ground: 0.0,
+                    pushes: vec![0.0; system.contacts.len()],
+                }
+            });
         Some(Self {
             forms: forms.collect(),
+            worst: worst.collect(),
             sections,
+            least,
             ratios: MemberRatios::new(system),
         })
     }
@@ -122,109 +159,186 @@ impl ModalRatios {
     /// Takes in a step of one building.
     pub(super) fn follow(
         &mut self,
-        system: &System,
-        building: usize,
+        arch: Arch,
+        (system, building, reach): (&System, usize, &Reach),
         ends: &StepEnds<'_>,
         instant: Instant<'_>,
     ) {
+        let greatest = arch.dispatch(FollowSections {
+            sections: &mut self.sections[building],
+            least: &self.least,
+            entries: &mut self.ratios.greatest,
+            reach,
+            system,
+            ends,
+            instant,
+        });
+        let worst = &mut self.ratios.worst[building];
+        if greatest > worst.ratio {
+            (worst.ratio, worst.time) = (greatest, instant.time);
+            let kept = &mut self.worst[building];
+            for (to, list) in kept.modal.iter_mut().zip(ends.now) {
+                to.copy_from_slice(list);
+            }
+            kept.ground = ends.ground[1];
+            for (to, phase) in kept.pushes.iter_mut().zip(instant.phases) {
+                *to = phase.force();
+            }
+        }
+    }
+
+    /// The greatest ratios, and all forces at the worst instants.
+    pub(super) fn finish(self) -> MemberRatios {
+        let mut ratios = self.ratios;
+        let buildings = self.worst.iter().zip(&self.forms);
+        for (worst, (kept, forms)) in ratios.worst.iter_mut().zip(buildings) {
+            if worst.ratio > 0.0 {
+                for (force, form) in worst.forces.iter_mut().zip(forms) {
+                    *force = form.at(
+                        kept.modal.each_ref().map(|list| &list[..]),
+                        kept.ground,
+                        |contact| kept.pushes[contact],
+                    );
+                }
+            }
+        }
+        ratios
+    }
+}
+
+/// A step of the rated sections of one building; gives the greatest governing ratio of members that were looked at.
+struct FollowSections<'a> {
+    sections: &'a mut [RatedSection],
+    least: &'a [LeastCapacities],
+    entries: &'a mut [SectionRatio],
+    reach: &'a Reach,
+    system: &'a System,
+    ends: &'a StepEnds<'a>,
+    instant: Instant<'a>,
+}
+
+impl NullaryFnOnce for FollowSections<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let Self {
+            system,
+            ends,
+            instant,
+            ..
+        } = self;
         let mut greatest = 0.0_f64;
-        let own = self
-            .sections
-            .iter_mut()
-            .filter(|own| own.building == building);
-        for section in own {
-            if ends.moved < section.until {
+        for section in self.sections {
+            if !section.watch.is_due(self.reach, 0.0) {
                 continue;
             }
             let rating = &system.ratings[section.rating];
+            let least = &self.least[section.least];
             let count = rating.capacity.rules.len();
-            let entries = &mut self.ratios.greatest[section.first..section.first + count];
-            let forces = section.forms.each_ref().map(|form| form.at(ends, instant));
-            let slack = section.slack(rating, entries, forces);
-            section.until = ends.moved + slack.max(0.0);
-            if slack > 0.0 {
+            let entries = &mut self.entries[section.first..section.first + count];
+            let forces = section.forms.each_ref().map(|form| {
+                form.at(ends.now, ends.ground[1], |contact| {
+                    instant.phases[contact].force()
+                })
+            });
+            section.watch = BlockWatch::DUE;
+            if section.is_bounded
+                && section.is_far(rating, least, entries, self.reach, forces, ends.now[0])
+            {
                 continue;
             }
+            let mut take = |time: f64, forces: [f64; 3]| {
+                take_exceeding(entries, rating, least, time, forces);
+            };
             let pushed = section.forms.iter().any(|form| !form.contacts.is_empty());
             if instant.smooth && ends.step > 0.0 && !pushed {
                 let curves = section.forms.each_ref().map(|form| form.curve(ends));
                 for part in 1..PARTS {
                     let at = ends.step * part as f64 / PARTS as f64;
                     let time = instant.time - ends.step + at;
-                    let forces = curves.each_ref().map(|curve| curve.value(at));
-                    take_all(entries, rating, time, forces);
+                    take(time, curves.each_ref().map(|curve| curve.value(at)));
                 }
             }
-            take_all(entries, rating, instant.time, forces);
-            greatest = greatest.max(entries.first().map_or(0.0, SectionRatio::greatest));
-        }
-        let worst = &mut self.ratios.worst[building];
-        if greatest > worst.ratio {
-            (worst.ratio, worst.time) = (greatest, instant.time);
-            for (force, form) in worst.forces.iter_mut().zip(&self.forms[building]) {
-                *force = form.at(ends, instant);
+            take(instant.time, forces);
+            if matches!(rating.part, RatedPart::Member(_)) {
+                greatest = greatest.max(entries.first().map_or(0.0, SectionRatio::greatest));
             }
         }
+        greatest
     }
 }
 
-fn take_all(entries: &mut [SectionRatio], rating: &MemberRating, time: f64, forces: [f64; 3]) {
-    for (entry, rule) in entries.iter_mut().zip(&rating.capacity.rules) {
+/// Takes in the forces at an instant by the rules whose greatest ratios they may exceed.
+#[inline(always)]
+fn take_exceeding(
+    entries: &mut [SectionRatio],
+    rating: &MemberRating,
+    least: &LeastCapacities,
+    time: f64,
+    [axial, shear, moment]: [f64; 3],
+) {
+    let compression = rating.compression(axial);
+    let rules = rating.capacity.rules.iter().zip(least.within(compression));
+    for (entry, (rule, [by_shear, by_bending])) in entries.iter_mut().zip(rules) {
         // Buildings in modal stepping are elastic.
-        member_ratios::take(entry, rule, rating, time, forces, 1.0);
+        if shear.abs() >= entry.shear.ratio * by_shear {
+            member_ratios::take_shear(entry, rule, time, shear, compression, 1.0);
+        }
+        if moment.abs() >= entry.bending.ratio * by_bending {
+            member_ratios::take_bending(entry, rule, time, moment, compression);
+        }
     }
 }
 
 impl RatedSection {
-    /// How far the building may move before a ratio can exceed its greatest value so far: demands grow by no more than
-    /// their norms, and capacities fall by no more than their slopes times the norm of the axial force.
-    fn slack(
-        &self,
+    /// Whether no ratio is near its greatest value; if so, it sets when the section has to be looked at again: forces of low
+    /// modes change by no more than their ways, all others stay below the size of the rest, and capacities change by no more
+    /// than the compression, within a range and those beside it.
+    #[inline(always)]
+    fn is_far(
+        &mut self,
         rating: &MemberRating,
+        least: &LeastCapacities,
         entries: &[SectionRatio],
+        reach: &Reach,
         [axial, shear, moment]: [f64; 3],
-    ) -> f64 {
-        let compression = rating.compression(axial);
-        let norms = self.forms.each_ref().map(|form| form.norm);
-        let mut slack = f64::INFINITY;
-        for (entry, rule) in entries.iter().zip(&rating.capacity.rules) {
-            let mut room = |most: f64, capacity: f64, demand: f64, norm: f64, steepest: f64| {
-                let grows = norm + most * steepest * norms[0];
-                let room = (NEAR * most * capacity - demand.abs()) / grows.max(f64::MIN_POSITIVE);
-                slack = slack.min(if grows.is_finite() { room } else { -1.0 });
-            };
-            if let Some(capacity) = &rule.shear {
-                let capacity = capacity.at(compression, 1.0);
-                room(
-                    entry.shear.ratio,
-                    capacity,
-                    shear,
-                    norms[1],
-                    self.steepest[0],
-                );
-            }
-            let both = [1.0, -1.0].map(|sign| rule.bending_at(compression, sign));
-            let capacity = both[0].min(both[1]);
-            room(
-                entry.bending.ratio,
-                capacity,
-                moment,
-                norms[2],
-                self.steepest[1],
-            );
+        modal: &[f64],
+    ) -> bool {
+        let most = least.near(entries, rating.compression(axial), NEAR);
+        if shear.abs() >= most[0] || moment.abs() >= most[1] {
+            return false;
         }
-        slack
+        let [n, v, m] = self
+            .forms
+            .each_ref()
+            .map(|form| form.of_low(reach.low, modal));
+        let mut slack = [0.0; ROWS];
+        slack[0] = least.reach - (axial - n).abs();
+        slack[1] = most[0] - v.abs();
+        slack[2] = most[1] - m.abs();
+        self.watch.set(reach, &self.norms, &slack);
+        true
     }
 }
 
 impl FormRow {
-    /// At the end of a step.
-    fn at(&self, ends: &StepEnds<'_>, instant: Instant<'_>) -> f64 {
-        let pushes = self.contacts.iter().map(|c| instant.phases[*c].force());
-        self.value(ends.now, ends.ground[1]) - pushes.sum::<f64>()
+    /// The force by the displacements of low modes.
+    #[inline(always)]
+    fn of_low(&self, low: usize, modal: &[f64]) -> f64 {
+        let shares = self.shares[0].get(..low).unwrap_or_default();
+        self.constant + simd::dot(shares, &modal[..shares.len()])
+    }
+
+    /// The force; `contact` returns that of a contact \[N\].
+    #[inline(always)]
+    fn at(&self, modal: [&[f64]; 3], ground: f64, contact: impl Fn(usize) -> f64) -> f64 {
+        let pushes = self.contacts.iter().map(|index| contact(*index));
+        self.value(modal, ground) - pushes.sum::<f64>()
     }
 
     /// Without forces of contacts.
+    #[inline(always)]
     fn value(&self, modal: [&[f64]; 3], ground: f64) -> f64 {
         let shares = self.shares.iter().zip(modal);
         let sums = shares.filter(|(shares, _)| !shares.is_empty());
@@ -233,6 +347,7 @@ impl FormRow {
     }
 
     /// Its course over a step in which accelerations follow a cubic.
+    #[inline(always)]
     fn curve(&self, ends: &StepEnds<'_>) -> Cubic {
         let slope = self.ground[1] * (ends.ground[1] - ends.ground[0]) / ends.step;
         let rate = |modal: [&[f64]; 3]| {
@@ -254,12 +369,7 @@ impl FormRow {
 
 impl MemberRows {
     /// A force as a sum over modal values.
-    fn form_row(
-        &self,
-        building: &crate::system::BuildingSystem,
-        form: usize,
-        stiffness: &[f64],
-    ) -> FormRow {
+    fn form_row(&self, building: &crate::system::BuildingSystem, form: usize) -> FormRow {
         let constant = building.members.forms[form].constant;
         let own = self.own_row(form);
         let (shares, ground, contacts, is_own) = match own {
@@ -269,17 +379,12 @@ impl MemberRows {
                 (shares, ground, contacts, false)
             }
         };
-        let squares = shares[0]
-            .iter()
-            .zip(stiffness)
-            .map(|(share, k)| share * share / k);
-        let norm = squares.sum::<f64>().sqrt();
         FormRow {
             shares,
             ground,
             constant,
             contacts,
-            norm: if is_own { norm } else { f64::INFINITY },
+            is_bounded: is_own,
         }
     }
 }

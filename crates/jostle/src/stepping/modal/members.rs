@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::basis::Basis;
-use super::member_kernels::{self, Drive, FollowOwn, FollowPassed, PassedWatch};
+use super::member_kernels::{self, Drive, FollowOwn, FollowPassed, KeptSums, PassedWatch};
 use super::member_ratios::{ModalRatios, StepEnds};
 use super::member_reach::{BlockWatch, PARTS, PartRows, Reach, low_modes, norms_in_blocks};
 use super::mode_kernels::ROWS;
@@ -131,6 +131,9 @@ impl MemberRows {
             for (kind, form) in section.forms.iter().enumerate() {
                 kind_of[*form] = kind;
             }
+        }
+        for joint in &building.members.joints {
+            kind_of[joint.section.forms[1]] = 1;
         }
         // Blocks of one kind, storey by storey: their rows come near their peaks together.
         own.sort_by_key(|form| kind_of[*form]);
@@ -300,13 +303,15 @@ pub(super) struct MemberPeaks {
     accelerations: Vec<f64>,
     /// What the modes of every building have done.
     reach: Vec<Reach>,
-    /// Way of every building that is long enough for rated sections.
-    moved: Vec<f64>,
     watch: Vec<Vec<BlockWatch>>,
+    kept: Vec<Vec<KeptSums>>,
+    /// Number of the step; restarts count as one.
+    number: u64,
     /// The same of axial forces that pass through beams.
     passed_greatest: Vec<[f64; ROWS]>,
     passed_least: Vec<[f64; ROWS]>,
     watch_passed: Vec<Vec<PassedWatch>>,
+    kept_passed: Vec<Vec<KeptSums>>,
     /// Whether modes are driven by other forces than the ground's and those of contacts.
     is_linked: bool,
     /// Modal displacements, velocities, accelerations and jerks now and before, building by building.
@@ -338,8 +343,6 @@ pub(super) const fn tests_look_always() -> bool {
     false
 }
 
-/// What the path between instants may be longer than their velocities say.
-const LONGER: f64 = 1.2;
 /// Lists of modal values that are kept: q, its rate, the rate of that and the jerk.
 const LISTS: usize = 4;
 
@@ -366,14 +369,20 @@ impl MemberPeaks {
             loose: vec![[0.0; ROWS]; own / ROWS],
             accelerations: vec![0.0; reduced.modes()],
             reach: buildings().map(|own| Reach::new(own.modes.len())).collect(),
-            moved: vec![0.0; reduced.buildings.len()],
             watch: buildings()
                 .map(|own| vec![BlockWatch::DUE; own.range.len() / ROWS])
                 .collect(),
+            kept: buildings()
+                .map(|own| vec![KeptSums::default(); own.range.len() / ROWS])
+                .collect(),
+            number: 1,
             passed_greatest: vec![[0.0; ROWS]; passed / ROWS],
             passed_least: vec![[0.0; ROWS]; passed / ROWS],
             watch_passed: buildings()
                 .map(|own| vec![PassedWatch::DUE; own.passed.range.len() / ROWS])
+                .collect(),
+            kept_passed: buildings()
+                .map(|own| vec![KeptSums::default(); own.passed.range.len() / ROWS])
                 .collect(),
             is_linked: !reduced.links.is_empty(),
             modal: [(); 2].map(|()| vec![0.0; LISTS * reduced.modes()]),
@@ -396,6 +405,7 @@ impl MemberPeaks {
     pub(super) fn follow(&mut self, system: &System, reduced: &Reduced, now: Instant<'_>) {
         let step = now.time - self.time;
         self.modal.swap(0, 1);
+        self.number += 1;
         for (index, own) in reduced.buildings.iter().enumerate() {
             let own = &own.members;
             let count = own.modes.len();
@@ -416,8 +426,6 @@ impl MemberPeaks {
                 &self.modal[1][all.start..all.start + count],
                 step,
             );
-            let rates = [reach.rate, reach.rate_before].map(|rate| simd::dot(&rate, &rate));
-            self.moved[index] += LONGER * step * rates[0].max(rates[1]).sqrt();
             self.raise_accelerations(index, own, &now.a[own.modes.clone()]);
             self.follow_own(reduced, index, own, step);
             self.follow_passed(reduced, index, own, now, step);
@@ -432,10 +440,10 @@ impl MemberPeaks {
                     then: from,
                     now: to,
                     ground: [self.ground[index], now.ground.of(index)[0]],
-                    moved: self.moved[index],
                     step,
                 };
-                ratios.follow(system, index, &ends, now);
+                let of = (system, index, &self.reach[index]);
+                ratios.follow(reduced.arch(), of, &ends, now);
             }
         }
         self.time = now.time;
@@ -446,6 +454,7 @@ impl MemberPeaks {
 
     /// Replaces velocities, accelerations and jerks of the last instant, after they have jumped.
     pub(super) fn restart(&mut self, reduced: &Reduced, jumped: [&[f64]; 3]) {
+        self.number += 1;
         for (index, own) in reduced.buildings.iter().enumerate() {
             let own = &own.members;
             let count = own.modes.len();
@@ -484,6 +493,8 @@ impl MemberPeaks {
         reduced.arch().dispatch(FollowOwn {
             rows: own,
             watch: &mut self.watch[index],
+            kept: &mut self.kept[index],
+            number: self.number,
             reach: &self.reach[index],
             greatest: &mut self.greatest[blocks.clone()],
             least: &mut self.least[blocks.clone()],
@@ -525,6 +536,8 @@ impl MemberPeaks {
         reduced.arch().dispatch(FollowPassed {
             passed,
             watch: &mut self.watch_passed[index],
+            kept: &mut self.kept_passed[index],
+            number: self.number,
             reach,
             greatest: &mut self.passed_greatest[blocks.clone()],
             least: &mut self.passed_least[blocks],
@@ -603,7 +616,7 @@ impl MemberPeaks {
             }
             all.push(extremes);
         }
-        let ratios = self.ratios.map(|ratios| ratios.ratios);
+        let ratios = self.ratios.map(ModalRatios::finish);
         (all, self.history, ratios.unwrap_or_default())
     }
 

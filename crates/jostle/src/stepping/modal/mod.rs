@@ -15,6 +15,7 @@ mod estimate;
 mod forces;
 mod free_steps;
 mod friction;
+mod least_capacities;
 mod links;
 mod member_kernels;
 mod member_ratios;
