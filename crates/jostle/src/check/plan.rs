@@ -297,11 +297,13 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
     }
     let touches = faces_of_gap(model, gap).is_none_or(|faces| !faces.is_empty());
     faults.require(touches, format!("{path}.reach"), || {
+        let [a, b] = between.map(|side| match model.buildings.get(side) {
+            Some(building) => &building.name,
+            None => &model.walls[side - last].name,
+        });
         format!(
-            "of {} m finds no edges of \"{}\" and \"{}\" that face each other at a common floor; check at and plan, or raise reach",
-            contact.reach,
-            model.buildings[between[0]].name,
-            model.buildings[between[1]].name
+            "of {} m finds no edges of \"{a}\" and \"{b}\" that face each other at a common floor; check at and plan, or raise reach",
+            contact.reach
         )
     });
 }

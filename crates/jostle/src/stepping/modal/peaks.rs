@@ -257,6 +257,31 @@ impl Peaks {
         }
     }
 
+    /// Begins with displacements `u` of what is monitored and modal displacements `q`; `moving`: modal velocities, accelerations and
+    /// jerks.
+    pub(super) fn begin(
+        &mut self,
+        system: &System,
+        reduced: &Reduced,
+        u: &[f64],
+        q: &[f64],
+        moving: [&[f64]; 3],
+    ) {
+        self.restart(reduced, moving);
+        reduced.show_forces(q, &mut self.forces[0]);
+        for (floors, (building, own)) in self
+            .floors
+            .iter_mut()
+            .zip(system.buildings.iter().zip(&reduced.buildings))
+        {
+            let tracks = building.tracks.iter().zip(own.watched.clone());
+            for (peaks, (_, at)) in floors.iter_mut().zip(tracks) {
+                peaks.displacement_max.value = u[at].max(0.0);
+                peaks.displacement_min.value = u[at].min(0.0);
+            }
+        }
+    }
+
     fn are_forces_near_peaks(&self, reduced: &Reduced) -> bool {
         let mut buildings = self.floors.iter().zip(&reduced.buildings);
         buildings.any(|(floors, own)| {

@@ -40,6 +40,9 @@ impl ModalStepper<'_> {
         self.jerks();
         self.show_accelerations(&run.grounds);
         self.energy.input += self.stored();
+        let moving = [&self.v[0][..], &self.scratch, &self.jerk];
+        self.peaks
+            .begin(run.system, self.reduced, &self.u[0], &self.q[0], moving);
     }
 
     /// Kinetic and strain energy now \[J\].
