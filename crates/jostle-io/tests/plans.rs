@@ -523,7 +523,7 @@ fn frames_in_plan_that_do_not_fit_are_refused_with_the_remedy() {
         ("at = [\"0 m\", \"0 m\"]", "", "add at"),
         (
             "base = {",
-            "base = { horizontal_hinge = { rule = \"bilinear\", yield = \"10 kN\" }, horizontal_stiffness = \"1 MN/m\",",
+            "base = { horizontal_hinge = { rule = \"bilinear\", yield = \"10 kN\", post_yield = 0.1 }, horizontal_stiffness = \"1 MN/m\",",
             "cannot yield",
         ),
     ] {

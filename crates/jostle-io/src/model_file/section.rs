@@ -255,6 +255,9 @@ fn own_mass(
     if !by_rigidity {
         return Some(section.line_mass);
     }
+    if material.density == 0.0 {
+        return Some(0.0);
+    }
     if let (Some(axial), Some(modulus)) = (section.axial_rigidity, material.modulus) {
         return Some(material.density * axial / modulus);
     }
