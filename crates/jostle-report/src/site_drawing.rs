@@ -209,7 +209,11 @@ fn names(model: &Model, scale: &Scale, taken: &mut Vec<[f64; 4]>) -> Markup {
             if floors == 1 { "floor" } else { "floors" }
         );
         let [x, y] = scale.place(tiers.floors.first()?.centre);
-        let [_, sy] = scale.place(tiers.storeys.first()?.centre);
+        // Frames at lines of the plan have no centre of stiffness of their own.
+        let sy = tiers
+            .storeys
+            .first()
+            .map_or(y, |storey| scale.place(storey.centre)[1]);
         // Away from the centre of stiffness.
         let at = [x, if sy > y { y - 16.0 } else { y + 18.0 }];
         taken.push(box_of(&words, at));
