@@ -384,9 +384,11 @@ fn describe_places(
             ]
         })
         .collect();
-    let [left, right] = model.gaps[gap].between.map(|side| {
-        let building = side.and_then(|index| model.buildings.get(index));
-        building.map_or("", |building| &building.name)
+    let between = model.gaps[gap].between;
+    let [left, right] = between.map(|side| match (side, model.wall(side)) {
+        (_, Some(wall)) => &wall.name[..],
+        (Some(index), None) => model.buildings.get(index).map_or("", |own| &own.name),
+        (None, None) => "wall",
     });
     let heads = [
         "no.", "kind", left, right, "floors", "length", "gap", "normal",

@@ -63,6 +63,7 @@ class SpaceScene {
       again = false;
       for (const contact of this.places) {
         const [a, b] = contact.gap.between;
+        if (a === null || b === null) continue;
         const more = (this.exaggeration - 1) * contact.width;
         const apart = contact.plan.normal.map((n) => n * more);
         const [from, to, sign] = this.shifts[a] && !this.shifts[b] ? [a, b, 1] : this.shifts[b] && !this.shifts[a] ? [b, a, -1] : [];
@@ -315,10 +316,16 @@ class SpaceScene {
       const [a, b] = contact.gap.between;
       const floors = contact.floors.map((floor) => floor - 1);
       const along = [-normal[1], normal[0]];
-      const sides = (point) => [this.moved(a, floors[0], point, state[a][floors[0]]), this.moved(b, floors[1], point, state[b][floors[1]])];
+      const onSide = (building, side, point) => (building === null ? this.onWall(contact, side, point) : this.moved(building, floors[side], point, state[building][floors[side]]));
+      const sides = (point) => [onSide(a, 0, point), onSide(b, 1, point)];
       const ends = length > 0 ? [-0.5, 0.5].map((s) => [at[0] + s * length * along[0], at[1] + s * length * along[1]]) : [at];
       for (const side of [0, 1]) {
         const points = ends.map((point) => this.at(sides(point)[side]));
+        if ([a, b][side] === null && points.length > 1) {
+          // A wall, from the ground up to the contact.
+          const feet = ends.map((point) => this.at([...sides(point)[side].slice(0, 2), 0]));
+          this.line([...points, feet[1], feet[0]], { fill: this.quiet, alpha: 0.25, stroke: this.quiet, width: 1, closed: true });
+        }
         if (points.length > 1) this.line(points, { stroke: this.alarm, width: 1.4 });
         for (const [x, y] of points) this.dot(x, y, 2.2);
       }
@@ -354,6 +361,14 @@ class SpaceScene {
     }
   }
 
+  /** A point of a wall, as far from the building before it as gaps are drawn. */
+  onWall(contact, side, [x, y]) {
+    const building = contact.gap.between[1 - side];
+    const more = (side === 1 ? 1 : -1) * (this.exaggeration - 1) * contact.width;
+    const [sx, sy] = this.shifts[building];
+    return [sx + x + more * contact.plan.normal[0], sy + y + more * contact.plan.normal[1], contact.height];
+  }
+
   dot(x, y, radius) {
     const context = this.context;
     context.beginPath();
@@ -367,6 +382,8 @@ class SpaceScene {
     const [a, b] = contact.gap.between;
     const along = [-contact.plan.normal[1], contact.plan.normal[0]];
     const [own, other] = [a, b].map((building, side) => {
+      // Walls stand on the ground.
+      if (building === null) return 0;
       const floor = contact.floors[side] - 1;
       const [u, v, r] = state[building][floor];
       const [cx, cy] = this.buildings[building].plans[floor].centre;

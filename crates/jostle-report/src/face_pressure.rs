@@ -3,7 +3,7 @@
 use jostle::results::summary::ContactSummary;
 use maud::{Markup, html};
 
-use crate::site_places::part_in_words;
+use crate::site_places::part_of;
 use crate::{Page, format};
 
 /// Faces that are drawn at most, those with the greatest forces.
@@ -38,8 +38,8 @@ pub(crate) fn figures(page: &Page) -> Markup {
             div.static-plots {
                 @for (summary, gap, contact) in faces.iter().take(MOST) {
                     @let names = &summary.between;
-                    @let corners = gap.between.map(|side| corners(page, side, contact));
-                    (figure(contact, names, corners))
+                    @let sides = [0, 1].map(|side| side_in_words(page, gap.between[side], contact, side));
+                    (figure(contact, names, &sides))
                 }
             }
             @if faces.len() > MOST { p.quiet { "The " (MOST) " faces with the greatest forces of " (faces.len()) "." } }
@@ -47,19 +47,24 @@ pub(crate) fn figures(page: &Page) -> Markup {
     }
 }
 
-/// Corners of the plan of a side.
-fn corners(page: &Page, side: Option<usize>, contact: &ContactSummary) -> usize {
-    let building = side.and_then(|index| page.model.buildings.get(index));
-    let floor = contact.floors[0].unwrap_or(1).saturating_sub(1);
-    match building.map(|building| &building.structure) {
-        Some(jostle::Structure::Tiers(tiers)) => {
-            tiers.floors.get(floor).map_or(0, |floor| floor.plan.len())
-        }
-        _ => 0,
+/// Floor and edge of a side: `floor 3, edge 2–3`, or `face` of a wall.
+fn side_in_words(
+    page: &Page,
+    building: Option<usize>,
+    contact: &ContactSummary,
+    side: usize,
+) -> String {
+    let (Some(building), Some(plan)) = (building, contact.in_plan) else {
+        return String::new();
+    };
+    let part = part_of(page.model, building, contact.floors[side], plan.parts[side]);
+    match contact.floors[side] {
+        Some(floor) => format!("floor {floor}, {part}"),
+        None => part,
     }
 }
 
-fn figure(contact: &ContactSummary, names: &[String; 2], corners: [usize; 2]) -> Markup {
+fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) -> Markup {
     let Some(plan) = contact.in_plan else {
         return html! {};
     };
@@ -98,15 +103,11 @@ fn figure(contact: &ContactSummary, names: &[String; 2], corners: [usize; 2]) ->
         py(0.0)
     );
     let centre = plan.points.centre.map(place);
-    let parts = [0, 1].map(|side| part_in_words(plan.parts[side], corners[side]));
-    let floors = contact
-        .floors
-        .map(|floor| floor.map_or("–".into(), |f| f.to_string()));
     let (stations, digits) = crate::envelope::ticks(0.0, length, 6.0);
     html! {
         figure.static-plot.pressure {
             figcaption {
-                span.chart-title { (names[0]) ", floor " (floors[0]) ", " (parts[0]) " ↔ " (names[1]) ", floor " (floors[1]) ", " (parts[1]) }
+                span.chart-title { (names[0]) ", " (sides[0]) " ↔ " (names[1]) ", " (sides[1]) }
                 br;
                 span.quiet {
                     (format::force(total))

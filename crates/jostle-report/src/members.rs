@@ -107,6 +107,11 @@ fn ratio(value: Option<f64>, place: Option<&RatioPlace>) -> Markup {
     html! { td class=(class) title=(title) { (format::fixed(value, 2)) } }
 }
 
+/// A peak with contact over that without.
+fn amplification(value: Option<f64>) -> Markup {
+    html! { td.number { (value.map_or_else(|| format::NOTHING.to_owned(), |value| format::fixed(value, 2))) } }
+}
+
 /// Levels of performance that the rotations of the ends keep, rule by rule.
 fn levels(member: &MemberSummary) -> Markup {
     let beyond = member.acceptance.iter().any(|own| own.level.is_none());
@@ -151,6 +156,7 @@ fn table(building: &BuildingSummary) -> Markup {
         y.total_cmp(&x).then(shear(b).total_cmp(&shear(a)))
     });
     let is_rated = building.capacity.is_some();
+    let is_compared = building.members.iter().any(|m| m.compared.is_some());
     let turns = building.members.iter().any(|m| !m.acceptance.is_empty());
     if is_rated {
         let ratio = |m: &MemberSummary| {
@@ -182,6 +188,10 @@ fn table(building: &BuildingSummary) -> Markup {
                         @for (name, unit) in columns {
                             th.number scope="col" { (name) br; span.unit { "[" (unit) "]" } }
                         }
+                        @if is_compared {
+                            th.number scope="col" { "shear" br; "/ without contact" }
+                            th.number scope="col" { "moment" br; "/ without contact" }
+                        }
                         @if is_rated {
                             th.number scope="col" { "shear" br; "/ capacity" }
                             th.number scope="col" { "moment" br; "/ capacity" }
@@ -204,6 +214,11 @@ fn table(building: &BuildingSummary) -> Markup {
                                 td.number { (kilo(greatest(member, |s| -s.axial_min_n).max(0.0))) }
                                 td.number { (kilo(shear(member))) }
                                 td.number { (kilo(greatest(member, |s| s.moment_peak_n_m))) }
+                                @if is_compared {
+                                    @let own = member.compared.as_ref();
+                                    (amplification(own.and_then(|m| m.shear_amplification)))
+                                    (amplification(own.and_then(|m| m.moment_amplification)))
+                                }
                                 @if is_rated {
                                     @let own = member.ratio.as_ref();
                                     (ratio(own.and_then(|r| r.shear), own.and_then(|r| r.shear_at.as_ref())))

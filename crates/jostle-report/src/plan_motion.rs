@@ -34,14 +34,17 @@ pub(crate) fn face_indentation(
     contact: &ContactSummary,
 ) -> Option<Vec<f64>> {
     let plan = contact.in_plan?;
-    let ([Some(a), Some(b)], [Some(i), Some(j)]) = (gap.between, contact.floors) else {
-        return None;
-    };
     let mut depths = vec![f64::NEG_INFINITY; history.len()];
     // The motion of a rigid edge is linear along it, so its ends say most; inner points matter where gaps differ.
     for point in plan.points.iter() {
-        let [ax, ay] = point_motion(model, history, (a, i), point.place)?;
-        let [bx, by] = point_motion(model, history, (b, j), point.place)?;
+        let side = |side: usize| match (gap.between[side], contact.floors[side]) {
+            (Some(building), Some(floor)) => {
+                point_motion(model, history, (building, floor), point.place)
+            }
+            // Walls on the site move with the ground.
+            _ => Some([(); 2].map(|()| vec![0.0; history.len()])),
+        };
+        let ([ax, ay], [bx, by]) = (side(0)?, side(1)?);
         for (row, depth) in depths.iter_mut().enumerate() {
             let closing =
                 plan.normal[0] * (ax[row] - bx[row]) + plan.normal[1] * (ay[row] - by[row]);

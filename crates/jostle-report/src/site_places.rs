@@ -8,10 +8,10 @@ use jostle::{Model, PlanPoint, Summary, System};
 pub struct SitePlace {
     /// Index of the gap in the model.
     pub gap_index: usize,
-    /// Indices of the buildings.
+    /// Indices of the buildings; walls are counted on from them.
     pub between: [usize; 2],
-    /// Floors of both, from 1, from the lowest up.
-    pub floors: Vec<[usize; 2]>,
+    /// Floors of both, from 1, from the lowest up; `None` of a wall.
+    pub floors: Vec<[Option<usize>; 2]>,
     /// Face or corner.
     pub kind: PlanContactKind,
     /// What touches, of either building.
@@ -46,9 +46,7 @@ impl SitePlace {
                 gap = [gap[0].min(next.width), gap[1].max(next.width)];
             }
             let gaps = model.gaps.get(first.gap).map(|gap| gap.between);
-            let (Some([Some(a), Some(b)]), [Some(i), Some(j)]) =
-                (gaps, system.floors_of(&first.ports))
-            else {
+            let Some([Some(a), Some(b)]) = gaps else {
                 continue;
             };
             add(
@@ -56,7 +54,7 @@ impl SitePlace {
                 Self {
                     gap_index: first.gap,
                     between: [a, b],
-                    floors: vec![[i, j]],
+                    floors: vec![system.floors_of(&first.ports)],
                     kind: own.kind,
                     parts: own.parts,
                     normal: own.normal,
@@ -75,9 +73,7 @@ impl SitePlace {
         let mut places = Vec::new();
         for (index, (gap, own)) in summary.gaps.iter().zip(&model.gaps).enumerate() {
             for contact in &gap.contacts {
-                let (Some(plan), [Some(a), Some(b)], [Some(i), Some(j)]) =
-                    (contact.in_plan, own.between, contact.floors)
-                else {
+                let (Some(plan), [Some(a), Some(b)]) = (contact.in_plan, own.between) else {
                     continue;
                 };
                 let kind = match plan.overlap_m > 0.0 {
@@ -89,7 +85,7 @@ impl SitePlace {
                     Self {
                         gap_index: index,
                         between: [a, b],
-                        floors: vec![[i, j]],
+                        floors: vec![contact.floors],
                         kind,
                         parts: plan.parts,
                         normal: plan.normal,
@@ -117,16 +113,27 @@ impl SitePlace {
     /// Floors in words: `1 to 3`, or pairs where they differ.
     #[must_use]
     pub fn floors_in_words(&self) -> String {
-        let same = self.floors.iter().all(|[a, b]| a == b);
-        let follow = self
-            .floors
-            .windows(2)
-            .all(|pair| pair[1][0] == pair[0][0] + 1);
+        let floor = |pair: &[Option<usize>; 2]| pair[0].or(pair[1]).unwrap_or(0);
+        let same = self.floors.iter().all(|pair| match pair {
+            [Some(a), Some(b)] => a == b,
+            // Of a wall every height is the same.
+            _ => true,
+        });
+        let steps = self.floors.windows(2);
+        let follow = steps.map(|pair| floor(&pair[1]).checked_sub(floor(&pair[0])));
+        let follow = follow.into_iter().all(|step| step == Some(1));
         match &self.floors[..] {
-            [[a, _]] if same => a.to_string(),
-            [[first, _], .., [last, _]] if same && follow => format!("{first} to {last}"),
+            [only] if same => floor(only).to_string(),
+            [first, .., last] if same && follow => format!("{} to {}", floor(first), floor(last)),
+            pairs if same => {
+                let words = pairs.iter().map(|pair| floor(pair).to_string());
+                words.collect::<Vec<_>>().join(", ")
+            }
             pairs => {
-                let words = pairs.iter().map(|[a, b]| format!("{a} | {b}"));
+                let word = |own: Option<usize>| own.map_or("–".to_owned(), |own| own.to_string());
+                let words = pairs
+                    .iter()
+                    .map(|[a, b]| format!("{} | {}", word(*a), word(*b)));
                 words.collect::<Vec<_>>().join(", ")
             }
         }
@@ -143,22 +150,33 @@ impl SitePlace {
         }
     }
 
-    /// What touches of either building, with corners counted from 1.
+    /// What touches of either building, with corners counted from 1; `face` of a wall.
     #[must_use]
     pub fn parts_in_words(&self, model: &Model) -> [String; 2] {
-        [0, 1].map(|side| {
-            let building = model.buildings.get(self.between[side]);
-            let plan = building.and_then(|building| match &building.structure {
-                jostle::Structure::Tiers(tiers) => tiers.floors.get(self.floors.first()?[side] - 1),
-                _ => None,
-            });
-            part_in_words(self.parts[side], plan.map_or(0, |floor| floor.plan.len()))
-        })
+        let floors = self.floors.first().copied().unwrap_or_default();
+        [0, 1].map(|side| part_of(model, self.between[side], floors[side], self.parts[side]))
     }
 }
 
+/// A part of a building or a wall in words. Floors count from 1.
+pub(crate) fn part_of(model: &Model, side: usize, floor: Option<usize>, part: PlanPart) -> String {
+    let Some(building) = model.buildings.get(side) else {
+        return match part {
+            // The plan of a wall begins behind it; its face is its third edge.
+            PlanPart::Edge(2) => "face".into(),
+            PlanPart::Edge(_) => "side".into(),
+            PlanPart::Corner(_) => "end".into(),
+        };
+    };
+    let plan = match (&building.structure, floor) {
+        (jostle::Structure::Tiers(tiers), Some(floor)) => tiers.floors.get(floor - 1),
+        _ => None,
+    };
+    part_in_words(part, plan.map_or(0, |floor| floor.plan.len()))
+}
+
 /// `corner 3`, or `edge 2–3`; corners count from 1.
-pub(crate) fn part_in_words(part: PlanPart, corners: usize) -> String {
+fn part_in_words(part: PlanPart, corners: usize) -> String {
     match part {
         PlanPart::Corner(index) => format!("corner {}", index + 1),
         PlanPart::Edge(index) => {
@@ -191,7 +209,7 @@ mod tests {
         assert_eq!(part_in_words(PlanPart::Edge(1), 4), "edge 2–3");
         assert_eq!(part_in_words(PlanPart::Edge(3), 4), "edge 4–1");
         assert_eq!(part_in_words(PlanPart::Corner(0), 4), "corner 1");
-        let place = |floors: &[[usize; 2]]| SitePlace {
+        let place = |floors: &[[Option<usize>; 2]]| SitePlace {
             gap_index: 0,
             between: [0, 1],
             floors: floors.to_vec(),
@@ -203,10 +221,15 @@ mod tests {
             gap: [0.02; 2],
             peak_force: 0.0,
         };
-        let words = |floors: &[[usize; 2]]| place(floors).floors_in_words();
+        let words = |floors: &[[usize; 2]]| {
+            let pairs: Vec<_> = floors.iter().map(|pair| pair.map(Some)).collect();
+            place(&pairs).floors_in_words()
+        };
         assert_eq!(words(&[[1, 1], [2, 2], [3, 3]]), "1 to 3");
         assert_eq!(words(&[[2, 2]]), "2");
         assert_eq!(words(&[[2, 1], [4, 2]]), "2 | 1, 4 | 2");
-        assert_eq!(words(&[[1, 1], [3, 3]]), "1 | 1, 3 | 3");
+        assert_eq!(words(&[[1, 1], [3, 3]]), "1, 3");
+        let wall = place(&[[None, Some(1)], [None, Some(2)]]);
+        assert_eq!(wall.floors_in_words(), "1 to 2");
     }
 }

@@ -10,8 +10,8 @@ use jostle::results::response::{BuildingResponse, FloorResponse};
 use jostle::results::summary::{
     AcceptanceSummary, AxialFailureSummary, CapacitySummary, ContactSummary, EnergySummary,
     ExceededSummary, ForcesSummary, GapSummary, HingeSummary, ImpactSummary, JointRatio,
-    JointSummary, LinkFloorSummary, LinkSummary, RatioPlace, RatioSummary, SectionSummary,
-    SpringSummary, WorkSummary,
+    JointSummary, LinkFloorSummary, LinkSummary, MemberComparison, RatioPlace, RatioSummary,
+    SectionSummary, SpringSummary, WorkSummary,
 };
 use jostle::{Quantity, Summary};
 use jostle_io::{Format, ModelTree};
@@ -303,6 +303,8 @@ fn lists_read_the_values_of_the_summary() {
             }
         }
         for member in &building.members {
+            let compared = member.compared.iter();
+            compared.for_each(|own| same(MemberComparison::QUANTITIES, own));
             let worst = member.at_worst.iter();
             worst.for_each(|forces| same(ForcesSummary::QUANTITIES, forces));
             let ratios = member.ratio.iter().chain(&member.other_ratios);

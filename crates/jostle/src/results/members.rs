@@ -2,8 +2,11 @@
 
 use super::capacity;
 use super::summarise::{Run, counted_impacts};
-use super::summary::{ForcesSummary, MemberSummary, SectionSummary, StruckSummary};
+use super::summary::{
+    ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
+};
 use crate::interface::DofRow;
+use crate::stepping::Outcome;
 use crate::structure::{MemberPlace, MemberSection, MemberSections, SectionAt};
 use crate::system::BuildingSystem;
 
@@ -64,6 +67,7 @@ pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
                         }
                     })
                     .collect(),
+                compared: compared(index, member, run),
                 at_worst: at_worst(index, member, run),
                 acceptance: capacity::acceptance(index, place, run),
                 axial_failure: capacity::axial_failure(index, place, run),
@@ -72,6 +76,35 @@ pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
             }
         })
         .collect()
+}
+
+/// Greatest forces of a member with contact and without.
+fn compared(building: usize, member: &MemberSections, run: &Run) -> Option<MemberComparison> {
+    let peaks = |outcome: &Outcome| {
+        let extremes = outcome.members.get(building)?;
+        let mut peaks = [0.0_f64; 3];
+        for section in &member.sections {
+            let [axial, shear, moment] = section.forms.map(|form| extremes[form]);
+            peaks[0] = peaks[0].max(-axial[1]);
+            for (peak, [greatest, least]) in peaks[1..].iter_mut().zip([shear, moment]) {
+                *peak = peak.max(greatest).max(-least);
+            }
+        }
+        Some(peaks)
+    };
+    let with = peaks(run.outcome)?;
+    let without = peaks(run.without_contact?)?;
+    let ratio = |kind: usize| (without[kind] > 0.0).then(|| with[kind] / without[kind]);
+    Some(MemberComparison {
+        compression_peak_n: with[0],
+        shear_peak_n: with[1],
+        moment_peak_n_m: with[2],
+        compression_peak_without_contact_n: without[0],
+        shear_peak_without_contact_n: without[1],
+        moment_peak_without_contact_n_m: without[2],
+        shear_amplification: ratio(1),
+        moment_amplification: ratio(2),
+    })
 }
 
 /// Forces of a member when its building had the greatest ratio of demand to capacity.

@@ -18,6 +18,9 @@ pub struct MemberSummary {
     pub ends: Vec<SectionSummary>,
     /// Points of a column between its ends where a neighbour can strike it, from the lowest up.
     pub struck: Vec<StruckSummary>,
+    /// Its greatest forces with contact, without, and their ratios; absent where there was no run without contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compared: Option<MemberComparison>,
     /// Forces of both ends, then below and above every struck point, when the building had its greatest ratio of demand to
     /// capacity (`capacity.worst.at_s` of the building, or the end of that step); empty where no capacity is known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -34,6 +37,42 @@ pub struct MemberSummary {
     /// Drift at which a column that failed in shear would lose its axial load; absent if unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_failure: Option<AxialFailureSummary>,
+}
+
+/// Greatest forces of a member over all its sections, with and without contact.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct MemberComparison {
+    /// Greatest compression with contact; 0 if it was always in tension \[N\].
+    pub compression_peak_n: f64,
+    /// Greatest shear with contact, either sign \[N\].
+    pub shear_peak_n: f64,
+    /// Greatest moment with contact, either sign \[N·m\].
+    pub moment_peak_n_m: f64,
+    /// The same without contact \[N\].
+    pub compression_peak_without_contact_n: f64,
+    /// The same without contact \[N\].
+    pub shear_peak_without_contact_n: f64,
+    /// The same without contact \[N·m\].
+    pub moment_peak_without_contact_n_m: f64,
+    /// Shear with contact over that without; `null` where the latter is zero \[–\].
+    pub shear_amplification: Option<f64>,
+    /// The same of moments \[–\].
+    pub moment_amplification: Option<f64>,
+}
+
+#[rustfmt::skip]
+impl MemberComparison {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("compression_peak_n", Unit::N, "greatest compression with contact", |m| m.compression_peak_n),
+        Quantity::<Self>::real("shear_peak_n", Unit::N, "greatest shear with contact, either sign", |m| m.shear_peak_n),
+        Quantity::<Self>::real("moment_peak_n_m", Unit::NM, "greatest moment with contact, either sign", |m| m.moment_peak_n_m),
+        Quantity::<Self>::real("compression_peak_without_contact_n", Unit::N, "greatest compression without contact", |m| m.compression_peak_without_contact_n),
+        Quantity::<Self>::real("shear_peak_without_contact_n", Unit::N, "greatest shear without contact, either sign", |m| m.shear_peak_without_contact_n),
+        Quantity::<Self>::real("moment_peak_without_contact_n_m", Unit::NM, "greatest moment without contact, either sign", |m| m.moment_peak_without_contact_n_m),
+        Quantity::<Self>::optional("shear_amplification", Unit::NONE, "greatest shear with contact over that without", |m| m.shear_amplification),
+        Quantity::<Self>::optional("moment_amplification", Unit::NONE, "greatest moment with contact over that without", |m| m.moment_amplification),
+    ];
 }
 
 /// Forces at one section of a member at an instant.
