@@ -49,7 +49,7 @@ fn places_are_what_the_geometry_found() {
     assert_eq!(places.len(), 1, "{places:?}");
     let place = &places[0];
     assert_eq!(place.between, [0, 1]);
-    assert_eq!(place.floors, [[1, 1], [2, 2], [3, 3]]);
+    assert_eq!(place.floors, [1, 2, 3].map(|floor| [Some(floor); 2]));
     assert_eq!(place.floors_in_words(), "1 to 3");
     assert_eq!(place.parts_in_words(&run.model), ["edge 2–3", "edge 4–1"]);
     assert_eq!(place.normal, [1.0, 0.0]);

@@ -388,6 +388,30 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
     Ok(())
 }
 
+/// Friction along the faces of a gap between buildings in space.
+fn write_friction(text: &mut String, gap: &GapSummary) -> std::fmt::Result {
+    let sliding = gap
+        .contacts
+        .iter()
+        .filter_map(|contact| contact.in_plan?.sliding);
+    let (mut peak, mut slip, mut energy) = (0.0_f64, 0.0_f64, 0.0);
+    for own in sliding {
+        peak = peak.max(own.tangential_peak_n);
+        slip = slip.max(own.slip_peak_m);
+        energy += own.friction_j;
+    }
+    if peak > 0.0 {
+        writeln!(
+            text,
+            "  Friction: peak {} kN along a face, slip up to {} mm, {:.1} kJ dissipated.",
+            kn(peak),
+            mm(slip),
+            1e-3 * energy
+        )?;
+    }
+    Ok(())
+}
+
 fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt::Result {
     let [left, right] = &gap.between;
     let verdict = match gap.first_impact_s {
@@ -459,6 +483,7 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
             )?;
         }
     }
+    write_friction(text, gap)?;
     if let Some(closing) = gap.closing_without_contact_m {
         writeln!(
             text,

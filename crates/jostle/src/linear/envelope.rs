@@ -63,6 +63,12 @@ impl Envelope {
         self.starts[row] + column - self.columns[row].start
     }
 
+    /// The stored entries of a row.
+    #[inline]
+    pub(crate) fn row(&self, row: usize) -> &[f64] {
+        &self.values[self.starts[row]..][..self.columns[row].len()]
+    }
+
     /// An entry within the envelope.
     #[inline]
     pub(crate) fn get(&self, row: usize, column: usize) -> f64 {
@@ -175,6 +181,13 @@ impl PivotedEnvelope {
         self.values[place] = value;
     }
 
+    /// Entries of a row in some columns of the envelope.
+    #[inline]
+    pub(crate) fn row_mut(&mut self, row: usize, columns: Range<usize>) -> &mut [f64] {
+        let first = self.place(row, columns.start);
+        &mut self.values[first..first + columns.len()]
+    }
+
     /// Replaces the right-hand side by the solution, with row exchanges, and destroys the matrix. Returns the
     /// multiply-adds; `None` if the matrix is singular.
     pub(crate) fn eliminate(&mut self, side: &mut [f64]) -> Option<u64> {
@@ -182,8 +195,15 @@ impl PivotedEnvelope {
         let mut operations = 0;
         for pivot in 0..n {
             let below = n.min(pivot + self.reach + 1);
-            let size = |row: &usize| self.values[self.place(*row, pivot)].abs();
-            let best = (pivot..below).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+            let size = |row: usize| self.values[self.place(row, pivot)].abs();
+            // The last of the greatest.
+            let (mut best, mut greatest) = (pivot, size(pivot));
+            for row in pivot + 1..below {
+                let own = size(row);
+                if own >= greatest || own.is_nan() {
+                    (best, greatest) = (row, own);
+                }
+            }
             if best != pivot {
                 let last = self.last[pivot].max(self.last[best]);
                 for column in pivot..=last {
@@ -197,14 +217,19 @@ impl PivotedEnvelope {
             if self.values[own] == 0.0 {
                 return None;
             }
-            let right = self.last[pivot] - pivot;
+            let (divisor, reached) = (self.values[own], self.last[pivot]);
+            let right = reached - pivot;
             for row in pivot + 1..below {
                 let at = self.place(row, pivot);
-                let share = self.values[at] / self.values[own];
+                let entry = self.values[at];
+                if entry == 0.0 {
+                    continue;
+                }
+                let share = entry / divisor;
                 if share == 0.0 {
                     continue;
                 }
-                self.last[row] = self.last[row].max(self.last[pivot]);
+                self.last[row] = self.last[row].max(reached);
                 let (above, rest) = self.values.split_at_mut(at);
                 let above = &above[own + 1..=own + right];
                 for (value, above) in rest[1..=right].iter_mut().zip(above) {

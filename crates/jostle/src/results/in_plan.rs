@@ -288,48 +288,58 @@ pub(super) fn points_of(system: &System, reported: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Impacts as they are reported, numbered by reported contact: those of a face from the first point that touches to the last
+/// Impacts of a reported contact: those of a face from the first point that touches to the last
 /// that parts, with the greatest total force, the sum of impulses and dissipated energies, the greatest indentation of a
 /// point, the impact speed of the first and the separation speed of the last.
-pub(super) fn reported_impacts(system: &System, outcome: &Outcome) -> Vec<Impact> {
+pub(super) fn impacts_of(system: &System, outcome: &Outcome, reported: usize) -> Vec<Impact> {
     if !system.is_in_space() {
-        return outcome.impacts.clone();
+        let impacts = outcome.impacts.iter();
+        let own = impacts.filter(|impact| impact.contact == reported);
+        return own.copied().collect();
     }
-    let whole = |face: &FaceImpact| {
-        let of_face = |impact: &&Impact| {
-            let place = system.contacts[impact.contact].plan;
-            place.is_some_and(|place| place.face == face.face)
-                && impact.start < face.end
-                && impact.end > face.start
-        };
-        let mut points: Vec<&Impact> = outcome.impacts.iter().filter(of_face).collect();
-        points.sort_by(|a, b| a.start.total_cmp(&b.start));
-        let (first, last) = (
-            points.first()?,
-            points.iter().max_by(|a, b| a.end.total_cmp(&b.end))?,
-        );
-        Some(Impact {
-            contact: face.face,
-            start: first.start,
-            end: last.end,
-            peak_force: face.peak_force.value,
-            peak_force_at: face.peak_force.at,
-            peak_indentation: points
-                .iter()
-                .map(|p| p.peak_indentation)
-                .fold(0.0, f64::max),
-            impact_speed: first.impact_speed,
-            separation_speed: last.separation_speed,
-            finished: points.iter().all(|point| point.finished),
-            impulse: points.iter().fold(0.0, |sum, point| sum + point.impulse),
-            dissipated: points.iter().fold(0.0, |sum, point| sum + point.dissipated),
-            sliding: Sliding {
-                slid_off: last.sliding.slid_off,
-                ..sliding_of(face, &points)
-            },
-        })
+    let of_face = |impact: &&Impact| {
+        let place = system.contacts[impact.contact].plan;
+        place.is_some_and(|place| place.face == reported)
     };
-    outcome.face_impacts.iter().filter_map(whole).collect()
+    let points: Vec<&Impact> = outcome.impacts.iter().filter(of_face).collect();
+    let faces = outcome.face_impacts.iter();
+    faces
+        .filter(|face| face.face == reported)
+        .filter_map(|face| whole_impact(face, &points))
+        .collect()
+}
+
+/// An impact of a face, from those of its points.
+fn whole_impact(face: &FaceImpact, impacts: &[&Impact]) -> Option<Impact> {
+    let impacts = impacts.iter().copied();
+    let mut points: Vec<&Impact> = impacts
+        .filter(|impact| impact.start < face.end && impact.end > face.start)
+        .collect();
+    points.sort_by(|a, b| a.start.total_cmp(&b.start));
+    let (first, last) = (
+        points.first()?,
+        points.iter().max_by(|a, b| a.end.total_cmp(&b.end))?,
+    );
+    Some(Impact {
+        contact: face.face,
+        start: first.start,
+        end: last.end,
+        peak_force: face.peak_force.value,
+        peak_force_at: face.peak_force.at,
+        peak_indentation: points
+            .iter()
+            .map(|p| p.peak_indentation)
+            .fold(0.0, f64::max),
+        impact_speed: first.impact_speed,
+        separation_speed: last.separation_speed,
+        finished: points.iter().all(|point| point.finished),
+        impulse: points.iter().fold(0.0, |sum, point| sum + point.impulse),
+        dissipated: points.iter().fold(0.0, |sum, point| sum + point.dissipated),
+        sliding: Sliding {
+            slid_off: last.sliding.slid_off,
+            ..sliding_of(face, &points)
+        },
+    })
 }
 
 /// Of a face: the greatest total friction, and the points together, from the first that touched.

@@ -2,7 +2,7 @@
 
 use super::in_plan::{
     ImpactSliding, PlanContactSummary, SlidingSummary, building_in_plan, centre_of, floor_in_plan,
-    place_of_face, points_of, reported_impacts,
+    impacts_of, place_of_face, points_of,
 };
 use crate::contact::{LawKind, RestitutionIs};
 use crate::history::Impact;
@@ -403,11 +403,8 @@ fn link_summary(index: usize, run: &Run) -> LinkSummary {
 }
 
 pub(super) fn counted_impacts(index: usize, gap: &Gap, run: &Run) -> Vec<CountedImpact> {
-    let reported = reported_impacts(run.system, run.outcome);
-    let mut impacts: Vec<&Impact> = reported
-        .iter()
-        .filter(|impact| impact.contact == index)
-        .collect();
+    let own = impacts_of(run.system, run.outcome, index);
+    let mut impacts: Vec<&Impact> = own.iter().collect();
     impacts.sort_by(|a, b| a.start.total_cmp(&b.start));
     counted(impacts, gap.minimum_separation)
 }

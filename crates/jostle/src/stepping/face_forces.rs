@@ -1,6 +1,6 @@
 //! Total force of the points of a face of two buildings in space, impact by impact.
 
-use super::gap_forces::{StepForce, peak_of_sum};
+use super::gap_forces::{StepForce, peak_of_many};
 use super::step_friction::FrictionPath;
 use crate::history::FaceImpact;
 use crate::interface::MOST_POINTS;
@@ -12,6 +12,9 @@ pub(super) struct FaceForces {
     pub(super) impacts: Vec<FaceImpact>,
     /// Of every face, the index of its impact under way.
     current: Vec<Option<usize>>,
+    /// Faces with closed points in the step just accepted, and in the one before, in rising order.
+    closed: Vec<usize>,
+    closed_before: Vec<usize>,
     /// Of every contact, its number among the points of its face.
     point: Vec<usize>,
     /// Closed points of the step just accepted.
@@ -51,6 +54,8 @@ impl FaceForces {
         Self {
             impacts: Vec::new(),
             current: vec![None; faces],
+            closed: Vec::with_capacity(faces),
+            closed_before: Vec::with_capacity(faces),
             point,
             step: Vec::with_capacity(points),
             together: Vec::with_capacity(points),
@@ -76,52 +81,79 @@ impl FaceForces {
 
     /// Updates impacts after a step \[s\] that began at `start` \[s\].
     pub(super) fn finish_step(&mut self, start: f64, step: f64) {
-        for face in 0..self.current.len() {
-            let own = self.step.iter().filter(|closed| closed.face == face);
-            self.together.clear();
-            self.together.extend(own.map(|closed| closed.force));
-            if self.together.is_empty() {
+        // Points of a face follow each other; faces in rising order.
+        if !self.step.is_sorted_by_key(|closed| closed.face) {
+            self.step.sort_unstable_by_key(|closed| closed.face);
+            self.friction.sort_unstable_by_key(|(face, ..)| *face);
+        }
+        let closed = std::mem::take(&mut self.step);
+        let friction = std::mem::take(&mut self.friction);
+        let (mut points, mut rubbed) = (&closed[..], &friction[..]);
+        self.closed.clear();
+        while let Some(&ClosedPoint { face, .. }) = points.first() {
+            let own = points.iter().take_while(|own| own.face == face).count();
+            let rubbing = rubbed.iter().take_while(|(own, ..)| *own == face).count();
+            self.finish_face(face, &points[..own], &rubbed[..rubbing], [start, step]);
+            (points, rubbed) = (&points[own..], &rubbed[rubbing..]);
+            self.closed.push(face);
+        }
+        for face in self.closed_before.drain(..) {
+            if self.closed.binary_search(&face).is_err() {
                 self.current[face] = None;
-                continue;
-            }
-            let index = *self.current[face].get_or_insert_with(|| {
-                self.impacts.push(FaceImpact::beginning(face, start));
-                self.impacts.len() - 1
-            });
-            let peak = peak_of_sum(&self.together, start, step);
-            let impact = &mut self.impacts[index];
-            impact.end = start + step;
-            let own = || self.friction.iter().filter(|(own, ..)| *own == face);
-            self.friction_of_face.clear();
-            self.friction_of_face.extend(own().map(|(.., path)| *path));
-            if let Some((_, coefficient, _)) = own().next() {
-                let limit = coefficient * impact.peak_force.value.max(peak.value);
-                let paths = &self.friction_of_face;
-                impact.peak_friction.widen(paths, limit, [start, step]);
-            }
-            if peak.value <= impact.peak_force.value {
-                continue;
-            }
-            impact.peak_force = peak;
-            let fraction = (peak.at - start) / step;
-            let (mut sum, mut moment) = (0.0, [0.0; 2]);
-            impact.point_forces = [0.0; MOST_POINTS];
-            for closed in self.step.iter().filter(|closed| closed.face == face) {
-                let force = closed.force.at(fraction);
-                sum += force;
-                moment = [
-                    moment[0] + force * closed.at[0],
-                    moment[1] + force * closed.at[1],
-                ];
-                if let Some(own) = impact.point_forces.get_mut(closed.point) {
-                    *own = force;
-                }
-            }
-            if sum > 0.0 {
-                impact.centre = moment.map(|moment| moment / sum);
             }
         }
+        std::mem::swap(&mut self.closed, &mut self.closed_before);
+        (self.step, self.friction) = (closed, friction);
         self.step.clear();
         self.friction.clear();
+    }
+
+    /// Updates the impact of a face with its closed points and the friction at them.
+    fn finish_face(
+        &mut self,
+        face: usize,
+        points: &[ClosedPoint],
+        rubbed: &[(usize, f64, FrictionPath)],
+        [start, step]: [f64; 2],
+    ) {
+        let index = *self.current[face].get_or_insert_with(|| {
+            self.impacts.push(FaceImpact::beginning(face, start));
+            self.impacts.len() - 1
+        });
+        self.together.clear();
+        self.together
+            .extend(points.iter().map(|closed| closed.force));
+        let peak = peak_of_many(&self.together, start, step);
+        let impact = &mut self.impacts[index];
+        impact.end = start + step;
+        if let Some((_, coefficient, _)) = rubbed.first() {
+            let limit = coefficient * impact.peak_force.value.max(peak.value);
+            self.friction_of_face.clear();
+            self.friction_of_face
+                .extend(rubbed.iter().map(|(.., path)| *path));
+            let paths = &self.friction_of_face;
+            impact.peak_friction.widen(paths, limit, [start, step]);
+        }
+        if peak.value <= impact.peak_force.value {
+            return;
+        }
+        impact.peak_force = peak;
+        let fraction = (peak.at - start) / step;
+        let (mut sum, mut moment) = (0.0, [0.0; 2]);
+        impact.point_forces = [0.0; MOST_POINTS];
+        for closed in points {
+            let force = closed.force.at(fraction);
+            sum += force;
+            moment = [
+                moment[0] + force * closed.at[0],
+                moment[1] + force * closed.at[1],
+            ];
+            if let Some(own) = impact.point_forces.get_mut(closed.point) {
+                *own = force;
+            }
+        }
+        if sum > 0.0 {
+            impact.centre = moment.map(|moment| moment / sum);
+        }
     }
 }

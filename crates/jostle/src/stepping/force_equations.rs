@@ -4,7 +4,7 @@ use crate::linear::envelope::{Envelope, PivotedEnvelope};
 use crate::stepping::coupling::Closed;
 
 /// Iterations of Newton's method before it is given up.
-const QUICK_ROUNDS: u64 = 12;
+pub(super) const QUICK_ROUNDS: u64 = 12;
 /// Change of the forces, relative to the greatest, at convergence.
 pub(super) const SETTLED: f64 = 1e-13;
 /// Change that counts as rounding if it no longer decreases.

@@ -60,6 +60,48 @@ pub(super) fn peak_of_sum(forces: &[StepForce], start: f64, step: f64) -> Extrem
     peak
 }
 
+/// The same for many forces, whose number only enters once.
+pub(super) fn peak_of_many(forces: &[StepForce], start: f64, step: f64) -> Extreme {
+    let mut peak = Extreme::default();
+    let mut consider = |value: f64, at: f64| {
+        if value > peak.value {
+            peak = Extreme { value, at };
+        }
+    };
+    let (mut ends, mut straight) = ([0.0; 2], [0.0; 2]);
+    let mut smooth: Option<Cubic> = None;
+    for force in forces {
+        let curve = force.curve;
+        for (end, value) in force.ends.into_iter().enumerate() {
+            ends[end] += value;
+            if curve.is_none() {
+                straight[end] += value;
+            }
+        }
+        if let Some(curve) = curve {
+            smooth = Some(smooth.map_or(curve, |sum| sum.plus(&curve)));
+        }
+    }
+    let sum_at = |fraction: f64| {
+        let line = straight[0] + fraction * (straight[1] - straight[0]);
+        line + smooth.map_or(0.0, |sum| sum.value(fraction))
+    };
+    for own in forces {
+        let fraction = (own.peak.at - start) / step;
+        let beside = sum_at(fraction) - own.at(fraction);
+        consider(own.peak.value + beside, own.peak.at);
+    }
+    for (sum, at) in ends.into_iter().zip([start, start + step]) {
+        consider(sum, at);
+    }
+    let all_smooth = forces.iter().all(|force| force.curve.is_some());
+    let sum = smooth.filter(|_| all_smooth);
+    if let Some(most) = sum.and_then(|sum| sum.peak(start, step)) {
+        consider(most.value, most.at);
+    }
+    peak
+}
+
 /// Peak total force of every gap.
 pub(super) struct GapForces {
     /// Gap by gap.
@@ -68,6 +110,8 @@ pub(super) struct GapForces {
     step: Vec<(usize, StepForce)>,
     /// Those of one gap.
     together: Vec<StepForce>,
+    /// Whether buildings are in space: many points of a gap close together.
+    in_space: bool,
 }
 
 impl GapForces {
@@ -77,6 +121,7 @@ impl GapForces {
             peaks: vec![Extreme::default(); gaps.max().unwrap_or(0)],
             step: Vec::with_capacity(system.contacts.len()),
             together: Vec::with_capacity(system.contacts.len()),
+            in_space: system.is_in_space(),
         }
     }
 
@@ -87,6 +132,9 @@ impl GapForces {
 
     /// Updates the peaks after a step \[s\] that began at `start` \[s\].
     pub(super) fn finish_step(&mut self, start: f64, step: f64) {
+        if self.in_space {
+            return self.finish_in_space(start, step);
+        }
         for (index, (gap, _)) in self.step.iter().enumerate() {
             // Every gap once.
             if self.step[..index].iter().any(|(place, _)| place == gap) {
@@ -96,6 +144,26 @@ impl GapForces {
             self.together.clear();
             self.together.extend(own.map(|(_, force)| *force));
             let most = peak_of_sum(&self.together, start, step);
+            if most.value > self.peaks[*gap].value {
+                self.peaks[*gap] = most;
+            }
+        }
+        self.step.clear();
+    }
+
+    /// The same, gap after gap.
+    fn finish_in_space(&mut self, start: f64, step: f64) {
+        if !self.step.is_sorted_by_key(|(gap, _)| *gap) {
+            self.step.sort_unstable_by_key(|(gap, _)| *gap);
+        }
+        let mut left = &self.step[..];
+        while let Some((gap, _)) = left.first() {
+            let count = left.iter().take_while(|(own, _)| own == gap).count();
+            let (own, others) = left.split_at(count);
+            left = others;
+            self.together.clear();
+            self.together.extend(own.iter().map(|(_, force)| *force));
+            let most = peak_of_many(&self.together, start, step);
             if most.value > self.peaks[*gap].value {
                 self.peaks[*gap] = most;
             }
@@ -113,6 +181,7 @@ mod tests {
             peaks: vec![Extreme::default(); gaps],
             step: Vec::new(),
             together: Vec::new(),
+            in_space: false,
         }
     }
 
@@ -145,6 +214,33 @@ mod tests {
             gaps.peaks
         );
         assert!((gaps.peaks[1].at - 11.0).abs() < 1e-12, "{:?}", gaps.peaks);
+    }
+
+    /// Many forces at once give what one after the other gives.
+    #[test]
+    fn many_forces_sum_as_few_do() {
+        let corner = StepForce {
+            ends: [2.0, 6.0],
+            curve: None,
+            peak: Extreme {
+                value: 9.0,
+                at: 11.5,
+            },
+        };
+        let waves = [
+            parabola(1.0, 4.0, -1.0),
+            parabola(5.0, -2.0, 0.0),
+            parabola(0.5, 3.0, -1.5),
+        ];
+        let [a, b, c] = waves;
+        for forces in [&[a, b, c][..], &[a, corner, b], &[corner], &[]] {
+            let (few, many) = (
+                peak_of_sum(forces, 10.0, 2.0),
+                peak_of_many(forces, 10.0, 2.0),
+            );
+            assert!((few.value - many.value).abs() < 1e-12, "{few:?}, {many:?}");
+            assert!((few.at - many.at).abs() < 1e-12, "{few:?}, {many:?}");
+        }
     }
 
     /// A force that sets in with a jump at the start of a step counts there.

@@ -19,6 +19,8 @@ pub(super) struct Touch {
     pub(super) acceleration: f64,
     /// How far from touching an event may be made or missed within the tolerance \[m\].
     pub(super) doubt: f64,
+    /// How far the contact has opened since it was closed, if the stepper follows that itself \[m\].
+    pub(super) clearance: Option<f64>,
 }
 
 /// How far from touching an event of a contact may be made or missed within the tolerance, for its greatest closing so far
@@ -42,11 +44,13 @@ impl NearContacts {
             rate,
             acceleration,
             doubt,
+            clearance,
         } = touch;
         let turns = acceleration < 0.0 && rate * rate < -2.0 * acceleration * doubt;
         let law = &run.system.contacts[contact].law;
         let rests = matches!(law, ForceLaw::Restitution { .. });
-        if turns || rests || self.clearance[contact] < doubt {
+        let clearance = clearance.unwrap_or(self.clearance[contact]);
+        if turns || rests || clearance < doubt {
             self.doubtful_from.get_or_insert(run.time);
         }
     }
@@ -60,7 +64,7 @@ impl NearContacts {
         step: f64,
         closing: impl Fn(usize) -> f64,
     ) {
-        for contact in 0..run.phases.len() {
+        for &contact in &run.near {
             let then = stepper.closing_rate(run, contact);
             let now = run.trials[contact].rate;
             if run.is_open(contact) {

@@ -2,6 +2,7 @@
 
 use super::stepper::ModalStepper;
 use crate::contact::momentum;
+use crate::simd;
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::coupling::Closed;
 use crate::stepping::predicted_force::{AHEAD, Drift, PredictedForce};
@@ -52,7 +53,7 @@ impl ModalStepper<'_> {
         let [rate, before] = &mut self.rate;
         before.copy_from_slice(rate);
         let watched = [&mut self.u[0][..], &mut rate[..]];
-        self.reduced.show([&self.q[0], &self.v[0]], watched);
+        self.reduced.show_all([&self.q[0], &self.v[0]], watched);
         self.jump_links();
         Jump {
             impulse,
@@ -113,12 +114,40 @@ impl ModalStepper<'_> {
                 start_acceleration: 0.0,
                 link: None,
             };
-            let bend = predicted.bend(start, 0.0);
-            self.reduced.push_apart(index, bend, &mut self.bend);
+            if self.reduced.plan.is_none() {
+                let bend = predicted.bend(start, 0.0);
+                self.reduced.push_apart(index, bend, &mut self.bend);
+            }
             run.coupling.closed.push(closed);
             run.coupling.places.push(place);
             self.predicted[index] = predicted;
         }
+        self.push_bends_in_plan(run);
+    }
+
+    /// Bends of the forces of contacts of buildings in space, face by face.
+    fn push_bends_in_plan(&mut self, run: &RunState<'_>) {
+        let Some(plan) = &self.reduced.plan else {
+            return;
+        };
+        let closed = &run.coupling.closed;
+        if closed.is_empty() {
+            return;
+        }
+        let equations = &mut self.plan_equations;
+        equations.list_points(plan, closed);
+        for (point, own) in closed.iter().enumerate() {
+            let start = match (&own.friction, own.contact) {
+                (Some(friction), _) => match &run.phases[friction.contact] {
+                    ContactPhase::Closed(episode) => episode.friction.force,
+                    ContactPhase::Open => 0.0,
+                },
+                (None, contact) => run.phases[contact].force(),
+            };
+            let bend = self.predicted[own.contact].bend(start, 0.0);
+            equations.add_bend(point, bend);
+        }
+        equations.push_bends(self.reduced, plan, &mut self.bend);
     }
 
     /// Relative motion of a contact over a step if its faces go on as they accelerate now.
@@ -148,11 +177,23 @@ impl ModalStepper<'_> {
         let [then, now] = [0, 1].map(|time| run.grounds_at(time));
         let [moved_then, moved_now] = [0, 1].map(|time| run.grounds.closing(index, time)[2]);
         let mut jerk = closing(&self.unloaded_jerk) + (moved_now - moved_then) / step;
+        let rate_under = |building: usize| {
+            let [then, now] = [then, now].map(|all| all.of(building));
+            [0, 1].map(|axis| (now[axis] - then[axis]) / step)
+        };
+        if let Some(plan) = &self.reduced.plan {
+            for (share, side) in plan.sides_of(index) {
+                let driven = [&self.reduced.participation, &self.reduced.across];
+                for (rate, list) in rate_under(side.building).into_iter().zip(driven) {
+                    let driven = &list[side.modes.clone()];
+                    jerk += share * simd::dot(&side.loads[..driven.len()], driven) * rate;
+                }
+            }
+        }
         let sides = self.reduced.ports[index].into_iter().zip([1.0, -1.0]);
         for (port, sign) in sides {
             let Some(port) = port else { continue };
-            let [then, now] = [then, now].map(|all| all.of(port.building));
-            let rate = [0, 1].map(|axis| (now[axis] - then[axis]) / step);
+            let rate = rate_under(port.building);
             jerk -= sign * self.peaks.driven_by(port.watched, rate);
         }
         Drift {
@@ -212,8 +253,13 @@ impl ModalStepper<'_> {
         response.by_indentation * rate + response.by_rate * acceleration
     }
 
-    /// Relative acceleration of the faces of a contact; modal ones stand in `scratch` \[m/s²\].
+    /// Relative acceleration of the faces of a contact; modal ones stand in `scratch`, in space those of ends of faces are known
+    /// \[m/s²\].
     pub(super) fn relative_acceleration(&self, run: &RunState<'_>, index: usize) -> f64 {
-        self.reduced.closing_of_modes(index, &self.scratch) + run.grounds.closing(index, 0)[2]
+        let apart = match &self.reduced.plan {
+            Some(plan) => self.plan_equations.acceleration(plan, index),
+            None => self.reduced.closing_of_modes(index, &self.scratch),
+        };
+        apart + run.grounds.closing(index, 0)[2]
     }
 }

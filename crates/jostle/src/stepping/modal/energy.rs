@@ -113,8 +113,25 @@ impl ModalStepper<'_> {
 
     /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch` and ∫τq in `moment`.
     fn contact_work(&mut self, run: &mut RunState<'_>, step: f64) {
-        for closed in &run.coupling.closed {
+        let reduced = self.reduced;
+        if let Some(plan) = &reduced.plan {
+            let modal = [&self.scratch[..], &self.moment];
+            self.plan_equations.show_ends(reduced, plan, modal);
+        }
+        for (place, closed) in run.coupling.closed.iter().enumerate() {
             let index = closed.contact;
+            let [area, moment] = match &reduced.plan {
+                Some(_) => {
+                    let point = self.plan_equations.points[place];
+                    self.plan_equations
+                        .sums
+                        .each_ref()
+                        .map(|list| point.of(list))
+                }
+                None => {
+                    [&self.scratch, &self.moment].map(|list| reduced.closing_of_modes(index, list))
+                }
+            };
             let contact = closed.friction.map_or(index, |friction| friction.contact);
             let ContactPhase::Closed(episode) = &mut run.phases[contact] else {
                 continue;
@@ -124,10 +141,8 @@ impl ModalStepper<'_> {
                 None => (run.system.contacts[index].width, episode.force),
             };
             let grounds = run.grounds.over_step(index, step);
-            let closing = self.reduced.closing_of_modes(index, &self.scratch) + grounds.area;
-            let leaning = 2.0
-                * (self.reduced.closing_of_modes(index, &self.moment) + grounds.moment)
-                - closing;
+            let closing = area + grounds.area;
+            let leaning = 2.0 * (moment + grounds.moment) - closing;
             let before = self.reduced.closing(index, &self.u[0]) - width;
             let last = run.trials[index].force;
             let bent = self.predicted[index].bend(first, last);

@@ -31,6 +31,53 @@ impl ModalStepper<'_> {
         Ok(())
     }
 
+    /// The same for buildings in space, whose monitored displacements follow.
+    pub(super) fn find_forces_in_plan(
+        &mut self,
+        run: &mut RunState<'_>,
+        slot: usize,
+    ) -> Result<(), StepError> {
+        let reduced = self.reduced;
+        let Some(plan) = &reduced.plan else {
+            return Ok(());
+        };
+        let (equations, table) = (&mut self.plan_equations, &self.tables[slot]);
+        let grounds = &run.grounds;
+        equations.set_free(reduced, plan, [&self.q[1], &self.v[1]], |port| {
+            let [closing, rate, _] = grounds.closing(port, 1);
+            [closing, rate]
+        });
+        equations.couple(reduced, plan, table);
+        let predicted = &self.predicted;
+        let closed = &mut run.coupling.closed;
+        let found = equations.solve(closed, &run.system.contacts, |port| predicted[port].end);
+        if let Some(rounds) = found {
+            run.work.iterations += rounds;
+        } else {
+            for (point, own) in closed.iter_mut().enumerate() {
+                let [closing, rate] = equations.free_of(point);
+                let width = match own.friction {
+                    Some(_) => 0.0,
+                    None => run.system.contacts[own.contact].width,
+                };
+                (own.free, own.free_rate) = (closing - width, rate);
+                own.indentation = own.free;
+                run.trials[own.contact].rate = rate;
+            }
+            equations.spread(reduced, &run.coupling.places, &mut self.equations.openings);
+            self.begin_with_foreseen(run);
+            self.settle_in_rounds(run)?;
+        }
+        let [_, q] = &mut self.q;
+        let [_, v] = &mut self.v;
+        let [_, p] = &mut self.p;
+        let to = [&mut q[..], v, p, &mut self.bend];
+        let closed = &run.coupling.closed;
+        self.plan_equations
+            .push(reduced, plan, closed, &self.tables[slot], to);
+        Ok(())
+    }
+
     /// How far and how fast end forces open the closed contacts.
     fn couple(&mut self, run: &RunState<'_>, slot: usize) {
         let reduced = self.reduced;

@@ -8,6 +8,7 @@ use super::peaks::{Taken, Watched};
 use super::reduced::{Reduced, Table};
 use super::stepper::ModalStepper;
 use super::turning::{Loads, StepMotion};
+use crate::motion::Ground;
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::clock::Clock;
@@ -26,11 +27,10 @@ pub(super) struct FreeSteps {
     step: f64,
     /// Number of steps to try next.
     ahead: usize,
-    lanes: Vec<Lanes>,
-    /// Coefficients of squares and products of ground accelerations in the dissipated energy, and of ground
-    /// accelerations in Γ ∫q dt.
-    damped_by_ground: [f64; 3],
-    area_by_ground: [f64; 2],
+    /// Factors under one component of the ground motion, or under two; the other list is empty.
+    lanes: Vec<Lanes<1>>,
+    lanes_in_space: Vec<Lanes<2>>,
+    by_ground: ByGround,
     /// Modal displacements and velocities now, padded to whole lanes.
     start: [Vec<f64>; 2],
     /// q, q̇, q̈ and jerk without load, step after step.
@@ -38,8 +38,93 @@ pub(super) struct FreeSteps {
     /// Monitored quantities; the present comes first.
     shown: [Vec<f64>; 4],
     ends: Vec<Clock>,
-    ground: Vec<f64>,
+    ground: Vec<Ground>,
     sums: Vec<Sums>,
+}
+
+/// Coefficients of ground accelerations in sums over all modes.
+#[derive(Clone, Copy, Debug, Default)]
+struct ByGround {
+    /// Of the products of two components in the dissipated energy: both at the start, the first there and the second at the
+    /// end, both at the end.
+    damped: [[[f64; 3]; 2]; 2],
+    /// Of every component at both ends in Γ ∫q dt of another.
+    area: [[[f64; 2]; 2]; 2],
+}
+
+impl ByGround {
+    /// Dissipated energy \[J\].
+    fn damped(&self, [g0, g1]: [Ground; 2], components: usize) -> f64 {
+        let mut sum = 0.0;
+        for first in 0..components {
+            for second in 0..components {
+                let [cc, cd, dd] = self.damped[first][second];
+                sum +=
+                    g0[first] * (cc * g0[second] + cd * g1[second]) + dd * g1[first] * g1[second];
+            }
+        }
+        sum
+    }
+
+    /// Γ ∫q dt of a component.
+    fn area(&self, axis: usize, [g0, g1]: [Ground; 2], components: usize) -> f64 {
+        let of = |from: usize| {
+            let [start, end] = self.area[axis][from];
+            start * g0[from] + end * g1[from]
+        };
+        (1..components).fold(of(0), |sum, from| sum + of(from))
+    }
+}
+
+/// Factors of a table, with loads from `N` components of the ground motion: p = −Σ Γ a.
+fn fill_lanes<const N: usize>(
+    lanes: &mut Vec<Lanes<N>>,
+    by_ground: &mut ByGround,
+    table: &Table,
+    reduced: &Reduced,
+) {
+    lanes.clear();
+    lanes.resize(reduced.modes().div_ceil(LANES), Lanes::default());
+    *by_ground = ByGround::default();
+    for mode in 0..reduced.modes() {
+        let (own, lane) = (&mut lanes[mode / LANES], mode % LANES);
+        for column in 0..2 {
+            own.displacement[column][lane] = table.displacement[column][mode];
+            own.velocity[column][lane] = table.velocity[column][mode];
+        }
+        let [aa, ab, ac, ad, _, bb, bc, bd, _, cc, cd, _, dd, _, _] =
+            table.damped.each_ref().map(|list| list[mode]);
+        for (entry, value) in own.damped.iter_mut().zip([aa, ab, bb]) {
+            entry[lane] = value;
+        }
+        let participations = [&reduced.participation, &reduced.across];
+        for (axis, driven) in own.driven.iter_mut().enumerate() {
+            let participation = participations[axis][mode];
+            for column in 0..2 {
+                driven.displacement[column][lane] =
+                    -participation * table.displacement[column + 2][mode];
+                driven.velocity[column][lane] = -participation * table.velocity[column + 2][mode];
+                driven.area[column][lane] = participation * table.area[column][mode];
+            }
+            for (entry, value) in driven.damped.iter_mut().zip([ac, ad, bc, bd]) {
+                entry[lane] = -participation * value;
+            }
+            driven.participation[lane] = participation;
+            for (from, second) in participations[..N].iter().enumerate() {
+                let both = participation * second[mode];
+                let damped = &mut by_ground.damped[axis][from];
+                for (sum, value) in damped.iter_mut().zip([cc, cd, dd]) {
+                    *sum += both * value;
+                }
+                let area = &mut by_ground.area[axis][from];
+                for (column, sum) in area.iter_mut().enumerate() {
+                    *sum -= both * table.area[column + 2][mode];
+                }
+            }
+        }
+        own.damping[lane] = reduced.damping[mode];
+        own.stiffness[lane] = reduced.stiffness[mode];
+    }
 }
 
 impl FreeSteps {
@@ -49,51 +134,43 @@ impl FreeSteps {
             step: 0.0,
             ahead: FEWEST,
             lanes: Vec::new(),
-            damped_by_ground: [0.0; 3],
-            area_by_ground: [0.0; 2],
+            lanes_in_space: Vec::new(),
+            by_ground: ByGround::default(),
             start: [(); 2].map(|()| vec![0.0; stride]),
             modal: [(); 4].map(|()| vec![0.0; stride * MOST]),
-            shown: [(); 4].map(|()| vec![0.0; reduced.watched() * (MOST + 1)]),
+            shown: [(); 4].map(|()| vec![0.0; reduced.listed() * (MOST + 1)]),
             ends: Vec::with_capacity(MOST),
             ground: Vec::with_capacity(MOST + 1),
             sums: Vec::with_capacity(MOST),
         }
     }
 
-    /// Uses the factors of a table, with loads from the ground motion: p = −Γ a.
+    /// Uses the factors of a table.
     fn set(&mut self, reduced: &Reduced, table: &Table) {
         self.step = table.step;
-        self.lanes.clear();
-        self.lanes
-            .resize(self.start[0].len() / LANES, Lanes::default());
-        (self.damped_by_ground, self.area_by_ground) = ([0.0; 3], [0.0; 2]);
-        for mode in 0..reduced.modes() {
-            let (own, lane) = (&mut self.lanes[mode / LANES], mode % LANES);
-            let participation = reduced.participation[mode];
-            let by_ground = [1.0, 1.0, -participation, -participation];
-            for (column, share) in by_ground.into_iter().enumerate() {
-                own.displacement[column][lane] = share * table.displacement[column][mode];
-                own.velocity[column][lane] = share * table.velocity[column][mode];
-            }
-            let [aa, ab, ac, ad, _, bb, bc, bd, _, cc, cd, _, dd, _, _] =
-                table.damped.each_ref().map(|list| list[mode]);
-            let form = [aa, ab, bb, ac, ad, bc, bd];
-            for (entry, value) in form.into_iter().enumerate() {
-                let share = if entry < 3 { 1.0 } else { -participation };
-                own.damped[entry][lane] = share * value;
-            }
-            for (sum, value) in self.damped_by_ground.iter_mut().zip([cc, cd, dd]) {
-                *sum += participation * participation * value;
-            }
-            for column in 0..2 {
-                own.area[column][lane] = participation * table.area[column][mode];
-                self.area_by_ground[column] -=
-                    participation * participation * table.area[column + 2][mode];
-            }
-            own.participation[lane] = participation;
-            own.damping[lane] = reduced.damping[mode];
-            own.stiffness[lane] = reduced.stiffness[mode];
+        let by_ground = &mut self.by_ground;
+        if reduced.across.is_empty() {
+            fill_lanes(&mut self.lanes, by_ground, table, reduced);
+        } else {
+            fill_lanes(&mut self.lanes_in_space, by_ground, table, reduced);
         }
+    }
+
+    /// All planned steps with these factors.
+    fn look_ahead<const N: usize>(&mut self, lanes: &[Lanes<N>], reduced: &Reduced) {
+        let [q, v, a, j] = &mut self.modal;
+        let [q0, v0] = &self.start;
+        Arch::new().dispatch(FreeStepsKernel {
+            ahead: Ahead {
+                lanes,
+                ground: &self.ground,
+                start: [q0, v0],
+                modal: [q, v, a, j],
+                sums: &mut self.sums,
+            },
+            reduced,
+            shown: &mut self.shown,
+        });
     }
 
     /// Monitored quantities after a number of steps.
@@ -117,13 +194,13 @@ impl FreeSteps {
 }
 
 /// Steps ahead, and what they show.
-struct FreeStepsKernel<'a> {
-    ahead: Ahead<'a>,
+struct FreeStepsKernel<'a, const N: usize> {
+    ahead: Ahead<'a, N>,
     reduced: &'a Reduced,
     shown: &'a mut [Vec<f64>; 4],
 }
 
-impl WithSimd for FreeStepsKernel<'_> {
+impl<const N: usize> WithSimd for FreeStepsKernel<'_, N> {
     type Output = ();
 
     #[inline(always)]
@@ -134,7 +211,7 @@ impl WithSimd for FreeStepsKernel<'_> {
             shown,
         } = self;
         let (steps, stride) = (ahead.sums.len(), ahead.start[0].len());
-        let places = reduced.watched();
+        let places = reduced.listed();
         let [q, v, a, j] = ahead.modal;
         let again = Ahead {
             modal: [&mut *q, &mut *v, &mut *a, &mut *j],
@@ -163,6 +240,13 @@ impl WithSimd for FreeStepsKernel<'_> {
                 show.with_simd(simd);
             }
         }
+        let Some(plan) = &reduced.plan else { return };
+        for list in shown {
+            for step in 1..=steps {
+                let own = &mut list[step * places..(step + 1) * places];
+                plan.fill(reduced.arch(), own);
+            }
+        }
     }
 }
 
@@ -172,9 +256,8 @@ impl ModalStepper<'_> {
     pub(super) fn take_free(&mut self, run: &mut RunState<'_>) -> bool {
         let quiet = |phase: &ContactPhase| *phase == ContactPhase::Open;
         if !self.reduced.links.is_empty()
-            || !self.reduced.across.is_empty()
             || run.ground_jumps
-            || !run.phases.iter().all(quiet)
+            || !run.near.iter().all(|contact| quiet(&run.phases[*contact]))
             || run.contact_division.iter().any(|d| *d > 1)
         {
             return false;
@@ -205,7 +288,7 @@ impl ModalStepper<'_> {
         let free_steps = &mut self.free_steps;
         free_steps.ends.clear();
         free_steps.ground.clear();
-        free_steps.ground.push(run.ground[0][0]);
+        free_steps.ground.push(run.ground[0]);
         let (mut clock, mut slot) = (run.clock, None);
         while free_steps.ends.len() < free_steps.ahead {
             let stride = clock.next_step(self.least_division);
@@ -216,9 +299,7 @@ impl ModalStepper<'_> {
             slot = slot.or(Some(stride));
             clock = stride.end;
             free_steps.ends.push(clock);
-            free_steps
-                .ground
-                .push(run.motion.acceleration(clock.time()));
+            free_steps.ground.push(run.motion.components(clock.time()));
         }
         let planned = free_steps.ends.len();
         if let Some(stride) = slot {
@@ -249,32 +330,34 @@ impl ModalStepper<'_> {
         free_steps
             .sums
             .resize(free_steps.ends.len(), Sums::default());
-        let [q, v, a, j] = &mut free_steps.modal;
-        let [q0, v0] = &free_steps.start;
-        Arch::new().dispatch(FreeStepsKernel {
-            ahead: Ahead {
-                lanes: &free_steps.lanes,
-                ground: &free_steps.ground,
-                start: [q0, v0],
-                modal: [q, v, a, j],
-                sums: &mut free_steps.sums,
-            },
-            reduced,
-            shown: &mut free_steps.shown,
-        });
+        if self.reduced.across.is_empty() {
+            let lanes = std::mem::take(&mut free_steps.lanes);
+            free_steps.look_ahead(&lanes, reduced);
+            free_steps.lanes = lanes;
+        } else {
+            let lanes = std::mem::take(&mut free_steps.lanes_in_space);
+            free_steps.look_ahead(&lanes, reduced);
+            free_steps.lanes_in_space = lanes;
+        }
     }
 
     /// How many of the planned steps end before anything can touch, or is no number any more.
-    fn count_free(&self, run: &RunState<'_>) -> usize {
+    fn count_free(&mut self, run: &RunState<'_>) -> usize {
         let free_steps = &self.free_steps;
-        let places = self.reduced.watched();
-        let is_free = |step: usize| {
+        let mut near = self.peaks.near.take();
+        let arch = self.reduced.arch();
+        let places = self.reduced.listed();
+        let mut is_free = |step: usize| {
             let sums = &free_steps.sums[step];
             let energy = sums.kinetic.iter().sum::<f64>() + sums.strain.iter().sum::<f64>();
             if !energy.is_finite() {
                 return false;
             }
             let [then, now] = [step, step + 1].map(|at| free_steps.watched(places, at));
+            if let Some(near) = &mut near {
+                let ends = [[then.u, then.rate], [now.u, now.rate]];
+                return !run.pounding || near.find_near(arch, ends, free_steps.step).is_empty();
+            }
             !run.pounding
                 || (0..run.phases.len()).all(|index| {
                     let closing = |list: &[f64]| self.reduced.closing(index, list);
@@ -292,29 +375,36 @@ impl ModalStepper<'_> {
                 })
         };
         let planned = free_steps.ends.len();
-        (0..planned)
+        let free = (0..planned)
             .position(|step| !is_free(step))
-            .unwrap_or(planned)
+            .unwrap_or(planned);
+        self.peaks.near = near;
+        free
     }
 
     /// Records one free step: energies, peaks, and a row of the history if one is due.
     fn record_free_step(&mut self, run: &mut RunState<'_>, index: usize, free: usize) {
-        let (free_steps, places) = (&self.free_steps, self.reduced.watched());
+        let (free_steps, places) = (&self.free_steps, self.reduced.listed());
         let step = free_steps.step;
         let [g0, g1] = [free_steps.ground[index], free_steps.ground[index + 1]];
         let sums = &free_steps.sums[index];
         let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
-        let [cc, cd, dd] = free_steps.damped_by_ground;
-        self.energy.damped += total(&sums.damped) + (g0 * (cc * g0 + cd * g1) + dd * g1 * g1);
-        let area = total(&sums.area)
-            + (free_steps.area_by_ground[0] * g0 + free_steps.area_by_ground[1] * g1);
-        let before = if index == 0 {
-            simd::dot(&self.reduced.participation, &self.q[0])
-        } else {
-            total(&free_steps.sums[index - 1].moved)
-        };
-        // ∫ a_g q̇ dt by parts.
-        self.energy.input += (g1 - g0) / step * area - (g1 * total(&sums.moved) - g0 * before);
+        let components = if self.reduced.across.is_empty() { 1 } else { 2 };
+        let (by_ground, grounds) = (&free_steps.by_ground, [g0, g1]);
+        self.energy.damped += total(&sums.damped) + by_ground.damped(grounds, components);
+        let participations = [&self.reduced.participation, &self.reduced.across];
+        for axis in 0..components {
+            let area = total(&sums.area[axis]) + by_ground.area(axis, grounds, components);
+            let before = if index == 0 {
+                simd::dot(participations[axis], &self.q[0])
+            } else {
+                total(&free_steps.sums[index - 1].moved[axis])
+            };
+            // ∫ a_g q̇ dt by parts.
+            let moved = total(&sums.moved[axis]);
+            let (then, now) = (g0[axis], g1[axis]);
+            self.energy.input += (now - then) / step * area - (now * moved - then * before);
+        }
         let energy = self
             .energy
             .balance(0.5 * total(&sums.kinetic), 0.5 * total(&sums.strain));
@@ -325,7 +415,7 @@ impl ModalStepper<'_> {
         let taken = Taken {
             then: free_steps.watched(places, index),
             now,
-            ground: [g0, g1].map(|value| GroundsAt::common([value, 0.0])),
+            ground: [g0, g1].map(GroundsAt::common),
             start,
             step,
             motion: StepMotion {
@@ -334,10 +424,13 @@ impl ModalStepper<'_> {
                     _ => free_steps.state(modes, index),
                 },
                 loads: Loads::Ground,
-                ground: [g0, g1].map(|value| GroundsAt::common([value, 0.0])),
+                ground: [g0, g1].map(GroundsAt::common),
                 step,
             },
         };
+        if let Some(near) = &mut self.peaks.near {
+            near.open(self.reduced.arch(), now.u);
+        }
         self.peaks.after_step(run.system, self.reduced, &taken);
         let [q, v] = free_steps.state(modes, index + 1);
         let [a, jerk] = [2, 3]
@@ -348,7 +441,7 @@ impl ModalStepper<'_> {
             a,
             jerk,
             time: run.time,
-            ground: GroundsAt::common([g1, 0.0]),
+            ground: GroundsAt::common(g1),
             phases: &run.phases,
             smooth: true,
         };
@@ -371,7 +464,7 @@ impl ModalStepper<'_> {
 
     /// Moves to the end of the last free step.
     fn move_to_last(&mut self, run: &mut RunState<'_>, steps: usize) {
-        let (free_steps, places) = (&self.free_steps, self.reduced.watched());
+        let (free_steps, places) = (&self.free_steps, self.reduced.listed());
         let modes = self.reduced.modes();
         let stride = free_steps.start[0].len();
         for step in 0..steps {
@@ -392,7 +485,7 @@ impl ModalStepper<'_> {
                     reduced,
                     accelerations,
                     watched,
-                    GroundsAt::common([ground, 0.0]),
+                    GroundsAt::common(ground),
                     forces,
                 );
             }
@@ -407,8 +500,8 @@ impl ModalStepper<'_> {
         self.unloaded_jerk[0].copy_from_slice(now.unloaded_jerk);
         run.clock = free_steps.ends[steps - 1];
         let ground = free_steps.ground[steps];
-        run.ground = [[ground, 0.0]; 2];
-        self.reduced.set_ground_loads([ground, 0.0], &mut self.p[0]);
+        run.ground = [ground; 2];
+        self.reduced.set_ground_loads(ground, &mut self.p[0]);
     }
 }
 

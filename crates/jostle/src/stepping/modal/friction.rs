@@ -67,6 +67,6 @@ impl ModalStepper<'_> {
             let sign = if force == 0.0 { rate } else { force }.signum();
             slope = sign * (sign * slope).min(law.coefficient * pressed_slope);
         }
-        self.reduced.push_apart(place, slope, &mut self.jerk);
+        self.push_slope(place, slope);
     }
 }

@@ -44,7 +44,7 @@ impl ModalLink {
             link,
             ports,
             push: UnitForce::between(reduced, ports, 0..0),
-            grounds: link.map(|link| reduced.watched() + reduced.unsplit_ports() + link),
+            grounds: link.map(|link| reduced.listed() + reduced.unsplit_ports() + link),
             stiffness,
             damping,
         }

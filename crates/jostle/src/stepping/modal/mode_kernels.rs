@@ -4,6 +4,7 @@
 use pulp::{NullaryFnOnce, Simd, WithSimd};
 
 use super::response::{INPUTS, PRODUCTS};
+use crate::motion::Ground;
 use crate::simd;
 
 /// Monitored displacements processed at once.
@@ -154,19 +155,44 @@ impl<const N: usize> WithSimd for Show<'_, N> {
     }
 }
 
-/// Factors of [`LANES`] modes for free-vibration steps of one length, where loads follow from the ground motion
-/// alone: of (q₀, q̇₀, a₀, a₁), a being the ground acceleration.
+/// Factors of [`LANES`] modes for free-vibration steps of one length, where loads follow from `N` components of the ground
+/// acceleration a alone.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lanes<const N: usize> {
+    /// Of (q₀, q̇₀) in q₁ and in q̇₁.
+    pub(super) displacement: [[f64; LANES]; 2],
+    pub(super) velocity: [[f64; LANES]; 2],
+    /// Of the dissipated energy: q₀², q₀q̇₀, q̇₀².
+    pub(super) damped: [[f64; LANES]; 3],
+    pub(super) driven: [DrivenLanes; N],
+    pub(super) damping: [f64; LANES],
+    pub(super) stiffness: [f64; LANES],
+}
+
+/// What one component of the ground acceleration contributes.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Lanes {
-    pub(super) displacement: [[f64; LANES]; 4],
-    pub(super) velocity: [[f64; LANES]; 4],
-    /// Of the dissipated energy: q₀², q₀q̇₀, q̇₀², then q₀ and q̇₀ with a₀ and a₁.
-    pub(super) damped: [[f64; LANES]; 7],
+pub(super) struct DrivenLanes {
+    /// Of (a₀, a₁) in q₁ and in q̇₁.
+    pub(super) displacement: [[f64; LANES]; 2],
+    pub(super) velocity: [[f64; LANES]; 2],
+    /// Of the dissipated energy: q₀a₀, q₀a₁, q̇₀a₀, q̇₀a₁.
+    pub(super) damped: [[f64; LANES]; 4],
     /// Of Γ ∫q dt: q₀ and q̇₀.
     pub(super) area: [[f64; LANES]; 2],
     pub(super) participation: [f64; LANES],
-    pub(super) damping: [f64; LANES],
-    pub(super) stiffness: [f64; LANES],
+}
+
+impl<const N: usize> Default for Lanes<N> {
+    fn default() -> Self {
+        Self {
+            displacement: Default::default(),
+            velocity: Default::default(),
+            damped: Default::default(),
+            driven: [DrivenLanes::default(); N],
+            damping: Default::default(),
+            stiffness: Default::default(),
+        }
+    }
 }
 
 /// Sums over modes of a step, lane by lane.
@@ -174,20 +200,20 @@ pub(super) struct Lanes {
 pub(super) struct Sums {
     /// Dissipated energy without the products of ground accelerations \[J\].
     pub(super) damped: [f64; LANES],
-    /// Γ ∫q dt without the parts of ground accelerations.
-    pub(super) area: [f64; LANES],
-    /// Γ q₁.
-    pub(super) moved: [f64; LANES],
+    /// Γ ∫q dt of every component without the parts of ground accelerations.
+    pub(super) area: [[f64; LANES]; 2],
+    /// Γ q₁ of every component.
+    pub(super) moved: [[f64; LANES]; 2],
     /// 2 T and 2 U at the end \[J\].
     pub(super) kinetic: [f64; LANES],
     pub(super) strain: [f64; LANES],
 }
 
-/// Several free-vibration steps, for all modes.
-pub(super) struct Ahead<'a> {
-    pub(super) lanes: &'a [Lanes],
+/// Several free-vibration steps, for all modes, under `N` components of the ground motion.
+pub(super) struct Ahead<'a, const N: usize> {
+    pub(super) lanes: &'a [Lanes<N>],
     /// Ground acceleration at the start and after every step.
-    pub(super) ground: &'a [f64],
+    pub(super) ground: &'a [Ground],
     /// q₀ and q̇₀.
     pub(super) start: [&'a [f64]; 2],
     /// q, q̇, q̈ and jerk without load, step after step.
@@ -195,7 +221,7 @@ pub(super) struct Ahead<'a> {
     pub(super) sums: &'a mut [Sums],
 }
 
-impl WithSimd for Ahead<'_> {
+impl<const N: usize> WithSimd for Ahead<'_, N> {
     type Output = ();
 
     #[inline(always)]
@@ -214,52 +240,43 @@ impl WithSimd for Ahead<'_> {
                 let at = |list: &[f64]| S::as_simd_f64s(&list[first..first + LANES]).0[r];
                 let (mut q0, mut v0) = (at(self.start[0]), at(self.start[1]));
                 let (damping, stiffness) = (factor(&own.damping), factor(&own.stiffness));
-                let participation = factor(&own.participation);
                 for (k, (ground, sums)) in self.ground.windows(2).zip(&mut *self.sums).enumerate() {
-                    let (g0, g1) = (simd.splat_f64s(ground[0]), simd.splat_f64s(ground[1]));
-                    let row = |row: &[[f64; LANES]; 4]| {
-                        plus(
-                            plus(times(factor(&row[0]), q0), times(factor(&row[1]), v0)),
-                            plus(times(factor(&row[2]), g0), times(factor(&row[3]), g1)),
-                        )
+                    let two = |[a, b]: [&[f64; LANES]; 2], x, y| {
+                        plus(times(factor(a), x), times(factor(b), y))
                     };
-                    let (q1, v1) = (row(&own.displacement), row(&own.velocity));
-                    let by_q = plus(
-                        plus(
-                            times(factor(&own.damped[0]), q0),
-                            times(factor(&own.damped[1]), v0),
-                        ),
-                        plus(
-                            times(factor(&own.damped[3]), g0),
-                            times(factor(&own.damped[4]), g1),
-                        ),
-                    );
-                    let by_v = plus(
-                        times(factor(&own.damped[2]), v0),
-                        plus(
-                            times(factor(&own.damped[5]), g0),
-                            times(factor(&own.damped[6]), g1),
-                        ),
-                    );
+                    let mut q1 = two(own.displacement.each_ref(), q0, v0);
+                    let mut v1 = two(own.velocity.each_ref(), q0, v0);
+                    let [aa, ab, bb] = own.damped.each_ref();
+                    let mut by_q = two([aa, ab], q0, v0);
+                    let mut by_v = times(factor(bb), v0);
+                    let mut pushed = simd.splat_f64s(0.0);
+                    for (axis, driven) in own.driven.iter().enumerate() {
+                        let g0 = simd.splat_f64s(ground[0][axis]);
+                        let g1 = simd.splat_f64s(ground[1][axis]);
+                        q1 = plus(q1, two(driven.displacement.each_ref(), g0, g1));
+                        v1 = plus(v1, two(driven.velocity.each_ref(), g0, g1));
+                        let [q_first, q_last, v_first, v_last] = driven.damped.each_ref();
+                        by_q = plus(by_q, two([q_first, q_last], g0, g1));
+                        by_v = plus(by_v, two([v_first, v_last], g0, g1));
+                        let load = times(factor(&driven.participation), g1);
+                        pushed = if axis == 0 { load } else { plus(pushed, load) };
+                    }
                     let strained = times(stiffness, q1);
-                    let a1 = simd.sub_f64s(
-                        simd.neg_f64s(plus(times(participation, g1), times(damping, v1))),
-                        strained,
-                    );
+                    let a1 =
+                        simd.sub_f64s(simd.neg_f64s(plus(pushed, times(damping, v1))), strained);
                     let j1 = simd.neg_f64s(plus(times(damping, a1), times(stiffness, v1)));
                     let add = |sum: &mut [f64; LANES], value: S::f64s| {
                         let place = &mut S::as_mut_simd_f64s(sum).0[r];
                         *place = plus(*place, value);
                     };
                     add(&mut sums.damped, plus(times(q0, by_q), times(v0, by_v)));
-                    add(
-                        &mut sums.area,
-                        plus(
-                            times(factor(&own.area[0]), q0),
-                            times(factor(&own.area[1]), v0),
-                        ),
-                    );
-                    add(&mut sums.moved, times(participation, q1));
+                    for (axis, driven) in own.driven.iter().enumerate() {
+                        add(&mut sums.area[axis], two(driven.area.each_ref(), q0, v0));
+                        add(
+                            &mut sums.moved[axis],
+                            times(factor(&driven.participation), q1),
+                        );
+                    }
                     add(&mut sums.kinetic, times(v1, v1));
                     add(&mut sums.strain, times(strained, q1));
                     let here = k * stride + first;
@@ -290,19 +307,22 @@ pub(super) struct Limits {
 
 /// Whether a step may exceed a limit, block by block of monitored quantities: a cubic between its ends leaves their
 /// range by no more than `beyond` times the sum of its end slopes.
-pub(super) struct Exceeds<'a> {
+pub(super) struct Exceeds<'a, const N: usize> {
     pub(super) limits: &'a Limits,
     /// At both ends: displacements, velocities, accelerations, and jerk without load.
     pub(super) ends: [[&'a [f64]; 4]; 2],
-    pub(super) driven: &'a [f64],
-    /// Ground acceleration at both ends, and its slope.
-    pub(super) ground: [f64; 2],
-    pub(super) ground_rate: f64,
+    pub(super) driven: [&'a [f64]; N],
+    /// Share of every component of the ground acceleration in total accelerations; any lists if there is one component alone,
+    /// all of which every quantity sees.
+    pub(super) moved: [&'a [f64]; N],
+    /// Ground acceleration at both ends, and its slope, of every component.
+    pub(super) ground: [[f64; N]; 2],
+    pub(super) ground_rate: [f64; N],
     pub(super) beyond: f64,
     pub(super) seen: &'a mut [bool],
 }
 
-impl WithSimd for Exceeds<'_> {
+impl<const N: usize> WithSimd for Exceeds<'_, N> {
     /// Whether any block may.
     type Output = bool;
 
@@ -331,15 +351,12 @@ impl WithSimd for Exceeds<'_> {
             own::<S>(a1, count),
             own::<S>(l1, count),
         );
-        let (high, low, driven) = (
-            own::<S>(high, count),
-            own::<S>(low, count),
-            own::<S>(self.driven, count),
-        );
+        let (high, low) = (own::<S>(high, count), own::<S>(low, count));
+        let driven = self.driven.map(|list| own::<S>(list, count));
+        let shares = self.moved.map(|list| own::<S>(list, count));
         let (drift, acceleration) = (own::<S>(drift, count), own::<S>(acceleration, count));
-        let [g0, g1] = self.ground;
-        let (g0, g1) = (simd.splat_f64s(g0), simd.splat_f64s(g1));
-        let slope = simd.splat_f64s(self.ground_rate);
+        let [g0, g1] = self.ground.map(|own| own.map(|g| simd.splat_f64s(g)));
+        let slope = self.ground_rate.map(|rate| simd.splat_f64s(rate));
         let beyond = simd.splat_f64s(self.beyond);
         let mut any = false;
         let registers = ROWS / S::F64_LANES;
@@ -353,9 +370,20 @@ impl WithSimd for Exceeds<'_> {
                     simd.greater_than_f64s(above, high[at]),
                     simd.less_than_f64s(under, low[at]),
                 );
-                let free = simd.sub_f64s(slope, simd.mul_f64s(slope, driven[at]));
-                let (rate0, rate1) = (simd.add_f64s(l0[at], free), simd.add_f64s(l1[at], free));
-                let (then, now) = (simd.add_f64s(a0[at], g0), simd.add_f64s(a1[at], g1));
+                let (mut rate0, mut rate1) = (l0[at], l1[at]);
+                let (mut then, mut now) = (a0[at], a1[at]);
+                for axis in 0..N {
+                    let seen_share = |value: S::f64s| match N {
+                        1 => value,
+                        _ => simd.mul_f64s(shares[axis][at], value),
+                    };
+                    let slope_seen = seen_share(slope[axis]);
+                    let free =
+                        simd.sub_f64s(slope_seen, simd.mul_f64s(slope[axis], driven[axis][at]));
+                    (rate0, rate1) = (simd.add_f64s(rate0, free), simd.add_f64s(rate1, free));
+                    then = simd.add_f64s(then, seen_share(g0[axis]));
+                    now = simd.add_f64s(now, seen_share(g1[axis]));
+                }
                 let reach = out_of(simd, beyond, rate0, rate1);
                 let total = simd.add_f64s(greater(simd, then, now), reach);
                 let shaken = simd.greater_than_f64s(total, acceleration[at]);
@@ -515,22 +543,30 @@ mod tests {
     #[test]
     fn nor_does_it_in_steps_ahead() {
         let values = |seed: f64| std::array::from_fn(|lane| (seed + 1.7 * lane as f64).sin());
-        let lanes: Vec<Lanes> = (0..3)
+        let lanes: Vec<Lanes<2>> = (0..3)
             .map(|group| {
                 let at = |k: usize| f64::from(group) + 0.37 * k as f64;
+                let driven = |axis: usize| DrivenLanes {
+                    displacement: std::array::from_fn(|k| values(at(k + 2 + 20 * axis))),
+                    velocity: std::array::from_fn(|k| values(at(k + 6 + 20 * axis))),
+                    damped: std::array::from_fn(|k| values(at(k + 11 + 20 * axis))),
+                    area: std::array::from_fn(|k| values(at(k + 15 + 20 * axis))),
+                    participation: values(at(17 + 20 * axis)),
+                };
                 Lanes {
                     displacement: std::array::from_fn(|k| values(at(k))),
                     velocity: std::array::from_fn(|k| values(at(k + 4))),
                     damped: std::array::from_fn(|k| values(at(k + 8))),
-                    area: std::array::from_fn(|k| values(at(k + 15))),
-                    participation: values(at(17)),
+                    driven: std::array::from_fn(driven),
                     damping: values(at(18)),
                     stiffness: values(at(19)),
                 }
             })
             .collect();
         let (n, steps) = (lanes.len() * LANES, 5);
-        let (q, v, ground) = (list(n, 0.3), list(n, 0.9), list(steps + 1, 2.0));
+        let (q, v) = (list(n, 0.3), list(n, 0.9));
+        let [along, across] = [2.0, 4.0].map(|seed| list(steps + 1, seed));
+        let ground: Vec<Ground> = along.into_iter().zip(across).map(Ground::from).collect();
         let ahead = |wide: bool| {
             let mut modal = [(); 4].map(|()| vec![0.0; n * steps]);
             let mut sums = vec![Sums::default(); steps];
@@ -555,7 +591,8 @@ mod tests {
                     kinetic,
                     strain,
                 } = sums;
-                [damped, area, moved, kinetic, strain].into_iter().flatten()
+                let [[a, b], [c, d]] = [area, moved];
+                [damped, a, b, c, d, kinetic, strain].into_iter().flatten()
             });
             let mut all: Vec<f64> = sums.copied().collect();
             all.extend(modal.concat());
@@ -671,9 +708,10 @@ mod tests {
                     let exceeds = Exceeds {
                         limits: &limits,
                         ends,
-                        driven: &driven,
-                        ground: [g0, g1],
-                        ground_rate,
+                        driven: [&driven],
+                        moved: [&driven],
+                        ground: [[g0], [g1]],
+                        ground_rate: [ground_rate],
                         beyond,
                         seen: &mut seen,
                     };

@@ -6,6 +6,7 @@ use pulp::Arch;
 use super::corners::CornerPeaks;
 use super::members::{Instant, MemberPeaks};
 use super::mode_kernels::{Exceeds, Limits, ROWS};
+use super::plan_near::PlanNear;
 use super::reduced::Reduced;
 use super::turning::{NEAR_GREATEST, StepMotion};
 use crate::history::{Energy, Extreme, FloorPeaks, History};
@@ -24,10 +25,15 @@ pub(super) struct Peaks {
     pub(super) floors: Vec<Vec<FloorPeaks>>,
     pub(super) corners: Vec<CornerPeaks>,
     pub(super) closing: Vec<Extreme>,
+    /// Bounds of the closings of buildings in space.
+    pub(super) near: Option<PlanNear>,
     pub(super) base_shear: Vec<f64>,
     /// Contribution of a unit ground acceleration along x to the accelerations of monitored quantities, and of its rate to
     /// their rates; then the same across, empty in one plane.
     driven: [Vec<f64>; 2],
+    /// Share of both components of the ground acceleration in total accelerations of monitored quantities; empty unless
+    /// buildings are in space.
+    moved: [Vec<f64>; 2],
     limits: Limits,
     /// Forces of storeys at the last two evaluations, and their rates at both ends if evaluated \[N, N·m; N/s,
     /// N·m/s\].
@@ -83,16 +89,17 @@ impl Peaks {
         grounds: &RunGrounds<'_>,
         reduced: &Reduced,
         interval: Option<f64>,
+        tolerance: f64,
     ) -> Self {
-        let watched = reduced.watched();
-        let (mut driven, mut spare) = (vec![0.0; watched], vec![0.0; watched]);
+        let (watched, listed) = (reduced.watched(), reduced.listed());
+        let (mut driven, mut spare) = (vec![0.0; listed], vec![0.0; listed]);
         let participation = &reduced.participation[..];
-        reduced.show([participation, participation], [&mut driven, &mut spare]);
+        reduced.show_all([participation, participation], [&mut driven, &mut spare]);
         let mut across = Vec::new();
         if !reduced.second().is_empty() {
-            across.resize(watched, 0.0);
+            across.resize(listed, 0.0);
             let participation = reduced.second();
-            reduced.show([participation, participation], [&mut across, &mut spare]);
+            reduced.show_all([participation, participation], [&mut across, &mut spare]);
         }
         Self {
             history: interval.map(|_| History::new(columns(system, grounds))),
@@ -103,11 +110,26 @@ impl Peaks {
                 .iter()
                 .map(|b| vec![FloorPeaks::default(); b.tracks.len()])
                 .collect(),
-            corners: system.buildings.iter().map(CornerPeaks::new).collect(),
+            corners: {
+                let all = system.buildings.iter().zip(&reduced.buildings);
+                all.map(|(building, own)| CornerPeaks::new(building, own))
+                    .collect()
+            },
             closing: vec![Extreme::default(); system.contacts.len()],
+            near: reduced
+                .plan
+                .as_ref()
+                .map(|plan| PlanNear::new(plan, &system.contacts, tolerance)),
             base_shear: vec![0.0; system.buildings.len()],
             driven: [driven, across],
-            limits: Limits::none(reduced),
+            moved: match reduced.across.is_empty() {
+                true => Default::default(),
+                false => [[1.0, 0.0], [0.0, 1.0]].map(|ground| {
+                    let directions = reduced.directions.iter();
+                    directions.map(|own| own.of_ground(ground)).collect()
+                }),
+            },
+            limits: Limits::none(system, reduced),
             forces: [(); 2].map(|()| vec![0.0; reduced.forces()]),
             force_rates: [(); 2].map(|()| vec![0.0; reduced.forces()]),
             forces_missed: [(); 2].map(|()| vec![0.0; reduced.forces()]),
@@ -185,6 +207,7 @@ impl Peaks {
         if self.may_exceed(taken) {
             self.look_at_buildings(system, reduced, taken, None);
         }
+        self.follow_corners(reduced, taken);
         self.follow_closings(reduced, taken);
     }
 
@@ -200,11 +223,20 @@ impl Peaks {
         if self.may_exceed(taken) {
             self.look_at_buildings(system, reduced, taken, Some(within()));
         }
+        self.follow_corners(reduced, taken);
         self.follow_closings(reduced, taken);
     }
 
+    /// The distance that a corner has moved may be a peak where none of its two displacements is.
+    fn follow_corners(&mut self, reduced: &Reduced, taken: &Taken<'_>) {
+        for corners in &mut self.corners {
+            let ends = [taken.then, taken.now];
+            corners.follow(reduced.arch(), ends, taken.start, taken.step);
+        }
+    }
+
     fn follow_closings(&mut self, reduced: &Reduced, taken: &Taken<'_>) {
-        for (contact, closing) in self.closing.iter_mut().enumerate() {
+        let raise = |contact: usize, closing: &mut Extreme| {
             let pair = |at: Watched<'_>| {
                 [
                     reduced.closing(contact, at.u),
@@ -216,6 +248,14 @@ impl Peaks {
                 now: pair(taken.now),
             };
             ends.raise(closing, taken.start, taken.step);
+        };
+        if let Some(near) = &mut self.near {
+            let ends = [taken.then, taken.now];
+            near.raise(reduced.arch(), ends, raise, taken.step, &mut self.closing);
+            return;
+        }
+        for (contact, closing) in self.closing.iter_mut().enumerate() {
+            raise(contact, closing);
         }
     }
 
@@ -357,20 +397,37 @@ impl Peaks {
             step,
             ..
         } = *taken;
-        if !self.driven[1].is_empty() || ground[0].is_split() {
+        if ground[0].is_split() || (!self.driven[1].is_empty() && self.moved[1].is_empty()) {
             // Places see different components of the ground motion.
             self.seen.fill(true);
             return true;
         }
-        let ground = ground.map(|ground| ground.common[0]);
+        let [g0, g1] = ground.map(|ground| ground.common);
+        let rate = [0, 1].map(|axis| (g1[axis] - g0[axis]) / step);
+        let [along, across] = &self.driven;
+        let (limits, ends) = (&self.limits, [then.lists(), now.lists()]);
+        let (beyond, seen) = (BEYOND * step, &mut self.seen);
+        if across.is_empty() {
+            return Arch::new().dispatch(Exceeds {
+                limits,
+                ends,
+                driven: [along],
+                moved: [along],
+                ground: [[g0[0]], [g1[0]]],
+                ground_rate: [rate[0]],
+                beyond,
+                seen,
+            });
+        }
         Arch::new().dispatch(Exceeds {
-            limits: &self.limits,
-            ends: [then.lists(), now.lists()],
-            driven: &self.driven[0],
-            ground,
-            ground_rate: (ground[1] - ground[0]) / step,
-            beyond: BEYOND * step,
-            seen: &mut self.seen,
+            limits,
+            ends,
+            driven: [along, across],
+            moved: self.moved.each_ref().map(|list| &list[..]),
+            ground: [g0, g1],
+            ground_rate: rate,
+            beyond,
+            seen,
         })
     }
 
@@ -465,7 +522,6 @@ impl Peaks {
                     self.limits.drift[at] = (1.0 - 1e-12) * widest;
                 }
             }
-            self.corners[index].follow(own, [then, now], start, step);
             for &[floor, at] in &own.rising {
                 let ends = Ends {
                     then: [then.u[at], then.rate[at]],
@@ -591,7 +647,7 @@ pub(super) const BEYOND: f64 = 0.15;
 impl Limits {
     /// No peaks so far; other contact points have no peaks, and the drift of the lowest storey is the displacement
     /// of its floor. Where the base gives way as well, that floor is always looked at.
-    fn none(reduced: &Reduced) -> Self {
+    fn none(system: &System, reduced: &Reduced) -> Self {
         let watched = reduced.watched();
         let mut limits = Self {
             high: vec![f64::INFINITY; watched],
@@ -599,13 +655,19 @@ impl Limits {
             drift: vec![f64::INFINITY; watched],
             acceleration: vec![f64::INFINITY; watched],
         };
-        for building in &reduced.buildings {
+        for (building, own) in reduced.buildings.iter().zip(&system.buildings) {
             let first = building.watched.start;
             for at in first..first + building.floors {
                 (limits.high[at], limits.low[at]) = (0.0, 0.0);
                 (limits.drift[at], limits.acceleration[at]) = (0.0, 0.0);
             }
-            limits.drift[first] = f64::INFINITY;
+            // In every direction.
+            for (at, _) in (first..)
+                .zip(&own.tracks)
+                .filter(|(_, track)| track.is_lowest)
+            {
+                limits.drift[at] = f64::INFINITY;
+            }
             let shear = building.shear;
             (limits.high[shear], limits.low[shear]) = (0.0, 0.0);
         }

@@ -11,6 +11,7 @@ use super::defects::Defects;
 use super::links::{LinkTable, ModalLink, own_dashpots};
 use super::members::{FormRows, MemberRows};
 use super::mode_kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
+use super::plan_rows::{self, PlanRows};
 use super::response::{INPUTS, PRODUCTS, Responses};
 use super::unit_force::{UnitForce, UnitResponse};
 use crate::contact::ForceLaw;
@@ -53,6 +54,8 @@ pub(super) struct Reduced {
     pub(super) links: Vec<ModalLink>,
     /// The order in which forces of contacts are solved for.
     pub(super) graph: InterfaceGraph,
+    /// Contacts of buildings in space; their ports are then those of walls.
+    pub(super) plan: Option<PlanRows>,
 }
 
 /// A contact point: its building, and its index among all monitored displacements.
@@ -75,8 +78,6 @@ pub(super) struct ReducedBuilding {
     /// Number of displacements of floors, the place of the foot where the base gives way sideways, and the index of the base
     /// shear.
     pub(super) floors: usize,
-    /// Displacements of corners along x and across in turn, among all.
-    pub(super) corners: Range<usize>,
     /// Floors, from 0, and places of vertical displacements among all.
     pub(super) rising: Vec<[usize; 2]>,
     pub(super) foot: Option<usize>,
@@ -234,6 +235,7 @@ impl Reduced {
             unit_forces: Vec::new(),
             links: Vec::new(),
             graph: InterfaceGraph::default(),
+            plan: None,
         };
         for (index, basis) in bases.into_iter().enumerate() {
             let added = reduced.add_building(system, index, basis, work);
@@ -242,6 +244,7 @@ impl Reduced {
         if reduced.modes() < FEW_MODES {
             reduced.arch = Arch::Scalar;
         }
+        reduced.plan = PlanRows::new(system, &reduced);
         reduced.add_links(system);
         reduced.unit_forces = (0..reduced.ports.len())
             .map(|contact| UnitForce::new(&reduced, contact))
@@ -311,17 +314,11 @@ impl Reduced {
     ) -> Result<(), NotPositive> {
         let building = &system.buildings[index];
         let equations = &building.equations;
-        let Watched {
-            places,
-            corners,
-            rising,
-            ..
-        } = Watched::new(system, index, self.vertical);
+        let Watched { places, rising, .. } = Watched::new(system, index, self.vertical);
         let watching = self.watched();
         let rising = rising
             .into_iter()
             .map(|[floor, place]| [floor, watching + place]);
-        let corners = corners.start + self.watched()..corners.end + self.watched();
         let ends = system.edge_ends.iter().map(|end| &end.ports);
         let all = self.ports.iter_mut().zip(system.contact_ports());
         for (ports, pair) in all.chain(self.edge_ends.iter_mut().zip(ends)) {
@@ -422,7 +419,6 @@ impl Reduced {
             members: member_rows,
             floors: building.tracks.len(),
             foot: building.foot.map(|_| building.tracks.len()),
-            corners,
             rising: rising.collect(),
             shear: watching + shown.len() - 1,
             blocks,
@@ -524,6 +520,14 @@ impl Reduced {
             .map_or(0, |building| building.watched.end)
     }
 
+    /// Number of entries of lists of monitored quantities: displacements in whole blocks, then closings of contacts in space.
+    pub(super) fn listed(&self) -> usize {
+        match &self.plan {
+            Some(plan) => plan.end,
+            None => self.watched(),
+        }
+    }
+
     /// Number of forces of storeys, in whole blocks.
     pub(super) fn forces(&self) -> usize {
         self.buildings
@@ -558,7 +562,17 @@ impl Reduced {
         self.show_of(0..self.buildings.len(), modal, watched);
     }
 
-    /// The same for some buildings; the lists begin with the first of them.
+    /// The same with the closings of contacts in space, in lists of [`Reduced::listed`] entries and more.
+    pub(super) fn show_all(&self, modal: [&[f64]; 2], watched: [&mut [f64]; 2]) {
+        let [first, second] = watched;
+        self.show(modal, [&mut *first, &mut *second]);
+        if let Some(plan) = &self.plan {
+            plan.fill(self.arch, first);
+            plan.fill(self.arch, second);
+        }
+    }
+
+    /// The same as [`Reduced::show`] for some buildings; the lists begin with the first of them.
     pub(super) fn show_of(
         &self,
         buildings: Range<usize>,
@@ -586,16 +600,28 @@ impl Reduced {
     /// hold what the grounds add, contact by contact and link by link.
     #[inline]
     pub(super) fn closing(&self, contact: usize, values: &[f64]) -> f64 {
-        let apart = Self::apart(self.ports[contact], values);
-        match values.get(self.watched() + contact) {
+        let apart = match &self.plan {
+            Some(plan) => plan.closing(contact, values),
+            None => Self::apart(self.ports[contact], values),
+        };
+        match values.get(self.listed() + contact) {
             Some(grounds) => apart + grounds,
             None => apart,
         }
     }
 
+    /// By how much a corner has moved along an edge from its end.
+    #[inline]
+    pub(super) fn moved_from_end(&self, end: usize, values: &[f64]) -> f64 {
+        match &self.plan {
+            Some(plan) => plan.end_of_edge(end, values),
+            None => Self::apart(self.edge_ends[end], values),
+        }
+    }
+
     /// Left minus right of monitored values; a wall has zero.
     #[inline]
-    pub(super) fn apart([left, right]: [Option<Shown>; 2], values: &[f64]) -> f64 {
+    fn apart([left, right]: [Option<Shown>; 2], values: &[f64]) -> f64 {
         let at = |port: Option<Shown>| port.map_or(0.0, |shown| values[shown.watched]);
         at(left) - at(right)
     }
@@ -644,13 +670,11 @@ fn ends_of_contacts(system: &System) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Monitored displacements of a building: its floors from the ground up, its corners in plan, then other points of contacts, links and
+/// Monitored displacements of a building: its floors from the ground up, then other points of contacts, links and
 /// dashpots; and those of contacts, links and dashpots.
 struct Watched {
     places: Vec<DofRow>,
     ports: Vec<DofRow>,
-    /// Corners in plan among the places.
-    corners: Range<usize>,
     /// Floors, from 0, and their vertical displacements among the places.
     rising: Vec<[usize; 2]>,
 }
@@ -663,8 +687,6 @@ impl Watched {
             .chain(building.foot)
             .map(|dof| DofRow::single(dof - building.offset))
             .collect();
-        let corners = places.len()..places.len() + 2 * building.corners.len();
-        places.extend(building.corners.iter().flat_map(|corner| corner.rows));
         let mut rising = Vec::new();
         if vertical {
             for (floor, dof) in building.vertical_points() {
@@ -673,6 +695,13 @@ impl Watched {
             }
         }
         let mut ports = Vec::new();
+        if plan_rows::are_rows_of_floors(system) {
+            return Self {
+                places,
+                ports,
+                rising,
+            };
+        }
         let contacts = system.contact_ports().map(|ports| ports.0);
         let links = system.links.iter().map(|link| link.ports.0);
         let ends = system.edge_ends.iter().map(|end| end.ports.0);
@@ -691,7 +720,6 @@ impl Watched {
         Self {
             places,
             ports,
-            corners,
             rising,
         }
     }

@@ -32,7 +32,7 @@ impl ModalStepper<'_> {
                 modal[own.modes.clone()].copy_from_slice(&parts);
             }
         }
-        self.reduced.show(
+        self.reduced.show_all(
             [&self.q[0], &self.v[0]],
             [&mut self.u[0], &mut self.rate[0]],
         );

@@ -8,6 +8,7 @@ use super::free_steps::FreeSteps;
 use super::links::{LinkMotion, longest_step};
 use super::members::Instant;
 use super::peaks::{Peaks, Taken, Watched};
+use super::plan_equations::PlanEquations;
 use super::reduced::{Reduced, Table};
 use super::struck::{StruckStep, WithinStep};
 use super::turning::{Loads, StepMotion};
@@ -62,6 +63,7 @@ pub(super) struct ModalStepper<'a> {
     /// Steps that a contact has been open, while its division still counts.
     pub(super) open_steps: Vec<u32>,
     pub(super) equations: ForceEquations,
+    pub(super) plan_equations: PlanEquations,
     /// Forces of closed contacts over the tried step as they could be predicted.
     pub(super) predicted: Vec<PredictedForce>,
     /// Friction over the tried step as it could be predicted.
@@ -142,7 +144,7 @@ impl<'a> ModalStepper<'a> {
         let (system, motion, plan) = (run.system, run.motion, run.plan);
         let grounds = run.grounds_at(0);
         let division = division * division_for_links(system, plan);
-        let (modes, watched) = (reduced.modes(), reduced.watched() + run.grounds.joints());
+        let (modes, watched) = (reduced.modes(), reduced.listed() + run.grounds.joints());
         let pair = |n: usize| [vec![0.0; n], vec![0.0; n]];
         let mut p = pair(modes);
         reduced.set_loads_of(grounds, &mut p[0]);
@@ -150,7 +152,13 @@ impl<'a> ModalStepper<'a> {
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
-        let mut peaks = Peaks::new(system, &run.grounds, reduced, settings.record_interval);
+        let mut peaks = Peaks::new(
+            system,
+            &run.grounds,
+            reduced,
+            settings.record_interval,
+            plan.tolerance(),
+        );
         peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
         let mut acceleration = pair(watched);
         // At rest on moving ground buildings stay behind.
@@ -161,7 +169,7 @@ impl<'a> ModalStepper<'a> {
             }
         }
         for joint in 0..run.grounds.joints() {
-            acceleration[0][reduced.watched() + joint] = run.grounds.closing(joint, 0)[2];
+            acceleration[0][reduced.listed() + joint] = run.grounds.closing(joint, 0)[2];
         }
         Self {
             free_steps: FreeSteps::new(reduced),
@@ -183,6 +191,7 @@ impl<'a> ModalStepper<'a> {
             jerk: vec![0.0; modes],
             open_steps: vec![0; contacts],
             equations: ForceEquations::default(),
+            plan_equations: PlanEquations::new(reduced),
             predicted: vec![PredictedForce::default(); reduced.ports.len()],
             friction_paths: vec![FrictionPath::default(); reduced.ports.len() - contacts],
             links: LinkMotion::new(system, reduced),
@@ -218,7 +227,8 @@ impl<'a> ModalStepper<'a> {
     }
 
     fn into_outcome(mut self, mut run: RunState<'_>, end: RunEnd) -> Outcome {
-        run.work.coupling_operations = run.coupling.operations + self.equations.operations;
+        run.work.coupling_operations =
+            run.coupling.operations + self.equations.operations + self.plan_equations.operations;
         let energy = self.balance();
         let step_of = |division: u32| run.plan.step / f64::from(division);
         let contact_step = Some(run.finest_in_contact)
@@ -322,18 +332,54 @@ impl<'a> ModalStepper<'a> {
     }
 
     /// Watched displacements, indentations and rates at the end of the tried step.
-    fn follow(&mut self, run: &mut RunState<'_>) {
+    fn follow(&mut self, run: &mut RunState<'_>, step: f64) {
         let watched = [&mut self.u[1][..], &mut self.rate[1][..]];
-        self.reduced.show([&self.q[1], &self.v[1]], watched);
+        self.reduced.show_all([&self.q[1], &self.v[1]], watched);
         for joint in 0..run.grounds.joints() {
-            let place = self.reduced.watched() + joint;
+            let place = self.reduced.listed() + joint;
             [self.u[1][place], self.rate[1][place], _] = run.grounds.closing(joint, 1);
         }
+        self.find_near(run, step);
         self.read_trials(run);
+    }
+
+    /// Lists the contacts that are closed, or that the tried step can bring near touching, if not all are listed.
+    fn find_near(&mut self, run: &mut RunState<'_>, step: f64) {
+        let Some(near) = &mut self.peaks.near else {
+            return;
+        };
+        let ends = [0, 1].map(|time: usize| [&self.u[time][..], &self.rate[time]]);
+        let found = near.find_near(self.reduced.arch(), ends, step);
+        let phases = &run.phases;
+        let is_open = |contact: &usize| matches!(phases[*contact], ContactPhase::Open);
+        run.near.retain(|contact| !is_open(contact));
+        let closed = run.near.len();
+        run.near
+            .extend(found.iter().copied().filter(|contact| is_open(contact)));
+        if closed > 0 {
+            run.near.sort_unstable();
+        }
     }
 
     /// Sets the trials to the end of the tried step.
     pub(super) fn read_trials(&self, run: &mut RunState<'_>) {
+        if self.reduced.plan.is_some() {
+            for &index in &run.near {
+                let friction = self.reduced.friction[index];
+                for port in [Some(index), friction].into_iter().flatten() {
+                    let width = if port == index {
+                        run.system.contacts[index].width
+                    } else {
+                        0.0
+                    };
+                    let trial = &mut run.trials[port];
+                    trial.indentation = self.reduced.closing(port, &self.u[1]) - width;
+                    trial.rate = self.reduced.closing(port, &self.rate[1]);
+                    trial.force = 0.0;
+                }
+            }
+            return;
+        }
         let contacts = run.system.contacts.len();
         for (index, trial) in run.trials[..contacts].iter_mut().enumerate() {
             let width = run.system.contacts[index].width;
@@ -406,7 +452,7 @@ impl<'a> ModalStepper<'a> {
             self.peaks.after_step(run.system, reduced, &taken);
         }
         self.struck = self.struck.saturating_sub(1);
-        let open = (0..run.phases.len()).all(|index| run.is_open(index));
+        let open = run.near.iter().all(|index| run.is_open(*index));
         let now = Instant {
             q: &self.q[0],
             v: &self.v[0],
@@ -420,12 +466,26 @@ impl<'a> ModalStepper<'a> {
         self.peaks.follow_forces(run.system, reduced, now);
     }
 
+    /// Adds the rate of a contact force, or of friction, to the modal jerks; in space once [`Self::push_slopes`] is called.
+    pub(super) fn push_slope(&mut self, port: usize, slope: f64) {
+        match &self.reduced.plan {
+            Some(plan) => self.plan_equations.add_rate(plan, port, slope),
+            None => self.reduced.push_apart(port, slope, &mut self.jerk),
+        }
+    }
+
+    fn push_slopes(&mut self) {
+        if let Some(plan) = &self.reduced.plan {
+            self.plan_equations.push_rates(plan, &mut self.jerk);
+        }
+    }
+
     pub(super) fn show_accelerations(&mut self, grounds: &RunGrounds<'_>) {
         for joint in 0..grounds.joints() {
-            let place = self.reduced.watched() + joint;
+            let place = self.reduced.listed() + joint;
             self.acceleration[0][place] = grounds.closing(joint, 0)[2];
         }
-        self.reduced.show(
+        self.reduced.show_all(
             [&self.scratch, &self.jerk],
             [&mut self.acceleration[0], &mut self.unloaded_jerk[0]],
         );
@@ -436,10 +496,19 @@ impl<'a> ModalStepper<'a> {
         self.accelerations();
         self.jerks();
         self.add_link_slopes(&run.grounds);
-        for index in 0..run.phases.len() {
+        let reduced = self.reduced;
+        if let Some(plan) = &reduced.plan {
+            let near = run.near.iter().copied();
+            let closed = near.filter(|index| !run.is_open(*index));
+            self.plan_equations.accelerate(plan, closed, &self.scratch);
+        }
+        for &index in &run.near {
+            if run.is_open(index) {
+                continue;
+            }
             let slope = self.slope_from_here(run, index);
             if slope != 0.0 {
-                self.reduced.push_apart(index, slope, &mut self.jerk);
+                self.push_slope(index, slope);
             }
             if let ContactPhase::Closed(episode) = &run.phases[index] {
                 self.push_friction_slope(
@@ -450,6 +519,7 @@ impl<'a> ModalStepper<'a> {
                 );
             }
         }
+        self.push_slopes();
         self.show_accelerations(&run.grounds);
         let jumped = [&self.v[0][..], &self.scratch, &self.jerk];
         self.peaks.restart(self.reduced, jumped);
@@ -522,9 +592,8 @@ impl Stepper for ModalStepper<'_> {
     }
 
     fn edge_end(&self, run: &RunState<'_>, end: usize, tried: bool) -> [f64; 2] {
-        let ports = self.reduced.edge_ends[end];
-        let [moved, rate] =
-            [&self.u, &self.rate].map(|lists| Reduced::apart(ports, &lists[usize::from(tried)]));
+        let [moved, rate] = [&self.u, &self.rate]
+            .map(|lists| self.reduced.moved_from_end(end, &lists[usize::from(tried)]));
         [run.system.edge_ends[end].inside + moved, rate]
     }
 
@@ -577,7 +646,20 @@ impl Stepper for ModalStepper<'_> {
             self.press_links(&run.grounds, slot);
         }
         run.work.solves += 1;
-        self.follow(run);
+        if self.reduced.plan.is_some() {
+            if !self.q[1].iter().all(|q| q.is_finite()) {
+                return Err(StepError::NotFinite { time: run.time });
+            }
+            if !run.coupling.closed.is_empty() {
+                self.find_forces_in_plan(run, slot)?;
+            }
+            self.follow(run, self.tables[slot].step);
+            for closed in &run.coupling.closed {
+                run.trials[closed.contact].force = closed.force;
+            }
+            return Ok(());
+        }
+        self.follow(run, self.tables[slot].step);
         if run
             .trials
             .iter()
@@ -599,6 +681,9 @@ impl Stepper for ModalStepper<'_> {
     }
 
     fn before_step(&mut self, run: &mut RunState<'_>, step: f64) {
+        if let Some(near) = &mut self.peaks.near {
+            near.open(self.reduced.arch(), &self.u[1]);
+        }
         let mut near = std::mem::replace(&mut self.near, NearContacts::new(0));
         near.at_turns(run, self, step, |contact| self.peaks.closing[contact].value);
         self.near = near;
@@ -639,6 +724,12 @@ impl Stepper for ModalStepper<'_> {
         self.accelerations();
         let free = (slot != 0 && !run.in_contact()).then_some(self.tables[slot].step);
         self.checks_errors = self.reached.widen(&self.scratch, free);
+        if let Some(plan) = &self.reduced.plan {
+            let (closed, contacts) = (run.coupling.closed.iter(), run.phases.len());
+            let closed = closed.map(|closed| closed.contact);
+            let closed = closed.filter(|contact| *contact < contacts);
+            self.plan_equations.accelerate(plan, closed, &self.scratch);
+        }
         self.jerks();
         self.add_link_slopes(&run.grounds);
     }
@@ -668,7 +759,7 @@ impl Stepper for ModalStepper<'_> {
             slope_at(trial.indentation, trial.rate)
         };
         // Still the slope at the end when the contact opens there.
-        self.reduced.push_apart(contact, slope, &mut self.jerk);
+        self.push_slope(contact, slope);
         if let Some(place) = self.reduced.friction[contact] {
             let force = run.trials[place].force;
             self.push_friction_slope(run, contact, force, [trial.force, slope]);
@@ -705,6 +796,7 @@ impl Stepper for ModalStepper<'_> {
         ground: [Ground; 2],
         was_closed: bool,
     ) -> Result<(), StepError> {
+        self.push_slopes();
         self.look(run, ground, start, step);
         if !self.reduced.links.is_empty() {
             self.follow_links(start, step);
@@ -736,6 +828,10 @@ impl Stepper for ModalStepper<'_> {
             rate,
             acceleration: self.reduced.closing(contact, &self.acceleration[0]),
             doubt: near_contacts::doubt(run, contact, closing),
+            clearance: match (&self.peaks.near, &self.reduced.plan) {
+                (Some(near), Some(plan)) => Some(near.clearance(plan, contact)),
+                _ => None,
+            },
         };
         self.near.at_touch(run, contact, touch);
     }
@@ -755,6 +851,9 @@ impl Stepper for ModalStepper<'_> {
 
     fn after_release(&mut self, contact: usize) {
         self.near.after_release(contact);
+        if let (Some(near), Some(plan)) = (&mut self.peaks.near, &self.reduced.plan) {
+            near.after_release(plan, contact);
+        }
         self.open_steps[contact] = 0;
     }
 

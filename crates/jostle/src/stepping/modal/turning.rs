@@ -38,9 +38,13 @@ impl StepMotion<'_> {
     fn load(&self, reduced: &Reduced, mode: usize, tau: f64) -> [f64; 4] {
         let [first, last, bend] = match self.loads {
             Loads::Ground => {
+                let [then, now] = self.ground.map(|all| all.common);
                 let share = -reduced.participation[mode];
-                let [then, now] = self.ground.map(|all| all.common[0]);
-                [share * then, share * now, 0.0]
+                let along = [share * then[0], share * now[0]];
+                match reduced.across.get(mode) {
+                    Some(across) => [along[0] - across * then[1], along[1] - across * now[1], 0.0],
+                    None => [along[0], along[1], 0.0],
+                }
             }
             Loads::Parabolas(lists) => lists.map(|list| list[mode]),
         };

@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use super::links::{LinkTable, closings};
+use super::plan_rows::PlanRows;
 use super::reduced::{Reduced, Shown};
+use crate::simd;
 
 /// A force that pushes the faces of a contact apart, as the modes of the buildings on both sides feel it.
 pub(super) struct UnitForce {
@@ -18,6 +20,9 @@ pub(super) struct UnitForce {
 impl UnitForce {
     /// Of a contact, over all buildings that links join with its own.
     pub(super) fn new(reduced: &Reduced, contact: usize) -> Self {
+        if let Some(plan) = &reduced.plan {
+            return Self::in_plan(reduced, plan, contact);
+        }
         let ports = reduced.ports[contact];
         let mut linked = 0..0;
         for port in ports.into_iter().flatten() {
@@ -29,6 +34,35 @@ impl UnitForce {
             };
         }
         Self::between(reduced, ports, linked)
+    }
+
+    /// Of a contact of buildings in space.
+    fn in_plan(reduced: &Reduced, plan: &PlanRows, contact: usize) -> Self {
+        let sides = || plan.sides_of(contact).map(|(_, side)| side.building);
+        let first = sides().min().unwrap_or(0);
+        let mut force = Self::over(reduced, first..sides().max().map_or(first, |last| last + 1));
+        for (share, side) in plan.sides_of(contact) {
+            let own = &mut force.loads[side.modes.start - force.modes.start..];
+            simd::add(&mut own[..side.modes.len()], share, &side.loads);
+        }
+        force
+    }
+
+    /// Without loads yet, over some buildings.
+    fn over(reduced: &Reduced, buildings: Range<usize>) -> Self {
+        let joined = &reduced.buildings[buildings.clone()];
+        let from = joined
+            .first()
+            .map_or([0; 2], |b| [b.modes.start, b.watched.start]);
+        let to = joined
+            .last()
+            .map_or([0; 2], |b| [b.modes.end, b.watched.end]);
+        Self {
+            buildings,
+            modes: from[0]..to[0],
+            watched: from[1]..to[1],
+            loads: vec![0.0; to[0] - from[0]],
+        }
     }
 
     /// Between two monitored points, over at least these buildings.
@@ -46,29 +80,18 @@ impl UnitForce {
         };
         let first = touched().min().unwrap_or(0);
         let buildings = first..touched().max().map_or(first, |last| last + 1);
-        let joined = &reduced.buildings[buildings.clone()];
-        let from = joined
-            .first()
-            .map_or([0; 2], |b| [b.modes.start, b.watched.start]);
-        let to = joined
-            .last()
-            .map_or([0; 2], |b| [b.modes.end, b.watched.end]);
-        let mut loads = vec![0.0; to[0] - from[0]];
+        let mut force = Self::over(reduced, buildings);
         for (port, sign) in sides() {
             let modes = reduced.buildings[port.building].modes.clone();
-            for (mode, load) in loads[modes.start - from[0]..modes.end - from[0]]
+            let start = force.modes.start;
+            for (mode, load) in force.loads[modes.start - start..modes.end - start]
                 .iter_mut()
                 .enumerate()
             {
                 *load += sign * reduced.shape(port, mode);
             }
         }
-        Self {
-            buildings,
-            modes: from[0]..to[0],
-            watched: from[1]..to[1],
-            loads,
-        }
+        force
     }
 }
 

@@ -57,7 +57,7 @@ impl<S: Stepper> Runner<'_, S> {
             return None;
         }
         let mut first: Option<Event> = None;
-        for contact in 0..self.run.phases.len() {
+        for &contact in &self.run.near {
             if let Some(event) = self.first_sliding_off(contact, step)
                 && first.is_none_or(|first| event.at < first.at)
             {
@@ -226,7 +226,8 @@ impl<S: Stepper> Runner<'_, S> {
 
     /// Sets the trials to the present.
     pub(super) fn read_contacts(&mut self) {
-        for contact in 0..self.run.phases.len() {
+        for near in 0..self.run.near.len() {
+            let contact = self.run.near[near];
             let width = self.run.system.contacts[contact].width;
             let indentation = self.stepper.closing(&self.run, contact) - width;
             let rate = self.stepper.closing_rate(&self.run, contact);
@@ -241,7 +242,8 @@ impl<S: Stepper> Runner<'_, S> {
             self.release(event.contact, event.end.is_some());
         } else {
             let struck = self.apply_momentum_laws(event.contact);
-            for index in 0..self.run.phases.len() {
+            for near in 0..self.run.near.len() {
+                let index = self.run.near[near];
                 if (index == event.contact && !struck) || self.is_closing(index) {
                     self.close(index);
                 }
@@ -296,7 +298,7 @@ impl<S: Stepper> Runner<'_, S> {
             } else if index != first {
                 break;
             }
-            next = (0..self.run.phases.len()).find(|&other| {
+            next = self.run.near.iter().copied().find(|&other| {
                 let law = &self.run.system.contacts[other].law;
                 self.is_closing(other) && law.rebound(self.run.trials[other].rate).is_some()
             });
@@ -332,7 +334,8 @@ impl<S: Stepper> Runner<'_, S> {
 
     /// Forces of closed contacts with dashpots after velocities have jumped.
     fn follow_jumps(&mut self) {
-        for index in 0..self.run.phases.len() {
+        for near in 0..self.run.near.len() {
+            let index = self.run.near[near];
             if let ContactPhase::Closed(mut episode) = self.run.phases[index] {
                 let law = &self.run.system.contacts[index].law;
                 let change = episode.jump(law, &self.run.trials[index], self.run.time);

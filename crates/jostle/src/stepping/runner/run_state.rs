@@ -34,6 +34,9 @@ pub(in crate::stepping) struct RunState<'a> {
     /// Whether steps end at corners that are not on the grid.
     pub(in crate::stepping) cuts_at_corners: bool,
     pub(in crate::stepping) phases: Vec<ContactPhase>,
+    /// Contacts that are closed, or that can have touched in the tried step, in rising order: all but those that the stepper
+    /// excludes. Only their trials are up to date.
+    pub(in crate::stepping) near: Vec<usize>,
     /// Of contacts, then of links, or of friction along contacts in the order of contacts.
     pub(in crate::stepping) trials: Vec<ContactTrial>,
     /// Into how many parts every contact divides the free-vibration step.
@@ -77,6 +80,7 @@ impl<'a> RunState<'a> {
             ground_jumps: motion.grounds.is_some(),
             cuts_at_corners: plan.chooses_contact_steps() && motion.has_corners_off(plan.step),
             phases: vec![ContactPhase::Open; contacts],
+            near: (0..contacts).collect(),
             trials: vec![
                 ContactTrial::default();
                 contacts + system.links.len().max(system.frictions().count())

@@ -581,6 +581,7 @@ impl Stepper for SeriesStepper {
             rate,
             acceleration: ports.closing(&self.state.acceleration),
             doubt: near_contacts::doubt(run, contact, closing),
+            clearance: None,
         };
         self.near.at_touch(run, contact, touch);
     }
