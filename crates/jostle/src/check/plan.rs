@@ -199,8 +199,24 @@ fn overlap(first: &[PlanPoint], second: &[PlanPoint]) -> bool {
     let (a, b) = (edges(first), edges(second));
     a.iter()
         .any(|one| b.iter().any(|other| strictly(*one, *other)))
-        || contains(first, &second[0])
-        || contains(second, &first[0])
+        || just_inside(second).any(|point| contains(first, &point))
+        || just_inside(first).any(|point| contains(second, &point))
+}
+
+/// How far inside of an edge a point is looked at \[m\].
+const INSIDE: f64 = 1e-6;
+
+/// A point inside of every edge of a plan, beside its middle: plans may share corners and sides.
+fn just_inside(plan: &[PlanPoint]) -> impl Iterator<Item = PlanPoint> {
+    let next = plan.iter().cycle().skip(1);
+    plan.iter().zip(next).map(|(a, b)| {
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let share = INSIDE / along[0].hypot(along[1]);
+        [
+            0.5 * (a[0] + b[0]) - share * along[1],
+            0.5 * (a[1] + b[1]) + share * along[0],
+        ]
+    })
 }
 
 /// Whether a point lies inside a polygon, not on its edge.

@@ -514,6 +514,13 @@ fn plans_that_do_not_fit_are_refused() {
     };
     tiers.move_by([-1.0, 0.0]);
     assert!(said(into, gaps.clone()).contains("their plans overlap"));
+    // Plans of one size in one place share all sides.
+    let mut one_place = buildings.clone();
+    one_place[2] = Building {
+        name: "twin".into(),
+        ..one_place[0].clone()
+    };
+    assert!(said(one_place, gaps.clone()).contains("their plans overlap"));
     let mut far = gaps.clone();
     far[0].in_plan = PlanContact {
         reach: 0.01,
@@ -536,7 +543,11 @@ fn plans_that_do_not_fit_are_refused() {
     };
     let (left, right) = ([1.0, 18.04], [11.0, 18.04]);
     assert_eq!(on_site(right, left), "");
-    assert!(on_site(left, right).contains("inside of the wall"));
+    assert!(
+        on_site(left, right).contains("inside of the wall"),
+        "{}",
+        on_site(left, right)
+    );
     assert!(on_site(left, left).contains("must be another point"));
     assert!(on_site([0.0, 30.0], [-9.0, 30.0]).contains("finds no edges of"));
     let mut mixed = buildings.clone();
