@@ -9,6 +9,8 @@ use maud::{Markup, html};
 
 use crate::{Page, format};
 
+/// Ratio from which there is next to no capacity to divide by.
+const NO_CAPACITY: f64 = 1e6;
 /// Most rows of a table.
 const MOST_ROWS: usize = 400;
 
@@ -104,7 +106,12 @@ fn ratio(value: Option<f64>, place: Option<&RatioPlace>) -> Markup {
         _ => "number",
     };
     let title = format!("{}, {}", place.at, format::instant(place.at_s));
-    html! { td class=(class) title=(title) { (format::fixed(value, 2)) } }
+    let text = if value < NO_CAPACITY {
+        format::fixed(value, 2)
+    } else {
+        "no capacity".to_owned()
+    };
+    html! { td class=(class) title=(title) { (text) } }
 }
 
 /// A peak with contact over that without.

@@ -23,6 +23,8 @@ const SPEED: f64 = 0.5;
 /// Half-sine pulse of the ground that sets the floor in motion \[s\], and the gap \[m\].
 const PULSE: f64 = 0.5;
 const GAP: f64 = 0.2;
+/// From the first contact to the end of a run \[s\].
+const AFTERWARDS: f64 = 0.95;
 /// Numbers of points that are compared.
 const POINTS: [usize; 4] = [2, 3, 5, 9];
 /// Depth of a plan whose radius of gyration is half its face: √(12·(L/2)² − L²) \[m\].
@@ -159,7 +161,7 @@ fn pulse() -> GroundMotion {
             0.0
         }
     };
-    let mut motion = GroundMotion::sampled("pulse", step, (0..=400).map(at).collect());
+    let mut motion = GroundMotion::sampled("pulse", step, (0..=640).map(at).collect());
     motion.bearing = Some(Box::new(Bearing {
         angle: 0.0,
         across: None,
@@ -205,31 +207,27 @@ pub(crate) fn spin_of_line(depth: f64, turn: f64) -> f64 {
         .collect();
     let each = STIFFNESS / SPRINGS as f64;
     let forces = |x: f64, turned: f64| {
-        let (mut force, mut moment, mut closed) = (0.0, 0.0, false);
+        let (mut force, mut moment) = (0.0, 0.0);
         for [lever, behind] in &points {
             let depth = normal[0] * x + turned * lever - behind;
             if depth > 0.0 {
                 force += each * depth;
                 moment += each * depth * lever;
-                closed = true;
             }
         }
-        ([-force * normal[0] / MASS, -moment / polar], closed)
+        [-force * normal[0] / MASS, -moment / polar]
     };
     let (mut x, mut turned, mut speed, mut rate) = (-1e-9, 0.0, SPEED, 0.0);
-    let (mut now, mut touched) = (forces(x, turned), false);
-    for _ in 0..100_000 {
-        speed += 0.5 * STEP * now.0[0];
-        rate += 0.5 * STEP * now.0[1];
+    let mut now = forces(x, turned);
+    // As long as the runs go on after the first contact, so that later contacts of the other end are included.
+    for _ in 0..(AFTERWARDS / STEP) as usize {
+        speed += 0.5 * STEP * now[0];
+        rate += 0.5 * STEP * now[1];
         x += STEP * speed;
         turned += STEP * rate;
         now = forces(x, turned);
-        speed += 0.5 * STEP * now.0[0];
-        rate += 0.5 * STEP * now.0[1];
-        touched |= now.1;
-        if touched && !now.1 && speed < 0.0 && x < -0.02 {
-            break;
-        }
+        speed += 0.5 * STEP * now[0];
+        rate += 0.5 * STEP * now[1];
     }
     rate
 }
@@ -353,6 +351,7 @@ const SPIN: &str = "rotation rate after the impact ÷ exact";
 
 fn figure_by_turn(rows: &[(f64, [f64; 4])]) -> String {
     let lines: Vec<(String, &str, Vec<[f64; 2]>)> = (0..4)
+        .rev()
         .map(|k| {
             let points = rows.iter().map(|(turn, ratios)| [1e3 * turn, ratios[k]]);
             (
