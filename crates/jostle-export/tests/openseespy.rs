@@ -302,3 +302,21 @@ fn friction_that_rises_with_speed_is_refused() {
     assert_eq!(faults.len(), 1, "{faults:?}");
     assert_eq!(faults[0].path, "building[1].isolation.friction");
 }
+
+/// Without this refusal the script would have no damping at all.
+#[test]
+fn the_same_ratio_in_all_modes_is_refused() {
+    let text = r#"
+motion = { record = "el-centro-1940-ns" }
+[[building]]
+kind = "shear"
+mass = ["40 t"]
+stiffness = ["60 MN/m"]
+damping = { ratio = 0.05, modes = "all" }
+"#;
+    let faults = export(&model(text)).expect_err("OpenSees cannot do it");
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    assert_eq!(faults[0].path, "building[0].damping.modes");
+    let text = text.replace("modes = \"all\"", "modes = [1]");
+    assert!(export(&model(&text)).is_ok());
+}

@@ -20,6 +20,7 @@ pub mod modes;
 pub mod oscillators;
 pub mod pairs;
 pub mod paper;
+pub mod plan_in_opensees;
 pub mod pounding;
 pub mod row;
 pub mod shear_buildings;
@@ -58,7 +59,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 19] = [
+const FAMILIES: [(&str, &str, Make); 20] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -167,6 +168,14 @@ const FAMILIES: [(&str, &str, Make); 19] = [
          of a model, from model files with a tolerance of 10⁻⁴. \
          The reference is OpenSees on the exported scripts with steps of 0.5 ms, near contact 0.05 ms.",
         |_| yielding::rows(),
+    ),
+    (
+        "Buildings in space in OpenSees",
+        "Faces off the centres of symmetric buildings; centres of stiffness beside those of mass; columns and walls at points, P-Delta and \
+         two components at an angle; five storeys beside three at 30°; three buildings around a corner; corners that pass each \
+         other. From model files with a tolerance of 10⁻⁴. The reference is OpenSees on the exported scripts with steps of \
+         0.1 ms, near contact 0.01 ms.",
+        |_| plan_in_opensees::rows(),
     ),
     (
         "Automatic steps",

@@ -4,6 +4,8 @@
 //! face that is turned by a small angle. The reference is the same floor against 2000 springs along the face, integrated by
 //! the velocity Verlet method with fixed steps: another law of sharing, another integrator, no events.
 
+#![allow(clippy::print_stdout, reason = "an example prints")]
+
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;

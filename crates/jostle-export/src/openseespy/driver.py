@@ -21,6 +21,11 @@ MOST_PARTS = 10_000  # of such a step
 SETTLED = 1e-10  # displacement in the last iteration [m]
 LONGEST = 1e4  # of a sine [s]: OpenSees integrates it to its end before the first step
 DIRECTIONS = {1: 1, 2: 2, 6: 3}
+IN_PLAN = bool(ARMS)  # nodes are floors seen from above: they move along x, across, and turn
+NORMALS = {tag: (x, y) for tag, _, _, x, y, *_ in FACES}
+CORNERS = {}  # contacts that end where a corner leaves its edge
+for tag, *end in ENDS:
+    CORNERS.setdefault(tag, []).append(end)
 
 
 def build(axial):
@@ -41,6 +46,8 @@ def build(axial):
             ops.equalDOF(kept, tied, *directions)
     for tag, held in fixed.items():
         ops.fix(tag, *held)
+    for kept, tied in ARMS:
+        ops.rigidLink("beam", kept, tied)
     ops.geomTransf("Linear", 1)
     stiffest = 0.0
     for tag, first, last, ei, ea, ga in MEMBERS:
@@ -67,13 +74,22 @@ def build(axial):
     for tag, first, last, material in LEANING:
         ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", 1)
     for tag, left, right, material, *_ in CONTACTS:
-        ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1)
+        if tag not in CORNERS:
+            ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1, *orientation(tag))
     for tag, left, right, material, *_ in LINKS:
         ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1)
     for number, building in enumerate(BUILDINGS, start=1):
         first, last = building["nodes"]
         # On the initial stiffness of everything that is not a bare spring.
         ops.region(number, "-node", *range(first, last + 1), "-rayleigh", building["alpha"], 0.0, building["beta"], 0.0)
+
+
+def orientation(tag):
+    """Local axes of a contact in plan: along its normal, and along its face."""
+    if tag not in NORMALS:
+        return []
+    x, y = NORMALS[tag]
+    return ["-orient", x, y, 0.0, -y, x, 0.0]
 
 
 def load_by_weight(axial):
@@ -121,44 +137,63 @@ def in_parts(advance, step):
     return left == 0
 
 
-def ground_values():
-    """Step and values of the ground motion, unscaled."""
-    if "RECORD" in globals():
-        return RECORD_STEP, RECORD
-    if "RICKER" in globals():
-        amplitude, period, centre = RICKER
+def ground_values(motion):
+    """Step and values of a ground motion, unscaled."""
+    if "RECORD" in motion:
+        return motion["RECORD_STEP"], motion["RECORD"]
+    if "RICKER" in motion:
+        amplitude, period, centre = motion["RICKER"]
         wave = lambda t: (math.pi * (t - centre) / period) ** 2
         ricker = lambda t: amplitude * (1.0 - 2.0 * wave(t)) * math.exp(-wave(t))
     else:
-        amplitude, period = SINE
+        amplitude, period = motion["SINE"]
         ricker = lambda t: amplitude * math.sin(2.0 * math.pi * t / period)
     step = 1e-4
-    return step, [ricker(step * k) for k in range(math.ceil(DURATION / step) + 1)]
+    return step, [ricker(step * k) for k in range(math.ceil(motion["DURATION"] / step) + 1)]
 
 
 def shake():
     """Horizontal ground motion, and the accelerations that belong to its first value."""
-    if "SINE" in globals():
-        amplitude, period = SINE
-        ops.timeSeries("Trig", 2, 0.0, LONGEST, period, "-factor", amplitude * MOTION_FACTOR)
-        start = 0.0
-    else:
-        step, values = ground_values()
-        ops.timeSeries("Path", 2, "-dt", step, "-values", *values, "-factor", MOTION_FACTOR)
-        start = values[0] * MOTION_FACTOR
-    ops.pattern("UniformExcitation", 2, 1, "-accel", 2)
-    if start:
-        resting = {tag for tag, x, *_ in SUPPORTS if x}
-        heavy = {tag for tag, _, _, mass, _ in NODES if mass}
-        heavy |= {tied for kept, tied, *directions in TIES if 1 in directions}
-        for tag in heavy - resting:
-            ops.setNodeAccel(tag, 1, -start, "-commit")
+    motions = [(globals(), globals().get("ANGLE", 0.0))]
+    if "ACROSS" in globals():
+        motions.append((vars(ACROSS), ANGLE + 0.5 * math.pi))
+    start, number = [0.0, 0.0], 1
+    for motion, angle in motions:
+        shares = [math.cos(angle), math.sin(angle)] if IN_PLAN else [1.0, 0.0]
+        for direction, share in enumerate(shares, start=1):
+            # Of a right angle the cosine is not zero, and rounding is no motion.
+            if abs(share) < 1e-15:
+                continue
+            number += 1
+            factor = share * motion["MOTION_FACTOR"]
+            if "SINE" in motion:
+                amplitude, period = motion["SINE"]
+                end = LONGEST if motion["DURATION"] >= DURATION else motion["DURATION"]
+                ops.timeSeries("Trig", number, 0.0, end, period, "-factor", amplitude * factor)
+            else:
+                step, values = ground_values(motion)
+                ops.timeSeries("Path", number, "-dt", step, "-values", *values, "-factor", factor)
+                start[direction - 1] += values[0] * factor
+            ops.pattern("UniformExcitation", number, direction, "-accel", number)
+    for direction, value in enumerate(start, start=1):
+        if value:
+            resting = {tag for tag, *held in SUPPORTS if held[direction - 1]}
+            heavy = {tag for tag, _, _, mass, _ in NODES if mass}
+            heavy |= {tied for kept, tied, *directions in TIES if direction in directions}
+            heavy |= {tied for kept, tied in ARMS}
+            for tag in heavy - resting:
+                ops.setNodeAccel(tag, direction, -value, "-commit")
 
 
 def prepare(axial):
     """Everything that an analysis needs apart from the algorithm and the integrator. To be called once: a second
     SparseSYM brings the program down."""
-    if axial == "ties":
+    if IN_PLAN:
+        # Points follow their floor by levers, which Plain cannot do.
+        ops.constraints("Transformation")
+        ops.numberer("RCM")
+        ops.system("ProfileSPD")
+    elif axial == "ties":
         # SparseSYM (SparseSPD) and equalDOF together give wrong answers without a word. Transformation does not take
         # back a step that failed; Plain lets tied displacements share their equation and does.
         ops.constraints("Plain")
@@ -187,45 +222,136 @@ class Watch:
 
     def __init__(self):
         self.faces = [(left, right, gap) for _, left, right, _, gap, *_ in CONTACTS]
+        self.tags = [row[0] for row in CONTACTS]
+        self.normals = [NORMALS.get(tag) for tag in self.tags]
         self.closed = [False] * len(CONTACTS)
         self.impacts = [0] * len(CONTACTS)
         self.first = [None] * len(CONTACTS)
         self.deepest = [-math.inf] * len(CONTACTS)
+        self.force = [0.0] * len(CONTACTS)
         self.late = 0
+        # Faces in plan: their points, and those that have an element now.
+        self.points = {}
+        for index, tag in enumerate(self.tags):
+            if IN_PLAN:
+                self.points.setdefault(FACES[index][1], []).append(index)
+        self.sums = {face: 0.0 for face in self.points}
+        self.episodes = {face: 0 for face in self.points}
+        self.present = [tag not in CORNERS for tag in self.tags]
+        self.changed = False
+        self.left_edge = 0
+
+    def difference(self, index, of):
+        """Left minus right of a displacement or a velocity, along the normal."""
+        left, right, _ = self.faces[index]
+        if self.normals[index] is None:
+            return of(left, 1) - of(right, 1)
+        x, y = self.normals[index]
+        return x * (of(left, 1) - of(right, 1)) + y * (of(left, 2) - of(right, 2))
 
     def closings(self):
-        disp = ops.nodeDisp
-        return [disp(left, 1) - disp(right, 1) - gap for left, right, gap in self.faces]
+        if not IN_PLAN:
+            disp = ops.nodeDisp
+            return [disp(left, 1) - disp(right, 1) - gap for left, right, gap in self.faces]
+        closings = [self.difference(index, ops.nodeDisp) - face[2] for index, face in enumerate(self.faces)]
+        self.follow_corners(closings)
+        return closings
 
     def is_near(self, step, closings):
         """Whether a contact may close within a step: with its speed, a half more, and an acceleration of 6 m/s2."""
         reserve = 3.0 * step * step
-        for (left, right, _), closing in zip(self.faces, closings):
+        for index, closing in enumerate(closings):
+            # A corner far beyond the end of its edge touches nothing.
+            if not self.present[index] and self.inside(index) + 15.0 * step + reserve < 0.0:
+                continue
             if closing + reserve > 0.0:
                 return True
             # Nothing closes faster than 10 m/s.
             if closing + 15.0 * step + reserve > 0.0:
-                rate = ops.nodeVel(left, 1) - ops.nodeVel(right, 1)
+                rate = self.difference(index, ops.nodeVel)
                 if closing + 1.5 * max(rate, 0.0) * step + reserve > 0.0:
                     return True
         return False
 
+    def follow_corners(self, closings):
+        """Gives corners that can touch an edge an element, and takes it from those that left the edge.
+
+        A corner touches where it comes to the edge from outside, between its ends. It is free again at the end of the edge."""
+        for index, closing in enumerate(closings):
+            tag = self.tags[index]
+            if tag not in CORNERS:
+                continue
+            inside = self.inside(index)
+            if self.present[index] and inside <= 0.0:
+                self.left_edge += closing > 0.0
+                self.present[index] = self.closed[index] = False
+                self.changed = True
+                ops.remove("element", tag)
+            elif not self.present[index] and inside > 0.0 and closing <= 0.0:
+                self.present[index] = self.changed = True
+                self.add_corner(index)
+
+    def inside(self, index):
+        """How far a corner is inside of the ends of its edge [m]."""
+        return min(distance_inside(end) for end in CORNERS[self.tags[index]])
+
+    def add_corner(self, index):
+        tag, left, right, material, *_ = CONTACTS[index]
+        # zeroLength counts strains and their rates from those that it finds; it shall find none.
+        found = []
+        for node in (left, right):
+            for direction in (1, 2):
+                found.append((node, direction, ops.nodeDisp(node, direction), ops.nodeVel(node, direction)))
+                ops.setNodeDisp(node, direction, 0.0, "-commit")
+                ops.setNodeVel(node, direction, 0.0, "-commit")
+        ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1, *orientation(tag))
+        for node, direction, displacement, velocity in found:
+            ops.setNodeDisp(node, direction, displacement, "-commit")
+            ops.setNodeVel(node, direction, velocity, "-commit")
+
     def count(self, closings, free):
+        if IN_PLAN:
+            self.count_faces(closings)
         for index, closing in enumerate(closings):
             if closing > self.deepest[index]:
                 self.deepest[index] = closing
-            if closing > 0.0 and not self.closed[index]:
+            closed = closing > 0.0 and self.present[index]
+            if closed and not self.closed[index]:
                 self.impacts[index] += 1
                 self.late += free
                 if self.first[index] is None:
                     self.first[index] = ops.getTime()
-            self.closed[index] = closing > 0.0
+            self.closed[index] = closed
+
+    def count_faces(self, closings):
+        """Forces of points and their sums over faces; impacts of faces, from the first point that touches to the last."""
+        for face, points in self.points.items():
+            now = [index for index in points if self.present[index] and closings[index] > 0.0]
+            if now and not any(self.closed[index] for index in points):
+                self.episodes[face] += 1
+            total = 0.0
+            for index in now:
+                force = max(0.0, -ops.eleResponse(self.tags[index], "localForce")[0])
+                self.force[index] = max(self.force[index], force)
+                total += force
+            self.sums[face] = max(self.sums[face], total)
+
+
+def distance_inside(end):
+    """How far a corner is inside of an end of its edge [m]."""
+    own, other, inside = end
+    for sign, side in ((1.0, own), (-1.0, other)):
+        if side is not None:
+            node, *shares = side
+            inside += sign * sum(share * ops.nodeDisp(node, direction) for direction, share in enumerate(shares, start=1))
+    return inside
 
 
 class Run:
     """Steps taken, and how."""
 
-    def __init__(self):
+    def __init__(self, watch):
+        self.watch = watch
         self.steps = self.short_steps = self.iterations = self.failures = 0
         self.way = None
 
@@ -235,6 +361,10 @@ class Run:
         self.way = algorithm
 
     def advance(self, step, short):
+        if self.watch.changed:
+            # Elements came or went: what is factorised is of another model.
+            self.watch.changed = False
+            self.use(self.way)
         status = ops.analyze(1, step)
         self.steps += 1
         self.short_steps += short
@@ -246,6 +376,10 @@ class Run:
 
     def rescue(self, step):
         """A step that did not converge, in parts with a fresh tangent at every iteration."""
+        if IN_PLAN:
+            print(f"stopped at {ops.getTime():.6g} s of the motion: a step of {step:g} s does not converge, and Transformation "
+                  "does not take it back; try shorter ones with --free, or see --log FILE", file=sys.stderr)
+            return False
         way = self.way
         self.use("newton")
         done = in_parts(lambda part: ops.analyze(1, part) == 0, step)
@@ -258,7 +392,8 @@ class Run:
 
 def march(args, duration):
     """Runs through the motion; returns what was counted."""
-    watch, run = Watch(), Run()
+    watch = Watch()
+    run = Run(watch)
     ops.integrator("Newmark", 0.5, 0.25)
     run.use(args.algorithm if args.uniform else args.free_algorithm)
     ops.analysis("Transient")
@@ -295,8 +430,9 @@ def march(args, duration):
 def envelopes(folder):
     """Greatest displacements of floors and forces of contacts, kept by OpenSees itself."""
     floors = [tag for building in BUILDINGS for tag in building["floors"]]
-    ops.recorder("EnvelopeNode", "-file", os.path.join(folder, "floors"), "-precision", 12, "-node", *floors, "-dof", 1, "disp")
-    if CONTACTS:
+    directions = [1, 2, 3] if IN_PLAN else [1]
+    ops.recorder("EnvelopeNode", "-file", os.path.join(folder, "floors"), "-precision", 12, "-node", *floors, "-dof", *directions, "disp")
+    if CONTACTS and not IN_PLAN:
         elements = [row[0] for row in CONTACTS]
         ops.recorder("EnvelopeElement", "-file", os.path.join(folder, "forces"), "-precision", 12, "-ele", *elements, "localForce")
 
@@ -332,7 +468,9 @@ def analyse(args):
         reached = ops.getTime()
         ops.wipe()
         low, high, _ = read(folder, "floors")
-        forces = read(folder, "forces")[0] if CONTACTS else []
+        forces = [-force for force in watch.force]
+        if CONTACTS and not IN_PLAN:
+            forces = read(folder, "forces")[0]
         pulls = read(folder, "links")[2] if LINKS else []
     peaks = iter(zip(high, low))
     buildings = []
@@ -340,6 +478,10 @@ def analyse(args):
         floors = []
         for number, (right, left) in zip(range(1, len(building["floors"]) + 1), peaks):
             floors.append({"floor": number, "displacement_max_m": right, "displacement_min_m": left})
+            if IN_PLAN:
+                for key in ("displacement_across", "rotation"):
+                    unit = "rad" if key == "rotation" else "m"
+                    floors[-1][f"{key}_max_{unit}"], floors[-1][f"{key}_min_{unit}"] = next(peaks)
         buildings.append({"name": building["name"], "floors": floors})
     contacts = []
     for index, (_, _, _, _, gap, number, floors, height) in enumerate(CONTACTS):
@@ -351,6 +493,19 @@ def analyse(args):
             "impact_count": watch.impacts[index],
             "peak_force_n": max(0.0, -forces[index]),
             "first_impact_s": watch.first[index],
+        })
+    faces = []
+    for face, points in watch.points.items():
+        _, _, _, _, _, number, floors, _ = CONTACTS[points[0]]
+        times = [watch.first[index] for index in points if watch.first[index] is not None]
+        faces.append({
+            "face": face,
+            "kind": FACES[points[0]][2],
+            "gap": number,
+            "floors": list(floors),
+            "impact_count": watch.episodes[face],
+            "peak_force_n": watch.sums[face],
+            "first_impact_s": min(times, default=None),
         })
     links = []
     for (_, _, _, _, number, floors, height), force in zip(LINKS, pulls):
@@ -374,6 +529,7 @@ def analyse(args):
         "complete": complete,
         "buildings": buildings,
         "contacts": contacts,
+        **({"faces": faces, "corners_that_left_edges": watch.left_edge} if IN_PLAN else {}),
         "links": links,
         "impact_count": sum(watch.impacts),
         "peak_force_n": max((contact["peak_force_n"] for contact in contacts), default=0.0),

@@ -5,6 +5,7 @@
 //! (2018), SoftwareX 7, 6–11. docs/export.md describes the behaviour of the program.
 
 mod materials;
+mod plan;
 mod script;
 mod ties;
 
@@ -62,6 +63,13 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             refuse(
                 format!("building[{index}].isolation.friction"),
                 "rises with the speed, which the exported springs cannot do; give one coefficient, such as friction = 0.05".into(),
+            );
+        }
+        let structure = export.system.structures().get(index);
+        if structure.is_some_and(|own| own.modal_damping.is_some()) {
+            refuse(
+                format!("building[{index}].damping.modes"),
+                "\"all\" cannot be exported: OpenSees has one list of modal ratios for all buildings together; give two modes, such as modes = [1, 2], to compare".into(),
             );
         }
         if building.base.foundation.is_some() {

@@ -22,34 +22,41 @@ const SAME_LEVEL: f64 = 1e-3;
 
 /// A script in the making: one table after the other.
 pub(super) struct Script<'a> {
-    export: &'a Export<'a>,
-    materials: Materials,
+    pub(super) export: &'a Export<'a>,
+    pub(super) materials: Materials,
     remarks: Vec<String>,
     /// Distance of every building from the left end of the first, so that faces coincide \[m\].
     places: Vec<f64>,
     /// Numbers from which the nodes of a building count.
     block: usize,
     next_element: usize,
-    buildings: String,
-    nodes: String,
-    supports: String,
+    pub(super) buildings: String,
+    pub(super) nodes: String,
+    pub(super) supports: String,
     held: String,
     ties: String,
     members: String,
     rigid: String,
-    springs: String,
+    pub(super) springs: String,
     leaning: String,
-    contacts: String,
+    pub(super) contacts: String,
     links: String,
+    /// Of every building, the next node at a point of the plan.
+    pub(super) next_point: Vec<usize>,
+    pub(super) arms: String,
+    pub(super) faces: String,
+    pub(super) ends: String,
 }
 
 impl<'a> Script<'a> {
     pub(super) fn new(export: &'a Export<'a>) -> Result<Self, Vec<ModelFault>> {
-        let largest = export
-            .system
-            .buildings
-            .iter()
-            .map(|building| building.discretization.stick_model.nodes.len());
+        let in_plan = export.system.is_in_space();
+        let largest = export.system.buildings.iter().map(|building| {
+            let nodes = building.discretization.stick_model.nodes.len();
+            // Two points of every storey, twice with P-Delta, and both of every contact.
+            let points = 4 * building.floors.len() + 2 * export.system.contacts.len();
+            nodes + if in_plan { points } else { 0 }
+        });
         let mut block = 1000;
         while block <= largest.clone().max().unwrap_or(0) {
             block *= 10;
@@ -72,6 +79,10 @@ impl<'a> Script<'a> {
             leaning: String::new(),
             contacts: String::new(),
             links: String::new(),
+            next_point: Vec::new(),
+            arms: String::new(),
+            faces: String::new(),
+            ends: String::new(),
         };
         let mut faults = Vec::new();
         let mut place = 0.0;
@@ -81,11 +92,11 @@ impl<'a> Script<'a> {
             place += nodes
                 .iter()
                 .fold(0.0, |widest: f64, node| widest.max(node.x));
+            script.next_point.push(nodes.len());
             if building.is_in_space() {
-                faults.push(ModelFault {
-                    path: format!("building[{index}].plan"),
-                    problem: "cannot be exported to OpenSees yet".into(),
-                });
+                if let Err(fault) = script.add_plan_building(index, building) {
+                    faults.push(fault);
+                }
                 continue;
             }
             if let Err(rule) = script.add_building(index, building) {
@@ -95,7 +106,9 @@ impl<'a> Script<'a> {
                 });
             }
         }
-        if !export.system.is_in_space() {
+        if in_plan {
+            script.add_plan_contacts(&mut faults);
+        } else {
             script.add_contacts(&mut faults);
             script.add_links(&mut faults);
         }
@@ -111,7 +124,7 @@ impl<'a> Script<'a> {
         &self.remarks
     }
 
-    fn remark(&mut self, text: impl Into<String>) {
+    pub(super) fn remark(&mut self, text: impl Into<String>) {
         let text = text.into();
         if !self.remarks.contains(&text) {
             self.remarks.push(text);
@@ -119,11 +132,11 @@ impl<'a> Script<'a> {
     }
 
     /// Tag of a node.
-    fn tag(&self, building: usize, node: usize) -> usize {
+    pub(super) fn tag(&self, building: usize, node: usize) -> usize {
         (building + 1) * self.block + node + 1
     }
 
-    fn element(&mut self) -> usize {
+    pub(super) fn element(&mut self) -> usize {
         self.next_element += 1;
         self.next_element - 1
     }
@@ -367,7 +380,13 @@ impl<'a> Script<'a> {
         Ok(materials)
     }
 
-    fn spring(&mut self, first: usize, last: usize, directions: &[(usize, usize)], damped: bool) {
+    pub(super) fn spring(
+        &mut self,
+        first: usize,
+        last: usize,
+        directions: &[(usize, usize)],
+        damped: bool,
+    ) {
         let tag = self.element();
         let pairs: Vec<String> = directions
             .iter()
@@ -670,50 +689,55 @@ impl<'a> Script<'a> {
             "element, left node, right node, material, number of the link, floors, height [m]",
             &self.links,
         )?;
+        table(
+            out,
+            "ARMS",
+            "node of a floor in plan, node at one of its points",
+            &self.arms,
+        )?;
+        table(
+            out,
+            "FACES",
+            "element of a contact in plan, number of the face, its kind, unit normal, place [m]",
+            &self.faces,
+        )?;
+        table(
+            out,
+            "ENDS",
+            "element at a corner; node and shares of its motions along the edge, on either side; distance from the end of the edge [m]",
+            &self.ends,
+        )?;
         self.write_motion(out)?;
         writeln!(out, "\n{}", driver.trim_end())
     }
 
     fn write_motion(&self, out: &mut String) -> std::fmt::Result {
-        let GroundMotion {
-            name,
-            scale,
-            duration,
-            wave,
-            bearing: _,
-            grounds: _,
-        } = self.export.motion;
+        let motion = self.export.motion;
+        let free = motion.step().map_or(FREE_STEP, |step| {
+            step / (step / FREE_STEP - 1e-9).ceil().max(1.0)
+        });
         writeln!(out, "GRAVITY = {STANDARD_GRAVITY:?}  # m/s2")?;
-        writeln!(out, "\n# Ground motion: {}", comment(name))?;
-        writeln!(out, "DURATION = {duration:?}  # s")?;
-        writeln!(
-            out,
-            "MOTION_FACTOR = {scale:?}  # on the values, sign included"
-        )?;
-        let mut free = FREE_STEP;
-        match wave {
-            Wave::Sampled { step, acceleration } => {
-                free = step / (step / FREE_STEP - 1e-9).ceil().max(1.0);
-                writeln!(out, "RECORD_STEP = {step:?}  # s")?;
-                writeln!(out, "RECORD = [  # m/s2")?;
-                for row in acceleration.chunks(8) {
-                    let values: Vec<String> = row.iter().map(|a| format!("{a:?}")).collect();
-                    writeln!(out, "    {},", values.join(", "))?;
-                }
-                writeln!(out, "]")?;
-            }
-            Wave::Sine { amplitude, period } => {
-                writeln!(out, "SINE = ({amplitude:?}, {period:?})  # m/s2, s")?;
-            }
-            Wave::Ricker {
-                amplitude,
-                period,
-                centre,
-            } => {
+        writeln!(out, "\n# Ground motion: {}", comment(&motion.name))?;
+        writeln!(out, "DURATION = {:?}  # s", motion.duration)?;
+        write_wave(out, motion)?;
+        if let Some(bearing) = &motion.bearing {
+            writeln!(
+                out,
+                "ANGLE = {:?}  # rad, from x to the motion, counter-clockwise",
+                bearing.angle
+            )?;
+            if let Some(across) = &bearing.across {
                 writeln!(
                     out,
-                    "RICKER = ({amplitude:?}, {period:?}, {centre:?})  # m/s2, s, s"
+                    "\n\nclass ACROSS:  # the motion a right angle further: {}",
+                    comment(&across.name)
                 )?;
+                let mut wave = format!("DURATION = {:?}  # s\n", across.duration);
+                write_wave(&mut wave, across)?;
+                for line in wave.lines() {
+                    writeln!(out, "    {line}")?;
+                }
+                writeln!(out)?;
             }
         }
         writeln!(
@@ -722,6 +746,37 @@ impl<'a> Script<'a> {
         )?;
         writeln!(out, "FREE_STEP = {free:?}")?;
         writeln!(out, "PARTS_IN_CONTACT = {PARTS_IN_CONTACT}")
+    }
+}
+
+/// The shape of a ground motion, and its factor.
+fn write_wave(out: &mut String, motion: &GroundMotion) -> std::fmt::Result {
+    writeln!(
+        out,
+        "MOTION_FACTOR = {:?}  # on the values, sign included",
+        motion.scale
+    )?;
+    match &motion.wave {
+        Wave::Sampled { step, acceleration } => {
+            writeln!(out, "RECORD_STEP = {step:?}  # s")?;
+            writeln!(out, "RECORD = [  # m/s2")?;
+            for row in acceleration.chunks(8) {
+                let values: Vec<String> = row.iter().map(|a| format!("{a:?}")).collect();
+                writeln!(out, "    {},", values.join(", "))?;
+            }
+            writeln!(out, "]")
+        }
+        Wave::Sine { amplitude, period } => {
+            writeln!(out, "SINE = ({amplitude:?}, {period:?})  # m/s2, s")
+        }
+        Wave::Ricker {
+            amplitude,
+            period,
+            centre,
+        } => writeln!(
+            out,
+            "RICKER = ({amplitude:?}, {period:?}, {centre:?})  # m/s2, s, s"
+        ),
     }
 }
 
@@ -736,12 +791,12 @@ fn table(out: &mut String, name: &str, about: &str, rows: &str) -> std::fmt::Res
 }
 
 /// Coordinates without the rounding of sums.
-fn rounded(value: f64) -> f64 {
+pub(super) fn rounded(value: f64) -> f64 {
     (value * 1e9).round() / 1e9
 }
 
 /// A Python text.
-fn text(value: &str) -> String {
+pub(super) fn text(value: &str) -> String {
     let mut out = String::from("\"");
     for character in value.chars() {
         match character {
@@ -755,7 +810,7 @@ fn text(value: &str) -> String {
 }
 
 /// A text on one line.
-fn comment(value: &str) -> String {
+pub(super) fn comment(value: &str) -> String {
     value
         .chars()
         .map(|c| if c.is_control() { ' ' } else { c })

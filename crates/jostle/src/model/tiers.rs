@@ -1,6 +1,6 @@
 //! A building in space: floors that move in both horizontal directions and turn about a vertical axis.
 
-use super::PlanFrame;
+use super::{LumpedFloor, PlanFrame, STANDARD_GRAVITY};
 
 /// A point or a vector in plan: x along the row, y across it \[m\].
 pub type PlanPoint = [f64; 2];
@@ -139,6 +139,22 @@ impl Tiers {
         self.frames
             .iter_mut()
             .for_each(|frame| shift(&mut frame.at));
+    }
+
+    /// What the weight above a storey, counted from 0, takes from its stiffness where P-Delta is included: (P/h) diag(1, 1, ρ²) at
+    /// the centroid of what it carries, ρ² = (I_xx + I_yy)/A of its upper floor. `lumped` are the floors with all that moves with
+    /// them \[N/m, N/m, N·m/rad\].
+    #[must_use]
+    pub fn softening(&self, lumped: &[LumpedFloor], storey: usize) -> TierStorey {
+        let above: Vec<&Tier> = lumped[storey..].iter().map(|floor| &floor.tier).collect();
+        let mass: f64 = above.iter().map(|floor| floor.mass).sum();
+        let moment = |axis: usize| above.iter().map(|f| f.mass * f.centre[axis]).sum::<f64>();
+        let push = mass * STANDARD_GRAVITY / self.storey_heights[storey];
+        let gyration = PlanArea::new(&self.floors[storey].plan).gyration();
+        TierStorey {
+            stiffness: [push, push, push * gyration],
+            centre: [moment(0) / mass, moment(1) / mass],
+        }
     }
 
     /// Least and greatest x of its corners \[m\].

@@ -4,9 +4,7 @@ use super::discretization::Discretization;
 use super::element::{THETA, X, Y};
 use super::plan_frames::add_frames;
 use super::stick_model::{Coupling, Node, StickModel, Support};
-use crate::model::{
-    Gravity, LumpedFloor, PlanArea, PlanPoint, STANDARD_GRAVITY, Tier, TierStorey, Tiers,
-};
+use crate::model::{Gravity, LumpedFloor, PlanPoint, TierStorey, Tiers};
 
 /// Displacements of a floor.
 const COMPONENTS: [usize; 3] = [X, Y, THETA];
@@ -49,7 +47,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
             matrix.add_storey(&lumped, index, storey, Part::Stiffness);
         }
         if gravity.p_delta {
-            let softening = softening(tiers, &lumped, index);
+            let softening = tiers.softening(&lumped, index);
             matrix.add_storey(&lumped, index, &softening, Part::Softening);
         }
     }
@@ -69,19 +67,6 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
     };
     add_frames(tiers, &lumped, &mut discretization);
     discretization
-}
-
-/// (P/h) diag(1, 1, ρ²) at the centroid of what the storey carries, ρ² = (I_xx + I_yy)/A of its upper floor.
-fn softening(tiers: &Tiers, lumped: &[LumpedFloor], storey: usize) -> TierStorey {
-    let above: Vec<&Tier> = lumped[storey..].iter().map(|floor| &floor.tier).collect();
-    let mass: f64 = above.iter().map(|floor| floor.mass).sum();
-    let moment = |axis: usize| above.iter().map(|f| f.mass * f.centre[axis]).sum::<f64>();
-    let push = mass * STANDARD_GRAVITY / tiers.storey_heights[storey];
-    let gyration = PlanArea::new(&tiers.floors[storey].plan).gyration();
-    TierStorey {
-        stiffness: [push, push, push * gyration],
-        centre: [moment(0) / mass, moment(1) / mass],
-    }
 }
 
 /// The matrix an entry belongs to.

@@ -1,0 +1,238 @@
+//! Buildings in space: floors as nodes of a model in the plan of the site.
+//!
+//! OpenSees' plane model with three displacements a node is that of rigid floors seen from above: x and y are the site, the
+//! rotation is about the vertical axis. A plane model needs no diaphragms and none of the three idle displacements of a
+//! node in space. A node stands at the centre of mass of every floor. Points of a floor are nodes that `rigidLink` ties to it;
+//! springs of storeys join two of them at the centre of stiffness, contacts two of them at the contact point.
+
+use std::fmt::Write;
+
+use jostle::interface::Port;
+use jostle::system::BuildingSystem;
+use jostle::{ModelFault, PlanPoint, Structure, TierStorey};
+
+use super::script::{Script, comment, rounded, text};
+
+/// Directions of OpenSees: along x, across, rotation.
+const DIRECTIONS: [usize; 3] = [1, 2, 6];
+
+impl Script<'_> {
+    /// Floors, storeys and P-Delta of a building in space.
+    pub(super) fn add_plan_building(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+    ) -> Result<(), ModelFault> {
+        let refuse = |key: &str, problem: &str| {
+            Err(ModelFault {
+                path: format!("building[{index}]{key}"),
+                problem: problem.to_owned(),
+            })
+        };
+        let own = &self.export.model.buildings[index];
+        let Structure::Tiers(tiers) = &own.structure else {
+            return refuse("", "has no floors in plan that can be exported");
+        };
+        if !tiers.frames.is_empty() {
+            return refuse(
+                ".frame",
+                "frames at lines of a plan are not exported yet; give stiffness or [[building.element]] instead",
+            );
+        }
+        let title = format!("    # {}\n", comment(&building.name));
+        for table in [
+            &mut self.nodes,
+            &mut self.supports,
+            &mut self.arms,
+            &mut self.springs,
+        ] {
+            table.push_str(&title);
+        }
+        let lumped = tiers.lumped_floors();
+        let floors = &building.discretization.floors;
+        for (floor, node) in lumped.iter().zip(floors) {
+            let tag = self.tag(index, *node);
+            let [x, y] = floor.tier.centre.map(rounded);
+            let _ = writeln!(
+                self.nodes,
+                "    ({tag}, {x:?}, {y:?}, {:?}, {:?}),",
+                floor.tier.mass, floor.tier.polar_mass
+            );
+        }
+        for storey in 0..lumped.len() {
+            if let Some(springs) = tiers.storeys.get(storey) {
+                self.add_storey_in_plan(index, building, storey, springs, true);
+            }
+            if own.gravity.p_delta {
+                let mut springs = tiers.softening(&lumped, storey);
+                springs.stiffness = springs.stiffness.map(|stiffness| -stiffness);
+                self.add_storey_in_plan(index, building, storey, &springs, false);
+            }
+        }
+        let tags: Vec<String> = floors
+            .iter()
+            .map(|node| self.tag(index, *node).to_string())
+            .collect();
+        let _ = writeln!(
+            self.buildings,
+            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}],\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": False}},",
+            text(&building.name),
+            tags[0],
+            self.tag(index, self.next_point[index] - 1),
+            tags.join(", "),
+            building.equations.alpha,
+            building.equations.beta,
+        );
+        Ok(())
+    }
+
+    /// Three springs between two floors, at one point.
+    fn add_storey_in_plan(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+        storey: usize,
+        springs: &TierStorey,
+        damped: bool,
+    ) {
+        let floors = &building.discretization.floors;
+        let lower = storey.checked_sub(1).map(|below| floors[below]);
+        let first = self.point(index, lower, springs.centre);
+        let last = self.point(index, Some(floors[storey]), springs.centre);
+        let directions: Vec<(usize, usize)> = DIRECTIONS
+            .into_iter()
+            .zip(springs.stiffness)
+            .filter(|(_, stiffness)| *stiffness != 0.0)
+            .map(|(direction, stiffness)| (direction, self.materials.elastic(stiffness, 0.0)))
+            .collect();
+        if !directions.is_empty() {
+            self.spring(first, last, &directions, damped);
+        }
+    }
+
+    /// A node at a point of the plan that moves with a floor, or stands still.
+    fn point(&mut self, index: usize, floor: Option<usize>, at: PlanPoint) -> usize {
+        let tag = self.tag(index, self.next_point[index]);
+        self.next_point[index] += 1;
+        let [x, y] = at.map(rounded);
+        let _ = writeln!(self.nodes, "    ({tag}, {x:?}, {y:?}, 0.0, 0.0),");
+        match floor {
+            Some(node) => {
+                let kept = self.tag(index, node);
+                let _ = writeln!(self.arms, "    ({kept}, {tag}),");
+            }
+            None => {
+                let _ = writeln!(self.supports, "    ({tag}, 1, 1, 1),");
+            }
+        }
+        tag
+    }
+
+    /// Contacts at points of faces and at corners.
+    pub(super) fn add_plan_contacts(&mut self, faults: &mut Vec<ModelFault>) {
+        let system = self.export.system;
+        for table in [&mut self.nodes, &mut self.supports, &mut self.arms] {
+            table.push_str("    # contact points\n");
+        }
+        for (index, contact) in system.contacts.iter().enumerate() {
+            let path = format!("gap[{}]", contact.gap);
+            let mut refuse = |key: &str, problem: &str| {
+                let path = format!("{path}.{key}");
+                if !faults.iter().any(|fault| fault.path == path) {
+                    faults.push(ModelFault {
+                        path,
+                        problem: problem.to_owned(),
+                    });
+                }
+            };
+            let Some(plan) = contact.plan else { continue };
+            if contact.friction.is_some() {
+                refuse(
+                    "friction",
+                    "is not exported yet; leave it out to compare contacts without friction",
+                );
+            }
+            let (material, remark) = match self.materials.contact(contact) {
+                Ok(found) => found,
+                Err(problem) => {
+                    refuse("law", problem);
+                    continue;
+                }
+            };
+            if let Some(remark) = remark {
+                self.remark(remark);
+            }
+            if contact.width == 0.0 {
+                self.remark("OpenSees needs a gap: sides that touch at rest are 1e-12 m apart.");
+            }
+            let [a, b] = contact
+                .ports
+                .0
+                .map(|port| self.contact_point(port, plan.at));
+            let tag = self.element();
+            let floors = contact
+                .ports
+                .floors()
+                .map(|floor| floor.map_or_else(|| "None".to_owned(), |floor| floor.to_string()));
+            let _ = writeln!(
+                self.contacts,
+                "    ({tag}, {a}, {b}, {material}, {:?}, {}, ({}, {}), {:?}),",
+                contact.width,
+                contact.gap,
+                floors[0],
+                floors[1],
+                rounded(contact.height),
+            );
+            let _ = writeln!(
+                self.faces,
+                "    ({tag}, {}, \"{}\", {:?}, {:?}, {:?}, {:?}),",
+                plan.face,
+                plan.kind.name(),
+                plan.normal[0],
+                plan.normal[1],
+                rounded(plan.at[0]),
+                rounded(plan.at[1]),
+            );
+            self.add_ends(index, tag);
+        }
+    }
+
+    fn contact_point(&mut self, port: Option<Port>, at: PlanPoint) -> usize {
+        let (building, floor) = match port {
+            // Points of walls stand still; any building numbers them.
+            None => (0, None),
+            Some(port) => {
+                let own = &self.export.system.buildings[port.building].discretization;
+                let floor = port.floor.map(|floor| own.floors[floor - 1]);
+                (port.building, floor)
+            }
+        };
+        self.point(building, floor, at)
+    }
+
+    /// Ends of the edge beyond which a corner touches nothing.
+    fn add_ends(&mut self, index: usize, tag: usize) {
+        let system = self.export.system;
+        for end in system.edge_ends.iter().filter(|end| end.contact == index) {
+            let sides = end.ports.0.map(|port| {
+                let Some(port) = port else {
+                    return "None".to_owned();
+                };
+                let own = &system.buildings[port.building];
+                let node = own.discretization.floors[port.floor.unwrap_or(1) - 1];
+                let shares: Vec<String> = port
+                    .row
+                    .entries()
+                    .iter()
+                    .map(|(_, share)| format!("{share:?}"))
+                    .collect();
+                format!("({}, {})", self.tag(port.building, node), shares.join(", "))
+            });
+            let _ = writeln!(
+                self.ends,
+                "    ({tag}, {}, {}, {:?}),",
+                sides[0], sides[1], end.inside
+            );
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Scripts of buildings in space, read back as tables. That OpenSees gives the same answers is shown in docs/validation.md.
+
+use jostle::linear::SparseSymmetric;
+use jostle::{ModelFault, System};
+use jostle_export::{Export, Exported, openseespy};
+use jostle_io::{Format, Input, read_model_text};
+
+const ELEMENTS: &str = include_str!("../../jostle-validation/data/opensees/plan_elements.toml");
+const CORNERS: &str = include_str!("../../jostle-validation/data/opensees/plan_corners.toml");
+
+fn model(text: &str) -> Input {
+    read_model_text("test", text, Format::Toml, "".as_ref()).expect("a sound model")
+}
+
+fn export(input: &Input) -> Result<Exported, Vec<ModelFault>> {
+    let system = System::assemble(&input.model).expect("a sound model");
+    openseespy::export(&Export {
+        model: &input.model,
+        system: &system,
+        motion: &input.ground_motion().expect("a motion"),
+    })
+}
+
+/// Rows of a table, cut at commas, without brackets.
+fn table(text: &str, name: &str) -> Vec<Vec<String>> {
+    let start = text
+        .find(&format!("\n{name} = ["))
+        .expect("the table is there");
+    text[start + 1..]
+        .lines()
+        .skip(1)
+        .take_while(|line| line.starts_with("    "))
+        .filter(|line| !line.trim_start().starts_with('#'))
+        .map(|line| {
+            let plain = line.replace(['(', ')'], "");
+            let row = plain.trim().trim_end_matches(',');
+            row.split(',').map(|word| word.trim().to_owned()).collect()
+        })
+        .collect()
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().expect("a number")
+}
+
+/// Where a node moves when its floor, or itself, moves: the floor's node and the arm from it; `None` is fixed.
+fn carrier(text: &str, tag: &str) -> Option<(String, [f64; 2])> {
+    let place = |tag: &str| {
+        let nodes = table(text, "NODES");
+        let row = nodes.iter().find(|row| row[0] == tag).expect("a node");
+        [number(&row[1]), number(&row[2])]
+    };
+    if table(text, "SUPPORTS").iter().any(|row| row[0] == tag) {
+        return None;
+    }
+    let arms = table(text, "ARMS");
+    let floor = arms.iter().find(|row| row[1] == tag).expect("tied");
+    let (own, centre) = (place(tag), place(&floor[0]));
+    Some((floor[0].clone(), [own[0] - centre[0], own[1] - centre[1]]))
+}
+
+/// Energy of the springs of one building when floors move, twice.
+fn energy(text: &str, block: &str, damped: &str, floors: &[String], motion: &[[f64; 3]]) -> f64 {
+    let materials = table(text, "MATERIALS");
+    let moved = |tag: &str| {
+        carrier(text, tag).map_or([0.0; 3], |(floor, arm)| {
+            let index = floors.iter().position(|own| *own == floor).expect("own");
+            let [x, y, turn] = motion[index];
+            [x - turn * arm[1], y + turn * arm[0], turn]
+        })
+    };
+    let mut sum = 0.0;
+    for row in table(text, "SPRINGS") {
+        if !row[1].starts_with(block) || row.last().map(String::as_str) != Some(damped) {
+            continue;
+        }
+        let (a, b) = (moved(&row[1]), moved(&row[2]));
+        let pairs: Vec<&String> = row[3..row.len() - 1]
+            .iter()
+            .filter(|w| !w.is_empty())
+            .collect();
+        for pair in pairs.chunks(2) {
+            let component = match &pair[0][..] {
+                "1" => 0,
+                "2" => 1,
+                _ => 2,
+            };
+            let own = materials.iter().find(|row| row[1] == *pair[1]);
+            let stiffness = number(&own.expect("a material")[2]);
+            sum += stiffness * (b[component] - a[component]).powi(2);
+        }
+    }
+    sum
+}
+
+fn quadratic(matrix: &SparseSymmetric, values: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    for (dof, value) in matrix.diagonal.iter().enumerate() {
+        sum += value * values[dof] * values[dof];
+    }
+    for (column, bounds) in matrix.starts.windows(2).enumerate() {
+        for place in bounds[0]..bounds[1] {
+            let row = matrix.rows[place] as usize;
+            sum += 2.0 * matrix.values[place] * values[row] * values[column];
+        }
+    }
+    sum
+}
+
+/// Elements at points, other centres of mass at every floor and P-Delta: springs and arms have the energy of the core's matrix.
+#[test]
+fn springs_of_storeys_have_the_energy_of_the_matrix() {
+    let input = model(ELEMENTS);
+    let text = export(&input).expect("it can be exported").text;
+    let system = System::assemble(&input.model).expect("sound");
+    for (number, building) in system.buildings.iter().enumerate() {
+        let floors: Vec<String> = building
+            .discretization
+            .floors
+            .iter()
+            .map(|node| ((number + 1) * 1000 + node + 1).to_string())
+            .collect();
+        for seed in 0..4 {
+            let motion: Vec<[f64; 3]> = (0..floors.len())
+                .map(|floor| {
+                    std::array::from_fn(|c| (1.7 * (seed * 9 + floor * 3 + c) as f64).sin())
+                })
+                .collect();
+            let mut values = vec![0.0; building.equations.len()];
+            for (floor, moved) in motion.iter().enumerate() {
+                let centre = building.discretization.centres[floor];
+                // Along x, across, and rotation, in this order.
+                let row = building.row_at(floor, centre, [1.0, 0.0]);
+                for (&(dof, _), value) in row.entries().iter().zip(moved) {
+                    values[dof - building.offset] = *value;
+                }
+            }
+            let block = (number + 1).to_string();
+            for (damped, matrix) in [
+                ("True", &building.equations.stiffness),
+                ("False", &building.equations.undamped),
+            ] {
+                let expected = quadratic(matrix, &values);
+                let got = energy(&text, &block, damped, &floors, &motion);
+                assert!(
+                    (got - expected).abs() <= 1e-8 * expected.abs(),
+                    "{}, {damped}: {got} against {expected}",
+                    building.name
+                );
+            }
+        }
+    }
+}
+
+/// Points of both sides coincide, so that contacts have no length, and stiffnesses of a face add up to that of the gap.
+#[test]
+fn points_of_a_face_coincide_and_share_the_stiffness() {
+    let text = export(&model(ELEMENTS)).expect("it can be exported").text;
+    let contacts = table(&text, "CONTACTS");
+    assert_eq!(contacts.len(), 10, "two faces of five points");
+    let nodes = table(&text, "NODES");
+    let place = |tag: &str| {
+        let row = nodes.iter().find(|row| row[0] == tag).expect("a node");
+        (row[1].clone(), row[2].clone())
+    };
+    let materials = table(&text, "MATERIALS");
+    let mut sum = 0.0;
+    for row in &contacts {
+        assert_eq!(place(&row[1]), place(&row[2]));
+        let own = materials.iter().find(|own| own[1] == row[3]);
+        sum += number(&own.expect("a material")[2]);
+    }
+    assert!((sum / 500e6 - 1.0).abs() < 1e-9, "{sum}");
+    let faces = table(&text, "FACES");
+    assert_eq!(faces.len(), 10);
+    assert!(
+        faces
+            .iter()
+            .all(|row| row[3..5] == ["1.0", "0.0"] || row[3..5] == ["1.0", "-0.0"])
+    );
+    assert!(table(&text, "ENDS").is_empty());
+}
+
+#[test]
+fn corners_have_the_ends_of_their_edges() {
+    let text = export(&model(CORNERS)).expect("it can be exported").text;
+    let contacts = table(&text, "CONTACTS");
+    let ends = table(&text, "ENDS");
+    assert_eq!(contacts.len(), 2);
+    assert_eq!(ends.len(), 2);
+    // Of corners that pass each other, the end is the indentation of the other.
+    let gap = |row: &Vec<String>| number(&row[4]);
+    for (own, other) in [(0, 1), (1, 0)] {
+        let inside = number(ends[own].last().expect("a distance"));
+        assert!(
+            (inside + gap(&contacts[other])).abs() < 1e-12,
+            "{ends:?} {contacts:?}"
+        );
+    }
+}
+
+#[test]
+fn both_components_and_their_angle_are_written() {
+    let text = export(&model(ELEMENTS)).expect("it can be exported").text;
+    assert!(text.contains("\nANGLE = 0.4363323129985824  # rad"));
+    assert!(text.contains("\nclass ACROSS:"));
+    assert!(text.contains("\n    RICKER = (2.0, 0.6, 2.5)"));
+    // A building without a plan has neither.
+    let plane = model(
+        "motion = { record = \"el-centro-1940-ns\" }\n[[building]]\nkind = \"shear\"\nmass = [\"40 t\"]\nstiffness = [\"60 MN/m\"]\n",
+    );
+    let text = export(&plane).expect("it can be exported").text;
+    assert!(!text.contains("\nANGLE") && !text.contains("\nclass ACROSS"));
+    assert!(text.contains("\nARMS = []"));
+}
+
+#[test]
+fn friction_in_plan_is_refused_by_field() {
+    let text = CORNERS.replace("law = \"linear\"", "law = \"linear\"\nfriction = 0.3");
+    let faults = export(&model(&text)).expect_err("not yet");
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    assert_eq!(faults[0].path, "gap[0].friction");
+}

@@ -1,0 +1,121 @@
+//! Buildings in space through model files, against OpenSees on the exported script.
+
+use jostle::history::FloorPeaks;
+use jostle::{Pounding, Settings};
+use jostle_io::Input;
+use serde_json::Value;
+
+use crate::data::{at, document, list, number};
+use crate::files::{model, run_model};
+use crate::row::Row;
+
+/// A case: its name, the model, what OpenSees made of it, and what it may be off.
+macro_rules! case {
+    ($name:literal, $error:literal) => {
+        (
+            $name,
+            include_str!(concat!("../data/opensees/", $name, ".toml")),
+            include_str!(concat!("../data/opensees/", $name, ".json")),
+            $error,
+        )
+    };
+}
+
+const CASES: [(&str, &str, &str, f64); 6] = [
+    case!("plan_symmetric", 1e-4),
+    case!("plan_eccentric", 1e-4),
+    case!("plan_elements", 1e-4),
+    case!("plan_five_beside_three", 1e-4),
+    case!("plan_around_a_corner", 2e-4),
+    // Corners slide off at ends of steps, which is of first order.
+    case!("plan_corners", 3e-4),
+];
+/// Ours, on peak forces and displacements \[–\].
+const TOLERANCE: f64 = 1e-4;
+
+/// All rows of this family.
+#[must_use]
+pub fn rows() -> Vec<Row> {
+    CASES
+        .iter()
+        .flat_map(|(name, text, answer, error)| {
+            compare(name, model(text), &document(answer), *error)
+        })
+        .collect()
+}
+
+fn compare(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> {
+    let source = format!("opensees/{case}");
+    input.model.analysis.tolerance = TOLERANCE;
+    let duration = input
+        .ground_motion()
+        .expect("the record is built in")
+        .duration;
+    let settings = Settings {
+        pounding: Pounding::Included,
+        record_interval: None,
+    };
+    let (system, outcome) = run_model(&input, None, settings, duration);
+    let tolerance = TOLERANCE + error;
+    let mut rows = Vec::new();
+    for (index, stored) in list(expected, "/buildings").iter().enumerate() {
+        let (name, plan) = (&system.buildings[index].name, &outcome.in_plan[index]);
+        for (what, key, unit, peaks) in [
+            ("along x [m]", "displacement", "m", &outcome.floors[index]),
+            ("across [m]", "displacement_across", "m", &plan.across),
+            ("rotations [rad]", "rotation", "rad", &plan.turning),
+        ] {
+            type Side = (&'static str, fn(&FloorPeaks) -> f64);
+            let sides: [Side; 2] = [
+                ("max", |peaks| peaks.displacement_max.value),
+                ("min", |peaks| peaks.displacement_min.value),
+            ];
+            for (side, own) in sides {
+                let wanted: Vec<f64> = list(stored, "/floors")
+                    .iter()
+                    .map(|floor| number(floor, &format!("/{key}_{side}_{unit}")))
+                    .collect();
+                // Of buildings that do not move in a direction only rounding is left.
+                if wanted.iter().all(|value| value.abs() < 1e-9) {
+                    continue;
+                }
+                let got: Vec<f64> = peaks.iter().map(own).collect();
+                rows.push(Row::worst_of(
+                    &source,
+                    format!("{name}, {side}. {what}"),
+                    &wanted,
+                    &got,
+                    tolerance,
+                ));
+            }
+        }
+    }
+    for stored in list(expected, "/faces") {
+        let face = number(stored, "/face") as usize;
+        let impacts: Vec<f64> = outcome
+            .face_impacts
+            .iter()
+            .filter(|impact| impact.face == face)
+            .map(|impact| impact.peak_force.value)
+            .collect();
+        let kind = at(stored, "/kind").as_str().unwrap_or_default();
+        let wanted = number(stored, "/impact_count");
+        rows.push(Row::absolute(
+            &source,
+            format!("{kind} {face}, impacts"),
+            wanted,
+            impacts.len() as f64,
+            0.0,
+        ));
+        if wanted > 0.0 {
+            rows.push(Row::relative(
+                &source,
+                format!("{kind} {face}, peak force [N]"),
+                number(stored, "/peak_force_n"),
+                impacts.iter().copied().fold(0.0, f64::max),
+                tolerance,
+            ));
+        }
+    }
+    rows
+}
