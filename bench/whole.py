@@ -71,7 +71,7 @@ def promise(say):
     with tempfile.TemporaryDirectory() as folder:
         for model in range(DRAWN):
             subprocess.run([validation, "--certify-dump", str(model), folder], capture_output=True, check=True)
-        for path in sorted(Path(folder).glob("*.toml")):
+        for path in sorted(Path(folder).glob("*.json")):
             done = subprocess.run(
                 [programs.JOSTLE, "run", str(path), "--no-report", "--json"], capture_output=True, text=True, cwd=folder
             )
