@@ -133,8 +133,8 @@ def test_progress_in_a_notebook_is_a_bar_and_no_error_text(
     monkeypatch.setitem(sys.modules, "IPython.display", notebook)
     model = jostle.Model.paper_example()
     assert model.motion is not None
-    jostle.run(model, motion=model.motion.lasting("6000 s"), record_interval=None, progress=True)
-    assert "<progress" in notebook.pages[0] and "of 6000.0 s" in notebook.pages[0]
+    jostle.run(model, motion=model.motion.lasting("10000 s"), record_interval=None, progress=True)
+    assert "<progress" in notebook.pages[0] and "of 10000.0 s" in notebook.pages[0]
     assert notebook.pages[-1] == "", "leaves no trace"
     told = capsys.readouterr()
     assert told.err == told.out == ""
