@@ -203,13 +203,19 @@ impl OneGap<'_> {
         widths
     }
 
+    /// Outcome with a width, if no run is needed to know it.
+    fn known_at(&self, width: f64) -> Option<GapPoint> {
+        if self.is_out_of_reach(width) {
+            return Some(GapPoint::without_impact(width));
+        }
+        let mut known = self.known.iter();
+        known.find(|known| known.width_m == width).copied()
+    }
+
     /// Outcome with a width; runs the model only if it is not known yet.
     fn at(&mut self, width: f64) -> Result<GapPoint, GapError> {
-        if self.is_out_of_reach(width) {
-            return Ok(GapPoint::without_impact(width));
-        }
-        if let Some(point) = self.known.iter().find(|known| known.width_m == width) {
-            return Ok(*point);
+        if let Some(point) = self.known_at(width) {
+            return Ok(point);
         }
         let progress = GapProgress {
             between: Some(self.between.clone()),
@@ -229,54 +235,34 @@ impl OneGap<'_> {
     fn curve(&mut self, count: usize, free: f64) -> Result<Vec<GapPoint>, GapError> {
         let share = 1.0 / (count.max(2) - 1) as f64;
         let widths: Vec<f64> = (0..count).map(|i| share * i as f64 * free).collect();
-        let mut points = Vec::with_capacity(count);
         // Progress is told from here, so a few at a time.
-        for several in widths.chunks(4 * rayon::current_num_threads()) {
+        let at_once = 4 * rayon::current_num_threads();
+        for (index, several) in widths.chunks(at_once).enumerate() {
             (self.search.report)(&GapProgress {
                 between: Some(self.between.clone()),
                 run: self.runs() + 1,
                 width: several.first().copied(),
-                time: points.len() as f64,
+                time: (index * at_once) as f64,
                 duration: count as f64,
             });
-            let (one, runs) = (&*self, &self.search.runs);
-            let (gap, known) = (one.gap, &one.known);
-            let some: Vec<Curved> = several
+            let unknown = several
                 .iter()
-                .map(
-                    |width| match known.iter().find(|known| known.width_m == *width) {
-                        Some(point) => Curved::Known(*point),
-                        None if one.is_out_of_reach(*width) => {
-                            Curved::Known(GapPoint::without_impact(*width))
-                        }
-                        None => Curved::Open(*width, one.widths(*width)),
-                    },
-                )
-                .collect();
-            let found: Vec<Result<GapPoint, GapError>> = some
+                .filter(|width| self.known_at(**width).is_none());
+            let unknown: Vec<_> = unknown.map(|width| (*width, self.widths(*width))).collect();
+            let (gap, runs) = (self.gap, &self.search.runs);
+            let found: Vec<Result<GapPoint, GapError>> = unknown
                 .into_par_iter()
-                .map(|curved| match curved {
-                    Curved::Known(point) => Ok(point),
-                    Curved::Open(width, widths) => {
-                        let tried = runs.run(&widths, Pounding::Included, &mut |_| {})?;
-                        Ok(GapPoint::new(width, gap, &tried))
-                    }
+                .map(|(width, widths)| {
+                    let tried = runs.run(&widths, Pounding::Included, &mut |_| {})?;
+                    Ok(GapPoint::new(width, gap, &tried))
                 })
                 .collect();
             for point in found {
-                let point = point?;
-                if !self
-                    .known
-                    .iter()
-                    .any(|known| known.width_m == point.width_m)
-                    && !self.is_out_of_reach(point.width_m)
-                {
-                    self.known.push(point);
-                }
-                points.push(point);
+                self.known.push(point?);
             }
         }
-        Ok(points)
+        let points = widths.iter().filter_map(|width| self.known_at(*width));
+        Ok(points.collect())
     }
 
     /// Narrows down the smallest gap without an impact, beginning with the closing of a run without contact.
@@ -328,12 +314,6 @@ impl OneGap<'_> {
             pounding: Some(hit),
         })
     }
-}
-
-/// A width of a curve: what is known there, or the widths to run.
-enum Curved {
-    Known(GapPoint),
-    Open(f64, Vec<f64>),
 }
 
 impl Search<'_> {

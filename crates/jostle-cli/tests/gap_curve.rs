@@ -1,0 +1,129 @@
+//! Force and impacts over the width of a gap: `jostle gap --curve`.
+
+mod common;
+
+use std::path::Path;
+
+use common::{complained, folder, jostle, printed};
+
+const MODEL: &str = r#"title = "pair"
+motion = { kind = "sine", amplitude = "2 m/s2", period = "0.7 s", duration = "4 s" }
+[[building]]
+name = "A"
+kind = "shear"
+mass = "40 t"
+stiffness = "20 MN/m"
+storeys = 2
+[[building]]
+name = "B"
+kind = "shear"
+mass = "40 t"
+stiffness = "60 MN/m"
+storeys = 2
+[[gap]]
+between = ["A", "B"]
+width = "20 mm"
+law = "kelvin"
+stiffness = "50 MN/m"
+restitution = 0.6
+"#;
+
+const CURVE: [&str; 6] = ["gap", "pair.toml", "--no-outcomes", "--curve", "9", "--out"];
+
+fn with_model() -> tempfile::TempDir {
+    let folder = folder();
+    std::fs::write(folder.path().join("pair.toml"), MODEL).expect("written");
+    folder
+}
+
+/// Rows of the table by name of the column.
+fn rows(path: &Path) -> Vec<std::collections::HashMap<String, String>> {
+    let text = std::fs::read_to_string(path).expect("a table");
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let named = |line: &str| {
+        let values = line.split(',').map(str::to_owned);
+        names
+            .iter()
+            .map(|name| (*name).to_owned())
+            .zip(values)
+            .collect()
+    };
+    lines.map(named).collect()
+}
+
+#[test]
+fn a_point_of_the_curve_is_the_run_with_its_gap() {
+    let folder = with_model();
+    let output = jostle(folder.path(), &[&CURVE[..], &["curve"]].concat());
+    assert!(output.status.success(), "{}", complained(&output));
+    assert!(
+        printed(&output).contains("force over gap: curve"),
+        "{}",
+        printed(&output)
+    );
+    let curve = folder.path().join("curve");
+    let page = std::fs::read_to_string(curve.join("gap_curve.html")).expect("a page");
+    assert!(page.contains("pair") && page.trim_end().ends_with("</html>"));
+
+    let rows = rows(&curve.join("gap_curve.csv"));
+    assert_eq!(rows.len(), 9);
+    let number = |row: usize, name: &str| -> f64 { rows[row][name].parse().expect(name) };
+    assert_eq!(number(0, "width_m"), 0.0);
+    assert!(number(8, "impact_count") == 0.0 && number(7, "impact_count") > 0.0);
+    let width = number(3, "width_m");
+    let gap = format!("{width} m");
+    let run = jostle(
+        folder.path(),
+        &["run", "pair.toml", "--gap", &gap, "--json"],
+    );
+    assert!(run.status.success(), "{}", complained(&run));
+    let summary: serde_json::Value = serde_json::from_str(&printed(&run)).expect("JSON");
+    let own = &summary["gaps"][0];
+    assert_eq!(
+        own["impact_count"].as_f64(),
+        Some(number(3, "impact_count"))
+    );
+    assert_eq!(
+        own["peak_force_n"].as_f64(),
+        Some(number(3, "peak_force_n"))
+    );
+}
+
+#[test]
+fn a_curve_replaces_its_own_files_and_nothing_else() {
+    let folder = with_model();
+    let (out, page) = ("curve", folder.path().join("curve/gap_curve.html"));
+    std::fs::create_dir(folder.path().join(out)).expect("made");
+    std::fs::write(&page, "mine\n").expect("written");
+    let refused = jostle(folder.path(), &[&CURVE[..], &[out]].concat());
+    assert_eq!(refused.status.code(), Some(2));
+    let complaint = complained(&refused);
+    assert!(
+        complaint.contains("gap_curve.html") && complaint.contains("--force"),
+        "{complaint}"
+    );
+    assert_eq!(std::fs::read_to_string(&page).expect("kept"), "mine\n");
+
+    let forced = jostle(folder.path(), &[&CURVE[..], &[out, "--force"]].concat());
+    assert!(forced.status.success(), "{}", complained(&forced));
+    let again = jostle(folder.path(), &[&CURVE[..], &[out]].concat());
+    assert!(again.status.success(), "{}", complained(&again));
+    assert!(
+        complained(&again).contains("holds an earlier curve"),
+        "{}",
+        complained(&again)
+    );
+}
+
+#[test]
+fn a_folder_needs_a_curve() {
+    let folder = with_model();
+    let output = jostle(folder.path(), &["gap", "pair.toml", "--out", "curve"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        complained(&output).contains("--curve"),
+        "{}",
+        complained(&output)
+    );
+}
