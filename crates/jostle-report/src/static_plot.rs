@@ -152,12 +152,12 @@ fn decades(low: f64, high: f64) -> Vec<f64> {
         .collect()
 }
 
-/// A line of so many points that paper can show them.
+/// A line thinned to a number of points that paper can show.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     thinned_to(points, POINTS)
 }
 
-/// A line of at most so many points: of every part the least and the greatest.
+/// A line of at most `most` points: of every part the least and the greatest.
 pub(crate) fn thinned_to(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
     if points.len() <= most {
         return points.to_vec();
