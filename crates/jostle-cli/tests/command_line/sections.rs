@@ -1,8 +1,6 @@
 //! `jostle section`, and models with hinges.
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 const COLUMN: [&str; 7] = [

@@ -5,13 +5,11 @@
     reason = "a test stops at the first surprise, helpers included"
 )]
 
-mod common;
-
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::Stdio;
 
-use common::{command, complained, folder, jostle};
+use crate::common::{command, complained, folder, jostle};
 
 fn answer(address: &str) -> String {
     let rest = address.strip_prefix("http://").unwrap();

@@ -1,11 +1,9 @@
 //! Models that list several records: a study and the search for the gap take all, and a study says whether they serve.
 //! Runs of all records are in `suite.rs`.
 
-mod common;
-
 use std::path::Path;
 
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 const TOWERS: &str = r#"

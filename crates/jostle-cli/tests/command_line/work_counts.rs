@@ -1,9 +1,7 @@
 //! How much work the built-in example takes. Times depend on the machine, these numbers do not: when one of them rises,
 //! something has become dearer, and CHANGELOG should say why under "Numbers".
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 
 /// Options, then steps, steps in contact, factorisations, solutions and iterations.
 const WORK: [(&[&str], [u64; 5]); 4] = [

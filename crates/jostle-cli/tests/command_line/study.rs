@@ -1,13 +1,11 @@
 //! `jostle study` and `jostle gap`: killed, stopped and out of disk, nothing is lost; wrong input is told.
 
-mod common;
-
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{folder as temporary, jostle};
+use crate::common::{self, folder as temporary, jostle};
 
 const TOWERS: &str = r#"
 [motion]

@@ -1,10 +1,8 @@
 //! Buildings in space on the command line: faces and site of `check`, and the study of the angle of incidence.
 
-mod common;
-
 use std::path::Path;
 
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 
 const TOWERS: &str = r#"
 title = "Two in space"

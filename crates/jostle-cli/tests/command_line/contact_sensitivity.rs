@@ -1,8 +1,6 @@
 //! `jostle run --sensitivity` against runs of model files whose contact was changed by hand.
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 fn model(law: &str, stiffness: f64, restitution: f64) -> String {

@@ -1,8 +1,6 @@
 //! Files that exist already, and completions.
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 
 const SMALL: &str = r#"title = "small"
 motion = { kind = "sine", amplitude = "1 m/s2", period = "0.5 s", duration = "1 s" }

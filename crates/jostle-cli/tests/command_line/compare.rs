@@ -1,12 +1,10 @@
 //! `jostle compare` on files: what it writes and prints, and what it refuses.
 
-mod common;
-
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 const MODEL: &str = r#"

@@ -1,8 +1,6 @@
 //! `jostle motion` as a user meets it.
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 fn json_of(folder: &std::path::Path, arguments: &[&str]) -> Value {

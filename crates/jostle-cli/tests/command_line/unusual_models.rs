@@ -1,10 +1,8 @@
 //! Options without a unit, models that cannot be meant, and what the commands say of them.
 
-mod common;
-
 use std::path::Path;
 
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 const FRAMES: &str = r#"

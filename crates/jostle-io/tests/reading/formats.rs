@@ -1,8 +1,6 @@
 //! Every format is told by its content and read to the digits it has, with its channels and its header.
 
-mod fixture;
-
-use fixture::Fixture;
+use crate::fixture::{self, Fixture};
 use jostle_io::{
     Direction, Format, MotionSource, RecordFormat, RecordOptions, parse_info, parse_record,
     parse_record_and_info, read_model_text,

@@ -1,8 +1,6 @@
 //! What the program says to wrong input: place, problem, remedy, exit code 2, and nothing written.
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 
 const MODEL: &str = r#"title = "Mistaken"
 

@@ -1,8 +1,6 @@
 //! What `jostle collide` prints and writes.
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 const BODIES: [&str; 6] = ["--m1", "30 t", "--m2", "50 t", "--speed", "0.7 m/s"];

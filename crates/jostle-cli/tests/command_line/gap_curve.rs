@@ -1,10 +1,8 @@
 //! Force and impacts over the width of a gap: `jostle gap --curve`.
 
-mod common;
-
 use std::path::Path;
 
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 
 const MODEL: &str = r#"title = "pair"
 motion = { kind = "sine", amplitude = "2 m/s2", period = "0.7 s", duration = "4 s" }

@@ -1,12 +1,10 @@
 //! `jostle run` of a model with several records: every record as on its own, statistics, governing values, resuming.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
 
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 const TOWERS: &str = r#"

@@ -1,8 +1,6 @@
 //! Every reported peak is within the tolerance, or the run says so.
 
-mod common;
-
-use common::{complained, jostle, printed};
+use crate::common::{self, complained, jostle, printed};
 use serde_json::Value;
 
 fn run(model: &str, solver: &str) -> Value {

@@ -1,8 +1,6 @@
 //! Faces that part for a few milliseconds and meet again make two impacts, however long the steps.
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 
 const TOWERS: &str = r#"
 [motion]

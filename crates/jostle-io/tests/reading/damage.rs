@@ -4,12 +4,9 @@
 //! can notice; these cases are listed. `JOSTLE_DAMAGE=full` flips every bit instead of two of each byte;
 //! `JOSTLE_MUTATIONS=n` sets the number of random mutations per fixture.
 
-mod fixture;
-mod mutate;
-
-use fixture::Fixture;
+use crate::fixture::{self, Fixture};
+use crate::mutate::{Random, mutate};
 use jostle_io::{Record, RecordOptions, parse_record};
-use mutate::{Random, mutate};
 
 /// Values of the damaged files; enough for several lines and records.
 const POINTS: usize = 100;

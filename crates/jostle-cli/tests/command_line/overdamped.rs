@@ -1,8 +1,6 @@
 //! Dashpots that grow with the indentation to many times what would be critical.
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 
 /// Greatest force of the example's frames, 4 mm apart, under a law of restitution 0.01 \[N\].
 fn greatest_force(solver: &str, tolerance: &str) -> f64 {

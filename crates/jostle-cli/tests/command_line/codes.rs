@@ -1,10 +1,8 @@
 //! Separation rules of codes and advice on contacts, as a user meets them.
 
-mod common;
-
 use std::path::Path;
 
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 /// Two elastic shear buildings of three storeys, level floors.

@@ -1,12 +1,10 @@
 //! What the commands print and write.
 
-mod common;
-
 use std::path::Path;
 
 #[cfg(unix)]
-use common::command;
-use common::{complained, folder, jostle, printed};
+use crate::common::command;
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 fn summary_of(folder: &Path) -> Value {

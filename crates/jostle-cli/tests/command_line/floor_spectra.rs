@@ -1,10 +1,8 @@
 //! `--floor-spectra` and `[output] floor_spectra`, as a user meets them.
 
-mod common;
-
 use std::fs;
 
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 use serde_json::Value;
 
 const TOWERS: &str = r#"

@@ -1,8 +1,6 @@
 //! Models as scripts for other programs.
 
-mod common;
-
-use common::{complained, folder, jostle, printed};
+use crate::common::{complained, folder, jostle, printed};
 
 #[test]
 fn a_script_is_printed_or_written() {
@@ -119,7 +117,7 @@ fn given_example(folder: &std::path::Path) -> String {
     let output = jostle(folder, &["export", "--to", "matrices", "-o", "."]);
     assert!(output.status.success(), "{}", complained(&output));
     let blocks = std::fs::read_to_string(folder.join("buildings.toml")).expect("it is there");
-    let example = include_str!("../../jostle-io/data/paper.toml");
+    let example = include_str!("../../../jostle-io/data/paper.toml");
     let (before, buildings) = example.split_once("[[building]]").expect("buildings");
     let (_, gap) = buildings.split_once("[[gap]]").expect("a gap");
     format!("{before}\n{blocks}\n[[gap]]{gap}")

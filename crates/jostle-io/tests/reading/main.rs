@@ -1,0 +1,22 @@
+//! Reading of models, records and units, and writing of tables. One binary: a dozen and a half would take longer to link.
+
+mod assumptions;
+mod capacity;
+mod codes;
+mod damage;
+mod faults;
+mod fixture;
+mod formats;
+mod garbage;
+mod grounds;
+mod hinges;
+mod measured;
+mod motions;
+mod mutate;
+mod plans;
+mod records;
+mod shipped_files;
+mod soil;
+mod study_files;
+mod tables;
+mod usual_ranges;
